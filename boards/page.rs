@@ -2,7 +2,7 @@
 
 use std::{error::Error, fs};
 
-/// Where the page is, from the folder of a board.
+/// The path of the page, from the folder of a board.
 const PAGE: &str = "../../docs/boards.md";
 
 /// Makes the number of ticks of the scene `ur5e` and the digest of their torques the environment variables `TICKS` and

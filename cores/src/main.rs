@@ -23,7 +23,7 @@ mod start;
 static SMALL: Wires<3> = Wires::new();
 static UR5E: Wires<6> = Wires::new();
 
-/// What `main` does on every processor.
+/// The work of `main` on every processor.
 fn replays() {
     #[cfg(target_os = "none")]
     counted::twenty_one();

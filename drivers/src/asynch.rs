@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn the_asynchronous_as5047p_sends_and_decodes_what_the_blocking_one_does() {
+    fn the_async_as5047p_matches_the_blocking_one() {
         let frames = [
             (READ_ERRORS, 0),
             (READ_ANGLE, 0),
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn the_asynchronous_as5600_sends_and_decodes_what_the_blocking_one_does() {
+    fn the_async_as5600_matches_the_blocking_one() {
         let registers = |status, angle: [u8; 2]| {
             [
                 i2c::Transaction::write_read(ADDRESS, vec![STATUS], vec![status]),

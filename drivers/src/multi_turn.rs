@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn angles_stay_within_two_units_in_the_last_place_over_a_thousand_turns() {
+    fn angles_are_within_two_ulps_over_a_thousand_turns() {
         for counts in (-16_777_216..16_777_216).step_by(7919) {
             let counter = MultiTurnEncoder::<14> { counts };
             let (single, double) = (counter.angle::<f32>(), counter.angle::<f64>());
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn sixteen_bits_and_the_end_of_the_count_do_not_overflow() {
+    fn a_sixteen_bit_count_wraps_without_overflow() {
         let mut counter = MultiTurnEncoder::<16>::near(32_767);
         for (raw, counts) in [
             (0x7fff, 0x7fff_7fff),

@@ -52,7 +52,7 @@ fn the_as5047p_counts_turns_and_maps_them_to_the_joint() {
 }
 
 #[test]
-fn each_error_of_the_as5047p_is_typed_costs_one_angle_and_restarts_it() {
+fn each_as5047p_error_costs_one_angle_and_a_restart() {
     let ok = || frame(READ_ANGLE, as5047p::encode(100)).to_vec();
     let transactions = [
         ok(),
@@ -88,14 +88,14 @@ impl SpiDevice for FailedBus {
 }
 
 #[test]
-fn a_failure_of_the_bus_of_the_as5047p_is_an_error() {
+fn an_as5047p_bus_failure_is_an_error() {
     let mut encoder = As5047p::new(FailedBus, JointMapping::IDENTITY);
     assert_eq!(encoder.read(), Err(FrameError::Bus(SpiError::Overrun)));
     assert_eq!(encoder.angle(), 0.0);
 }
 
 #[test]
-fn all_frames_of_the_as5047p_decode_to_an_angle_or_an_error() {
+fn every_as5047p_frame_is_an_angle_or_an_error() {
     let mut angles = 0;
     for frame in 0..=u16::MAX {
         match as5047p::decode(frame) {
@@ -113,8 +113,9 @@ fn all_frames_of_the_as5047p_decode_to_an_angle_or_an_error() {
     assert_eq!(angles, 16_384);
 }
 
+// This holds on either side of zero.
 #[test]
-fn an_angle_is_the_nearest_count_on_either_side_of_zero() {
+fn angles_round_to_the_nearest_count() {
     for count in [-8000_i16, -3, -1, 0, 1, 3, 8000] {
         for off in [-0.4, 0.0, 0.4] {
             let angle = (f32::from(count) + off) * as5047p::RESOLUTION;
@@ -125,7 +126,7 @@ fn an_angle_is_the_nearest_count_on_either_side_of_zero() {
 }
 
 #[test]
-fn an_encoder_behind_a_gear_starts_near_the_turn_that_is_known() {
+fn a_geared_encoder_starts_near_the_known_turn() {
     let mapping = JointMapping::new(0.0, Direction::Forward, 10.0).unwrap();
     let bus = spi::Mock::new(&frame(READ_ANGLE, as5047p::encode(16_383)));
     let mut encoder = As5047p::near(bus, mapping, 5);
@@ -142,8 +143,9 @@ fn registers(status: u8, angle: u16) -> [i2c::Transaction; 2] {
     ]
 }
 
+// A turn has 4096 counts, and the upper four bits are ignored.
 #[test]
-fn the_as5600_counts_turns_of_4096_and_ignores_the_upper_four_bits() {
+fn the_as5600_counts_turns_and_ignores_upper_bits() {
     let raws = [0x0fff, 0x0000, 0xf400, 0x0800, 0x0c00, 0x0000];
     let all: Vec<_> = raws.iter().flat_map(|raw| registers(0x20, *raw)).collect();
     let mapping = JointMapping::new(-0.5, Direction::Forward, 1.0).unwrap();
@@ -156,7 +158,7 @@ fn the_as5600_counts_turns_of_4096_and_ignores_the_upper_four_bits() {
 }
 
 #[test]
-fn a_magnet_that_is_absent_weak_or_strong_is_a_typed_error_and_gives_no_angle() {
+fn an_absent_weak_or_strong_magnet_is_an_error() {
     let cases = [
         (0x00, As5600Error::MagnetAbsent),
         (0x10, As5600Error::MagnetAbsent),
@@ -174,7 +176,7 @@ fn a_magnet_that_is_absent_weak_or_strong_is_a_typed_error_and_gives_no_angle() 
 }
 
 #[test]
-fn a_failure_of_the_bus_of_the_as5600_is_an_error_and_keeps_the_angle() {
+fn an_as5600_bus_failure_keeps_the_last_angle() {
     let [_, angle] = registers(0x20, 1024);
     let lost =
         i2c::Transaction::write_read(0x36, vec![0x0c], vec![0, 0]).with_error(I2cError::Other);

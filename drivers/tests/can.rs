@@ -59,7 +59,7 @@ fn near(a: f32, b: f32) -> bool {
 }
 
 #[test]
-fn commands_of_the_odrive_are_the_golden_frames_of_its_protocol() {
+fn odrive_commands_are_the_protocols_golden_frames() {
     let axis = ODrive::new(1, 100.0, JointMapping::IDENTITY).unwrap();
     // The identifier of axis 1, command 0x0C, is 0x2C in the document: commands of axis 1 begin at 0x20.
     let golden: [(Result<ClassicFrame, _>, u16, &[u8]); 7] = [
@@ -85,7 +85,7 @@ fn commands_of_the_odrive_are_the_golden_frames_of_its_protocol() {
 }
 
 #[test]
-fn replies_of_the_odrive_are_decoded_and_mapped_to_the_joint() {
+fn odrive_replies_are_mapped_to_the_joint() {
     let axis = ODrive::new(0, 100.0, geared()).unwrap();
     // The heartbeat that the documentation of odrive-can encodes: error 1, state 11, homing.
     let heartbeat = standard(0x001, &[1, 0, 0, 0, 0x0b, 0, 0, 0]);
@@ -158,7 +158,7 @@ fn a_remote_frame_has_the_lengths_of_classic_can() {
 }
 
 #[test]
-fn torques_are_limited_and_what_is_not_a_number_is_zero() {
+fn torques_are_limited_and_nan_becomes_zero() {
     let axis = ODrive::new(3, 2.0, JointMapping::IDENTITY).unwrap();
     let joint = Moteus::new(3, 0, 2.0, JointMapping::IDENTITY).unwrap();
     for (torque, sent) in [(f32::NAN, 0.0_f32), (9.0, 2.0), (f32::NEG_INFINITY, -2.0)] {
@@ -204,7 +204,7 @@ fn commands_of_the_moteus_are_golden_frames_of_registers() {
 }
 
 #[test]
-fn a_frame_of_classic_can_refuses_a_command_of_the_moteus_by_its_length() {
+fn moteus_commands_are_too_long_for_classic_can() {
     let joint = Moteus::new(1, 0, 100.0, JointMapping::IDENTITY).unwrap();
     assert_eq!(
         joint.set_torque::<ClassicFrame>(1.0),
@@ -226,7 +226,7 @@ fn moteus_reply(mode: u8, values: [f32; 3], fault: u8) -> Vec<u8> {
 }
 
 #[test]
-fn replies_of_the_moteus_are_decoded_in_every_type_and_mapped_to_the_joint() {
+fn moteus_replies_of_every_type_are_mapped_to_the_joint() {
     let joint = Moteus::new(1, 0, 100.0, JointMapping::IDENTITY).unwrap();
     // The document's example: position 2.88°, velocity 23.04°/s, torque −1.44 N·m, as int16.
     let golden = [
@@ -333,7 +333,7 @@ fn every_wrong_reply_of_a_moteus_is_a_typed_error() {
 }
 
 #[test]
-fn no_bytes_of_a_reply_panic_or_give_a_quantity_that_is_not_finite() {
+fn no_reply_bytes_panic_or_give_nonfinite_quantities() {
     let axis = ODrive::new(1, 1.0, JointMapping::IDENTITY).unwrap();
     let joint = Moteus::new(1, 0, 1.0, JointMapping::IDENTITY).unwrap();
     let mut random = 7_u32;

@@ -191,7 +191,7 @@ fn at_rest() -> impl motion_control::Reference<f32, 2> {
 }
 
 #[test]
-fn an_encoders_error_names_its_joint_and_the_others_are_read() {
+fn an_encoder_error_names_its_joint() {
     let wires = Wires::default();
     let mut arm = wires.arm();
     assert_eq!(tick(&mut arm).status.fault, None);
@@ -212,7 +212,7 @@ fn an_encoders_error_names_its_joint_and_the_others_are_read() {
 }
 
 #[test]
-fn a_failed_drive_sets_the_brake_and_the_others_their_torque() {
+fn a_failed_drive_sets_the_brake() {
     let wires = Wires::default();
     let mut arm = wires.arm();
     tick(&mut arm);
@@ -234,7 +234,7 @@ fn a_failed_drive_sets_the_brake_and_the_others_their_torque() {
 }
 
 #[test]
-fn a_drive_that_is_not_ready_for_a_moment_is_ridden_through() {
+fn a_drive_may_be_unready_for_a_moment() {
     let wires = Wires::default();
     let mut arm = wires.arm();
     tick(&mut arm);

@@ -36,7 +36,7 @@ fn failure() -> MockError {
 }
 
 #[test]
-fn in_locked_antiphase_zero_torque_and_what_is_not_a_number_are_half_duty() {
+fn locked_antiphase_maps_zero_and_nan_to_half_duty() {
     for direction in [Direction::Forward, Direction::Reverse] {
         let mut drive = LockedAntiphase::new(channel(&[500, 500]), newton_metres(3.0), direction);
         drive.set_torque(0.0).unwrap();
@@ -46,7 +46,7 @@ fn in_locked_antiphase_zero_torque_and_what_is_not_a_number_are_half_duty() {
 }
 
 #[test]
-fn in_locked_antiphase_the_duty_is_linear_saturates_and_has_the_drives_direction() {
+fn locked_antiphase_duty_is_linear_saturated_and_directed() {
     let torques = [-9.0, -3.0, -1.5, 1.5, 3.0, f32::INFINITY];
     let duties = [0, 0, 250, 750, 1000, 1000];
     for (direction, duties) in [
@@ -62,7 +62,7 @@ fn in_locked_antiphase_the_duty_is_linear_saturates_and_has_the_drives_direction
 }
 
 #[test]
-fn every_duty_of_locked_antiphase_is_the_nearest_to_its_torque() {
+fn locked_antiphase_rounds_to_the_nearest_duty() {
     for max in [1000_u16, 8400, 65_534] {
         let mut channel = pwm::Mock::new(&[pwm::Transaction::max_duty_cycle(max)]);
         let drive = LockedAntiphase::new(channel.clone(), newton_metres(2.0), Direction::Forward);
@@ -89,7 +89,7 @@ fn a_full_scale_that_is_not_above_zero_is_refused() {
 }
 
 #[test]
-fn with_sign_and_magnitude_the_bridge_is_off_while_the_sign_changes() {
+fn sign_magnitude_is_off_while_the_sign_changes() {
     use digital::State::{High, Low};
     let torques = [0.5, 1.0, -1.0, -7.0, 0.0, f32::NAN, -0.5, 2.0];
     //              +      +    −           −    0  NaN  −    +
@@ -113,7 +113,7 @@ fn with_sign_and_magnitude_the_bridge_is_off_while_the_sign_changes() {
 }
 
 #[test]
-fn the_full_scale_of_both_signs_is_the_greatest_duty_and_magnitudes_are_symmetrical() {
+fn sign_magnitude_is_symmetric_up_to_full_duty() {
     let mut pwm = channel(&[]);
     let mut level = pin(&[]);
     let drive = SignMagnitude::new(
@@ -137,8 +137,9 @@ fn the_full_scale_of_both_signs_is_the_greatest_duty_and_magnitudes_are_symmetri
     level.done();
 }
 
+// The next torque sets the sign again.
 #[test]
-fn an_error_of_a_pin_leaves_the_bridge_off_and_the_sign_is_set_again() {
+fn a_pin_error_leaves_the_bridge_off() {
     use digital::State::{High, Low};
     let levels = [
         digital::Transaction::set(High),
@@ -202,8 +203,9 @@ fn the_forward_transforms_of_the_duties_are_the_commanded_voltages() {
     assert!(worst < 1e-6, "{worst}");
 }
 
+// They reach the rails at the longest voltage.
 #[test]
-fn the_phases_are_centred_between_the_rails_and_reach_them_at_the_longest_voltage() {
+fn phases_are_centred_and_reach_the_rails() {
     let mut reached = 0.5_f32;
     for step in 0..3600 {
         let angle = step as f32 * (TAU / 3600.0) as f32;
@@ -217,8 +219,9 @@ fn the_phases_are_centred_between_the_rails_and_reach_them_at_the_longest_voltag
     assert!((reached - 1.0).abs() < 1e-4);
 }
 
+// The result says that it is saturated.
 #[test]
-fn a_voltage_that_is_too_long_is_shortened_in_its_direction_and_says_so() {
+fn too_long_a_voltage_is_shortened_in_its_direction() {
     for (d, q) in [(0.0, 24.0), (-30.0, 40.0), (1e6, -1e6), (1e9, 1.0)] {
         let duties = Duties::new(d, q, 1.1, 24.0);
         assert!(duties.is_saturated);
@@ -231,7 +234,7 @@ fn a_voltage_that_is_too_long_is_shortened_in_its_direction_and_says_so() {
 }
 
 #[test]
-fn inputs_that_are_no_voltages_become_no_voltage_and_no_duty_is_not_a_number() {
+fn invalid_voltages_give_no_voltage_and_finite_duties() {
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for inputs in [
             [bad, 0.0, 0.0, 24.0],
@@ -257,7 +260,7 @@ fn inputs_that_are_no_voltages_become_no_voltage_and_no_duty_is_not_a_number() {
 }
 
 #[test]
-fn the_rotor_is_mapped_to_the_electrical_angle_by_zero_direction_and_pole_pairs() {
+fn the_electrical_angle_follows_zero_direction_and_pole_pairs() {
     let commutation = JointMapping::new(0.2, Direction::Reverse, 1.0 / 4.0).unwrap();
     let Duties { phases, .. } = Duties::new(1.0, 8.0, -4.0 * (0.5 - 0.2), 24.0);
     let channels = phases.map(|duty| channel(&[(duty * 1000.0).round() as u16]));
@@ -267,7 +270,7 @@ fn the_rotor_is_mapped_to_the_electrical_angle_by_zero_direction_and_pole_pairs(
 }
 
 #[test]
-fn an_error_of_one_phase_is_typed_and_takes_the_voltage_from_all() {
+fn a_phase_error_removes_the_voltage_from_all_phases() {
     let transactions = [
         pwm::Transaction::max_duty_cycle(1000),
         pwm::Transaction::set_duty_cycle(644).with_error(failure()),

@@ -183,8 +183,9 @@ fn replies_are_the_golden_ones_of_the_protocol_manual() {
     assert_eq!(parser.skipped(), 0);
 }
 
+// Signs and mappings to the joints are applied.
 #[test]
-fn six_positions_are_read_in_one_exchange_with_their_signs_and_mappings() {
+fn six_positions_are_read_in_one_exchange() {
     let request = Packet::sync_read(&[1, 2, 3, 4, 5, 6], PRESENT_POSITION, 2).unwrap();
     let counts = [0_u16, 1024, 2048, 4095, 0x8400, 0x7fff];
     let replies = (1..)
@@ -211,8 +212,9 @@ fn six_positions_are_read_in_one_exchange_with_their_signs_and_mappings() {
     done(servos);
 }
 
+// Signs, limits and directions are applied.
 #[test]
-fn goals_are_set_in_one_packet_with_signs_limits_and_directions() {
+fn goals_of_all_servos_are_sent_in_one_packet() {
     let duties = [0, 500, 0x0400 | 250, 1000, 0x0400 | 1000, 0_u16];
     let positions = [0, 1024, 0x8400, 1, 0, 0x7fff_u16];
     let data = |goals: [u16; 6]| (1..).zip(goals.map(u16::to_le_bytes));
@@ -343,7 +345,7 @@ fn a_missing_servo_of_a_synchronous_read_is_named() {
 }
 
 #[test]
-fn a_reply_that_comes_after_its_time_limit_is_not_the_reply_to_the_next_request() {
+fn a_late_reply_is_not_taken_for_the_next() {
     let late = reply(1, 0, &[0x11, 0x11]);
     let request = sent(&READ_ONE);
     let good = received(&reply(1, 0, &[0x18, 0x05]));
@@ -355,7 +357,7 @@ fn a_reply_that_comes_after_its_time_limit_is_not_the_reply_to_the_next_request(
 }
 
 #[test]
-fn the_echo_of_a_single_wire_is_dropped_and_a_collision_found() {
+fn an_echo_is_dropped_and_a_collision_found() {
     let request = sent(&READ_ONE);
     let good = [&READ_ONE[..], &reply(1, 0, &[0x18, 0x05])].concat();
     let mut echoing = servos::<1>(&[request.clone(), received(&good)]).with_echo();
@@ -370,7 +372,7 @@ fn the_echo_of_a_single_wire_is_dropped_and_a_collision_found() {
 }
 
 #[test]
-fn torque_is_switched_off_everywhere_even_if_one_servo_does_not_confirm() {
+fn torque_is_disabled_even_if_one_servo_is_silent() {
     let switch = |id, value| sent(Packet::write(id, 0x28, &[value]).unwrap().bytes());
     let confirmed = |id| received(&reply(id, 0, &[]));
     let off = [switch(1, 0), Step::Timeout, switch(2, 0), confirmed(2)];
@@ -387,7 +389,7 @@ fn torque_is_switched_off_everywhere_even_if_one_servo_does_not_confirm() {
 }
 
 #[test]
-fn identities_that_are_no_servos_and_packets_that_are_too_long_are_refused() {
+fn invalid_servo_ids_and_too_long_packets_are_refused() {
     for (ids, wrong) in [([1, 1], 1), ([254, 1], 254), ([0, 255], 255)] {
         let unused = port(&[]);
         let mut mock = unused.mock.clone();

@@ -39,8 +39,9 @@ fn angle(count: i32) -> f32 {
     Resolution::new(TURN as u32).unwrap().angle(count - 2)
 }
 
+// From then on it is known in both directions.
 #[test]
-fn the_position_is_unknown_until_the_index_was_passed_and_then_known_in_both_directions() {
+fn the_position_is_known_once_the_index_is_passed() {
     for start in [-30, 10] {
         let mut encoder = joint(JointMapping::IDENTITY);
         *encoder.counter() = QuadratureDecoder::at(levels(start).0, levels(start).1, false);
@@ -56,7 +57,7 @@ fn the_position_is_unknown_until_the_index_was_passed_and_then_known_in_both_dir
 }
 
 #[test]
-fn zero_direction_and_ratio_of_the_joint_apply_from_the_index() {
+fn the_joint_mapping_applies_from_the_index() {
     let mapping = JointMapping::new(0.25, Direction::Reverse, 3.0).unwrap();
     let mut encoder = joint(mapping);
     turn(&mut encoder, 0, 33);
@@ -82,8 +83,9 @@ fn the_count_is_followed_across_the_wrap_of_16_bits() {
     }
 }
 
+// The transition is counted, and the next index makes the position known again.
 #[test]
-fn an_invalid_transition_is_counted_and_the_position_unknown_until_the_next_index() {
+fn after_an_invalid_transition_the_position_is_unknown() {
     let mut encoder = joint(JointMapping::IDENTITY);
     turn(&mut encoder, 0, 8);
     assert_eq!(encoder.read(), Ok(angle(8)));
@@ -99,7 +101,7 @@ fn an_invalid_transition_is_counted_and_the_position_unknown_until_the_next_inde
 }
 
 #[test]
-fn an_index_from_before_lost_counts_does_not_make_the_position_known() {
+fn an_index_before_lost_counts_gives_no_position() {
     let mut encoder = joint(JointMapping::IDENTITY);
     turn(&mut encoder, 0, 8);
     let (a, b, z) = levels(10);
@@ -109,7 +111,7 @@ fn an_index_from_before_lost_counts_does_not_make_the_position_known() {
 }
 
 #[test]
-fn counts_that_were_lost_or_added_are_found_at_the_next_index() {
+fn lost_or_added_counts_are_found_at_the_index() {
     // Two invalid transitions would be seen by the decoder; noise on a timer's input is not.
     for excess in [-3, -1, 1, 5] {
         let counts = [0_u16, 7, 47_u16.wrapping_add_signed(excess), 60];
@@ -132,7 +134,7 @@ fn counts_that_were_lost_or_added_are_found_at_the_next_index() {
 }
 
 #[test]
-fn an_index_that_is_wider_than_a_state_is_no_error_within_its_width() {
+fn a_wide_index_is_tolerated_within_its_width() {
     let wide = |excess: u16, width| {
         let (mut counts, mut indices) = ([5, 50].into_iter(), [2, 42 + excess].into_iter());
         let timer = (move || counts.next().unwrap(), move || indices.next());
@@ -172,7 +174,7 @@ fn the_decoder_follows_levels_that_pins_return() {
 }
 
 #[test]
-fn no_sequence_of_levels_panics_or_gives_a_position_that_is_not_finite() {
+fn no_level_sequence_panics_or_gives_nonfinite_positions() {
     let (mut random, mut positions) = (1_u32, 0);
     let mut encoder = joint(JointMapping::IDENTITY);
     for _ in 0..100_000 {

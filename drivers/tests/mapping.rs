@@ -5,7 +5,7 @@ use joint_drivers::{Direction, JointMapping, MappingError, Resolution};
 const DIRECTIONS: [Direction; 2] = [Direction::Forward, Direction::Reverse];
 
 #[test]
-fn the_joint_is_at_zero_where_its_shaft_is_at_the_zero() {
+fn the_joint_is_zero_at_the_shafts_zero() {
     for (direction, sign) in DIRECTIONS.into_iter().zip([1.0, -1.0]) {
         let mapping = JointMapping::new(1.25, direction, 8.0).unwrap();
         assert_eq!(
@@ -41,7 +41,7 @@ fn a_gear_keeps_the_power() {
 }
 
 #[test]
-fn zeros_and_ratios_that_are_not_finite_or_out_of_range_are_refused() {
+fn invalid_zeros_and_ratios_are_refused() {
     let new = |zero, ratio| JointMapping::new(zero, Direction::Forward, ratio);
     for zero in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1.1e6] {
         assert_eq!(new(zero, 1.0), Err(MappingError::Zero));
@@ -52,7 +52,7 @@ fn zeros_and_ratios_that_are_not_finite_or_out_of_range_are_refused() {
 }
 
 #[test]
-fn no_conversion_returns_what_is_not_finite() {
+fn no_conversion_returns_a_nonfinite_value() {
     let mapping = JointMapping::new(1.0, Direction::Forward, 1e-6).unwrap();
     for input in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX] {
         assert_eq!(mapping.position(input), Err(MappingError::NotFinite));
@@ -68,7 +68,7 @@ fn no_conversion_returns_what_is_not_finite() {
 }
 
 #[test]
-fn every_resolution_maps_a_turn_to_a_turn_and_wrong_ones_are_refused() {
+fn resolutions_map_full_turns_and_invalid_ones_are_refused() {
     for counts in [1, 3, 1000, 4096, 1 << 24] {
         let angle = Resolution::new(counts).unwrap().angle(counts as i32);
         assert!(

@@ -110,7 +110,7 @@ fn there_is_one_name_per_algorithm() {
 }
 
 #[test]
-fn a_variant_is_objected_to() {
+fn a_variant_of_an_algorithms_name_is_refused() {
     let source = "pub fn crba<R>(robot: &D) {}\n\
                   pub(crate) fn inside() {}\n\
                   impl<T, K> Engine<T, K> {\n    pub fn rnea_at<R>(\n        trig: &T,\n    ) {\n    }\n\

@@ -42,7 +42,6 @@ pub fn stop<const K: u8>() {
     mark::<K, 1>();
 }
 
-/// How many regions there are.
 const REGIONS: u8 = if cfg!(armv6m) { 6 } else { 8 };
 
 /// One end of a region: its start if `STOPS` is 0, else its end.

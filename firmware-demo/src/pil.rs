@@ -70,7 +70,7 @@ where
     }
 }
 
-/// What the controller knows of a tick.
+/// The controller's data of a tick.
 fn tick<const N: usize>(number: u32, telemetry: Telemetry<N>) -> Tick<N> {
     let mut sample = Sample::default();
     fill(&mut sample, &telemetry);

@@ -28,7 +28,7 @@ pub trait Simulated<X, const N: usize> {
     /// The positions that the encoders measure, rad or m.
     fn encoder_positions(&self) -> [f32; N];
 
-    /// Where the driven joints truly are, rad or m; an encoder may sit on the other side of a spring.
+    /// The true positions of the driven joints, rad or m; an encoder may sit on the other side of a spring.
     fn actual(&self) -> [f32; N] {
         self.encoder_positions()
     }
@@ -43,7 +43,6 @@ pub trait Simulated<X, const N: usize> {
 /// A simulated robot and its drives, on wires.
 #[derive(Debug)]
 pub struct Rig<P, const N: usize> {
-    /// The robot.
     pub plant: P,
     full_scale: [f32; N],
 }

@@ -6,7 +6,6 @@ use crate::marker;
 
 /// The whole tick, which holds the others.
 pub const TICK: u8 = 0;
-/// Encoders, plausibility, observer.
 pub const READ: u8 = 1;
 /// The trajectory at this tick.
 pub const REFERENCE: u8 = 2;
@@ -18,7 +17,7 @@ pub const SAFETY: u8 = 4;
 pub const WRITE: u8 = 5;
 /// Putting the record of the tick into the queue of the telemetry, after the tick.
 pub const RECORD: u8 = 6;
-/// What runs with interrupts masked, in firmware that measures it.
+/// Code with interrupts masked, in firmware that measures it.
 pub const MASKED: u8 = 7;
 
 /// Puts the markers of the regions around the phases of a tick, and passes them on to another probe.

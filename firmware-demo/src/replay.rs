@@ -34,7 +34,6 @@ pub struct Replay<
     reference: S::Reference,
     wires: &'static Wires<N>,
     control: SimLoop<N>,
-    /// The ticks that have run.
     ticks: u32,
 }
 
@@ -43,7 +42,6 @@ pub struct Replay<
 pub struct Interrupted {
     /// Ticks from the start.
     pub tick: u32,
-    /// The status of the supervisor.
     pub status: Status,
 }
 

@@ -43,15 +43,13 @@ pub use run::{Full, Less, Name, PdOnly, PlantModel, Run};
 pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     Sized + 'static
 {
-    /// The robot.
     type Robot: Robot<B, Q, V>;
     /// The effects that act, in control and in the plant.
     type Effects: Effects<Self, B, Q, V, N>;
-    /// Where the driven joints are to be.
+    /// The reference of the driven joints.
     type Reference: Reference<f32, N> + Send;
-    /// What acts on the robot from outside, known to the controller by other sensors than the encoders.
+    /// The surroundings that act on the robot; the controller knows them by other sensors than the encoders.
     type Environment;
-    /// The simulated robot.
     type Plant: Simulated<Self::Environment, N> + Send;
 
     /// The name on the command line.
@@ -66,11 +64,11 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     const GAIN_POSE: [f32; Q] = [0.0; Q];
     /// A tick, s.
     const TICK: f32 = TICK;
-    /// What an encoder resolves, rad or m.
+    /// The resolution of an encoder, rad or m.
     const RESOLUTION: f32 = RESOLUTION;
     /// Steps of the simulated robot in a tick.
     const STEPS: u32 = STEPS;
-    /// What that pose is called; words that end in `inertia` name what [`Scene::inertia`] is instead.
+    /// The name of that pose; a name that ends in `inertia` says what [`Scene::inertia`] is instead.
     const GAIN_POSE_NAME: &'static str;
 
     /// The runs of every scene.

@@ -90,12 +90,12 @@ const FLAG: u32 = 1 << 31;
 #[derive(Clone, Debug)]
 pub struct SimEncoder {
     wire: &'static AtomicU32,
-    /// What the next frame will carry.
+    /// The content of the next frame.
     answer: u16,
 }
 
 impl SimEncoder {
-    /// What is latched at the end of a frame with this command.
+    /// The answer that is latched at the end of a frame with this command.
     #[inline(always)]
     fn latch(&self, command: u16) -> u16 {
         let wire = self.wire.load(Relaxed);

@@ -22,7 +22,7 @@ pub mod watch;
 
 /// The core's clock, Hz.
 const CLOCK: u32 = 168_000_000;
-/// Every so many ticks a sample goes to the log.
+/// The number of ticks from one sample in the log to the next.
 const SAMPLE: u32 = 20;
 
 /// What the interrupt runs.
@@ -30,7 +30,6 @@ type Ticked = &'static mut (dyn Tick + Send);
 
 /// Something that the interrupt runs once a tick.
 pub trait Tick {
-    /// One tick.
     fn tick(&mut self);
 }
 
@@ -43,7 +42,7 @@ where
     }
 }
 
-/// What the interrupt takes over at its first tick.
+/// The state that the interrupt takes over at its first tick.
 static INITIAL: Mutex<RefCell<Option<Ticked>>> = Mutex::new(RefCell::new(None));
 
 /// Interrupts are masked while it takes over what it runs, and not during a tick.
@@ -173,7 +172,7 @@ where
     const { (S::TICK * 1e6 + 0.5) as u32 }
 }
 
-/// What the log says of the scene before its runs.
+/// The log's description of the scene, before its runs.
 fn head<S, const B: usize, const Q: usize, const V: usize, const N: usize>(ticks: u32)
 where
     S: Scene<B, Q, V, N>,
@@ -231,7 +230,6 @@ pub fn fail(why: &str) -> ! {
     leave(debug::EXIT_FAILURE)
 }
 
-/// Leaves the emulator.
 pub fn leave(status: debug::ExitStatus) -> ! {
     loop {
         debug::exit(status);

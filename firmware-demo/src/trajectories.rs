@@ -9,10 +9,9 @@ pub mod picks;
 pub mod swing_and_back;
 pub mod watch;
 
-/// Where the UR5e's pick and place begins and ends, rad.
+/// The start and end of the UR5e's pick and place, rad.
 pub const HOME: [f32; 6] = [0.0, -FRAC_PI_2, FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, 0.0];
 
-/// The UR5e's pick and place.
 pub const PICK_AND_PLACE: [WayPoint<f32, 6>; 9] = [
     stop(HOME, 0),
     pass(
@@ -44,16 +43,15 @@ pub const READY: [f32; 7] = [
     FRAC_PI_4,
 ];
 
-/// Where the SO-101's path begins and ends, rad: folded above the table.
+/// The start and end of the SO-101's path, rad: folded above the table.
 pub const SO101_START: [f32; 6] = [0.0, -1.2, 1.2, 0.8, 0.0, 0.2];
 
-/// Where the space arm is folded away, rad.
+/// The folded posture of the space arm, rad.
 pub const STOWED: [f32; 6] = [0.0, -1.2, 2.4, -1.2, 0.0, 0.0];
 
 /// The configuration in which the steps of a humanoid's leg begin and end: knee, pitch and roll of the ankle, rad.
 pub const MID_STANCE: [f32; 3] = [0.3, -0.15, 0.0];
 
-/// A way-point at rest.
 pub const fn stop<const N: usize>(q: [f32; N], ticks: u32) -> WayPoint<f32, N> {
     pass(q, [0.0; N], ticks)
 }

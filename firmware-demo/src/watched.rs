@@ -23,7 +23,7 @@ const STOPPED: u32 = 1000;
 /// The joint whose encoder reports the injected fault.
 const JOINT: usize = 2;
 
-/// How long a scene runs, and what happens to it.
+/// The length of a scene's run, and the events in it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options {
     /// Ticks that it runs; 0 for no end.
@@ -219,7 +219,7 @@ impl<T: Timer, const N: usize> Probe<N> for Timed<'_, T, N> {
     }
 }
 
-/// What the controller knows of a tick.
+/// The controller's data of a tick.
 #[inline(always)]
 pub(crate) fn fill<const N: usize>(sample: &mut Sample<N>, telemetry: &Telemetry<N>) {
     sample.tick = telemetry.tick;

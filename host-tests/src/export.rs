@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 /// A robot in URDF's terms.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Robot {
-    /// The robot's name.
     pub name: String,
     /// The bodies, parents first.
     pub bodies: Vec<Body>,
@@ -16,7 +15,6 @@ pub struct Robot {
 /// A body and the joint that carries it.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Body {
-    /// The body's name.
     pub name: String,
     /// Index of the parent; −1 is the base.
     pub parent: i64,

@@ -1,6 +1,6 @@
 //! Measured values compared with bounds; NaN and slack bounds fail.
 
-/// How many times its measured value a bound may be.
+/// The largest allowed ratio of a bound to its measured value.
 const SLACK: f64 = 10.0;
 
 /// The largest of some values: NaN as soon as one of them is NaN, which `f64::max` would drop, and −∞ of none.

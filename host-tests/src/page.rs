@@ -47,7 +47,7 @@ impl Table {
         format!("<!-- written by {test} with {WRITE}=1: do not edit -->\n\n{rows}\n")
     }
 
-    /// What stands up to the begin marker, between the markers, and from the end marker on.
+    /// The text up to the begin marker, between the markers, and from the end marker on.
     ///
     /// # Panics
     /// If a marker is missing.

@@ -1,4 +1,4 @@
-//! What other codes said: what the scripts in `host-tests/oracle` wrote.
+//! Results of other codes, written by the scripts in `host-tests/oracle`.
 
 use std::path::PathBuf;
 
@@ -12,11 +12,8 @@ use serde::Deserialize;
 /// the first states: [`Recording::first_states`].
 #[derive(Debug, Deserialize)]
 pub struct Recording {
-    /// The robot's name.
     pub robot: String,
-    /// The version of Pinocchio.
     pub pinocchio: String,
-    /// The robot that was recorded.
     pub model: crate::export::Robot,
     /// Largest absolute component of each quantity over the states.
     pub full_scale: FullScale,
@@ -26,9 +23,7 @@ pub struct Recording {
     pub armature: Vec<f64>,
     /// Positions, exactly representable in f32 like all inputs, but for unit quaternions.
     pub q: Vec<Vec<f64>>,
-    /// Velocities.
     pub qd: Vec<Vec<f64>>,
-    /// Accelerations.
     pub qdd: Vec<Vec<f64>>,
     /// Torques given to forward dynamics.
     pub tau: Vec<Vec<f64>>,
@@ -147,7 +142,7 @@ pub fn load(name: &str) -> Recording {
 /// Torques of some recorded states in 50 digits, rounded to f64: what `host-tests/oracle/precise.py` wrote.
 #[derive(Debug, Deserialize)]
 pub struct Precise {
-    /// Which states of the robots' recordings.
+    /// The indices of the states in the robots' recordings.
     pub states: Vec<usize>,
     ur5e: Vec<Vec<f64>>,
     panda: Vec<Vec<f64>>,
@@ -169,7 +164,7 @@ impl Precise {
     }
 }
 
-/// What a script wrote under this name.
+/// Reads the recording of a script under this name.
 ///
 /// # Panics
 /// As [`load`].

@@ -524,7 +524,6 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Of this robot, none yet.
     pub fn new(robot: &'static str) -> Self {
         Self {
             robot,

@@ -26,7 +26,6 @@ use lab_target::accuracy::simulation::{self, DoublePendulum, PassiveMotion};
 use lab_target::accuracy::{Inverse, Visitor, list};
 use motion_control::{FirstOrderHold, InertiaUpdate};
 
-/// The ways' names.
 #[derive(Default)]
 struct Names(Vec<String>);
 
@@ -53,7 +52,7 @@ fn distinct(names: &[String]) -> usize {
 }
 
 #[test]
-fn every_robot_has_80_ways_and_more_the_default_first() {
+fn each_robot_has_80_configurations_default_first() {
     for names in [
         names::<Ur5e, 6, 6>(),
         names::<Panda, 7, 7>(),
@@ -72,7 +71,7 @@ fn every_robot_has_80_ways_and_more_the_default_first() {
 }
 
 #[test]
-fn every_way_to_simulate_is_there_once() {
+fn every_simulation_configuration_occurs_once() {
     let mut names = Names::default();
     simulation::every::<DoublePendulum, 2>(&mut names);
     assert_eq!(distinct(&names.0), names.0.len());
@@ -110,8 +109,9 @@ fn widened<T: Robot<B, N, N>, const B: usize, const N: usize>(
     worst.map(|error| error / scale)
 }
 
+// This holds on all recorded states.
 #[test]
-fn the_default_is_within_3e_7_of_full_scale_on_all_recorded_states() {
+fn the_default_is_within_3e_7_of_full_scale() {
     let errors = [
         recorded::<Ur5e, 6, 6>("ur5e", |state| Engine::<Ur5e>::rnea(state, &RIGID_BODY)),
         recorded::<Panda, 7, 7>("panda", |state| Engine::<Panda>::rnea(state, &RIGID_BODY)),
@@ -152,7 +152,7 @@ fn f64_is_good_to_1e_13_by_50_digits() {
 }
 
 #[test]
-fn other_numbers_are_as_good_as_they_say() {
+fn other_number_types_are_within_their_stated_error() {
     let course = |state| momentary(state);
     let [compensated, _] = widened::<Ur5e, 6, 6>("ur5e", |state| {
         type Way = In<Compensated, Full<Ur5e>, Core<Ur5e>, 6>;
@@ -179,7 +179,7 @@ fn worst_of<R: Real, K: Kernel<R>>(range: f64, radians: f64) -> f64 {
 }
 
 #[test]
-fn kernels_are_as_good_as_they_say() {
+fn kernels_are_within_their_stated_error() {
     let errors = [
         (
             "minimax of degree 3",
@@ -224,7 +224,7 @@ fn kernels_are_as_good_as_they_say() {
 }
 
 #[test]
-fn sines_that_are_carried_on_drift_slowly() {
+fn incremental_sines_drift_slowly() {
     let mut turns = IncrementalTrig::at([0.0_f32]);
     let mut worst = 0.0_f64;
     for tick in 0..10_000 {
@@ -340,9 +340,9 @@ fn lagrange() -> Vec<[[f64; 2]; 2]> {
     samples.collect()
 }
 
-/// What simulations are compared with is right: by equations of another kind, and whatever its step.
+/// The reference of the simulations agrees with equations of another kind, and does not depend on its step.
 #[test]
-fn the_true_motions_are_those_of_lagrange_and_of_a_longer_step() {
+fn true_motions_agree_with_lagrange_and_longer_steps() {
     fn apart<const N: usize>(a: &[[[f64; N]; 2]], b: &[[[f64; N]; 2]]) -> f64 {
         let pairs = a
             .iter()

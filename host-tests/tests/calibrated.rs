@@ -102,7 +102,7 @@ where
 }
 
 #[test]
-fn the_numbers_of_the_description_give_the_model_again() {
+fn described_numbers_reproduce_the_model() {
     assert!(described_again::<Ur5e, 6, 6, 6>() < 1e-15);
     assert!(described_again::<Panda, 7, 7, 7>() < 1e-15);
     assert!(described_again::<StressRobot, 4, 2, 2>() < 2e-15);
@@ -119,8 +119,9 @@ fn the_numbers_of_the_description_give_the_model_again() {
     assert_eq!(inertia.mass, DESCRIBED.mass);
 }
 
+// Both have the same numbers.
 #[test]
-fn a_calibrated_robot_moves_as_one_that_is_described_with_the_same_numbers() {
+fn calibrated_and_described_robots_need_equal_torques() {
     let mut arm = Calibrated::<StressRobot, f64, 4, 2, 2>::nominal();
     arm.set_inertia(FOREARM, IDENTIFIED, 0.0)
         .expect("a body can be like that");
@@ -139,7 +140,7 @@ fn a_calibrated_robot_moves_as_one_that_is_described_with_the_same_numbers() {
 }
 
 #[test]
-fn what_no_body_has_is_named_and_changes_nothing() {
+fn an_impossible_inertia_is_named_and_not_taken_over() {
     let mut arm = Calibrated::<StressRobot, f64, 4, 2, 2>::nominal();
     arm.set_inertia(FOREARM, IDENTIFIED, 0.0)
         .expect("a body can be like that");

@@ -14,7 +14,7 @@ fn rnea(scalar: &str, error: f64) -> Result<(), String> {
 }
 
 #[test]
-fn an_error_beyond_its_bound_is_refused_and_one_within_is_not() {
+fn only_an_error_beyond_its_bound_is_refused() {
     assert_eq!(rnea("f64", 1e-15), Ok(()));
     assert_eq!(rnea("f32", 5e-7), Ok(()));
     for (scalar, error) in [("f64", 1.01e-15), ("f32", 5.01e-7), ("f64", 5e-7)] {
@@ -43,15 +43,16 @@ fn a_bound_more_than_ten_times_its_error_is_refused() {
 }
 
 #[test]
-fn what_has_no_bound_is_refused() {
+fn an_error_without_a_bound_is_refused() {
     assert!(check("ur5e", "no such quantity", "f64", 0.0).is_err());
     assert!(check("no such robot", "rnea", "f64", 0.0).is_err());
     // Measured in one scalar alone.
     assert!(check("ur5e", "engine gravity", "f64", 1e-16).is_err());
 }
 
+// A slack bound is more than ten times the value.
 #[test]
-fn a_measured_row_of_a_hard_case_passes_within_its_bound_unless_that_is_slack() {
+fn a_measured_row_passes_within_a_tight_bound() {
     let demand = |error, bound| Row::measured("τ", "f32", error, bound).demand();
     assert_eq!(demand(1e-6, 1e-6), Ok(()));
     assert_eq!(demand(1e-6, 0.99e-5), Ok(()));
@@ -68,7 +69,7 @@ fn a_measured_row_of_a_hard_case_passes_within_its_bound_unless_that_is_slack() 
 }
 
 #[test]
-fn a_stated_bound_may_be_far_above_but_not_below() {
+fn a_stated_bound_may_be_slack_but_not_broken() {
     let demand = |error, bound| Row::stated("τ", "f32", error, bound).demand();
     assert_eq!(demand(0.0, 1e-6), Ok(()));
     assert!(demand(1.01e-6, 1e-6).is_err());
@@ -76,7 +77,7 @@ fn a_stated_bound_may_be_far_above_but_not_below() {
 }
 
 #[test]
-fn a_claim_holds_or_fails_and_a_naive_alternative_has_to_fail() {
+fn a_claim_must_hold_and_a_naive_alternative_fail() {
     assert_eq!(Row::claim("sorted", "f32", true).demand(), Ok(()));
     assert!(Row::claim("sorted", "f32", false).demand().is_err());
     let naive = |error| Row::naive("τ, naive", "f32", error, 1e-6);
@@ -86,7 +87,7 @@ fn a_claim_holds_or_fails_and_a_naive_alternative_has_to_fail() {
 }
 
 #[test]
-fn the_larger_of_two_is_the_one_that_is_not_a_number() {
+fn the_larger_of_two_prefers_nan() {
     assert_eq!(larger(1.0, 2.0), 2.0);
     assert_eq!(larger(2.0, 1.0), 2.0);
     assert!(larger(f64::NAN, 1.0).is_nan() && larger(1.0, f64::NAN).is_nan());

@@ -32,7 +32,7 @@ fn platform<R: Copy + Into<f64>>(tree: &State<R, 12, 12>) -> [[f64; 3]; 3] {
 }
 
 #[test]
-fn the_cranks_of_the_picks_move_the_platform_along_its_path() {
+fn the_cranks_move_the_platform_along_its_path() {
     let picks = Picks::new().unwrap();
     let [mut double, mut single]: [[Worst; 3]; 2] = Default::default();
     for tick in 0..=picks.ticks() {
@@ -81,7 +81,7 @@ fn a_pick_takes_half_a_second_there_and_back() {
             .map(|tick| at(one * MOVE + tick).z)
             .fold(f32::MIN, f32::max);
         assert!((highest - (FEEDER[2] + LIFT)).abs() < 1e-6, "{highest}");
-        // What is within 20 mm of the ends is lifted and lowered there.
+        // The path within 20 mm of the ends is lifted and lowered there.
         for tick in 0..MOVE {
             let here = at(one * MOVE + tick);
             let flat = |v: Vec3| (v - Vec3::Z * v.z).length();
@@ -121,7 +121,7 @@ where
 
 /// Motions far below the limits would make small tracking errors meaningless.
 #[test]
-fn the_ways_are_within_the_limits_of_the_motors() {
+fn the_motions_use_a_good_share_of_motor_limits() {
     let [torque, speed] = shares::<Picking, 12, 12>();
     assert!(torque > 0.3 && speed > 0.3);
     let [_, speed] = shares::<AnkleSteps, 9, 9>();
@@ -129,7 +129,7 @@ fn the_ways_are_within_the_limits_of_the_motors() {
 }
 
 #[test]
-fn positions_velocities_and_accelerations_of_the_motors_belong_together() {
+fn motor_derivatives_agree_with_differences() {
     let reference = AnkleSteps::reference().unwrap();
     let states: Vec<_> = (0..=reference.ticks())
         .map(|tick| reference.at(tick))
@@ -163,8 +163,9 @@ impl Reference<f32, 3> for Torn {
     }
 }
 
+// It gives no torque.
 #[test]
-fn a_reference_that_does_not_close_is_a_fault_and_no_torque() {
+fn a_reference_that_cannot_close_is_a_fault() {
     let torn = Clustered::<Engine<G1Ankle>>::motors(&Torn.at(20)).unwrap_err();
     assert_eq!(
         (torn.cluster, torn.problem),
@@ -200,7 +201,7 @@ fn a_reference_that_does_not_close_is_a_fault_and_no_torque() {
 }
 
 #[test]
-fn a_step_of_a_plant_that_does_not_close_is_an_error() {
+fn a_plant_that_cannot_close_fails_its_step() {
     let torn = Torn.at(20).q;
     let nominal = dynamics_core::model::Calibrated::nominal();
     let mut plant = ClusterPlant::<G1Ankle, _, 9, 9, 3>::new(nominal, AnkleSteps::EFFECTS, torn);

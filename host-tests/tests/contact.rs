@@ -31,7 +31,7 @@ struct Wall {
 }
 
 impl Wall {
-    /// What the hand exerts on it along its normal, N.
+    /// The force of the hand on it along its normal, N.
     fn pressed(&self, place: DVec3, velocity: DVec3) -> f64 {
         let depth = (place - self.origin).dot(self.normal);
         let force = STIFFNESS * depth + WALL_DAMPING * velocity.dot(self.normal);
@@ -50,7 +50,7 @@ impl<const B: usize, const V: usize> Effect<f64, B, V> for Wall {
         });
 }
 
-/// What went wrong at most in the last second.
+/// The largest errors in the last second.
 #[derive(Debug, Default)]
 struct Errors {
     force: f64,
@@ -149,7 +149,7 @@ fn within_the_table(errors: &Errors, verdict: &mut Verdict) {
 }
 
 #[test]
-fn an_arm_presses_on_a_wall_and_moves_along_it_whatever_its_elbow_does() {
+fn the_elbow_does_not_disturb_pressing_along_a_wall() {
     let (calm, driven) = (run(0.0), run(5.0));
     assert!(
         driven.swing > 5.0 * calm.swing,

@@ -62,7 +62,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn no_measurement_whatever_gets_past_the_gate(
+    fn no_wild_measurement_passes_the_gate(
         ticks in prop::collection::vec((prop::array::uniform6(any_bits()), 0..4_u8), 1..60),
     ) {
         let mut controller = controller(LIMITS, 5);
@@ -83,7 +83,7 @@ proptest! {
     }
 
     #[test]
-    fn no_torque_whatever_gets_past_the_limits(
+    fn no_wild_torque_passes_the_limits(
         ticks in prop::collection::vec(prop::array::uniform6(any_bits()), 1..60),
         bounds in prop::array::uniform4(any_bits()),
         wild in any::<bool>(),

@@ -19,7 +19,7 @@ use example::{EFFECTS, HOLD, OMEGA_N, REENTRY, RIDE_THROUGH as RIDE, TICK};
 const FAST: u32 = 3200;
 const STEPS: u32 = 4;
 
-/// What some ticks without measurements did to the arm.
+/// The effect of some ticks without measurements on the arm.
 struct Outcome {
     /// The largest error of a joint against the reference, rad.
     error: f64,
@@ -98,8 +98,9 @@ fn lost_frames(at: u32, lost: u32) -> Outcome {
     }
 }
 
+// No joint turns back.
 #[test]
-fn the_documented_loop_brings_a_fast_arm_to_rest_without_a_turn_back_and_onto_its_way() {
+fn the_documented_loop_stops_and_resumes_a_fast_arm() {
     let mut back = vec![];
     for (lost, bound) in [(20, 1e-3), (50, 2e-3), (100, 4e-3), (RIDE + HOLD, 4e-3)] {
         let held = lost_frames(FAST, lost);

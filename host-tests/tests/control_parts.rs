@@ -14,7 +14,7 @@ use motion_control::{
 const H: f64 = 1e-3;
 /// Both poles at β = exp(−ω h): e_{n+2} = 2β e_{n+1} − β² e_n, of a late measurement too.
 #[test]
-fn an_observer_of_late_measurements_has_both_poles_where_its_bandwidth_puts_them() {
+fn a_late_observer_has_both_poles_at_its_bandwidth() {
     for bandwidth in [50.0, 150.0, 400.0] {
         let mut observer = Observer::<f64, 1>::new(ObserverConfig { bandwidth, tick: H });
         observer.reset(&[1.0]);
@@ -40,7 +40,7 @@ fn an_observer_of_late_measurements_has_both_poles_where_its_bandwidth_puts_them
 }
 
 #[test]
-fn a_late_position_is_moved_on_by_the_speed_since_the_measurement() {
+fn a_late_position_is_extrapolated_by_the_speed() {
     let mut observer = Observer::<f64, 1>::new(ObserverConfig {
         bandwidth: 250.0,
         tick: H,
@@ -63,7 +63,7 @@ fn a_late_position_is_moved_on_by_the_speed_since_the_measurement() {
 }
 
 #[test]
-fn a_smooth_motion_is_admitted_up_to_its_own_peaks_and_no_further() {
+fn a_smooth_motion_needs_limits_above_its_peaks() {
     let stop = |q, ticks| WayPoint {
         q: [q],
         qd: [0.0],
@@ -95,8 +95,9 @@ fn a_smooth_motion_is_admitted_up_to_its_own_peaks_and_no_further() {
     );
 }
 
+// M is held and acts on the present acceleration.
 #[test]
-fn between_computations_the_bias_goes_on_as_it_went_and_m_acts_on_the_acceleration_of_now() {
+fn between_updates_the_bias_is_extrapolated_linearly() {
     let m = Core::<Ur5e>::crba(&[0.0_f64, -1.2, 1.5, 0.3, 0.1, 0.0], &RIGID_BODY);
     let torque = |bias: f64, qdd: f64| m.mul_vec(&[qdd; 6]).map(|inertial| bias + inertial);
     let mut between = InertiaUpdate::<f64, 6, 4>::start();
@@ -133,8 +134,9 @@ impl Reference<f64, 1> for Falling {
 }
 
 /// From rest at 0 the trajectory is r = w q(σ), with σ' = w: σ is known in closed form.
+// The reference is read between ticks too.
 #[test]
-fn the_return_is_on_its_reference_within_ticks_too_with_its_derivatives() {
+fn the_return_and_its_derivatives_have_their_closed_form() {
     const TICKS: u32 = 200;
     let mut controller = MotionController::<f64, 1>::new(MotionControllerConfig {
         supervisor: SupervisorConfig {

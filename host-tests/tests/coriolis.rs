@@ -20,7 +20,7 @@ type Scene = (
     (Payload<f64, { B - 1 }>, Coriolis),
 );
 
-/// What the bodies of a tree bear beside their own inertia: armatures, spinning rotors and a payload.
+/// The additions to the inertia of a tree's bodies: armatures, spinning rotors and a payload.
 fn scene(tree: &Tree) -> Scene {
     let load = Payload::from_inertia(BodyInertia {
         mass: 1.5,
@@ -140,8 +140,9 @@ fn laws(under: &Under<'_>) -> [Worst; 6] {
     worst
 }
 
+// The trees have joints of every kind, rotors and a payload.
 #[test]
-fn c_satisfies_its_laws_at_joints_of_every_kind_with_rotors_and_a_payload() {
+fn the_coriolis_matrix_satisfies_its_laws() {
     let mut verdict = Verdict::default();
     for (law, worst) in LAWS.iter().zip(laws(&RIGHT)) {
         verdict.see("mixed tree", law, "f64", &worst);
@@ -155,7 +156,7 @@ fn broken(under: &Under<'_>) -> [bool; 6] {
 }
 
 #[test]
-fn each_law_finds_a_wrong_c() {
+fn the_laws_find_wrong_coriolis_matrices() {
     let times_transposed = Under {
         product: &|tree, state, y, scene| {
             times(&transposed(&coriolis_matrix(tree, state, scene)), y)
@@ -201,7 +202,7 @@ fn each_law_finds_a_wrong_c() {
     assert_eq!(broken(&no_rotors)[4..], [true; 2]);
 }
 
-/// Of an arm of revolute joints: C and its Christoffel symbols by differences of M.
+/// C of an arm of revolute joints, and its Christoffel symbols by differences of M.
 fn christoffel<const N: usize, const V: usize>(arm: &Model<f64, N, V, V>, worst: &mut Worst) {
     let mut rng = Rng::new(5);
     for _ in 0..20 {
@@ -244,8 +245,9 @@ fn c_of_an_arm_is_that_of_the_christoffel_symbols() {
     verdict.speak();
 }
 
+// This holds under every effect.
 #[test]
-fn with_equal_velocities_the_torque_is_that_of_rnea_under_every_effect() {
+fn two_equal_velocities_give_the_torque_of_rnea() {
     let mut worst = [(); 2].map(|()| Worst::default());
     let mut rng = Rng::new(23);
     let friction = (
@@ -276,7 +278,7 @@ fn with_equal_velocities_the_torque_is_that_of_rnea_under_every_effect() {
     verdict.see("mixed tree", "rnea of equal velocities", "f64", &worst[0]);
     verdict.see("mixed tree", "C y on a moving base", "f64", &worst[1]);
     verdict.speak();
-    // What no effect asks for is not computed.
+    // Quantities that no effect needs are not computed.
     let (tree, state) = trees(false).next().unwrap();
     let gravity = |state: &_, y| rnea_two_velocities(&tree, state, &y, &Gravity::EARTH);
     let rest = with(&state, [0.0; V]);

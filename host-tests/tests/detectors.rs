@@ -19,7 +19,6 @@ type FullModel = Full<PickAndPlace, 6, 6, 6>;
 /// A moment of fast motion.
 const FAST: u32 = 3200;
 
-/// The arm with its firmware.
 struct Arm {
     wires: &'static Wires<6>,
     rig: Rig<Plant<Ur5e, Effects, (), 6, 6, 6>, 6>,
@@ -80,8 +79,9 @@ impl Law<6> for Excessive {
     }
 }
 
+// It is watched from its first tick to the rest at its end.
 #[test]
-fn the_scene_has_no_false_alarm_from_its_first_tick_to_the_rest_at_its_end() {
+fn the_scene_has_no_false_alarm() {
     let path = PickAndPlace::reference().unwrap();
     for noise in [None, Some(&mut Noise::seeded())] {
         let mut arm = Arm::new(&path, noise);
@@ -104,7 +104,7 @@ fn encoders_that_freeze_in_motion_are_found() {
 }
 
 #[test]
-fn a_step_of_the_reference_stops_the_arm_and_names_the_joint() {
+fn a_reference_step_stops_the_arm_and_names_the_joint() {
     let path = PickAndPlace::reference().unwrap();
     let mut arm = Arm::new(&path, None);
     for _ in 0..FAST {
@@ -116,7 +116,7 @@ fn a_step_of_the_reference_stops_the_arm_and_names_the_joint() {
 }
 
 #[test]
-fn a_torque_that_stays_at_its_limit_stops_the_arm_and_names_the_joint() {
+fn a_saturated_torque_stops_the_arm_and_names_the_joint() {
     let path = PickAndPlace::reference().unwrap();
     let mut arm = Arm::new(&path, None);
     // The encoders stand still: no speed limit is exceeded first.

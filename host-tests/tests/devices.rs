@@ -25,7 +25,7 @@ impl Simulated<(), 1> for Wound {
 }
 
 #[test]
-fn encoders_sit_on_the_motors() {
+fn encoders_measure_the_motors_not_the_joints() {
     let wires: &'static Wires<1> = Box::leak(Box::new(Wires::new()));
     let mut encoder = As5047p::new(wires.encoder(0), JointMapping::IDENTITY);
     let mut rig = Rig::new(Wound, [1.0], wires);

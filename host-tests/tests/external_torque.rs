@@ -117,7 +117,7 @@ fn slope(spoiled: f64) -> f64 {
 }
 
 #[test]
-fn the_estimate_is_the_least_of_its_squares() {
+fn the_estimate_minimises_its_sum_of_squares() {
     assert!(slope(1.0) < 1e-9, "{}", slope(1.0));
     assert!(slope(1.01) > 1e-3, "{}", slope(1.01));
 }
@@ -137,8 +137,9 @@ fn rest(mut v: [f64; 6], units: &[[f64; 6]]) -> [f64; 6] {
     v
 }
 
+// The posture is singular, and other wrenches are estimated as they are.
 #[test]
-fn at_a_singular_posture_a_wrench_without_torque_is_estimated_as_zero_and_others_as_they_are() {
+fn a_wrench_without_torque_is_estimated_as_zero() {
     // Two axes of the wrist on one line.
     let q = [0.3, -1.2, 1.5, 0.3, 0.0, 0.2];
     let jacobian = Core::<Ur5e>::jacobian(&q, 5, frame::LocalWorldAligned);
@@ -188,7 +189,7 @@ fn largest_in_f32(noise: f64, couple: f64) -> f64 {
 }
 
 #[test]
-fn rounding_in_f32_does_not_enlarge_a_wrench_at_singular_postures() {
+fn singular_postures_do_not_enlarge_wrenches_in_f32() {
     for (noise, couple) in [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6]
         .into_iter()
         .flat_map(|noise| [0.0, 1.0, 10.0, 100.0].map(|couple| (noise, couple)))
@@ -223,7 +224,7 @@ fn numbers_that_are_not_finite_name_their_joint() {
 }
 
 #[test]
-fn sizes_that_cannot_be_are_refused() {
+fn impossible_noise_and_wrench_sizes_are_refused() {
     let good = TipWrenchConfig {
         noise: [0.1; 2],
         force: 100.0,
@@ -255,8 +256,9 @@ fn sizes_that_cannot_be_are_refused() {
     }
 }
 
+// With two poles it rises as the external torque of the same error does.
 #[test]
-fn the_threshold_of_two_poles_rises_as_the_external_torque_of_the_same_error() {
+fn the_threshold_rises_with_the_stated_model_error() {
     let config = ObserverConfig {
         bandwidth: 50.0,
         tick: 1e-3,
@@ -280,7 +282,7 @@ fn the_threshold_of_two_poles_rises_as_the_external_torque_of_the_same_error() {
 }
 
 #[test]
-fn after_a_restart_the_momentum_of_before_is_no_external_torque() {
+fn a_restart_forgets_the_momentum_of_before() {
     let config = ObserverConfig {
         bandwidth: 50.0,
         tick: 1e-3,

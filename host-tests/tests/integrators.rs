@@ -104,7 +104,7 @@ fn integrators_are_of_their_order() {
 }
 
 #[test]
-fn a_kept_energy_stays() {
+fn energy_projection_keeps_the_energy() {
     fn lost<R: Real>(scalar: &str) -> Result<(), String>
     where
         EnergyProjected<R>: Integrator<R, 2, 2>,
@@ -149,7 +149,7 @@ fn compensated_addition_repairs_fine_steps() {
 }
 
 #[test]
-fn no_damping_shakes_an_implicit_step() {
+fn implicit_steps_stay_stable_under_strong_damping() {
     let stiff = (RIGID_BODY, Viscous([50.0, 50.0]));
     let implicit = watched::<LinearlyImplicit, f64, _, false>(50, &stiff, |_| ());
     let truth = watched::<RungeKutta, f64, _, false>(20_000, &stiff, |_| ());

@@ -29,7 +29,7 @@ const TWO: ArmModel<f64, 3> = Model::new(
 );
 
 #[test]
-fn two_links_are_where_trigonometry_says() {
+fn two_link_kinematics_agree_with_trigonometry() {
     let (q, qd) = ([0.3_f64, -0.7, 0.2], [1.1, -0.4, 0.6]);
     let (a, b) = (q[0], q[0] + q[1]);
     let p = DVec3::new(a.cos() + 0.5 * b.cos(), 0.0, -a.sin() - 0.5 * b.sin());
@@ -137,7 +137,7 @@ fn jacobians_give_velocities_and_their_rates_accelerations_in_every_frame() {
 }
 
 #[test]
-fn the_base_has_no_jacobian_and_what_is_no_body_not_a_number() {
+fn the_base_has_zero_jacobian_and_missing_bodies_have_nan() {
     let (tree, state) = trees(false).next().unwrap();
     assert_eq!(
         jacobian(&tree, &state.q, BASE, frame::World),
@@ -159,7 +159,6 @@ fn the_base_has_no_jacobian_and_what_is_no_body_not_a_number() {
     }
 }
 
-/// A base of given motion.
 struct Carried(Motion<f64>, Motion<f64>);
 
 impl<const B: usize, const V: usize> Effect<f64, B, V> for Carried {
@@ -170,7 +169,7 @@ impl<const B: usize, const V: usize> Effect<f64, B, V> for Carried {
 }
 
 #[test]
-fn a_base_of_given_motion_is_a_body_on_a_free_joint() {
+fn a_moving_base_equals_a_free_joint() {
     const UPPER: Body = Body::new("upper", BASE, Joint::revolute([0.0, 1.0, 0.3]))
         .mass(2.0)
         .com([0.5, 0.1, 0.0]);

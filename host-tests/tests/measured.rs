@@ -22,7 +22,7 @@ fn the_largest_of_values_keeps_nan_wherever_it_stands() {
 }
 
 #[test]
-fn a_bound_holds_up_to_itself_and_down_to_a_tenth() {
+fn a_bound_holds_from_its_tenth_to_itself() {
     for (measured, bound) in [(1.0, 1.0), (0.1, 1.0), (0.0, 0.0), (3e-16, 1e-15)] {
         within("a value", measured, bound);
     }

@@ -1,4 +1,4 @@
-//! What is wrong with a robot's description is said with the body's name.
+//! Errors of a robot's description name the body.
 
 use dynamics_core::model::{
     ArmModel, BASE, Body, Joint, JointLimits, Model, ModelError, Problem, Robot,
@@ -91,7 +91,7 @@ fn limits_that_exclude_each_other_are_named() {
 
 #[test]
 #[should_panic(expected = "robot `arm`: its joints make Q = 1 and V = 1, not Q = 2 and V = 2")]
-fn coordinates_that_do_not_add_up_are_laid_to_the_robot() {
+fn wrong_coordinate_counts_name_the_robot() {
     arm(Body::new("tip", 0, Joint::fixed()));
 }
 
@@ -187,7 +187,7 @@ fn limits_that_are_not_numbers_or_negative_are_refused() {
 }
 
 #[test]
-fn the_message_of_a_const_is_that_of_the_error_without_its_amount() {
+fn const_messages_are_error_messages_without_amounts() {
     let free = Body::new("tip", 0, Joint::free());
     // A `const` evaluation cannot print an f64.
     for (bodies, amount) in [
@@ -263,7 +263,7 @@ fn degrees_are_refused_and_a_whole_turn_is_not() {
 }
 
 #[test]
-fn a_check_names_inertia_without_mass_and_a_name_that_comes_twice() {
+fn a_check_finds_massless_inertias_and_duplicate_names() {
     let ghost = arm(tip().mass(0.0)).check(1e-6).unwrap_err();
     assert_eq!((ghost.body, ghost.problem), ("tip", Problem::Massless));
     let twin = Body::new("root", 0, Joint::revolute(Y)).mass(1.0);
@@ -272,7 +272,7 @@ fn a_check_names_inertia_without_mass_and_a_name_that_comes_twice() {
 }
 
 #[test]
-fn the_tolerance_of_a_check_is_the_amount_itself() {
+fn a_checks_tolerance_is_the_amount_of_violation() {
     // Moments 1, 1 and 2.25: the largest exceeds the sum of the others by a ninth of itself.
     let broken = arm(tip().inertia([1.0, 0.0, 0.0, 1.0, 0.0, 2.25]).com([0.0; 3]));
     assert!(broken.check(1.001 / 9.0).is_ok());

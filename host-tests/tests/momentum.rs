@@ -19,8 +19,9 @@ use dynamics_core::spatial::{Force, Motion, SpatialInertia};
 use dynamics_core::state::State;
 use glam::DVec3;
 
+// Rotors and a payload are part of M.
 #[test]
-fn momentum_is_m_qd_and_kinetic_energy_half_qd_m_qd_with_rotors_and_a_payload() {
+fn momentum_is_m_qd_and_energy_half_qd_m_qd() {
     let mut worst = <[Worst; 2]>::default();
     for (tree, state) in trees(false) {
         let scene = (Inertia, Armature([0.3; V]), load());
@@ -59,8 +60,9 @@ fn motors_supply_the_rate_of_both_energies() {
     verdict.speak();
 }
 
+// It is the centroidal matrix times q̇ as well.
 #[test]
-fn momentum_is_mass_times_velocity_of_the_centre_and_the_matrix_times_qd() {
+fn centroidal_momentum_is_mass_times_centre_velocity() {
     let mut worst = [(); 3].map(|()| Worst::default());
     for (tree, state) in trees(false) {
         let (h, c) = (
@@ -107,7 +109,7 @@ fn momentum_is_mass_times_velocity_of_the_centre_and_the_matrix_times_qd() {
 
 /// Euler's laws: nothing but weight acts on a tree that falls, whatever its motors do.
 #[test]
-fn only_weight_changes_the_momentum_of_what_falls_freely() {
+fn only_gravity_changes_a_falling_trees_momentum() {
     let mut worst = Worst::default();
     for (tree, mut state) in trees(true) {
         let mut tau = state.qdd; // any torques, but none on the free joint
@@ -171,8 +173,9 @@ fn load() -> Payload<f64, { B - 1 }> {
     })
 }
 
+// The trees have joints of every kind.
 #[test]
-fn the_generalised_momentum_changes_by_the_torque_and_ct_qd_at_joints_of_every_kind() {
+fn generalised_momentum_changes_by_torque_and_ct_qd() {
     let worst = rate_of_momentum(&|tree, state, scene| momentum_and_coriolis(tree, state, scene));
     let mut verdict = Verdict::default();
     verdict.see("mixed tree", "rate of M qd", "f64", &worst);
@@ -180,8 +183,9 @@ fn the_generalised_momentum_changes_by_the_torque_and_ct_qd_at_joints_of_every_k
 }
 
 /// The law above finds each of these errors: one that it did not find would pass a wrong algorithm.
+// The child and the armature are missing ones.
 #[test]
-fn a_wrong_sign_a_missing_child_and_a_missing_armature_are_found() {
+fn a_wrong_sign_child_or_armature_is_found() {
     let error = |law: Law<'_>| {
         let worst = rate_of_momentum(law);
         worst.error / worst.full_scale
@@ -223,7 +227,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Air {
 
 /// On the same trees, with weight, friction and wrenches of their surroundings.
 #[test]
-fn the_generalised_momentum_changes_by_the_motors_torque_and_its_drift() {
+fn generalised_momentum_changes_by_motor_torque_and_drift() {
     let mut worst = Worst::default();
     for (i, (tree, state)) in trees(false).enumerate() {
         let scale = (i % 2) as f64;
@@ -252,7 +256,7 @@ fn the_generalised_momentum_changes_by_the_motors_torque_and_its_drift() {
             momentum_and_drift(&tree, &later, &scene(t)).p
         });
         let tau = rnea(&tree, &state, &scene(0.0));
-        // What the gears do not transmit is no part of it.
+        // The friction of the gears is no part of it.
         let beta = momentum_and_drift(&tree, &state, &(scene(0.0), gears)).beta;
         worst.see(core::array::from_fn(|k| tau[k] + beta[k]), rate);
     }
@@ -270,7 +274,7 @@ fn slope_of_turn<const N: usize>(f: impl Fn(f64) -> [f64; N]) -> [f64; N] {
     core::array::from_fn(|i| b[i] + 0.5 * (1.0 - SQRT_2) * a[i])
 }
 
-/// Of an arm of revolute joints: p and M q̇; Cᵀ q̇ and Ṁ q̇ − C q̇; Cᵀ q̇ and ∂T/∂q.
+/// Compares for an arm of revolute joints p and M q̇, Cᵀ q̇ and Ṁ q̇ − C q̇, and Cᵀ q̇ and ∂T/∂q.
 fn of_an_arm<const N: usize, const V: usize>(arm: &Model<f64, N, V, V>, worst: &mut [Worst; 3]) {
     let mut rng = Rng::new(5);
     for _ in 0..100 {
@@ -302,8 +306,9 @@ fn of_an_arm<const N: usize, const V: usize>(arm: &Model<f64, N, V, V>, worst: &
     }
 }
 
+// p = M q̇, and Cᵀ q̇ = Ṁ q̇ − C q̇ is the slope of the kinetic energy.
 #[test]
-fn p_is_m_qd_and_ct_qd_is_the_rate_of_m_times_qd_less_c_qd_and_the_slope_of_the_energy() {
+fn momentum_and_ct_qd_of_arms_obey_their_laws() {
     let mut verdict = Verdict::default();
     let mut see = |arm, worst: &[Worst; 3]| {
         for (law, worst) in ["M qd", "Cᵀ qd", "slope of energy"].iter().zip(worst) {

@@ -40,7 +40,7 @@ fn both_ways<F: frame::Frame>(frame: F, worst: &mut Worst) {
 }
 
 #[test]
-fn mobility_by_recursion_is_that_by_factors_in_every_frame() {
+fn recursive_and_factored_mobilities_agree() {
     let mut worst = Worst::default();
     both_ways(frame::Local, &mut worst);
     both_ways(frame::World, &mut worst);
@@ -131,8 +131,9 @@ fn inverses<T: Robot<N, N, N>, const N: usize, const M: usize>(
     }
 }
 
+// Torques of the null space are not felt in the task.
 #[test]
-fn inertia_and_consistent_inverse_are_inverses_and_free_torques_are_not_felt() {
+fn operational_inertia_and_jacobian_have_their_inverses() {
     let mut worst = [(); 3].map(|()| Worst::default());
     inverses::<Ur5e, 6, 3>(&TaskFrame::BASE.place(), &mut worst);
     inverses::<Panda, 7, 3>(&TaskFrame::BASE.place(), &mut worst);

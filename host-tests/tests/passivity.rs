@@ -131,7 +131,7 @@ fn reference(t: f64) -> State<f64, 6, 6> {
     }
 }
 
-/// What an arm under the law does: its state at the end, the error of tracking and the energy of s over time.
+/// The run of an arm under the law: its state at the end, the tracking error and the energy of s over time.
 struct Run {
     end: State<f64, 6, 6>,
     errors: Vec<f64>,
@@ -200,8 +200,9 @@ fn growth(run: &Run) -> Option<&[f64]> {
     pairs.rfind(|energies| energies[1] > energies[0] && energies[1] > 1e-17)
 }
 
+// The energy of s never grows.
 #[test]
-fn with_an_exact_model_the_energy_of_s_never_grows_and_the_error_vanishes() {
+fn an_exact_model_makes_the_error_vanish() {
     let exact = run(&Ur5e::MODEL, &Ur5e::MODEL, 3000);
     assert!(exact.energies[0] > 1.0, "{}", exact.energies[0]);
     assert_eq!(growth(&exact), None);
@@ -213,8 +214,9 @@ fn with_an_exact_model_the_energy_of_s_never_grows_and_the_error_vanishes() {
     assert!(growth(&run(&Ur5e::MODEL, &off, 3000)).is_some());
 }
 
+// They are off by 20 %.
 #[test]
-fn with_inertias_off_by_20_percent_tracking_converges_to_the_stated_error() {
+fn tracking_with_wrong_inertias_converges_to_the_stated_error() {
     let (arm, model) = (Ur5e::MODEL, off_by_20_percent(&Ur5e::MODEL));
     let Run { end, errors, .. } = run(&arm, &model, 6000);
     let most = |errors: &[f64]| errors.iter().copied().fold(0.0, f64::max);

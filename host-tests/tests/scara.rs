@@ -13,7 +13,7 @@ use host_tests::measured::largest;
 use host_tests::random::{random_numbers, within};
 use host_tests::tolerances;
 
-/// As fast as the machine.
+/// Random states up to the machine's speeds.
 fn random_states<R: Real>() -> impl Iterator<Item = State<R, 3, 3>> {
     let mut rng = random_numbers();
     std::iter::repeat_with(move || State {

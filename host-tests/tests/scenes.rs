@@ -1,4 +1,4 @@
-//! What the scenes' machines promise: momentum that stays, and a camera that a ship does not turn.
+//! The claims of the scenes' machines: momentum is conserved, and a ship does not turn the camera.
 
 use crate::common::*;
 use dynamics_core::algorithms::{momentum, poses};
@@ -107,8 +107,9 @@ fn wide<R: Real>(tau: &[f32; 6]) -> [R; 12] {
     SpaceArm::joints(*tau).map(|tau| R::from_f64(f64::from(tau)))
 }
 
+// The loss falls down to a floor.
 #[test]
-fn plain_steps_lose_momentum_at_first_order_down_to_a_floor() {
+fn plain_steps_lose_momentum_at_first_order() {
     let double = [1, 2, 4].map(plain::<f64>);
     for pair in double.windows(2) {
         let ratio = pair[0] / pair[1];
@@ -134,7 +135,7 @@ fn plain_steps_lose_momentum_at_first_order_down_to_a_floor() {
 
 /// In f32 it is the scene's own plant.
 #[test]
-fn steps_that_conserve_lose_no_momentum_however_long_they_are() {
+fn momentum_preserving_steps_lose_no_momentum() {
     let mut verdict = Verdict::default();
     for steps in [1, 4] {
         let (mut effects, mut state) = (acting::<f64>(), start::<f64>());
@@ -173,7 +174,7 @@ fn pose(ship: &Ship<f64>, t: f64) -> (DMat3, DVec3) {
 }
 
 #[test]
-fn the_inertial_unit_tells_how_the_mast_moves() {
+fn the_inertial_unit_measures_the_masts_motion() {
     let ship = Ship::<f64>::patrol_boat();
     let (mut velocity, mut acceleration, mut gravity) =
         (Worst::default(), Worst::default(), Worst::default());

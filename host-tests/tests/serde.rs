@@ -1,4 +1,4 @@
-//! What firmware keeps in flash comes back as it was, and nothing else is read.
+//! Data that firmware keeps in flash roundtrips exactly, and invalid data is refused.
 
 use dynamics_core::effects::{
     Armature, AsymmetricCoulomb, Cogging, Coulomb, EndStops, LoadFriction, Lugre, Payload, Spring,
@@ -62,7 +62,7 @@ fn inertia() -> SpatialInertia<f32> {
 }
 
 #[test]
-fn what_the_controller_is_configured_with_comes_back_to_the_bit() {
+fn controller_configurations_roundtrip_bit_by_bit() {
     let [a, b] = [THIRDS, [1e-30, 3.4e38]];
     comes_back(LIMITS);
     comes_back(CONFIG.supervisor);
@@ -141,7 +141,7 @@ fn what_the_controller_is_configured_with_comes_back_to_the_bit() {
 }
 
 #[test]
-fn what_is_identified_comes_back_to_the_bit() {
+fn identified_parameters_roundtrip_bit_by_bit() {
     let [a, b] = [THIRDS, [0.25, 1e-7]];
     comes_back(inertia());
     comes_back(BodyInertia {
@@ -198,7 +198,7 @@ fn what_is_identified_comes_back_to_the_bit() {
 }
 
 #[test]
-fn a_humanoid_has_more_joints_than_serde_has_arrays() {
+fn arrays_of_40_joints_roundtrip() {
     let values: [f32; 40] = std::array::from_fn(|i| i as f32);
     comes_back(Viscous(values));
 }

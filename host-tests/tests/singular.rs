@@ -148,7 +148,7 @@ const TWO: ArmModel<f64, 3> = Model::new(
 );
 
 #[test]
-fn nothing_jumps_in_value_or_slope_through_a_singularity() {
+fn damped_results_are_smooth_through_a_singularity() {
     let damping = Damping::relative(DAMPING);
     // Of the UR5e: the elbow stretched; two axes of the wrist in one line.
     let elbow = |s: f64| [0.0, -1.2, 0.4 * s, 0.3, 0.7, 0.0];
@@ -199,7 +199,7 @@ fn nothing_jumps_in_value_or_slope_through_a_singularity() {
 }
 
 #[test]
-fn at_singular_poses_all_is_finite_and_said_so() {
+fn singular_poses_give_finite_results_and_a_status() {
     fn at<R: Real, T: Robot<N, N, N>, const N: usize>() {
         let damping = Damping::relative(R::from_f64(DAMPING));
         let q = [R::ZERO; N];

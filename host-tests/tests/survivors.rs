@@ -70,7 +70,7 @@ fn stribecks_slope_at_rest_is_that_of_its_torque() {
 }
 
 #[test]
-fn lugres_bristles_are_springs_while_they_stick_and_none_while_they_slide() {
+fn lugre_bristles_are_springs_only_while_sticking() {
     let mut friction = Lugre {
         stiffness: [1e5],
         damping: [300.0],
@@ -183,7 +183,7 @@ fn the_centroidal_matrix_has_the_payload() {
 }
 
 #[test]
-fn a_momentum_is_reached_on_a_base_that_moves() {
+fn a_wanted_momentum_is_reached_on_a_moving_base() {
     let ship = MovingBase {
         velocity: Motion::new(DVec3::new(0.2, -0.4, 0.1), DVec3::new(1.0, 0.5, -0.3)),
         acceleration: Motion::ZERO,
@@ -197,7 +197,7 @@ fn a_momentum_is_reached_on_a_base_that_moves() {
 }
 
 #[test]
-fn sines_that_are_carried_on_stay_on_the_unit_circle() {
+fn incremental_sines_stay_on_the_unit_circle() {
     let (mut turns, mut q) = (IncrementalTrig::at([0.3_f64]), 0.3);
     for _ in 0..100_000 {
         q += 0.01;
@@ -216,7 +216,7 @@ const WHEEL: ArmModel<f64, 1> = Model::new(
 );
 
 #[test]
-fn a_spring_at_a_compliant_joint_adds_its_rate_to_that_of_the_torque() {
+fn a_spring_adds_to_a_compliant_joints_torque_rate() {
     let joints = ElasticJoints {
         stiffness: [100.0],
         rotor: [0.5],
@@ -250,7 +250,7 @@ fn a_spring_at_a_compliant_joint_adds_its_rate_to_that_of_the_torque() {
 }
 
 #[test]
-fn a_momentum_is_reached_with_rotors_that_spin() {
+fn a_wanted_momentum_is_reached_with_spinning_rotors() {
     let mut rotors = GyroscopicRotors {
         inertia: [0.0; 7],
         ratio: [20.0; 7],
@@ -265,7 +265,7 @@ fn a_momentum_is_reached_with_rotors_that_spin() {
 }
 
 #[test]
-fn a_point_mass_that_floats_has_no_inertia_to_factor() {
+fn a_floating_point_masss_inertia_has_no_factors() {
     for step in 0..50 {
         let com = [0.1, -0.23, 0.37].map(|x| x * (1.0 + f64::from(step) / 7.0));
         let model: Model<f64, 1, 7, 6> = Model::new(
@@ -290,7 +290,7 @@ fn a_held_torque_is_the_last_that_was_computed() {
 }
 
 #[test]
-fn a_task_is_damped_by_twice_its_ratio() {
+fn a_tasks_damping_is_twice_ratio_times_frequency() {
     let task = TaskMotion {
         error: 0.0,
         error_rate: 2.0,
@@ -305,7 +305,7 @@ fn a_task_is_damped_by_twice_its_ratio() {
 }
 
 #[test]
-fn a_payload_that_no_body_can_have_is_named_with_its_excess() {
+fn an_impossible_payload_is_named_with_its_excess() {
     let text = checked(0.2 - 1e-9)
         .expect_err("no body is like that")
         .to_string();
@@ -330,7 +330,7 @@ fn a_state_is_finite_if_all_its_numbers_are() {
 const SMALL: f64 = 48.0 * f64::EPSILON;
 
 #[test]
-fn a_pivot_has_the_errors_of_those_before_it_in_its_own_joint_and_no_others() {
+fn a_pivot_inherits_errors_only_within_its_joint() {
     // M is I: 1 − b² is left of the first coordinate once the second is free, both with the error of a 1.
     let b = (1.0 - SMALL).sqrt();
     let rod = Body::new("rod", BASE, Joint::spherical()).mass(1.0);

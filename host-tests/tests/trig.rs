@@ -24,7 +24,7 @@ fn worst<R: Real>(pair: impl Fn(R) -> (R, R), range: f64, neighbours: impl Fn(R)
     let hard = (-quarters..=quarters)
         .flat_map(|k| neighbours(R::from_f64(f64::from(k) * FRAC_PI_2)))
         .chain((-2 * quarters..=2 * quarters).flat_map(|k| {
-            // Where the reduction passes from one quadrant to the next.
+            // The points where the reduction passes from one quadrant to the next.
             neighbours(R::from_f64(f64::from(k) * FRAC_PI_2 / 2.0))
         }));
     sweep.chain(hard).map(error).fold(0.0, f64::max)
@@ -38,22 +38,25 @@ fn double(x: f64) -> [f64; 3] {
     [x.next_down(), x, x.next_up()]
 }
 
+// This holds up to 10⁴ rad.
 #[test]
-fn sine_and_cosine_are_good_to_1e_7_up_to_1e4_rad() {
+fn sine_and_cosine_in_f32_are_good_to_1e_7() {
     let error = worst(sin_cos, 1e4, single);
     assert!(error <= 1e-7, "{error:.3e}");
     check("trig", "sin_cos", "f32", error).unwrap();
 }
 
+// This holds up to 10⁵ rad.
 #[test]
-fn sine_and_cosine_in_f64_are_good_to_3e_16_up_to_1e5_rad() {
+fn sine_and_cosine_in_f64_are_good_to_3e_16() {
     let error = worst(<f64 as Real>::sin_cos, 1e5, double);
     assert!(error <= 3e-16, "{error:.3e}");
     check("trig", "sin_cos", "f64", error).unwrap();
 }
 
+// This holds up to 100 rad.
 #[test]
-fn the_two_part_reduction_is_as_good_up_to_100_rad() {
+fn the_two_part_reduction_is_as_good() {
     for range in [4.0 * PI, 100.0] {
         let error = worst(sin_cos_near, range, single);
         assert!(error <= 1e-7, "{error:.3e} to {range} rad");
@@ -78,7 +81,7 @@ fn all_sizes() -> impl Iterator<Item = f32> {
 }
 
 #[test]
-fn sines_stay_within_one_whatever_comes_in() {
+fn sines_stay_within_one_for_every_input() {
     fn largest<K: Kernel<f32>>() -> f32 {
         let wild = [3e9, 1e30, 1e37, f32::MAX, -f32::MAX];
         let pairs = all_sizes().chain(wild).map(K::sin_cos);
@@ -110,7 +113,7 @@ fn sines_stay_within_one_whatever_comes_in() {
 }
 
 #[test]
-fn what_is_not_finite_has_no_sine() {
+fn nonfinite_angles_have_nan_sines() {
     for x in [f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
         let pairs = [
             Native::sin_cos(x),
@@ -142,7 +145,7 @@ fn digest<R: Real>(pair: impl Fn(R) -> (R, R), range: f64) -> u64 {
 
 /// Results within range are part of what a release promises: host and target, this version and the last.
 #[test]
-fn within_range_every_bit_is_what_it_was() {
+fn sines_within_range_keep_their_recorded_bits() {
     let digests = [
         digest(sin_cos, 1e4),
         digest(sin_cos_near, 100.0),
@@ -170,7 +173,7 @@ fn within_range_every_bit_is_what_it_was() {
 }
 
 #[test]
-fn one_wrong_reading_leaves_no_trace_in_sines_turned_on() {
+fn incremental_sines_recover_from_a_wrong_reading() {
     for wrong in [3e9, f32::MAX, f32::INFINITY, f32::NAN] {
         let mut turns = IncrementalTrig::at([0.3_f32]);
         let held = turns.follow(&[wrong]).coordinates[0];

@@ -123,8 +123,9 @@ mod tests {
     use crate::source::parse;
     use crate::tree::{Numbers, Tree};
 
+    // It is compared with the measured SO-101.
     #[test]
-    fn the_estimate_of_a_measured_robot_is_off_by_less_than_27_percent() {
+    fn the_cycle_estimate_is_within_27_percent() {
         let robot = parse(include_str!("../tests/urdf/so101.urdf"), ".".as_ref()).expect("a robot");
         let selected = Selection::default().of(&robot).expect("all joints");
         let tree = Tree::of(&robot, &selected, Numbers::Exact).expect("a tree");

@@ -110,8 +110,9 @@ pub fn eigen(mut m: DMat3) -> ([f64; 3], [DVec3; 3]) {
 mod tests {
     use super::*;
 
+    // A rod is physical.
     #[test]
-    fn a_rod_is_physical_and_an_axis_too_large_is_named_and_repaired() {
+    fn an_unphysical_axis_is_named_and_repaired() {
         assert_eq!(violation([0.0, 0.0, 0.0, 1.0, 0.0, 1.0], 1e-9), None);
         let found = violation([1.0, 0.0, 0.0, 1.0, 0.0, 2.5], 1e-9).expect("too large");
         assert!((found.axis.z.abs() - 1.0).abs() < 1e-12);

@@ -73,7 +73,7 @@ fn every_kind_of_joint_has_the_torques_of_lagranges_equations() {
 }
 
 #[test]
-fn a_check_fails_where_a_number_of_the_tree_is_wrong() {
+fn a_check_finds_wrong_numbers_of_the_tree() {
     let robot = read(SO101);
     let selected = Selection::default().of(&robot).expect("all joints");
     let given = Tree::of(&robot, &selected, Numbers::AsGiven).expect("a tree");
@@ -104,8 +104,9 @@ fn a_check_fails_where_a_number_of_the_tree_is_wrong() {
     assert!(right.holds());
 }
 
+// They are reported.
 #[test]
-fn roundings_of_right_angles_and_zeros_become_exact_and_are_reported() {
+fn rounded_right_angles_and_zeros_become_exact() {
     let robot = read(SO101);
     let tree = tree(&robot, &Selection::default());
     let quarters = |k: usize| tree.bodies[k].attitude;
@@ -144,8 +145,9 @@ fn fixed_parts_are_merged_and_mimics_of_mimics_resolved() {
     assert_eq!(tree.bodies[0].damping, 12.0);
 }
 
+// It is locked where it follows to.
 #[test]
-fn a_joint_that_follows_a_locked_one_is_locked_where_it_follows_to() {
+fn a_follower_of_a_locked_joint_is_locked_too() {
     let robot = read(ZOO);
     let lock = vec![("finger_joint".into(), 0.2)];
     let selection = Selection {
@@ -162,7 +164,7 @@ fn a_joint_that_follows_a_locked_one_is_locked_where_it_follows_to() {
 }
 
 #[test]
-fn a_link_that_is_left_out_is_missing_with_all_that_it_carries() {
+fn a_left_out_link_takes_its_subtree_with_it() {
     let robot = read(SO101);
     let of = |without: &[&str]| Selection {
         without: without.iter().map(|&link| link.into()).collect(),
@@ -181,7 +183,7 @@ fn a_link_that_is_left_out_is_missing_with_all_that_it_carries() {
 }
 
 #[test]
-fn a_selection_of_what_is_not_there_is_an_error_with_a_suggestion() {
+fn an_unknown_selection_is_an_error_with_a_suggestion() {
     let robot = read(SO101);
     let error = |selection: Selection| selection.of(&robot).expect_err("not there").to_string();
     let joints = vec!["shoulder_pann".into()];
@@ -268,7 +270,7 @@ fn plausible_with(changes: &[(&str, f64)]) -> Vec<robot_import::advice::Advice> 
 }
 
 #[test]
-fn a_file_in_other_units_is_told_so_by_joint_and_line() {
+fn wrong_units_are_reported_by_joint_and_line() {
     assert_eq!(plausible_with(&[]), []);
     let degrees = 180.0 / std::f64::consts::PI;
     let found = plausible_with(&[("lower", degrees), ("upper", degrees)]);

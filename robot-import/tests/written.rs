@@ -91,8 +91,9 @@ fn loops_without_limits_of_torque_have_their_motors() {
     assert_eq!(passive_loop::PassiveLoop::LOOPS.actuated(), &[0, 1, 2, 3]);
 }
 
+// Its motors can be named.
 #[test]
-fn a_loop_without_enough_motors_is_advice_and_its_motors_can_be_named() {
+fn a_loop_without_enough_motors_gets_advice() {
     let of = |file: &str, motors: &[&str]| {
         let args = Args {
             file: Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -141,7 +142,7 @@ fn a_loop_without_enough_motors_is_advice_and_its_motors_can_be_named() {
 }
 
 #[test]
-fn a_loop_that_the_library_refuses_is_named_with_its_line() {
+fn a_refused_loop_is_named_with_its_line() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("m.xml");
     let text = include_str!("mjcf/passive_loop.xml");

@@ -133,7 +133,7 @@ fn a_lost_byte_costs_one_frame_at_most() {
 }
 
 #[test]
-fn a_gap_of_any_length_costs_the_frames_that_it_touches() {
+fn a_gap_costs_only_the_frames_it_touches() {
     let frames: Vec<u8> = (0..4)
         .flat_map(|n| frame(&Message::Tick(tick(n))))
         .collect();
@@ -178,8 +178,9 @@ fn a_full_queue_drops_counts_and_never_blocks() {
     assert_eq!((rest.len(), last.number, last.dropped), (3, 10, 7));
 }
 
+// Its slot may have been used any number of times.
 #[test]
-fn each_tick_arrives_as_it_was_written_however_often_its_place_was_used() {
+fn each_tick_arrives_as_written() {
     let mut slots = Slots::<JOINTS, 4>::default();
     let mut queue = Queue::new();
     let (mut interrupt, mut main) = split(&mut slots, &mut queue, 0);
@@ -207,7 +208,7 @@ fn each_tick_arrives_as_it_was_written_however_often_its_place_was_used() {
 }
 
 #[test]
-fn drops_of_the_queue_and_losses_on_the_line_are_counted_apart() {
+fn queue_drops_and_line_losses_are_counted_apart() {
     let mut sent = Vec::new();
     for (number, dropped) in [(0, 0), (1, 0), (6, 4), (9, 4)] {
         let tick = Tick {
@@ -259,8 +260,9 @@ fn endless_noise_without_a_zero_is_one_bad_frame() {
     );
 }
 
+// It is less than twice as long as the frame.
 #[test]
-fn the_longest_frame_fits_and_the_buffer_is_not_twice_as_long() {
+fn the_buffer_fits_the_longest_frame_without_waste() {
     let mut worst = tick(u32::MAX);
     (worst.dropped, worst.tick) = (u32::MAX, u32::MAX);
     worst.cost = [u32::MAX; 5];

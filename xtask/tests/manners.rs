@@ -1,4 +1,4 @@
-//! What xtask does where it is interrupted, may not install, or cannot write.
+//! The behaviour of xtask where it is interrupted, may not install, or cannot write.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ fn printing(arguments: &[&str], to: Stdio) -> (String, Option<i32>) {
 }
 
 #[test]
-fn a_closed_pipe_and_a_full_disk_end_it_without_a_panic() {
+fn a_closed_pipe_or_full_disk_is_no_panic() {
     for arguments in [["test", "--list"].as_slice(), &["--help"]] {
         let (reader, writer) = std::io::pipe().expect("a pipe");
         drop(reader);
@@ -102,7 +102,7 @@ fn root_with_a_conflict(dir: &Dir) -> Command {
 }
 
 #[test]
-fn without_a_user_to_confirm_or_sudo_the_command_is_printed_and_not_run() {
+fn unconfirmed_commands_are_printed_and_not_run() {
     let dirs = [(); 3].map(|()| Dir::new());
     let [with_sudo, without, root] = &dirs;
     let mut alone = poor_user(without, false);

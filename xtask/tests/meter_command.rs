@@ -80,12 +80,13 @@ fn the_figures_of_an_endless_firmware_are_printed() {
     assert_eq!(row, ["0", "3", "2", "2", "2", "2", "2", "2", "0"], "{text}");
 }
 
+// A Cortex-M4F lacks the instruction.
 #[test]
-fn an_instruction_that_a_cortex_m4f_lacks_is_named_with_its_function() {
+fn a_foreign_instruction_is_named_with_its_function() {
     if !has_qemu() {
         return;
     }
-    // Behind the exit, so that it is never executed: vseleq.f32 s0, s0, s0.
+    // It follows the exit, so that it is never executed: vseleq.f32 s0, s0, s0.
     let foreign = [EXIT, &[0xfe00, 0x0a00]].concat();
     let (code, text, said) = metered(&three_passages(&foreign), &[]);
     assert_eq!(code, Some(1), "{said}");

@@ -17,7 +17,6 @@ fn bit(pin: &Peri<'static, impl Pin>) -> u32 {
     1 << (pin.pin() % 32)
 }
 
-/// An output.
 #[derive(Debug)]
 pub struct Line {
     bit: u32,
@@ -94,7 +93,6 @@ impl Button {
         button
     }
 
-    /// Whether it is pressed.
     pub fn is_pressed(&self) -> bool {
         pac::SIO.gpio_in(0).read() & self.bit == 0
     }

@@ -75,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn every_period_counts_whether_or_not_an_interrupt_came() {
+    fn periods_without_an_interrupt_count_too() {
         let mut periods = Periods::starting(moment(10_007, 7));
         let moments = [
             (11_007, 7),
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn a_timer_that_wraps_around_is_no_gap() {
+    fn a_timer_wraparound_is_no_gap() {
         let mut periods = Periods::starting(moment(u32::MAX - 1_499, 3));
         for expected in 1..=4 {
             let now = (u32::MAX - 1_499).wrapping_add(1_000 * expected);

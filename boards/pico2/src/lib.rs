@@ -27,10 +27,8 @@ mod board {
         init_clocks_and_plls(CRYSTAL, xosc, clocks, sys, usb, &mut resets, &mut watchdog).is_ok()
     }
 
-    /// The core's name.
     #[cfg(target_arch = "arm")]
     pub const CORE: &str = "Cortex-M33";
-    /// The core's name.
     #[cfg(target_arch = "riscv32")]
     pub const CORE: &str = "Hazard3";
 

@@ -215,8 +215,9 @@ fn unknown<'a>(prose: &'a str, sources: &[PathBuf]) -> Vec<&'a str> {
     names.filter(is_unknown).collect()
 }
 
+// Links lead to a file, a heading or an item.
 #[test]
-fn every_link_leads_to_a_file_a_heading_or_an_item() {
+fn every_link_resolves() {
     let mut count = 0;
     // The templates of generated pages are not pages: their links are relative to `docs`.
     let is_template = |page: &PathBuf| page.starts_with(root().join("xtask"));
@@ -267,7 +268,7 @@ fn every_file_and_item_that_the_guide_names_exists() {
 }
 
 #[test]
-fn every_page_of_the_guide_is_in_its_list_and_its_code_is_compiled() {
+fn every_page_is_listed_and_its_code_compiled() {
     let pages = root().join("docs/guide");
     let list = read_to_string(pages.join("src/SUMMARY.md")).expect("the list");
     let compiled = read_to_string(pages.join("lib.rs")).expect("the library");

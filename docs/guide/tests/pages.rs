@@ -51,7 +51,7 @@ fn the_programs_on_the_page_are_those_that_are_compiled() {
 }
 
 #[test]
-fn the_board_on_the_page_is_the_one_that_is_compiled() {
+fn the_page_shows_the_board_that_is_compiled() {
     let page = include_str!("../src/board.md");
     for program in [
         include_str!("../firmware/src/bin/board.rs"),
@@ -64,7 +64,7 @@ fn the_board_on_the_page_is_the_one_that_is_compiled() {
 }
 
 #[test]
-fn the_controller_on_the_page_is_the_one_of_the_programs() {
+fn the_page_shows_the_controller_of_the_programs() {
     let library = include_str!("../firmware/src/lib.rs");
     let (_, controller) = library.split_once("const TICK").expect("the constants");
     let (controller, _) = controller

@@ -215,8 +215,9 @@ mod tests {
     const FIRST: [u8; 8] = [0xff, 0xff, 1, 4, 0, 0, 0x0c, 0xee];
     const SECOND: [u8; 8] = [0xff, 0xff, 2, 4, 0, 0, 0x08, 0xf1];
 
+    // It fails like the blocking one as well.
     #[test]
-    fn the_asynchronous_bus_reads_and_fails_as_the_blocking_one_does() {
+    fn the_async_bus_reads_like_the_blocking_one() {
         let wrong_sum = [0xff, 0xff, 1, 4, 0, 0, 0x0c, 0xef];
         let faulty = [0xff, 0xff, 1, 4, 0x20, 0, 0x0c, 0xce];
         let noise = [0x55; 200];
@@ -248,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn torque_is_switched_on_up_to_the_first_silent_servo_and_off_everywhere() {
+    fn a_silent_servo_ends_enabling_but_not_disabling_torque() {
         for is_on in [true, false] {
             let (mut here, mut there) = (servos(&[], 0), servos(&[], 0));
             let found = ready(here.enable_torque_async(is_on));

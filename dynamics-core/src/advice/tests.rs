@@ -125,7 +125,7 @@ fn shift(link: &Link<f64>) -> DMat3 {
 }
 
 #[test]
-fn each_robot_in_another_unit_gets_this_advice_alone() {
+fn each_wrong_unit_gets_exactly_its_advice() {
     each_robot(&mut Wrong);
 }
 
@@ -148,7 +148,7 @@ fn two_rods(bends: f64, torques: [f64; 2]) -> ArmModel<f64, 2> {
 }
 
 #[test]
-fn gravity_beyond_a_torque_limit_is_the_closed_form() {
+fn gravity_advice_states_the_closed_form_torque() {
     // Stretched out horizontally: 2 g · 0.25 + 2 g · 0.75.
     let whole = 9.81 * 2.0 * (0.25 + 0.75);
     let advice: Vec<Advice> = two_rods(2.0, [19.0, 9.0]).advice().collect();
@@ -188,7 +188,7 @@ fn gravity_beyond_a_torque_limit_is_the_closed_form() {
 }
 
 #[test]
-fn torque_limits_of_many_times_the_need_are_told_with_the_least() {
+fn advice_names_the_least_excessive_torque_limit() {
     let weight = 9.81 * 2.0 * 0.25;
     let far = two_rods(2.0, [65.0 * 4.0 * weight, 70.0 * weight]);
     let advice: Vec<Advice> = far.advice().collect();

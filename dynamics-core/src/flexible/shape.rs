@@ -174,7 +174,7 @@ mod tests {
     use super::{Line, POINTS, point};
 
     #[test]
-    fn a_beam_without_a_body_at_its_end_has_the_roots_of_the_textbooks() {
+    fn a_bare_beam_has_the_textbook_roots() {
         // Meirovitch (2001), table 8.4 to more digits.
         let roots = [
             1.875_104_068_711_961,
@@ -193,8 +193,9 @@ mod tests {
         assert!((twist.wave - 1.5 * core::f64::consts::PI).abs() < 2e-15);
     }
 
+    // The body at the end counts in the orthogonality.
     #[test]
-    fn shapes_are_orthogonal_with_the_body_at_the_end_and_slopes_are_derivatives() {
+    fn mode_shapes_are_orthogonal_and_slopes_their_derivatives() {
         let (m, j) = (0.7, 0.05);
         let lines = [1, 2, 3].map(|k| Line::bending(k, [m, j]).expect("a root"));
         for (i, a) in lines.iter().enumerate() {

@@ -208,7 +208,7 @@ mod tests {
     use glam::{DMat3, DQuat, DVec3};
 
     #[test]
-    fn turning_back_is_the_product_of_three_matrices() {
+    fn turned_back_equals_the_product_of_three_matrices() {
         let e = DMat3::from_quat(DQuat::from_xyzw(0.1, -0.5, 0.7, 0.3).normalize());
         let h = DMat3::from_cols(
             DVec3::new(1.0, -2.0, 3.0),

@@ -13,7 +13,6 @@ pub struct BendingPlant<T, E, const B: usize, const M: usize> {
     robot: Calibrated<T, f32, B, B, B>,
     modes: Modes<f32, M>,
     effects: E,
-    /// The joints.
     pub joints: State<f32, B, B>,
     /// The modes, which no encoder measures.
     pub bent: State<f32, M, M>,

@@ -19,7 +19,6 @@ const Y: [f64; 3] = [0.0, 1.0, 0.0];
 /// The centre of the ankle in the shank.
 const ANKLE: f64 = -0.35;
 
-/// The two drives.
 pub const RODS: [Rod; 2] = [rod(0.035, 0.15, 0.16), rod(-0.035, 0.25, 0.26)];
 
 const fn rod(side: f64, height: f64, length: f64) -> Rod {
@@ -49,7 +48,7 @@ const fn crank(name: &'static str, parent: usize, rod: &Rod) -> Body {
         .limits(LIMITS)
 }
 
-/// What lies between a rod's two axes: nothing.
+/// The massless body between a rod's two axes.
 const fn cross(name: &'static str, parent: usize, rod: &Rod) -> Body {
     Body::new(name, parent, Joint::revolute(Y))
         .xyz(rod.crank)

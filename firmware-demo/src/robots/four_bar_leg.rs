@@ -16,11 +16,8 @@ pub struct FourBarLeg;
 
 /// From the crank's joint to the knee.
 pub const GROUND: f64 = 0.3;
-/// The crank.
 pub const CRANK: f64 = 0.06;
-/// The rod.
 pub const ROD: f64 = 0.3;
-/// The shank's lever.
 pub const LEVER: f64 = 0.05;
 
 const Y: [f64; 3] = [0.0, 1.0, 0.0];

@@ -35,10 +35,9 @@ const Y: [f64; 3] = [0.0, 1.0, 0.0];
 /// The centre of the ankle in the shank.
 const ANKLE: [f64; 3] = [0.0, -9.4445e-5, -0.30001];
 
-/// How far the source's roll axis is below its pitch axis.
+/// The distance of the source's roll axis below its pitch axis.
 const ROLL_AXIS: f64 = 0.017558;
 
-/// The two drives.
 const RODS: [Rod; 2] = [rod(0.032, 0.12), rod(-0.032, 0.2)];
 
 const fn rod(side: f64, height: f64) -> Rod {

@@ -12,7 +12,7 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robo
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Gimbal;
 
-/// Either way from level.
+/// The tilt to either side of level.
 const TILT: f64 = 35.0 * PI / 180.0;
 
 const fn limits(range: f64, torque: f64) -> JointLimits<f64> {

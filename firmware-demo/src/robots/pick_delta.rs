@@ -43,7 +43,7 @@ pub const SIDES: [[f64; 2]; 3] = [
 const BEAM: f64 = 3.47;
 const BEAM_CENTRE: f64 = 0.17224;
 const PIN: f64 = 0.226;
-/// Of both about the joint, kg·m².
+/// Inertia of both about the joint, kg·m².
 const ABOUT_JOINT: f64 = 0.208218;
 
 /// A rod, kg and kg·m² about its centre.
@@ -56,7 +56,6 @@ const PLATFORM_MASS: f64 = 2.916;
 const LOAD: f64 = 1.0;
 
 impl PickDelta {
-    /// The gears' ratio.
     pub const RATIO: f32 = 55.0;
     /// The inertia of a gear on its motor's side, kg·m².
     pub const GEAR: f32 = 2.07e-4;
@@ -79,7 +78,7 @@ const CRANK_LIMITS: JointLimits<f64> = JointLimits {
     torque: 450.0,
 };
 
-/// Of joints without a drive.
+/// Limits of joints without a drive.
 const FREE: JointLimits<f64> = JointLimits {
     lower: -PI,
     upper: PI,

@@ -13,7 +13,7 @@ pub struct Swing<R> {
 }
 
 impl<R: Real> Swing<R> {
-    /// Of so many seconds.
+    /// A swing of this amplitude and of a period in seconds.
     pub fn of(amplitude: f64, period: f64) -> Self {
         Self {
             amplitude: R::from_f64(amplitude),

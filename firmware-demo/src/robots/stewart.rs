@@ -40,7 +40,6 @@ pub const ABOVE: [(f64, f64); 6] = [
     (0.342_020_143_325_668_7, -0.939_692_620_785_908_3),
 ];
 
-/// The legs.
 pub const LEGS: [Leg; 6] = {
     let mut legs = [Leg {
         base: [0.0; 3],

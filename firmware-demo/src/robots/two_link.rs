@@ -58,7 +58,7 @@ pub const MODES_1: Modes<f32, 2> = Modes::new(
 )
 .to_f32();
 
-/// The first two of each.
+/// The first two modes of each link.
 pub const MODES_2: Modes<f32, 4> = Modes::new(
     &TwoLink::MODEL,
     &[

@@ -61,9 +61,9 @@ delegate_effect! {
 /// An effect that a scene names.
 #[derive(Clone, Copy, Debug)]
 pub struct Named {
-    /// Its type in words.
+    /// The name of its type.
     pub name: fn() -> &'static str,
-    /// What its value takes where it is kept in RAM, as in the plant, bytes.
+    /// The bytes of its value where it is kept in RAM, as in the plant.
     pub bytes: usize,
 }
 
@@ -73,7 +73,6 @@ pub trait Effects<S, const B: usize, const Q: usize, const V: usize, const N: us
 where
     S: Scene<B, Q, V, N>,
 {
-    /// In their order.
     const NAMED: &'static [Named];
     /// Feed-forward without each, in their order.
     const ABLATIONS: &'static [Run<S, B, Q, V, N>];

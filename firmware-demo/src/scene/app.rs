@@ -28,9 +28,8 @@ pub struct Record<const N: usize> {
     pub run: usize,
     /// Ticks since the run's start.
     pub tick: u32,
-    /// The loop's own words.
     pub telemetry: Telemetry<N>,
-    /// Where the joints truly are.
+    /// The true positions of the driven joints.
     pub actual: [f32; N],
     /// The plant failed in this tick: it has no forward dynamics, and no record follows.
     pub broken: bool,
@@ -122,17 +121,14 @@ where
         })
     }
 
-    /// Ticks of one run.
     pub fn ticks(&self) -> u32 {
         self.reference.ticks() + SETTLE
     }
 
-    /// The runs in their order.
     pub fn runs() -> impl Iterator<Item = &'static Run<S, B, Q, V, N>> {
         S::RUNS.iter().chain(S::BASELINES).chain(S::ABLATIONS)
     }
 
-    /// The run of this number.
     // Inlined, the three lists would be searched by two copies of the same code.
     #[inline(never)]
     fn numbered(run: usize) -> Option<&'static Run<S, B, Q, V, N>> {

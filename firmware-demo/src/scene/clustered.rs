@@ -1,4 +1,4 @@
-//! What scenes of robots with kinematic loops share. Their motors are N of the tree's coordinates.
+//! The common parts of scenes of robots with kinematic loops. Their motors are N of the tree's coordinates.
 
 use core::marker::PhantomData;
 
@@ -17,7 +17,6 @@ use crate::plant::ClusterPlant;
 /// It is NaN where the loops do not close: see [`inverse`].
 #[derive(Debug)]
 pub struct MotorReference<T, C, const B: usize, const V: usize> {
-    /// The reference of y.
     pub y: C,
     robot: PhantomData<fn() -> T>,
 }

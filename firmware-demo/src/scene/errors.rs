@@ -27,7 +27,6 @@ impl<const N: usize> Default for Errors<N> {
 }
 
 impl<const N: usize> Errors<N> {
-    /// Takes a tick in.
     pub fn add(&mut self, record: &Record<N>) {
         self.count += 1;
         for j in 0..N {
@@ -51,7 +50,6 @@ impl<const N: usize> Errors<N> {
         self.root(self.squares.iter().sum::<f64>() / N as f64)
     }
 
-    /// Number of ticks counted.
     pub fn count(&self) -> u32 {
         self.count
     }

@@ -1,4 +1,4 @@
-//! What a scene's data sheet makes of the control loop, whatever its devices are.
+//! The control loop that follows from a scene's data sheet, whatever its devices are.
 
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
@@ -28,10 +28,10 @@ pub const HOLD: u32 = 100;
 pub const REENTRY: u32 = 200;
 /// Ticks that a torque may be at its limit, for those who detect it.
 pub(super) const SATURATED: u32 = 50;
-/// How far a joint may be from its reference for a restart, rad or m.
+/// The largest distance of a joint from its reference for a restart, rad or m.
 pub const NEAR: f32 = 0.15;
 
-/// Where an arm is when its loop starts.
+/// The state of an arm when its loop starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// At rest at the start of its trajectory, and held there by torque.
@@ -43,9 +43,7 @@ pub enum Start {
 /// The devices of a control loop.
 #[derive(Debug)]
 pub struct Devices<Spi, Pwm, Brake, const N: usize> {
-    /// The encoders of the joints.
     pub encoders: [Spi; N],
-    /// The drives of the joints.
     pub drives: [Pwm; N],
     /// The brake; high holds.
     pub brake: Brake,

@@ -1,4 +1,4 @@
-//! What the controller does not know of a plant.
+//! The errors of the plant that the controller does not know.
 
 use dynamics_core::model::{Calibrated, Robot};
 
@@ -7,7 +7,7 @@ use dynamics_core::model::{Calibrated, Robot};
 pub struct Noise(u32);
 
 impl Noise {
-    /// The same factors each time.
+    /// Noise whose factors are the same each time.
     pub const fn seeded() -> Self {
         Self(0x5eed_1234)
     }

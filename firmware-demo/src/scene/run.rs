@@ -10,17 +10,16 @@ use joint_drivers::{Law, Telemetry};
 use super::app::{SimLoop, marked_tick};
 use super::{Current, CurrentWithout, Scene, Without};
 
-/// How well the controller knows the plant.
+/// The accuracy of the controller's model of the plant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlantModel {
-    /// Exactly.
     Exact,
     /// Its inertias are off by up to 3 %, its friction by up to 10 %.
     Mismatched,
 }
 
 impl PlantModel {
-    /// As the log names it.
+    /// Its name in the log.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Exact => "exact",
@@ -32,13 +31,12 @@ impl PlantModel {
 /// A law, as the log names it.
 #[derive(Clone, Copy, Debug)]
 pub enum Name {
-    /// Its own name.
     Of(&'static str),
     /// The scene's feed-forward without an effect of this name.
     Without(fn() -> &'static str),
 }
 
-/// What is called once a tick.
+/// The function that is called once a tick.
 type Ticked<S, const B: usize, const Q: usize, const V: usize, const N: usize> = fn(
     &mut SimLoop<N>,
     &<S as Scene<B, Q, V, N>>::Reference,
@@ -49,9 +47,7 @@ type Ticked<S, const B: usize, const Q: usize, const V: usize, const N: usize> =
 /// One run of the reference.
 pub struct Run<S: Scene<B, Q, V, N>, const B: usize, const Q: usize, const V: usize, const N: usize>
 {
-    /// The plant.
     pub plant: PlantModel,
-    /// The law.
     pub law: Name,
     /// The control loop under this law.
     pub tick: Ticked<S, B, Q, V, N>,
@@ -61,7 +57,6 @@ impl<S, const B: usize, const Q: usize, const V: usize, const N: usize> Run<S, B
 where
     S: Scene<B, Q, V, N>,
 {
-    /// Of the law `L`.
     pub const fn of<L: Law<N, S::Environment>>(plant: PlantModel, name: &'static str) -> Self {
         Self {
             plant,
@@ -70,7 +65,7 @@ where
         }
     }
 
-    /// Of the law `L`, which lacks an effect of this name, on the exact plant.
+    /// A run of the law `L`, which lacks an effect of this name, on the exact plant.
     pub const fn without<L: Law<N, S::Environment>>(name: fn() -> &'static str) -> Self {
         Self {
             plant: PlantModel::Exact,

@@ -13,7 +13,6 @@ use crate::scene::clustered;
 use crate::scene::{Noise, Scene};
 use crate::trajectories::picks::{FEEDER, Picks, cranks};
 
-/// What acts on the robot.
 pub type Effects = (
     Gravity,
     Inertia,
@@ -41,7 +40,6 @@ pub const EFFECTS: Effects = (
     )),
 );
 
-/// A number of each crank.
 const fn at_cranks(number: f32) -> [f32; 12] {
     let mut all = [0.0; 12];
     let [a, b, c] = PickDelta::MOTORS;
@@ -56,7 +54,6 @@ fn start() -> [f32; 3] {
     cranks(&State::at(FEEDER)).q
 }
 
-/// The scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Picking;
 

@@ -14,7 +14,6 @@ use crate::robots::DirectDrive;
 use crate::scene::{Noise, PlantModel, Run, Scene, rigid, through};
 use joint_drivers::Law;
 
-/// What acts on the arm.
 pub type Effects = (
     Gravity,
     Inertia,
@@ -78,7 +77,6 @@ const WAY: [WayPoint<f32, 3>; 8] = {
     ]
 };
 
-/// The scene.
 #[derive(Clone, Copy, Debug)]
 pub struct FastArm;
 

@@ -14,7 +14,7 @@ use crate::scene::{Less, Noise, OMEGA_N, PlantModel, Run, Scene, TICK, ZETA, nam
 use crate::trajectories::stop;
 use joint_drivers::Law;
 
-/// Where the iiwa 14 swings from, rad.
+/// The start of the iiwa 14's swing, rad.
 const UPRIGHT: [f32; 7] = [0.0, 0.4, 0.0, -1.2, 0.0, 0.8, 0.0];
 
 /// A swing of the iiwa 14 there and back.
@@ -25,7 +25,6 @@ const SWING: [WayPoint<f32, 7>; 4] = [
     stop(UPRIGHT, 1300),
 ];
 
-/// What acts on the links.
 pub type Effects = (Gravity, Inertia, Coriolis, Viscous<f32, 7>);
 
 /// Assumed, of the order of harmonic drives of this size: the maker publishes neither stiffness nor rotors.
@@ -35,10 +34,9 @@ const JOINTS: ElasticJoints<f32, 7> = ElasticJoints {
     friction: [15.0, 15.0, 10.0, 10.0, 5.0, 2.0, 2.0],
 };
 
-/// What the gains are for: the motors with what hangs on them upright, kg·m².
+/// The inertias of the gains, kg·m²: the motors with their links in the upright posture.
 const INERTIA: [f32; 7] = [3.1, 7.5, 2.6, 4.0, 1.3, 0.6, 0.5];
 
-/// The scene.
 #[derive(Clone, Copy, Debug)]
 pub struct CompliantArm;
 

@@ -15,7 +15,6 @@ use crate::scene::{Noise, PlantModel, Run, Scene, TICK, speeds};
 use crate::trajectories::swing_and_back::{Move, SwingAndBack, rest_to_rest, shaper};
 use joint_drivers::Law;
 
-/// What acts on the arm.
 pub type Effects = (
     Gravity,
     Inertia,
@@ -35,7 +34,7 @@ pub const EFFECTS: Effects = (
     Armature([0.2, 0.04]),
 );
 
-/// Where the arm begins and ends, rad: q₀ > 0 is below the horizontal.
+/// The start and end of the arm, rad: q₀ > 0 is below the horizontal.
 pub const START: [f32; 2] = [0.3, 0.9];
 /// Where it swings to.
 pub const END: [f32; 2] = [-0.6, 0.6];
@@ -52,7 +51,6 @@ pub fn swing(from: [f32; 2], to: [f32; 2]) -> Result<Move, TrajectoryError> {
     rest_to_rest(from, to, SWING, &speeds(&BendingArm::limits(), [100.0; 2]))
 }
 
-/// The scene.
 #[derive(Clone, Copy, Debug)]
 pub struct BendingArm;
 

@@ -47,7 +47,6 @@ pub const EFFECTS: Effects = (
     },
 );
 
-/// The scene.
 #[derive(Clone, Copy, Debug)]
 pub struct OnWatch;
 

@@ -13,7 +13,6 @@ use crate::robots::Leg;
 use crate::scene::{Noise, Scene, rigid};
 use crate::trajectories::hop::{ElasticReference, Hop};
 
-/// What acts on the leg.
 pub type Effects = (
     Gravity,
     Inertia,
@@ -57,12 +56,10 @@ pub const COURSE: ElasticReference = ElasticReference {
     clearance: 0.09,
 };
 
-/// The trajectory.
 fn hop() -> Hop {
     Hop::new(&COURSE, &GROUND, 9.81)
 }
 
-/// The scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Hopping;
 
@@ -70,7 +67,7 @@ impl Scene<5, 4, 4, 3> for Hopping {
     type Robot = Leg;
     type Effects = Effects;
     type Reference = Hop;
-    /// Where the carriage is to be, m, m/s and m/s².
+    /// The reference of the carriage, m, m/s and m/s².
     type Environment = State<f32, 1, 1>;
     type Plant = Plant<Leg, Effects, Self::Environment, 5, 4, 4>;
 

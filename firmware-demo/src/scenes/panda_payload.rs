@@ -47,10 +47,9 @@ const fn arrival<const N: usize>(way: &[WayPoint<f32, N>], point: usize) -> u32 
 /// The body that carries the hand.
 pub const HAND: usize = Panda::MODEL.body("panda_link7");
 
-/// What the hand holds.
 pub type Load = Payload<f32, HAND>;
 
-/// What acts on the arm, the load last.
+/// The effects on the arm, the load last.
 pub type Effects = (
     Gravity,
     Inertia,
@@ -115,7 +114,6 @@ impl Reference<f32, 7> for Job {
     }
 }
 
-/// The scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Carry;
 
@@ -142,12 +140,12 @@ impl Scene<7, 7, 7, 7> for Carry {
         let accelerations = [15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0];
         Ok(Job {
             trajectory: through(&PANDA_CARRY, &Self::limits(), accelerations)?,
-            // What no body is like is not picked up.
+            // An impossible part is not picked up.
             part: part().unwrap_or_default(),
         })
     }
 
-    /// What the hand bears of the part: at rest on the table it goes over from one to the other evenly.
+    /// The share of the part that the hand carries; while it rests on the table the share changes evenly.
     fn environment(job: &Job, ticks: f32) -> Load {
         let since = |start: u32| ((ticks - start as f32) / GRIP).clamp(0.0, 1.0);
         let borne = since(CLOSES) - since(OPENS);

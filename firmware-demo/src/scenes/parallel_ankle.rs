@@ -33,7 +33,6 @@ const ANKLE_STEPS: [WayPoint<f32, 3>; 11] = [
     stop(MID_STANCE, 220),
 ];
 
-/// What acts on the leg.
 pub type Effects = (
     Gravity,
     Inertia,
@@ -59,7 +58,7 @@ pub const EFFECTS: Effects = (
     Armature(at_motors(ROTORS)),
 );
 
-/// Of the knee's motor, and of each of the ankle's, kg·m².
+/// Rotor inertias of the knee's motor and of each of the ankle's, kg·m².
 const ROTORS: [f32; 2] = [0.025_101_925, 0.003_609_725];
 
 /// A number of the knee's motor and of each of the ankle's.
@@ -72,7 +71,6 @@ const fn at_motors([knee, ankle]: [f32; 2]) -> [f32; 9] {
     all
 }
 
-/// The scene.
 #[derive(Clone, Copy, Debug)]
 pub struct AnkleSteps;
 

@@ -15,7 +15,7 @@ use crate::scene::{Noise, PlantModel, Run, Scene, rigid, through};
 use crate::trajectories::{pass, stop};
 use joint_drivers::Law;
 
-/// Where the SCARA's begins and ends, rad.
+/// The start and end of the SCARA's motion, rad.
 const ASIDE: [f32; 3] = [-0.9, 1.6, -0.7];
 
 /// The SCARA serves a table: from a feeder to two places and back, at rest there for a grip.
@@ -32,7 +32,6 @@ const SCARA_SERVES: [WayPoint<f32, 3>; 10] = [
     stop(ASIDE, 640),
 ];
 
-/// What acts on the arm.
 pub type Effects = (
     Inertia,
     Coriolis,
@@ -53,7 +52,6 @@ pub const EFFECTS: Effects = (
     Armature([0.25, 0.08, 0.002]),
 );
 
-/// The scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Serve;
 

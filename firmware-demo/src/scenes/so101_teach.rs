@@ -59,7 +59,6 @@ pub const VISCOUS: f32 = 0.059_085_156;
 pub const LOAD: f32 = 0.108_240_37;
 /// Supply, V.
 pub const SUPPLY: f32 = 7.4;
-/// The greatest duty.
 pub const MAX_DUTY: f32 = 0.97;
 /// The greatest speed of the servo's own set-point, rad/s: 3400 counts/s.
 pub const MAX_SPEED: f32 = 3400.0 * RESOLUTION;
@@ -73,7 +72,6 @@ pub const STALL: f32 = TORQUE_CONSTANT * SUPPLY / RESISTANCE;
 /// Torque that the back-EMF takes per speed, N·m·s/rad.
 pub const BACK_EMF: f32 = TORQUE_CONSTANT * TORQUE_CONSTANT / RESISTANCE;
 
-/// What acts on the arm.
 pub type Effects = (
     Gravity,
     Inertia,
@@ -95,7 +93,7 @@ const GEARS: LoadFriction<f32, 6> = LoadFriction {
     width: DRY.width,
 };
 
-/// What holds the arm against gravity and moves it without effort at any speed.
+/// The effects whose compensation lets a hand move the arm without effort at any speed.
 pub type Compensation = (
     Gravity,
     Viscous<f32, 6>,
@@ -103,7 +101,7 @@ pub type Compensation = (
     LoadFriction<f32, 6>,
 );
 
-/// That of this arm; the back-EMF is viscous friction of the command, and not part of it.
+/// The compensation of this arm; the back-EMF is viscous friction of the command, and not part of it.
 pub const COMPENSATION: Compensation = (Gravity::EARTH, Viscous([VISCOUS; 6]), DRY, GEARS);
 
 /// Commands from torques: what the back-EMF takes is added.
@@ -115,7 +113,6 @@ pub fn with_back_emf(mut torque: [f32; 6], velocity: &[f32; 6]) -> [f32; 6] {
     torque
 }
 
-/// The scene.
 #[derive(Clone, Copy, Debug)]
 pub struct TaughtPath;
 
@@ -240,7 +237,6 @@ impl Law<6> for GravityAndFriction {
     }
 }
 
-/// Gravity compensation alone.
 #[derive(Clone, Copy, Debug)]
 pub struct GravityOnly;
 

@@ -24,7 +24,7 @@ const REACH_OUT: [WayPoint<f32, 6>; 6] = [
     stop(STOWED, 2000),
 ];
 
-/// What acts on the joints; nothing acts on the satellite.
+/// The effects on the joints; none acts on the satellite.
 pub type Effects = (
     Inertia,
     Coriolis,
@@ -45,7 +45,6 @@ pub const EFFECTS: Effects = (
     Armature(SpaceArm::joints([1.0, 1.0, 0.8, 0.15, 0.15, 0.12])),
 );
 
-/// The scene.
 #[derive(Clone, Copy, Debug)]
 pub struct ReachOut;
 

@@ -13,7 +13,6 @@ use crate::scene::{Noise, PlantModel, Run, Scene, TICK, rigid, speeds};
 use crate::trajectories::{HOME, PICK_AND_PLACE};
 use joint_drivers::Law;
 
-/// What acts on the arm.
 pub type Effects = (
     Gravity,
     Inertia,
@@ -37,7 +36,6 @@ pub const EFFECTS: Effects = (
     Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
 );
 
-/// The scene.
 #[derive(Clone, Copy, Debug)]
 pub struct PickAndPlace;
 
@@ -91,7 +89,6 @@ pub fn plan(path: &mut Trajectory<f32, 6, 9>) -> Result<(), TrajectoryError> {
     path.plan(&PICK_AND_PLACE, TICK, &limits)
 }
 
-/// Gravity compensation.
 #[derive(Clone, Copy, Debug)]
 pub struct GravityOnly;
 

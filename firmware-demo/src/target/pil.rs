@@ -38,7 +38,7 @@ where
     let mut frames = Frames::new();
     let mut bytes = [0; 512];
     loop {
-        // What the port could not read is missing in a frame, which the checksum finds; the host sends it again.
+        // A byte that the port could not read is missing in its frame; the checksum finds that, and the host sends it again.
         let Ok(byte) = block!(input.read()) else {
             continue;
         };

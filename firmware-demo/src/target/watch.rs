@@ -21,7 +21,7 @@ use crate::watched::{Options, Timer, Watched, machine};
 
 /// Ticks that wait for the port at most.
 pub const QUEUE: usize = 64;
-/// Of the port, bit/s: a frame of six joints takes about 0.6 ms.
+/// Rate of the port, bit/s: a frame of six joints takes about 0.6 ms.
 pub const BAUD: u32 = 2_000_000;
 /// Ticks from one frame with the machine's constants to the next.
 const MACHINE: u32 = 1000;
@@ -51,7 +51,7 @@ where
     }
 }
 
-/// Where the ticks are, and their queue.
+/// The slots of the ticks, and their queue.
 pub type Records<const N: usize> = (
     &'static mut Slots<N, QUEUE>,
     &'static mut Queue<'static, N, QUEUE>,

@@ -55,12 +55,10 @@ pub struct ElasticReference {
     pub clearance: f32,
 }
 
-/// Flights.
 const FLIGHTS: usize = 4;
 /// Rise, flights and what is between them, landing, rest.
 const PHASES: usize = 2 * FLIGHTS + 2;
 
-/// The hops.
 #[derive(Clone, Copy, Debug)]
 pub struct Hop {
     phases: [Phase; PHASES],

@@ -90,7 +90,6 @@ const fn point(
     }
 }
 
-/// Four picks.
 #[derive(Clone, Copy, Debug)]
 pub struct Picks {
     platform: Trajectory<f32, 3, POINTS>,

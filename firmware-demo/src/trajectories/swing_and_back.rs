@@ -55,9 +55,7 @@ where
 /// There through a shaper, a pause, and back without.
 #[derive(Debug)]
 pub struct SwingAndBack {
-    /// To the far pose.
     pub there: Shaped<Move, f32, IMPULSES>,
-    /// And back.
     pub back: Move,
     /// Ticks of the pause.
     pub pause: u32,
@@ -66,7 +64,6 @@ pub struct SwingAndBack {
 }
 
 impl SwingAndBack {
-    /// With the modes at rest.
     pub fn new(there: Shaped<Move, f32, IMPULSES>, back: Move, pause: u32) -> Self {
         Self {
             there,

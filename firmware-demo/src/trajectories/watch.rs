@@ -1,4 +1,4 @@
-//! What a gimbal on a ship's mast has to do to look where it should.
+//! The motion of a gimbal on a ship's mast that keeps its camera on its target.
 
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
@@ -14,9 +14,8 @@ use crate::scene::TICK;
 /// no inverse of a sine is needed. It goes on after its end, as the ship does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Watch<R: Real> {
-    /// What it stands on.
     pub ship: Ship<R>,
-    /// Where it looks from the course, rad.
+    /// The direction of view relative to the course, rad.
     pub sweep: Swing<R>,
     /// Ticks of the watch.
     pub ticks: u32,

@@ -49,7 +49,7 @@ const SIDES: [(f64, f64); 3] = [
     (-0.866_025_403_784_438_6, -0.5),
 ];
 
-/// What lies between the axes of a pair of rods: nothing.
+/// The massless body between the axes of a pair of rods.
 const fn cross(name: &'static str, crank: usize) -> Body {
     Body::new(name, crank, Joint::revolute(Y))
         .xyz([CRANK, 0.0, 0.0])

@@ -251,7 +251,6 @@ impl ClusteredRobot<6, 9, 9, 3, 3> for UniversalAnkle {
 pub struct Random(u64);
 
 impl Random {
-    /// From this seed.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
@@ -266,7 +265,6 @@ impl Random {
         f64::from((unit * bound) as f32)
     }
 
-    /// N of them.
     pub fn numbers<const N: usize>(&mut self, bound: f64) -> [f64; N] {
         [(); N].map(|()| self.number(bound))
     }

@@ -14,7 +14,6 @@ use serde::Deserialize;
 /// A loop: two points that coincide, each with its body and its place in the body's frame.
 #[derive(Deserialize)]
 pub struct PointLoop {
-    /// The bodies.
     pub bodies: [i64; 2],
     /// The points, m.
     pub points: [[f64; 3]; 2],
@@ -39,17 +38,11 @@ pub struct Recording {
     pub qdd: Vec<Vec<f64>>,
     /// Torques that are given to forward dynamics.
     pub tau: Vec<Vec<f64>>,
-    /// Positions of the tree.
     pub tree_q: Vec<Vec<f64>>,
-    /// Velocities of the tree.
     pub tree_qd: Vec<Vec<f64>>,
-    /// Accelerations of the tree.
     pub tree_qdd: Vec<Vec<f64>>,
-    /// Torques of inverse dynamics.
     pub rnea: Vec<Vec<f64>>,
-    /// The same at rest.
     pub gravity: Vec<Vec<f64>>,
-    /// Accelerations of forward dynamics.
     pub forward: Vec<Vec<f64>>,
     /// M of the independent coordinates, its upper triangle by rows.
     pub mass_matrix: Vec<Vec<f64>>,
@@ -88,7 +81,6 @@ where
     errors
 }
 
-/// A recorded state.
 pub fn state<R: Real, const Y: usize>(recorded: &Recording, k: usize) -> State<R, Y, Y> {
     let of = |rows| row::<Y>(rows, k).map(R::from_f64);
     State {
@@ -118,7 +110,6 @@ fn tree<T, const B: usize, const N: usize, const Y: usize>(
     errors.add("M", "f64", &upper, &recorded.mass_matrix[k]);
 }
 
-/// Inverse and forward dynamics.
 fn torques<T, R: Real, const B: usize, const N: usize, const Y: usize>(
     recorded: &Recording,
     k: usize,

@@ -151,8 +151,9 @@ fn loops_are_closed() {
     }
 }
 
+// The motion is pose, twist and acceleration.
 #[test]
-fn coordinates_of_a_stewart_platform_follow_from_its_pose_twist_and_acceleration() {
+fn stewart_coordinates_follow_from_the_platforms_motion() {
     let mut worst = 0.0_f64;
     for y in stewart_states() {
         let motion = Clustered::<Core<StewartPlatform>>::motion(&y).expect("it closes");
@@ -187,7 +188,7 @@ fn coordinates_of_a_stewart_platform_follow_from_its_pose_twist_and_acceleration
 }
 
 #[test]
-fn a_platform_whose_pose_or_motion_is_not_finite_has_no_forces_of_its_legs() {
+fn leg_forces_of_a_nonfinite_motion_are_refused() {
     let forces = |[pos, ahead, left, above, omega, v, alpha, a]: [DVec3; 8]| {
         let rot = DMat3::from_cols(ahead, left, above);
         let of = |ang, lin| Motion::<f64> { ang, lin };
@@ -215,7 +216,7 @@ fn a_platform_whose_pose_or_motion_is_not_finite_has_no_forces_of_its_legs() {
     for (bad, i, k) in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY]
         .into_iter()
         .flat_map(|bad| (0..8).flat_map(move |i| (0..3).map(move |k| (bad, i, k))))
-        // Of ŷ of the platform the algorithm reads the last component alone.
+        // The algorithm reads only the last component of the platform's ŷ.
         .filter(|&(_, i, k)| k == 2 || !(2..4).contains(&i))
     {
         let mut of = moving;
@@ -229,7 +230,7 @@ fn a_platform_whose_pose_or_motion_is_not_finite_has_no_forces_of_its_legs() {
 }
 
 #[test]
-fn zeros_of_the_joints_of_a_five_bar_shift_its_coordinates_alone() {
+fn five_bar_zeros_shift_only_its_coordinates() {
     const PLAIN: FiveBar = FiveBar::new(0.2, [0.1, 0.25], [0.12, 0.24], Branch::Positive);
     const ZEROS: [f64; 4] = [0.3, -0.4, 0.5, 0.7];
     let at = |linkage: FiveBar, [y0, y1]: [f64; 2]| {

@@ -8,7 +8,7 @@ use dynamics_core::state::State;
 use dynamics_core::{Core, Engine, algorithms};
 use firmware_demo::robots::AnkleLeg;
 
-/// What the tests of a robot measure.
+/// The errors that the tests of a robot measure.
 #[derive(Debug, Default)]
 struct Errors {
     power: f64,
@@ -86,7 +86,7 @@ where
 }
 
 #[test]
-fn motors_do_the_work_of_y_and_move_with_it() {
+fn motor_power_and_rates_are_those_of_the_coordinates() {
     let all = [
         errors::<AnkleLeg, 9, 3>(&ankle_states()),
         errors::<DeltaRobot, 12, 3>(&delta_states()),

@@ -77,15 +77,13 @@ struct Sweep<const Y: usize> {
     rates: [f64; Y],
 }
 
-/// What a sweep has found.
 struct Found {
-    /// Of the torque where the damping ends, relative to it.
+    /// The step of the torque where the damping ends, relative to the torque.
     step: f64,
     /// The largest torque over the bound.
     largest: f64,
-    /// The same without damping.
     undamped: f64,
-    /// Of the torque beyond the damping.
+    /// The error of the torque beyond the damping.
     error: f64,
 }
 
@@ -268,8 +266,9 @@ fn checked<R: Real>([steps, errors]: [f64; 2], slack: f64, scalar: &str) {
     );
 }
 
+// They are continuous, and the dead point is named.
 #[test]
-fn torques_of_motors_across_a_dead_point_are_named_bounded_and_continuous() {
+fn motor_torques_across_a_dead_point_are_bounded() {
     checked::<f64>([5e-5, 1e-13], 1e-9, "f64");
     checked::<f32>([5e-4, 5e-5], 0.01, "f32");
 }

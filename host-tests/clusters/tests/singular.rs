@@ -51,13 +51,13 @@ fn named_and_bounded<R: Real>() {
 }
 
 #[test]
-fn a_flat_parallelogram_and_a_change_point_are_named_and_bounded() {
+fn flat_parallelograms_and_change_points_are_named_and_bounded() {
     named_and_bounded::<f32>();
     named_and_bounded::<f64>();
 }
 
 #[test]
-fn the_damping_ends_where_the_status_does() {
+fn damping_and_singular_status_end_together() {
     let mut before: Option<(bool, f64)> = None;
     let mut step = 0.0_f64;
     // h of the crank's angle near π grows with it: from the damped range to the other in fine steps.
@@ -103,7 +103,7 @@ fn beyond_the_damping<R: Real>() -> [f64; 3] {
 }
 
 #[test]
-fn what_is_not_damped_is_accurate() {
+fn beyond_the_damping_errors_are_small() {
     let [g, bias, angle] = beyond_the_damping::<f64>();
     hold("error of G beyond the damping, f64", g, 5e-7);
     hold("error of Ġ ẏ beyond the damping, f64", bias, 1e-2);
@@ -144,7 +144,7 @@ fn cannot_close<R: Real>() {
 }
 
 #[test]
-fn a_linkage_that_cannot_close_is_an_error_in_either_scalar() {
+fn a_linkage_that_cannot_close_is_an_error() {
     cannot_close::<f32>();
     cannot_close::<f64>();
 }
@@ -301,7 +301,7 @@ fn torques_near_a_singularity_come_with_their_conditioning() {
 }
 
 #[test]
-fn links_without_mass_are_no_error_and_a_cluster_without_any_is() {
+fn massless_links_are_accepted_but_massless_clusters_are_not() {
     let y = State {
         q: [0.2, 1.0],
         qd: [1.0, 2.0],
@@ -399,7 +399,7 @@ fn the_four_bar_obeys_its_closed_form_and_virtual_work() {
 }
 
 #[test]
-fn torques_of_motors_do_the_same_work() {
+fn motor_torques_have_the_power_of_joint_torques() {
     let mut worst = 0.0_f64;
     for y in ankle_states() {
         let motion = Clustered::<Core<AnkleLeg>>::motion(&y).expect("it closes");

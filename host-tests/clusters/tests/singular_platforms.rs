@@ -117,7 +117,7 @@ fn slanted<R: Real>() -> [f64; 2] {
 }
 
 #[test]
-fn a_delta_whose_rods_are_in_one_plane_is_named_and_bounded() {
+fn a_delta_with_coplanar_rods_is_named_and_bounded() {
     let found = [level::<f32>(), level::<f64>()];
     hold_both("level and coplanar", found, [(2.0, 0), (2.0, 1)]);
     let found = [slanted::<f32>(), slanted::<f64>()];
@@ -165,7 +165,7 @@ fn along_its_axis<R: Real>() -> [f64; 2] {
 }
 
 #[test]
-fn a_rod_of_a_delta_along_its_cranks_axis_is_named_and_bounded() {
+fn a_rod_along_its_crank_axis_is_named_and_bounded() {
     let found = [along_its_axis::<f32>(), along_its_axis::<f64>()];
     hold_both("rod along the axis", found, [(1.0, 1), (1.0, 2)]);
 }
@@ -200,7 +200,7 @@ fn delta_cannot_close<R: Real>() {
 }
 
 #[test]
-fn a_delta_that_cannot_close_is_an_error_in_either_scalar() {
+fn a_delta_that_cannot_close_is_an_error() {
     delta_cannot_close::<f32>();
     delta_cannot_close::<f64>();
 }
@@ -238,7 +238,7 @@ fn leg_along_y<R: Real>() -> [f64; 2] {
 }
 
 #[test]
-fn a_leg_of_a_stewart_platform_along_y_is_named_and_bounded() {
+fn a_stewart_leg_along_y_is_named_and_bounded() {
     let found = [leg_along_y::<f32>(), leg_along_y::<f64>()];
     hold_both("leg along y", found, [(4.0, 1), (4.0, 2)]);
 }
@@ -273,7 +273,7 @@ fn leg_of_no_length<R: Real>() -> [f64; 2] {
 }
 
 #[test]
-fn a_leg_of_a_stewart_platform_of_no_length_is_named_and_bounded() {
+fn a_stewart_leg_of_zero_length_is_named_and_bounded() {
     let found = [leg_of_no_length::<f32>(), leg_of_no_length::<f64>()];
     hold_both("leg of no length", found, [(1.5, 1), (1.5, 2)]);
 }

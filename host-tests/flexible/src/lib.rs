@@ -56,7 +56,6 @@ impl Robot<2, 2, 2> for Planar {
     const MODEL: ArmModel<f64, 2> = arm("planar", Y);
 }
 
-/// Its modes.
 pub const PLANAR: Modes<f64, 4> = Modes::new(
     &Planar::MODEL,
     &[
@@ -73,7 +72,6 @@ impl Robot<2, 2, 2> for Spatial {
     const MODEL: ArmModel<f64, 2> = arm("spatial", Z);
 }
 
-/// Its modes.
 pub const SPATIAL: Modes<f64, 6> = Modes::new(
     &Spatial::MODEL,
     &[
@@ -95,12 +93,10 @@ pub const SPATIAL: Modes<f64, 6> = Modes::new(
 pub struct Numbers(u64);
 
 impl Numbers {
-    /// The sequence of a seed.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// The next number.
     pub fn draw(&mut self) -> f64 {
         self.0 = self
             .0
@@ -121,13 +117,13 @@ impl Numbers {
 
 /// The sizes of q, q̇, q̈ of joints and of modes.
 pub const JOINTS: [f64; 3] = [2.0, 3.0, 20.0];
-/// Those of modes.
+/// The sizes of the same quantities of modes.
 pub const MODES: [f64; 3] = [0.05, 1.0, 50.0];
 
 pub mod hard;
 
 pub mod recording {
-    //! What `host-tests/oracle/beam.py` recorded.
+    //! The recording of `host-tests/oracle/beam.py`.
 
     use std::collections::BTreeMap;
     use std::path::Path;
@@ -135,12 +131,10 @@ pub mod recording {
 
     use serde::Deserialize;
 
-    /// All of it.
     #[derive(Debug, Deserialize)]
     pub struct Recording {
         /// Robots, by name.
         pub dynamics: BTreeMap<String, Dynamics>,
-        /// Frequencies.
         pub frequencies: Frequencies,
         /// Deflections at rest, by link.
         pub r#static: BTreeMap<String, Static>,
@@ -165,9 +159,7 @@ pub mod recording {
     /// Frequencies of links, by name.
     #[derive(Debug, Deserialize)]
     pub struct Frequencies {
-        /// In bending.
         pub bending: BTreeMap<String, Vibrations>,
-        /// In torsion.
         pub torsion: BTreeMap<String, Vibrations>,
     }
 
@@ -179,7 +171,6 @@ pub mod recording {
         /// The slope at the end of the shape that is one there.
         #[serde(default)]
         pub tip_slope: Vec<f64>,
-        /// Its mass.
         pub modal_mass: Vec<f64>,
     }
 
@@ -195,11 +186,9 @@ pub mod recording {
     /// The upper link on a given motion of its joint.
     #[derive(Debug, Deserialize)]
     pub struct Forced {
-        /// The joint's angle in all.
+        /// The whole angle of the joint's motion.
         pub angle: f64,
-        /// The motion's time.
         pub duration: f64,
-        /// Times.
         pub t: Vec<f64>,
         /// The end's deflection.
         pub tip: Vec<f64>,

@@ -1,4 +1,4 @@
-//! What the tests and the report compare with the recording.
+//! The quantities that the tests and the report compare with the recording.
 
 use dynamics_core::effects::{Elasticity, RIGID_BODY};
 use dynamics_core::flexible::{

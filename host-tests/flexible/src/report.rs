@@ -8,7 +8,7 @@ use crate::recording::recording;
 use crate::referee::{error, forced, inverse, sag};
 use crate::{LOWER, PLANAR, Planar, SPATIAL, Spatial, UPPER};
 
-/// What 1 to 6 modes leave out, and the errors of inverse dynamics in f64 and f32.
+/// The truncation errors of 1 to 6 modes, and the errors of inverse dynamics in f64 and f32.
 pub fn measured() -> Value {
     let truncation = [
         truncation::<1>(),
@@ -25,7 +25,7 @@ pub fn measured() -> Value {
     json!({ "truncation": truncation, "errors": errors.concat() })
 }
 
-/// What M modes leave out: of the tip at rest, upper and fore link, and of the upper link's in motion.
+/// The truncation errors of M modes: the tips of upper and fore link at rest, and the upper link's tip in motion.
 fn truncation<const M: usize>() -> [f64; 3] {
     let (at_rest, moving) = (&recording().r#static, &recording().forced);
     let tips: Vec<f64> = forced::<M>(&UPPER, moving)

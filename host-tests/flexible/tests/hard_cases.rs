@@ -9,22 +9,22 @@ fn demand(number: u32) {
 }
 
 #[test]
-fn torques_of_stiff_links_are_the_rigid_arms() {
+fn stiff_links_need_the_rigid_arms_torques() {
     demand(64);
 }
 
 #[test]
-fn sag_is_the_closed_forms() {
+fn static_sag_has_its_closed_form() {
     demand(65);
 }
 
 #[test]
-fn frequencies_are_the_textbooks() {
+fn beam_frequencies_are_those_of_the_textbook() {
     demand(66);
 }
 
 #[test]
-fn energy_stays() {
+fn a_bending_arm_keeps_its_energy() {
     demand(67);
 }
 
@@ -39,7 +39,7 @@ fn a_mode_of_any_frequency_is_stable() {
 }
 
 #[test]
-fn numbers_go_on_from_the_63_cases_before() {
+fn flexible_case_numbers_follow_the_63_before() {
     let cases = CASES.iter().copied().flatten();
     assert!(cases.map(|case| case.number).eq(64..70));
 }

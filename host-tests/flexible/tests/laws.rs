@@ -148,7 +148,7 @@ fn inertia_power_and_forward_dynamics_agree_with_inverse_dynamics() {
 }
 
 #[test]
-fn a_wrench_along_the_axes_of_the_base_acts_on_straight_links_as_on_rigid_ones() {
+fn straight_flexible_links_feel_world_wrenches_like_rigid_ones() {
     let mut numbers = Numbers::new(3);
     for body in 0..2 {
         let wrench = WorldWrench {

@@ -73,17 +73,18 @@ fn run(reference: &impl Reference<f32, 2>, modes: &Modes<f32, 4>, knows_modes: b
     }
 }
 
+// It is compared with rigid feedforward.
 #[test]
-fn feedforward_with_modes_has_at_most_a_tenth_of_the_joint_error_of_rigid_feedforward() {
+fn modal_feedforward_reduces_the_joint_error_tenfold() {
     let there = swing(START, END).expect("within limits");
     let [modal, rigid] = [true, false].map(|knows| run(&there, &MODES_2, knows));
     println!("modal {modal:?}, rigid {rigid:?}");
     assert!(modal.error < 0.1 * rigid.error, "{modal:?} {rigid:?}");
 }
 
+// With frequencies that are five per cent off it leaves at most a third.
 #[test]
-fn a_shaped_reference_leaves_at_most_a_tenth_of_the_vibration_and_a_third_with_frequencies_five_per_cent_off()
- {
+fn a_shaped_reference_leaves_a_tenth_of_the_vibration() {
     let there = swing(START, END).expect("within limits");
     let shaped = Shaped {
         reference: swing(START, END).expect("within limits"),

@@ -1,4 +1,4 @@
-//! How far a configuration is from a singular one of the motors, in f64 and by definition.
+//! The distance of a configuration from a singular one of the motors, in f64 and by definition.
 
 use dynamics_core::loops::{LoopRobot, Loops, constraints};
 use dynamics_core::model::Static;

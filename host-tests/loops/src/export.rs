@@ -7,10 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::machines::Machine;
 
-/// A machine.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Exported {
-    /// The tree.
     pub robot: Robot,
     /// The joints that close it.
     pub loops: Vec<Loop>,
@@ -18,22 +16,20 @@ pub struct Exported {
     pub actuated: Vec<[usize; 2]>,
     /// A configuration that is nearly closed.
     pub home: Vec<f64>,
-    /// How far the actuated coordinates go from there.
+    /// The range of the actuated coordinates about it.
     pub range: f64,
 }
 
-/// A loop joint.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Loop {
-    /// Its name.
     pub name: String,
-    /// Its kind in small letters.
+    /// Its kind in lower case.
     pub joint: String,
     /// Its unit axis in the loop frames.
     pub axis: [f64; 3],
     /// Predecessor and successor; −1 is the base.
     pub bodies: [i64; 2],
-    /// The loop frames in theirs.
+    /// The loop frames in the frames of the two bodies.
     pub placements: [Placement; 2],
 }
 

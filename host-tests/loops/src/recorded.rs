@@ -16,9 +16,7 @@ use crate::machines::Machine;
 /// Every row of an array is a state.
 #[derive(Deserialize)]
 pub struct Recording {
-    /// The version of Pinocchio.
     pub pinocchio: String,
-    /// The machine that was recorded.
     pub machine: Exported,
     /// Positions with closed loops.
     pub q: Vec<Vec<f64>>,
@@ -35,7 +33,7 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Of the machine of this name.
+    /// Loads the recording of the machine of this name.
     ///
     /// # Panics
     /// If there is none.

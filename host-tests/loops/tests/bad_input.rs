@@ -41,7 +41,7 @@ fn pin(p: BodyFrame, s: BodyFrame) -> LoopJoint {
     joint(Joint::revolute(Y), [p, s])
 }
 
-/// What is wrong with one loop on a linkage with a ground of this length.
+/// The problem of one loop on a linkage with a ground of this length.
 fn problem<const C: usize, const A: usize>(
     ground: f64,
     joint: LoopJoint,
@@ -54,7 +54,7 @@ fn problem<const C: usize, const A: usize>(
 }
 
 #[test]
-fn descriptions_that_cannot_be_are_refused_with_the_name_of_the_loop() {
+fn impossible_loops_are_refused_by_name() {
     use LoopProblem::{
         ActuatedTwice, Angle, NoBody, NoCoordinate, NotFinite, OutOfReach, Rigid, Rows, SameBody,
         Unconstrained,
@@ -101,8 +101,9 @@ fn descriptions_that_cannot_be_are_refused_with_the_name_of_the_loop() {
     assert_eq!(problem::<3, 0>(0.6, table, []), Ok(()));
 }
 
+// Their number alone shows here that they are too few.
 #[test]
-fn too_few_actuated_coordinates_are_refused_where_their_number_says_so() {
+fn too_few_actuated_coordinates_are_refused() {
     let table = joint(Joint::planar(), [BodyFrame::new(BASE), BodyFrame::new(5)]);
     let error = Loops::<1, 3, 2>::try_new(&Ur5e::MODEL, [table], [0, 1]).expect_err("too few");
     let (needed, given) = (3, 2);
@@ -144,7 +145,7 @@ fn inverse_dynamics_of_an_open_loop_is_refused() {
 
 /// The Delta without the motor of its first crank.
 #[test]
-fn too_few_motors_are_an_error_that_names_loop_and_coordinate() {
+fn an_underactuated_loop_and_its_coordinate_are_named() {
     let loops = Loops::<6, 18, 3>::new(&Delta::MODEL, *Delta::LOOPS.joints(), [6, 11, 16]);
     assert_eq!(loops, Delta::LOOPS);
     // The third is a rod's, which moves with the cranks: dependent on them.
@@ -167,7 +168,7 @@ fn too_few_motors_are_an_error_that_names_loop_and_coordinate() {
 }
 
 #[test]
-fn numbers_that_are_not_finite_are_errors_and_reach_no_torque() {
+fn nonfinite_numbers_are_errors_and_reach_no_torque() {
     let robot = Static::<Delta>::NEW;
     let [state, ..] = closed_states::<Delta, 10, 22, 21, 6, 18, 3>(1)[..] else {
         panic!("no state");

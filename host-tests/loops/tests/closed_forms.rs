@@ -29,7 +29,7 @@ fn against_ground(q: &[f64; 3]) -> [f64; 3] {
 }
 
 #[test]
-fn a_four_bar_linkage_closes_at_the_angles_of_its_triangles() {
+fn the_four_bar_angles_are_those_of_its_triangles() {
     let (mut errors, mut guess) = (Vec::new(), FourBar::HOME);
     for k in 0..=400 {
         guess[0] = -1.0 - f64::from(k) * core::f64::consts::TAU / 400.0; // right round
@@ -59,7 +59,7 @@ fn rates([crank, coupler, rocker]: [f64; 3], rate: f64) -> [f64; 2] {
 }
 
 #[test]
-fn the_rates_of_a_four_bar_linkage_are_those_of_its_velocity_polygon() {
+fn the_four_bar_rates_are_those_of_its_velocity_polygon() {
     let mut errors = Vec::new();
     for state in closed_states::<FourBar, 3, 3, 3, 1, 5, 1>(200) {
         let [coupler, rocker] = rates(against_ground(&state.q), -state.qd[0]);
@@ -74,7 +74,7 @@ fn the_rates_of_a_four_bar_linkage_are_those_of_its_velocity_polygon() {
 }
 
 #[test]
-fn gravity_on_a_four_bar_linkage_is_the_virtual_work_of_its_weights() {
+fn four_bar_gravity_is_its_weights_virtual_work() {
     let mut errors = Vec::new();
     for state in closed_states::<FourBar, 3, 3, 3, 1, 5, 1>(200) {
         let at_rest = State::at(state.q);
@@ -101,8 +101,9 @@ fn gravity_on_a_four_bar_linkage_is_the_virtual_work_of_its_weights() {
     within("virtual work of weights, N m", largest(errors), 1.5e-13);
 }
 
+// A flat parallelogram has four.
 #[test]
-fn a_planar_linkage_in_space_has_three_rows_too_many_and_a_flat_parallelogram_four() {
+fn a_planar_linkage_has_three_redundant_rows() {
     let robot = Static::<Parallelogram>::NEW;
     let rank = |q: [f64; 3]| {
         let map = coordinate_map(&robot, &Parallelogram::LOOPS, &q);
@@ -125,7 +126,7 @@ fn a_planar_linkage_in_space_has_three_rows_too_many_and_a_flat_parallelogram_fo
 
 /// In f32 too, and not only at zero but near it, where rounding alone tells the rows apart.
 #[test]
-fn the_rank_of_a_nearly_flat_parallelogram_is_that_of_a_flat_one() {
+fn a_nearly_flat_parallelogram_has_the_flat_rank() {
     let robot = Static::<Parallelogram>::NEW;
     for off in [1e-9, 1e-8] {
         let map = coordinate_map(&robot, &Parallelogram::LOOPS, &[-off, off, -off]);
@@ -186,8 +187,9 @@ fn a_third_motor_shares_the_torque_with_the_least_norm() {
 }
 
 /// The linkage with the motor at its rocker, where crank and coupler are in one line: a dead point.
+// Forward dynamics computes across it.
 #[test]
-fn a_dead_point_is_named_by_inverse_dynamics_and_forward_dynamics_computes_across_it() {
+fn inverse_dynamics_names_a_dead_point() {
     let joints = *FourBar::LOOPS.joints();
     let loops = Loops::<1, 5, 1>::new(&FourBar::MODEL, joints, [2]);
     let robot = Static::<FourBar>::NEW;
@@ -239,7 +241,7 @@ fn a_parallelogram_without_damping_moves_on_near_its_flat_configuration() {
             &RIGID_BODY,
         );
         let qdd = fd.expect("accelerations").qdd;
-        // What the angle from flat multiplies rounding errors by.
+        // Rounding errors grow with the inverse of the angle from flat: the error times the angle is bounded.
         let error = largest(
             qdd.iter()
                 .zip(state.qdd)

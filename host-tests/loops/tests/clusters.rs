@@ -31,8 +31,9 @@ impl Difference {
     }
 }
 
+// They are compared with a Delta of six rods.
 #[test]
-fn pairs_of_rods_as_one_body_need_the_torques_of_six_rods() {
+fn rod_pairs_as_one_body_need_equal_torques() {
     let mut difference = Difference::default();
     let states = closed_states::<Delta, 10, 22, 21, 6, 18, 3>(200);
     assert_eq!(states.len(), 200);
@@ -132,8 +133,9 @@ fn stewart_on(share: f64) -> f64 {
 }
 
 /// Universal joints about y and then x, and about x and then y, point a leg alike, and differ in its spin about itself.
+// The legs of the cluster do not spin about themselves.
 #[test]
-fn a_stewart_platform_on_legs_that_do_not_spin_needs_the_torques_of_general_loops() {
+fn a_stewart_platform_cluster_agrees_with_general_loops() {
     hold(
         "torques, legs without inertia of spin",
         stewart_on(0.0),

@@ -48,7 +48,6 @@ fn opening<R: Real>(state: &State<R, 3, 3>) -> f64 {
     largest(closing.position.map(|error| error.abs().to_f64()))
 }
 
-/// The four-bar linkage at rest.
 fn at_rest<R: Real>() -> State<R, 3, 3> {
     let guess = FourBar::HOME.map(R::from_f64);
     let robot = Static::<FourBar>::NEW;

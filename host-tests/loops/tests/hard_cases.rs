@@ -83,7 +83,7 @@ fn a_belt_of_steep_slope() {
 }
 
 #[test]
-fn numbers_go_on_from_the_other_cases() {
+fn case_numbers_have_no_gap() {
     let mut all = host_tests::hard::NUMBERS.to_vec();
     let own: Vec<u32> = CASES.iter().copied().flatten().map(|c| c.number).collect();
     // Later cases go on from those of links that bend.
@@ -94,7 +94,7 @@ fn numbers_go_on_from_the_other_cases() {
     assert!(all.windows(2).all(|pair| pair[0] + 1 == pair[1]), "{all:?}");
 }
 
-/// Which of the rows are not as demanded.
+/// The rows that are not as demanded.
 fn refused(rows: &[host_tests::hard::Row]) -> Vec<String> {
     rows.iter().filter_map(|row| row.demand().err()).collect()
 }
@@ -130,7 +130,7 @@ fn a_wrong_value_is_refused() {
     }
 }
 
-/// Where a status is demanded, a number without one is refused, and so is one with it that is not bounded.
+/// Where a status is demanded, a number without one is refused, and so is an unbounded number with one.
 #[test]
 fn a_number_without_its_status_is_refused() {
     let (case, quantity) = (50, "inverse dynamics, flat");

@@ -1,4 +1,4 @@
-//! What holds of every machine in every state.
+//! Laws that hold for every machine in every state.
 
 use dynamics_core::algorithms::{kinetic_energy, poses, potential_energy, rnea};
 use dynamics_core::effects::{BodyWrench, RIGID_BODY};
@@ -15,7 +15,6 @@ use loop_tests::wrenches::wrenches;
 
 const STATES: usize = 200;
 
-/// A test on all machines.
 macro_rules! on_all {
     ($check:ident) => {{
         $check::<FourBar, 3, 3, 3, 1, 5, 1>();
@@ -136,8 +135,9 @@ where
     power.check(T::MODEL.name, "power of the motors", "f64");
 }
 
+// The joints of the loops supply none.
 #[test]
-fn the_motors_supply_the_change_of_energy_and_loop_joints_none() {
+fn the_motors_alone_supply_the_change_of_energy() {
     on_all!(balances);
 }
 

@@ -1,4 +1,4 @@
-//! What Pinocchio says of the machines: `host-tests/oracle/loops.py`.
+//! Comparison of the machines with Pinocchio: `host-tests/oracle/loops.py`.
 
 use loop_tests::export::machine;
 use loop_tests::machines::{Delta, FiveBar, FourBar, Machine, Stewart};

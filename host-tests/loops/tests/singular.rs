@@ -22,9 +22,7 @@ struct Sweep<const Q: usize, const L: usize, const C: usize, const A: usize> {
     reach: f64,
 }
 
-/// The rates of the motors.
 const RATE: f64 = 1.0;
-/// Their accelerations.
 const ACCELERATION: f64 = 2.0;
 
 impl<const Q: usize, const L: usize, const C: usize, const A: usize> Sweep<Q, L, C, A> {

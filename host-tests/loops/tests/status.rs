@@ -1,4 +1,4 @@
-//! What the result of forward dynamics says of its loops: how open they are, and whether the rank dropped.
+//! The status of loops in forward dynamics: their closure errors, and whether the rank dropped.
 
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::loops::{
@@ -58,7 +58,7 @@ fn forward_dynamics_says_by_how_much_its_loops_are_open() {
 }
 
 #[test]
-fn a_parallelogram_at_its_change_point_says_that_the_rank_dropped() {
+fn a_parallelogram_change_point_reports_a_dropped_rank() {
     let machine = mobility(
         &Static::<Parallelogram>::NEW,
         &Parallelogram::LOOPS,

@@ -39,8 +39,9 @@ fn a_bad_frame_does_not_jolt_the_arm() {
     within("error of bad frames, rad", largest(more), 5e-5);
 }
 
+// No joint turns back.
 #[test]
-fn a_longer_fault_ends_on_the_trajectory_without_a_turn_back() {
+fn a_longer_fault_ends_on_the_trajectory() {
     let (mut reversals, mut errors, mut back) = (vec![], vec![], vec![]);
     for at in [SLOW, FAST, 5000] {
         for ticks in [RIDE + 1, 20, 50, 100, RIDE + HOLD] {
@@ -79,7 +80,7 @@ fn a_measurement_after_a_hold_is_accepted_at_once() {
 
 /// Such a law cannot bring a deceleration about.
 #[test]
-fn k_d_slows_an_arm_down_whose_law_knows_no_inertia() {
+fn k_d_slows_an_arm_whose_law_lacks_inertia() {
     let mut arm = Arm::new();
     (0..FAST).for_each(|_| _ = arm.tick_under::<GravityOnly>());
     arm.corrupt(0, 1);
@@ -90,7 +91,7 @@ fn k_d_slows_an_arm_down_whose_law_knows_no_inertia() {
 }
 
 #[test]
-fn a_fault_that_lasts_brakes_the_arm_and_names_frame_and_joint() {
+fn a_lasting_fault_brakes_and_names_frame_and_joint() {
     let mut arm = Arm::new();
     arm.run(SLOW);
     arm.corrupt(3, 1);
@@ -107,7 +108,7 @@ fn a_fault_that_lasts_brakes_the_arm_and_names_frame_and_joint() {
 }
 
 #[test]
-fn an_error_flag_costs_one_angle_and_the_error_is_read() {
+fn an_error_flag_costs_one_angle_and_is_read() {
     let mut arm = Arm::new();
     arm.run(FAST);
     arm.wires.flag(2);
@@ -181,7 +182,7 @@ fn a_moment_without_a_torque_does_not_jolt_the_arm() {
 }
 
 #[test]
-fn a_drive_that_refuses_brakes_the_arm_at_once_and_is_named() {
+fn a_refusing_drive_brakes_the_arm_and_is_named() {
     let mut arm = Arm::new();
     arm.run(SLOW);
     arm.bent[2].drive.set(true);
@@ -300,8 +301,9 @@ fn tick_at(arm: &mut Arm, counts: [u32; 2]) -> (Option<Fault>, bool) {
     (telemetry.status.fault, completed.is_some())
 }
 
+// Missed ticks are reported.
 #[test]
-fn missed_ticks_are_reported_and_only_a_tick_in_time_feeds_the_watchdog() {
+fn only_a_tick_in_time_feeds_the_watchdog() {
     let mut arm = Arm::new();
     let mut now = 0;
     while now < FAST {
@@ -333,7 +335,7 @@ fn missed_ticks_are_reported_and_only_a_tick_in_time_feeds_the_watchdog() {
 }
 
 #[test]
-fn an_external_stop_of_category_1_brings_the_arm_to_rest_before_the_brake() {
+fn category_1_brings_the_arm_to_rest_before_braking() {
     let mut arm = Arm::new();
     arm.run(FAST);
     arm.control
@@ -354,7 +356,7 @@ proptest! {
     })]
 
     #[test]
-    fn whatever_happens_no_torque_is_beyond_its_limits(
+    fn no_fault_drives_a_torque_beyond_its_limits(
         at in 0..6000_u32,
         wrongs in prop::collection::vec((0..6_usize, 0..6_u8, any::<u16>(), 1..150_u32), 1..6),
     ) {

@@ -22,7 +22,7 @@ const PAGE: Table = Table {
     test: "host-tests/simulations/tests/fault_injection.rs",
 };
 
-/// What was observed in a run, or which limit did not hold and in which run.
+/// The observations of a run, or the limit that did not hold and its run.
 fn observed(seed: u32, setup: Setup) -> Result<Vec<Observed>, String> {
     let mut observed = Vec::new();
     let (name, outcome) = one(seed, setup, |one| observed.push(one));
@@ -31,7 +31,7 @@ fn observed(seed: u32, setup: Setup) -> Result<Vec<Observed>, String> {
     Ok(observed)
 }
 
-/// What of an observation the contract does not allow.
+/// The part of an observation that the contract does not allow.
 fn against_contract(one: &Observed) -> Option<&'static str> {
     use Kind::{Encoder, External, Missed, NotFinite, NotReady, Range, Stale};
     if !one.whole || one.latency.is_none() {
@@ -66,7 +66,6 @@ fn recovery(kind: Kind) -> String {
     }
 }
 
-/// A row of the table.
 fn row(kind: Kind, observed: &[Observed]) -> String {
     let of: Vec<&Observed> = observed.iter().filter(|one| one.kind == kind).collect();
     let latencies = || of.iter().filter_map(|one| one.latency);
@@ -101,7 +100,7 @@ fn table(observed: &[Observed]) -> String {
 }
 
 #[test]
-fn a_table_with_a_run_less_is_not_that_of_the_page() {
+fn a_table_with_a_missing_run_differs() {
     let observed: Vec<Observed> = (0..20)
         .flat_map(|seed| observed(seed, Setup::SOUND).expect("good"))
         .collect();
@@ -115,8 +114,9 @@ fn a_table_with_a_run_less_is_not_that_of_the_page() {
     assert_ne!(all, PAGE.text(&table(&observed[1..])));
 }
 
+// No limit is exceeded, every reaction is that of the contract, and every arm recovers.
 #[test]
-fn no_limit_is_exceeded_every_reaction_is_that_of_the_contract_and_every_arm_recovers() {
+fn injected_faults_keep_the_contract() {
     let (mut of_table, mut failures) = (Vec::new(), Vec::new());
     for seed in 0..RUNS {
         match observed(seed, Setup::SOUND) {
@@ -216,7 +216,7 @@ fn a_speed_beyond_the_rated_one_is_found() {
 }
 
 #[test]
-fn an_arm_of_unknown_position_gets_no_torque_at_power_up() {
+fn an_unknown_position_gets_no_torque_at_power_up() {
     let mut fresh = controller::<Ur5eArm, 6>(Setup::SOUND).on_brake();
     let rest = Trajectory::new(
         &[WayPoint {

@@ -28,7 +28,7 @@ fn clearance(q: &[f32; 4]) -> f32 {
 }
 
 #[test]
-fn the_hops_ask_no_force_of_the_rail() {
+fn the_hops_put_no_force_on_the_rail() {
     let (mut row, mut push) = (vec![], vec![]);
     for whole in ways().1 {
         let [rail, ..] = Engine::<Leg>::rnea(&whole, &Hopping::EFFECTS);
@@ -46,7 +46,7 @@ fn the_hops_ask_no_force_of_the_rail() {
 }
 
 #[test]
-fn positions_velocities_and_accelerations_of_the_hops_belong_together() {
+fn hop_derivatives_agree_with_differences() {
     let (mut positions, mut velocities) = (Worst::default(), Worst::default());
     for pair in ways().1.windows(2) {
         let [from, to] = pair else { continue };
@@ -68,8 +68,9 @@ fn positions_velocities_and_accelerations_of_the_hops_belong_together() {
     verdict.speak();
 }
 
+// The leg flies as often as its reference does.
 #[test]
-fn the_leg_flies_as_often_as_it_is_to_and_at_least_five_centimetres_high() {
+fn each_hop_rises_at_least_five_centimetres() {
     let wires: &'static Wires<3> = Box::leak(Box::new(Wires::new()));
     let (hop, _) = ways();
     let torque = Hopping::limits().map(|l| l.torque);
@@ -101,7 +102,7 @@ fn the_leg_flies_as_often_as_it_is_to_and_at_least_five_centimetres_high() {
 }
 
 #[test]
-fn the_arc_cosine_is_as_exact_as_it_says() {
+fn the_arc_cosine_is_within_its_stated_error() {
     let mut worst = Worst {
         error: 0.0,
         full_scale: 1.0,

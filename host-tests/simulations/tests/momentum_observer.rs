@@ -67,7 +67,7 @@ fn advance(at: &mut State<f64, 6, 6>, tau: &[f64; 6], more: impl Effect<f64, 6, 
     }
 }
 
-/// What an observer has of the model.
+/// The parts of the model that an observer knows.
 #[derive(Clone, Copy, PartialEq)]
 enum Known {
     All,
@@ -171,8 +171,9 @@ fn a_motion_without_contact_has_no_external_torque() {
     assert!(without > 0.2, "{without}");
 }
 
+// It appears at its own joint.
 #[test]
-fn a_torque_is_found_at_its_joint_with_the_stated_delay() {
+fn an_external_torque_appears_with_the_stated_delay() {
     for (k, residual) in run::<1>(300, Known::All, (), |_| pushed(true))
         .iter()
         .enumerate()
@@ -231,7 +232,7 @@ fn friction_that_grows_with_the_load_is_no_contact() {
 }
 
 #[test]
-fn a_force_on_a_link_is_of_no_joint_further_out() {
+fn a_link_force_loads_no_joint_further_out() {
     let wrench = Force::new(DVec3::new(2.0, 3.0, 4.0), DVec3::new(20.0, -30.0, 10.0));
     let contact = BodyWrench { body: 3, wrench };
     let mut observer = MomentumObserver::<f64, 6>::try_new(CONFIG).expect("a good one");
@@ -252,7 +253,7 @@ fn a_force_on_a_link_is_of_no_joint_further_out() {
 }
 
 #[test]
-fn numbers_that_are_not_finite_are_refused_and_leave_no_trace() {
+fn nonfinite_numbers_are_refused_without_trace() {
     let update = |observer: &mut MomentumObserver<f64, 2>, p| observer.update(&[0.0, p], &[0.0; 2]);
     let mut observer = MomentumObserver::<f64, 2>::try_new(CONFIG).expect("a good one");
     let mut other = observer;
@@ -296,7 +297,7 @@ fn finite_numbers_with_an_infinite_sum_are_accepted() {
 }
 
 #[test]
-fn a_restart_forgets_what_pushed() {
+fn a_restarted_observer_equals_a_fresh_one() {
     let mut observer = MomentumObserver::<f64, 1>::try_new(CONFIG).expect("a good one");
     let fresh = observer;
     observer.update(&[0.0], &[0.0]).expect("finite");
@@ -380,7 +381,7 @@ const STATED: Wrong = Wrong {
 };
 
 #[test]
-fn a_model_that_is_as_good_as_stated_gives_no_contact() {
+fn a_model_within_its_stated_error_shows_no_contact() {
     for (bodies, friction) in [(0.03, 0.1), (-0.03, -0.1), (0.03, -0.1), (-0.03, 0.1)] {
         let found = contacts(STATED, Wrong { bodies, friction }, None);
         assert_eq!(found, []);
@@ -393,8 +394,9 @@ fn a_model_that_is_as_good_as_stated_gives_no_contact() {
     assert!(!contacts(STATED, worse, None).is_empty());
 }
 
+// It acts at the wrist.
 #[test]
-fn a_push_of_2_newton_metres_at_the_wrist_is_found_within_40_ticks() {
+fn a_2_newton_metre_push_is_found_within_40_ticks() {
     for from in [100, 250, 400] {
         for (bodies, friction) in [(0.03, 0.1), (-0.03, -0.1)] {
             let found = contacts(STATED, Wrong { bodies, friction }, Some(from));

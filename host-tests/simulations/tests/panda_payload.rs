@@ -7,7 +7,7 @@ use motion_control::Reference;
 
 /// An impossible one would be left on the table, and nothing be shown.
 #[test]
-fn the_part_is_one_that_a_body_can_be_and_is_carried_between_the_grips() {
+fn the_part_is_possible_and_carried_between_grips() {
     let part = part().expect("a body like that");
     let job = Carry::reference().expect("within the limits");
     let mut rest: Vec<(u32, f32)> = Vec::new();

@@ -37,7 +37,7 @@ fn one_changed_bit_changes_the_digest() {
     for flipped in [(0, 0, 0), (700, 1, 31), (2559, 2, 0)] {
         assert_ne!(digest(Some(flipped)), whole, "{flipped:?}");
     }
-    // What lies behind the reference is not run, and changes nothing.
+    // Ticks after the end of the reference are not run, and change nothing.
     assert_eq!(digest(Some((2560, 0, 0))), whole);
 }
 

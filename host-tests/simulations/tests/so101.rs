@@ -43,8 +43,9 @@ fn error<L: Law<6>>(exact: bool) -> f64 {
     (sum / f64::from(ticks)).sqrt()
 }
 
+// Both follow the taught path.
 #[test]
-fn the_taught_path_is_followed_within_a_fifth_of_the_servos_own_error() {
+fn the_full_law_cuts_the_servo_error_fivefold() {
     for exact in [true, false] {
         let full = error::<Full<TaughtPath, 6, 6, 6>>(exact);
         let servo = error::<PositionLoop>(exact);
@@ -122,7 +123,7 @@ fn effort<E: Effect<f32, 6, 6>>(exact: bool, effects: &E) -> f64 {
 }
 
 #[test]
-fn a_hand_leads_the_arm_with_less_effort_where_friction_is_compensated() {
+fn friction_compensation_reduces_the_hands_effort() {
     for exact in [true, false] {
         let gravity = effort(exact, &Gravity::EARTH);
         let friction = effort(exact, &COMPENSATION);

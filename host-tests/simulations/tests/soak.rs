@@ -10,7 +10,6 @@ use proptest::test_runner::TestRng;
 /// Ticks of one arm: its way and some rest.
 const ROUND: u32 = 8_000;
 
-/// A fault, for a while.
 fn spoil(arm: &Arm, rng: &mut TestRng) {
     let joint = rng.random_range(0..6);
     match rng.random_range(0..6) {
@@ -56,7 +55,7 @@ fn tick(arm: &mut Arm, last: &mut [f32; 6]) -> Mode {
 }
 
 #[test]
-fn whatever_fails_for_however_long_no_limit_is_exceeded() {
+fn random_failures_never_exceed_a_limit() {
     let ticks = std::env::var("SOAK_TICKS")
         .ok()
         .and_then(|n| n.parse().ok());

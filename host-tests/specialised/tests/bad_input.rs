@@ -78,8 +78,9 @@ impl Robot<40, 1, 1> for Tray {
     };
 }
 
+// No wrench acts on them.
 #[test]
-fn any_number_of_bodies_may_move_with_one_joint_where_no_wrench_acts() {
+fn many_bodies_may_move_with_one_joint() {
     let state = State {
         qd: [0.5],
         qdd: [1.0],
@@ -106,7 +107,7 @@ fn floor(body: usize) -> Contact<f64, 1> {
 }
 
 #[test]
-fn friction_is_that_of_the_deck_on_a_base_that_moves() {
+fn contact_friction_is_relative_to_the_moving_base() {
     let state = State::at([0.3_f64, 0.5, 0.7]);
     let still = Core::<Quill>::rnea(&state, &(Gravity::EARTH, floor(2)));
     let weight = Core::<Quill>::rnea(&state, &Gravity::EARTH);
@@ -126,8 +127,9 @@ fn friction_is_that_of_the_deck_on_a_base_that_moves() {
     assert!(near(Engine::<Quill>::rnea(&state, &scene)));
 }
 
+// So does a wrench on the base.
 #[test]
-fn a_wrench_on_a_body_that_there_is_not_makes_no_torque_that_passes_for_one() {
+fn a_wrench_on_a_missing_body_gives_nan() {
     fn torques<E: Effect<f64, 3, 3>>(scene: E) -> [f64; 6] {
         let state = State::at([0.3_f64, 0.5, 0.7]);
         let [a, b, c] = Core::<Quill>::rnea(&state, &scene);
@@ -147,7 +149,7 @@ fn a_wrench_on_a_body_that_there_is_not_makes_no_torque_that_passes_for_one() {
 }
 
 #[test]
-fn the_jacobian_of_a_body_that_there_is_not_is_not_a_number() {
+fn the_jacobian_of_a_missing_body_is_nan() {
     use dynamics_core::algorithms::frame::LocalWorldAligned;
     let q = [0.3, 0.5, 0.7];
     for body in [3, 17] {
@@ -191,8 +193,9 @@ fn the_axes_of_a_universal_joint_are_made_orthogonal() {
     assert!((r.transpose() * r).abs_diff_eq(DMat3::IDENTITY, 1e-15));
 }
 
+// The error does not blame the inertia of a joint alone.
 #[test]
-fn a_configuration_that_is_not_a_number_is_not_laid_to_the_inertia_of_a_joint_alone() {
+fn a_nan_configuration_is_reported_as_not_a_number() {
     let state = State::at([0.3, f64::NAN, 0.7]);
     let error = Core::<Quill>::forward_dynamics(&state, &[0.0; 3], &RIGID_BODY).unwrap_err();
     assert!(error.to_string().contains("is not a number"), "{error}");

@@ -50,7 +50,6 @@ impl Worst {
     }
 }
 
-/// One recorded state.
 fn state<R: Real, const Q: usize, const V: usize>(
     recording: &Recording,
     i: usize,
@@ -144,7 +143,6 @@ fn manifold<T, const B: usize, const Q: usize, const V: usize>(
     }
 }
 
-/// Recorded wrenches on the bodies.
 struct Wrenches<R, const B: usize>([[R; 6]; B]);
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Wrenches<R, B> {
@@ -308,7 +306,7 @@ fn every_kind_of_joint_agrees_with_pinocchio_within_the_table() {
 
 #[cfg(feature = "full")]
 #[test]
-fn a_humanoid_and_floating_robots_agree_with_pinocchio_within_the_table() {
+fn humanoid_and_floating_robots_agree_with_pinocchio() {
     use dynamics_core::robots::{A1Free, G1, G1Free};
     let mut verdict = Verdict(vec![]);
     core_of::<G1, 29, 29, 29>(&mut verdict);
@@ -329,7 +327,7 @@ where
 }
 
 #[test]
-fn forces_on_bodies_a_moving_base_and_rotors_agree_with_pinocchio_within_the_table() {
+fn wrenches_moving_bases_and_rotors_agree_with_pinocchio() {
     let mut verdict = Verdict(vec![]);
     surroundings_of::<Panda, 7, 7, 7>(&mut verdict);
     surroundings_of::<A1, 16, 12, 12>(&mut verdict);

@@ -54,7 +54,7 @@ fn a_share_of_nothing_changes_no_bit() {
     nothing_left_out::<StressRobot, 11, 7>("panda");
 }
 
-/// What is left out, relative to the largest torque of the states.
+/// The part that is left out, relative to the largest torque of the states.
 fn left_out<T, const B: usize, const N: usize>(
     (name, quantity): (&str, &str),
     recorded: &str,

@@ -51,7 +51,7 @@ fn in_single<const Q: usize, const V: usize>(state: &State<f64, Q, V>) -> State<
     }
 }
 
-/// How many robots each way refuses, in f64 and in f32.
+/// The number of robots that each way refuses, in f64 and in f32.
 fn refused<const B: usize, const Q: usize, const V: usize>(
     count: usize,
     mut draw: impl FnMut(&mut TestRng) -> (Model<f64, B, Q, V>, State<f64, Q, V>),
@@ -179,7 +179,7 @@ fn across_a_plate(rng: &mut TestRng, reach: f64) -> (Model<f64, 4, 3, 3>, State<
 }
 
 #[test]
-fn two_joints_on_one_axis_are_refused_across_a_fixed_body_without_mass() {
+fn coaxial_joints_across_a_massless_body_are_refused() {
     all_refused("plate on the axis", 1000, |rng| across_a_plate(rng, 0.0));
     all_refused("plate near the axis", 1000, |rng| across_a_plate(rng, 0.05));
     refused_by_bodies("plate beside it", 1000, |rng| across_a_plate(rng, 0.5));
@@ -219,8 +219,9 @@ fn a_turn_between_two_slides_on_one_axis_is_refused() {
     });
 }
 
+// The revolute joint turns about a line through the centre of the ball.
 #[test]
-fn a_ball_joint_without_mass_is_refused_if_it_carries_a_turn_about_a_line_through_its_centre() {
+fn a_massless_ball_joint_carrying_a_revolute_is_refused() {
     all_refused("ball and turn", 300, |rng| {
         let ball = carrier(rng, "ball", 0, Joint::spherical());
         let hand = Line::random(rng).carry(rng, "hand", 1, Joint::revolute);
@@ -232,7 +233,7 @@ fn a_ball_joint_without_mass_is_refused_if_it_carries_a_turn_about_a_line_throug
 }
 
 #[test]
-fn a_free_joint_without_mass_is_refused_if_it_carries_a_turn() {
+fn a_massless_free_joint_carrying_a_revolute_is_refused() {
     all_refused("free and turn", 300, |rng| {
         let base = carrier(rng, "base", 0, Joint::free());
         let axis = within(rng, 1.0);
@@ -280,7 +281,7 @@ fn a_plate_between_two_motors_on_one_axis_is_named() {
     }
 }
 
-/// What is regular: light links under a heavy hand, with accelerations that go back to the torques they came from.
+/// Light links under a heavy hand are regular: their accelerations give the original torques again.
 #[test]
 fn a_light_wrist_under_a_heavy_hand_is_regular() {
     let rng = &mut random_numbers();

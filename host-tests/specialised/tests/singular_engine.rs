@@ -118,19 +118,20 @@ fn named<R: Real, T, E, const N: usize>(
 }
 
 #[test]
-fn the_engine_refuses_two_turns_on_one_axis_across_a_fixed_body() {
+fn the_engine_refuses_coaxial_joints_across_a_fixed_body() {
     named::<f64, Far, _, 3>(&RIGID_BODY, 1, |q| q);
     named::<f32, Far, _, 3>(&RIGID_BODY, 1, |q| q);
 }
 
+// It refuses them however far the slide is out.
 #[test]
-fn the_engine_refuses_two_turns_on_one_axis_across_a_slide_however_far_it_is_out() {
+fn the_engine_refuses_coaxial_joints_across_a_slide() {
     let far = |q: [f64; 4]| [q[0], q[1], 5.0 * q[2], q[3]];
     named::<f32, Telescope, _, 4>(&RIGID_BODY, 1, far);
 }
 
 #[test]
-fn the_engine_refuses_a_turn_between_two_slides_on_one_axis() {
+fn the_engine_refuses_a_revolute_between_coaxial_slides() {
     named::<f64, Slides, _, 4>(&RIGID_BODY, 1, |q| q);
 }
 
@@ -142,7 +143,7 @@ fn the_engine_refuses_a_wrist_in_gimbal_lock() {
 }
 
 #[test]
-fn the_engine_refuses_two_turns_on_one_axis_with_a_heavy_payload() {
+fn the_engine_refuses_coaxial_joints_under_heavy_payloads() {
     let load = Payload::<_, 3>::from_inertia(BodyInertia {
         mass: 1000.0_f32,
         com: [0.1, 0.0, 0.2],

@@ -1,6 +1,6 @@
 //! Numbers out of bytes: ordinary ones, and those that nobody expects.
 
-/// What is left of the bytes.
+/// The bytes that are left.
 #[derive(Clone, Copy, Debug)]
 pub struct Bytes<'a>(pub &'a [u8]);
 
@@ -63,7 +63,6 @@ impl Bytes<'_> {
         f64::from(i16::from_le_bytes(self.bits())) / 8192.0
     }
 
-    /// So many.
     pub fn numbers<const N: usize>(&mut self) -> [f64; N] {
         core::array::from_fn(|_| self.number())
     }

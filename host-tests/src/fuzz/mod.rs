@@ -1,4 +1,4 @@
-//! What any bytes may be fed to: nothing here panics but to report a broken promise.
+//! Targets that accept any bytes: they panic only to report a broken promise.
 //!
 //! `tests/fuzz.rs` runs each target on a fixed stream, `cargo xtask fuzz` for as long as one likes.
 
@@ -13,10 +13,8 @@ pub use description::description;
 pub use dynamics::dynamics;
 pub use frames::frames;
 
-/// A target, by name.
 pub type Target = (&'static str, fn(&[u8]));
 
-/// All of them.
 pub const TARGETS: [Target; 4] = [
     ("description", description),
     ("dynamics", dynamics),

@@ -11,7 +11,6 @@ use dynamics_core::state::State;
 use dynamics_core::state::manifold::{integrate, neutral};
 use glam::{DQuat, DVec3};
 
-/// The family's cases.
 pub const CASES: &[Case] = &[
     Case {
         number: 25,

@@ -8,7 +8,6 @@ const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/ha
 const SOURCE: &str = "Featherstone, \"An empirical study of the joint-space inertia matrix\" (2004): κ grows as n⁴ in the worst case";
 const REASON: &str = "the error of a backward stable elimination is about κ ε in the worst case; the bounds are measured, and smaller. Torques and inverse operational-space inertias do not depend on κ";
 
-/// The family's cases.
 pub const CASES: &[Case] = &[
     Case {
         number: 7,

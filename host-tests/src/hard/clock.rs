@@ -11,7 +11,6 @@ use motion_control::{
     ObserverConfig, SafetyLimits, SupervisorConfig, Trajectory, WayPoint,
 };
 
-/// The family's cases.
 pub const CASES: &[Case] = &[
     Case {
         number: 38,

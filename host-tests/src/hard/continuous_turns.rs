@@ -5,7 +5,6 @@ use super::measure::larger;
 use super::{Case, Row, name};
 use dynamics_core::scalar::Real;
 
-/// The family's cases.
 pub const CASES: &[Case] = &[Case {
     number: 41,
     name: "saturation and recovery without wind-up",
@@ -16,7 +15,7 @@ pub const CASES: &[Case] = &[Case {
     run: saturation,
 }];
 
-/// From the reference, rad.
+/// The distance from the reference, rad.
 const HELD_OFF: f64 = 0.11;
 
 /// An arm that was held fast for so many ticks: the greatest share of its torque while it was, ticks till it is

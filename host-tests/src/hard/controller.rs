@@ -22,27 +22,20 @@ pub const HOME: [f64; 6] = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0];
 pub const TORQUE: [f64; 6] = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];
 /// Ticks that a fault is ridden through, held, and that the return takes.
 pub const RIDE: u32 = 5;
-/// The same.
 pub const HOLD: u32 = 100;
-/// The same.
 pub const REENTRY: u32 = 200;
 const OMEGA: f64 = 25.0;
 
 /// A number that should not be where it is.
 #[derive(Clone, Copy, Debug)]
 pub struct Poison<R> {
-    /// Where.
     pub input: Input,
-    /// Of which joint.
     pub joint: usize,
-    /// What.
     pub value: R,
 }
 
-/// The inputs of a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input {
-    /// The measured position.
     Position,
     /// The reference that the law is given: position, velocity, acceleration.
     Reference(usize),
@@ -50,7 +43,6 @@ pub enum Input {
     Torque,
 }
 
-/// All of them.
 pub const INPUTS: [Input; 5] = [
     Input::Position,
     Input::Reference(0),
@@ -76,7 +68,6 @@ pub struct Bench<R: Real> {
     pub brake: bool,
     /// Where the arm should be.
     pub aim: State<R, 6, 6>,
-    /// Where it is.
     pub arm: State<R, 6, 6>,
 }
 
@@ -145,7 +136,6 @@ impl<R: Real> Bench<R> {
         self.tick(None)
     }
 
-    /// A tick with this measurement.
     pub fn tick_of(
         &mut self,
         measured: Result<&[R; 6], Fault>,
@@ -173,7 +163,6 @@ impl<R: Real> Bench<R> {
         command
     }
 
-    /// What the arm does.
     pub fn mode(&self) -> Mode {
         self.controller.mode()
     }
@@ -215,13 +204,12 @@ impl<R: Real> Bench<R> {
         })
     }
 
-    /// How far a joint is from where it should be at most, rad.
+    /// The largest distance of a joint from its reference, rad.
     pub fn error(&self) -> f64 {
         apart(&self.aim.q, &self.arm.q)
     }
 }
 
-/// The largest difference.
 pub fn apart<R: Real>(a: &[R; 6], b: &[R; 6]) -> f64 {
     let apart = |(a, b): (&R, &R)| (a.to_f64() - b.to_f64()).abs();
     a.iter().zip(b).map(apart).fold(0.0, larger)

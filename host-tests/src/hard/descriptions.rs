@@ -12,7 +12,6 @@ use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use lab_target::hard::{DOUBLE, EXCESS, N};
 
-/// The family's cases.
 pub const CASES: &[Case] = &[
     Case {
         number: 22,
@@ -112,7 +111,7 @@ fn unsound() -> Vec<Row> {
     rows
 }
 
-/// What is said of an inertia that is not positive.
+/// The errors for an inertia that is not positive.
 fn refuses<R: Real>(arm: &ArmModel<R, 1>, named: bool, scalar: &'static str, rows: &mut Vec<Row>) {
     rows.push(Row::claim("check: indefinite, named", scalar, named));
     let (at, one) = (State::at([R::from_f64(0.4)]), [R::ONE]);

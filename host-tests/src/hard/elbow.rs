@@ -11,7 +11,6 @@ use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 
-/// The family's cases.
 pub const CASES: &[Case] = &[
     Case {
         number: 18,
@@ -33,7 +32,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// Where damping begins, of the trace of Λ⁻¹.
+/// The threshold of damping, as a share of the trace of Λ⁻¹.
 const DAMPING: f64 = 1e-3;
 /// Inertia of a link about its centre, kg·m²; its mass is 1 kg, its length 1 m.
 const I: f64 = 0.0625;
@@ -216,7 +215,7 @@ fn poses() -> Vec<Row> {
     rows
 }
 
-/// What the sweep saw: the largest error and the largest step between neighbours, of the largest force.
+/// The results of the sweep: the largest error and the largest step between neighbours, relative to the largest force.
 struct Sweep {
     error: f64,
     step: f64,

@@ -15,7 +15,6 @@ use dynamics_core::sim::semi_implicit;
 use dynamics_core::state::State;
 use dynamics_core::state::manifold::{neutral, normalise};
 
-/// The family's cases.
 pub const CASES: &[Case] = &[
     Case {
         number: 28,

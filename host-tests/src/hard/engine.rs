@@ -9,7 +9,6 @@ use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use lab_target::hard::{DOUBLE, N, SINGLE, scene, state};
 
-/// The family's cases.
 pub const CASES: &[Case] = &[Case {
     number: 47,
     name: "engine = core",

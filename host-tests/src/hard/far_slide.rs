@@ -12,7 +12,6 @@ use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 
-/// The family's cases.
 pub const CASES: &[Case] = &[Case {
     number: 14,
     name: "slide 10⁴ m out, stroke of millimetres",

@@ -12,7 +12,6 @@ use dynamics_core::sim::linearly_implicit;
 use dynamics_core::state::State;
 use proptest::prelude::RngExt;
 
-/// The family's cases.
 pub const CASES: &[Case] = &[
     Case {
         number: 33,
@@ -79,7 +78,7 @@ fn rest() -> Vec<Row> {
     rows
 }
 
-/// RestToRest Coulomb friction creeps.
+/// Smooth Coulomb friction creeps.
 fn slip_tolerance<R: Real>(rows: &mut Vec<Row>, width: f64) {
     let of = R::from_f64;
     let dry = Coulomb {
@@ -118,7 +117,7 @@ fn slip_tolerance<R: Real>(rows: &mut Vec<Row>, width: f64) {
     ));
 }
 
-/// LuGre's friction presslides and holds.
+/// LuGre's friction preslides and holds.
 fn holds<R: Real>(rows: &mut Vec<Row>, h: f64) {
     let (mut scene, block) = ((Inertia, lugre::<R>()), sledge(1.0));
     let (mut state, mut presliding) = (State::at([R::ZERO]), 0.0);

@@ -13,7 +13,6 @@ use dynamics_core::sim::semi_implicit;
 use dynamics_core::state::State;
 use motion_control::{CartesianImpedance, ImpedanceConfig, TaskDeviation, TaskFrame, pose_error};
 
-/// The family's cases.
 pub const CASES: &[Case] = &[Case {
     number: 70,
     name: "impedance with its goal out of reach",
@@ -28,10 +27,9 @@ const STIFFNESS: [f64; 6] = [30.0, 30.0, 30.0, 150.0, 150.0, 150.0];
 const START: [f64; 6] = [0.2, -0.9, 1.3, -0.4, 0.7, 0.1];
 const TICK: f64 = 1e-3;
 const AWAY: f64 = 0.7;
-/// N·m, of the drives.
+/// Torque limits of the drives, N·m.
 const LIMITS: [f64; 6] = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];
 
-/// What the arm does.
 struct Outcome {
     /// The largest torque of a drive over its limit.
     torque: f64,

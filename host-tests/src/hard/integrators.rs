@@ -9,9 +9,7 @@ use dynamics_core::state::State;
 /// A time step of the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Integrator {
-    /// What it is called.
     pub name: &'static str,
-    /// Its order.
     pub order: i32,
     kind: Kind,
 }
@@ -23,7 +21,6 @@ enum Kind {
     RungeKutta,
 }
 
-/// All of them.
 pub const INTEGRATORS: [Integrator; 3] = [
     Integrator {
         name: "semi-implicit Euler",

@@ -1,4 +1,4 @@
-//! What must not matter: where one starts, how one counts, which way is up, and that rotations are rounded.
+//! Invariances: under the choice of root, of numbering, of the direction of gravity, and under rounded rotations.
 
 use super::measure::{ErrorBounds, against_oracle, by_joints};
 use super::placements::{apart, same};
@@ -10,7 +10,6 @@ use dynamics_core::state::State;
 use glam::DMat3;
 use lab_target::hard::{Answers, N, RENUMBERING, Scene, answers_to, scene};
 
-/// The family's cases.
 pub const CASES: &[Case] = &[
     Case {
         number: 44,
@@ -79,7 +78,7 @@ fn turned_with_gravity(setup: &Setup<N>, r: DMat3) -> (Setup<N>, Scene<f32, N>, 
     let mut double: Scene<f64, N> = scene(&setup.extras);
     double.0.0 = r * double.0.0;
     single.0.0 = double.0.0.as_vec3();
-    // What f32 has of gravity's direction.
+    // The direction of gravity, rounded to f32.
     double.0.0 = single.0.0.as_dvec3();
     (turned, single, double)
 }
@@ -164,7 +163,7 @@ fn permuted<T: Copy>(from: [T; N]) -> [T; N] {
     RENUMBERING.map(|at| from[at])
 }
 
-/// How far torques and accelerations of the two trees are apart.
+/// The differences of torques and accelerations of the two trees.
 fn both<R: Real>(a: &[Answers<R, N>], b: &[Answers<R, N>]) -> [f64; 3] {
     let solved = |qdd: Result<[R; N], _>| qdd.unwrap_or_else(|_| panic!("M > 0"));
     [
@@ -225,7 +224,7 @@ fn rounded() -> Vec<Row> {
     rows
 }
 
-/// RNEA turned anyhow.
+/// The bound of RNEA with turned frames.
 const TURNED: f64 = 2e-7;
 /// ABA against LᵀDL, rotations orthonormal to f64.
 const ORTHONORMAL: f64 = 5e-14;

@@ -9,7 +9,6 @@ use lab_target::hard::{N, Scene, scene};
 
 const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/hard.py)";
 
-/// The family's cases.
 pub const CASES: &[Case] = &[
     Case {
         number: 1,
@@ -119,7 +118,7 @@ fn massless_tip() -> Vec<Row> {
     rows
 }
 
-/// Whom each algorithm of forward dynamics names.
+/// The joint that each algorithm of forward dynamics names.
 pub(super) fn refusals<R, const K: usize>(
     a: &lab_target::hard::Answers<R, K>,
 ) -> [Option<NotPositiveDefinite>; 4] {

@@ -34,22 +34,19 @@ pub mod top;
 
 pub use row::{Row, Verdict};
 
-/// One hard case.
 #[derive(Clone, Copy, Debug, serde::Serialize)]
 pub struct Case {
-    /// Its number in the suite.
     pub number: u32,
-    /// What is hard about it, in a few words.
+    /// The difficulty, in a few words.
     pub name: &'static str,
     /// The numbers that make it hard.
     pub parameters: &'static str,
-    /// Who met it, or where it comes from.
+    /// The source of the case.
     pub source: &'static str,
     /// What knows the right answer.
     pub oracle: &'static str,
     /// Why the bounds are what they are.
     pub reason: &'static str,
-    /// Measures everything.
     #[serde(skip)]
     pub run: fn() -> Vec<Row>,
 }

@@ -1,4 +1,4 @@
-//! What breaks: alternatives that other codes take.
+//! Naive alternatives of other codes, which fail.
 
 use super::setup::turning;
 use dynamics_core::algorithms::{crba, rnea};

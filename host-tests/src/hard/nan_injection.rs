@@ -10,7 +10,6 @@ use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use motion_control::{Fault, Mode};
 
-/// The family's cases.
 pub const CASES: &[Case] = &[Case {
     number: 37,
     name: "NaN, ±Inf, ±1e38, subnormal in each input in turn",
@@ -44,7 +43,7 @@ fn poisoned() -> Vec<Row> {
     rows
 }
 
-/// What every function makes of an input, in bits.
+/// The results of every function for an input, in bits.
 fn outputs<R: Real>(state: &State<R, 6, 6>, tau: &[R; 6]) -> Vec<u64> {
     let model = dynamics_core::model::model::<R, Ur5e, 6, 6, 6>();
     let m = crba(model, &state.q, &RIGID_BODY);
@@ -128,7 +127,7 @@ fn controller<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
         })
         .collect();
     let (mut effort, mut named, mut full) = (0.0_f64, true, true);
-    // Of what is no number, and of what is one.
+    // The first entries are those of inputs that are no numbers, the second of those that are.
     let (mut off, mut late) = ([0.0_f64; 2], [0; 2]);
     for (input, joint) in INPUTS
         .into_iter()

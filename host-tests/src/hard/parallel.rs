@@ -16,7 +16,6 @@ use proptest::test_runner::TestRng;
 
 const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/hard.py)";
 
-/// The family's cases.
 pub const CASES: &[Case] = &[
     Case {
         number: 20,
@@ -61,7 +60,7 @@ fn twofold(rng: &mut TestRng) -> ArmModel<f64, 4> {
     )
 }
 
-/// How many of LᵀDL, Cholesky's method and ABA do not name joint 1.
+/// The number of algorithms among LᵀDL, Cholesky's method and ABA that do not name joint 1.
 fn unnamed<R: Real>(arm: &ArmModel<R, 4>, q: &[R; 4], counts: &mut [u32; 3]) {
     let arm = &turning(arm);
     let m = crba(arm, q, &RIGID_BODY);

@@ -8,7 +8,6 @@ use super::{Case, Row};
 use dynamics_core::scalar::Real;
 use lab_target::hard::{Answers, GRAVITY, N, scene};
 
-/// The family's cases.
 pub const CASES: &[Case] = &[
     Case {
         number: 13,
@@ -154,7 +153,7 @@ fn frames() -> Vec<Row> {
     rows
 }
 
-/// How far two sets of torques are apart, relative to each joint's largest.
+/// The difference of two sets of torques, relative to each joint's largest.
 pub(super) fn apart<R: Real>(
     a: impl Iterator<Item = [R; N]> + Clone,
     b: impl Iterator<Item = [R; N]>,

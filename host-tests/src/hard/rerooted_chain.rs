@@ -11,7 +11,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 type Chain<R> = Model<R, 3, 9, 8>;
 
-/// Where the joints sit, in the body on either side, and their axes, which are the same in both at q = 0.
+/// The places of the joints in the bodies on either side, and their axes, which are the same in both at q = 0.
 const HINGES: [(DVec3, DVec3, DVec3); 2] = [
     (
         DVec3::new(0.3, 0.1, -0.05),
@@ -71,7 +71,7 @@ struct Motion {
 }
 
 impl Motion {
-    /// That of a joint's frame at `place`, beyond its turn.
+    /// The motion of a joint's frame at `place`, after its rotation.
     fn beyond(&self, place: DVec3, axis: DVec3, [q, qd]: [f64; 2]) -> Self {
         let d = self.r * place;
         Self {
@@ -153,7 +153,7 @@ fn accelerations<R: Real>(
     [[a, [c[1], c[0]]], [b, [d[1], d[0]]]]
 }
 
-/// How far the accelerations are apart, of the largest.
+/// The difference of the accelerations, relative to the largest.
 pub(super) fn rows() -> Vec<Row> {
     let (one, other) = (forwards(), backwards());
     let (one32, other32) = (one.to_f32(), other.to_f32());

@@ -2,13 +2,11 @@
 
 use serde::Serialize;
 
-/// What a row says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// The error is within its bound.
     Pass,
-    /// It is not.
     Fail,
     /// A naive alternative breaks the bound, as is to be shown.
     Shown,
@@ -17,21 +15,16 @@ pub enum Verdict {
 /// One line of docs/hard-cases.md.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// The case's name.
     pub case: String,
-    /// The case's number.
     pub number: u32,
-    /// What was computed.
     pub quantity: String,
     /// `f32` or `f64`.
     pub scalar: &'static str,
     /// Relative to full scale unless the quantity says otherwise; not finite if nothing came out.
     pub error: f64,
-    /// What it may be.
     pub bound: f64,
     /// Condition number of what is solved, where something is.
     pub condition: Option<f64>,
-    /// Whether it is.
     pub verdict: Verdict,
     /// Whether the bound comes from measuring, and so may not lie far above.
     #[serde(skip)]

@@ -15,7 +15,6 @@ use motion_control::{
 
 const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/hard.py)";
 
-/// The family's cases.
 pub const CASES: &[Case] = &[
     Case {
         number: 15,

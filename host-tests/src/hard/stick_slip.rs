@@ -7,7 +7,6 @@ use dynamics_core::scalar::Real;
 use dynamics_core::sim::linearly_implicit;
 use dynamics_core::state::State;
 
-/// The family's cases.
 pub const CASES: &[Case] = &[Case {
     number: 34,
     name: "stick-slip period on a belt",
@@ -30,7 +29,6 @@ pub struct Cycle {
 }
 
 impl Cycle {
-    /// The stretch of now.
     pub fn see(&mut self, t: f64, stretch: f64) {
         let [before, now] = self.last;
         if t > 5.0 && now > before && now >= stretch {
@@ -53,7 +51,6 @@ impl Cycle {
 pub struct Belt {
     /// Friction when sliding, and what stiction has above it, N.
     pub sliding: f64,
-    /// The same.
     pub excess: f64,
     /// Stribeck's speed, m/s.
     pub speed: f64,

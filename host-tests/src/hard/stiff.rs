@@ -13,7 +13,6 @@ use dynamics_core::scalar::Real;
 use dynamics_core::sim::{linearly_implicit, semi_implicit};
 use dynamics_core::state::State;
 
-/// The family's cases.
 pub const CASES: &[Case] = &[
     Case {
         number: 31,
@@ -149,7 +148,7 @@ fn damper() -> Vec<Row> {
             semi_implicit(&sledge, &mut naive, &[R::ZERO], &scene, h)
                 .expect("M is positive definite");
             worst = larger(worst, relative(state.qd[0].to_f64(), (1.0 + x_r).powi(-n)));
-            // What is left of it after that time, and a first-order step may miss all of.
+            // The exact remaining speed is subtracted; a first-order step may miss all of it.
             blown = (naive.qd[0].to_f64() - (-x * f64::from(n)).exp()).abs();
         }
         let bound = 10.0 * (1.0 + x) * R::EPSILON.to_f64();

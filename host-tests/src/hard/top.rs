@@ -11,7 +11,6 @@ use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::state::State;
 use glam::DVec3;
 
-/// The family's cases.
 pub const CASES: &[Case] = &[Case {
     number: 27,
     name: "heavy symmetric top",
@@ -87,7 +86,7 @@ fn accelerations<R: Real>(
         .into()
 }
 
-/// How far the axis is from its closed form at most, in 2 s.
+/// The largest distance of the axis from its closed form, in 2 s.
 fn precession<R: Real>(
     model: &Model<f64, 1, 4, 3>,
     start: &State<f64, 4, 3>,

@@ -1,4 +1,4 @@
-//! What a user may write by mistake: the compiler refuses it with words, at the user's line.
+//! Mistakes of a user that the compiler refuses with a message, at the user's line.
 //!
 //! The files in `mistakes/` are compiled as a user's crate would be, with the library of this test. A comment `//~ words` says that
 //! the compiler's error has these words and names this line. Without code generation rustc finds what `cargo check`, and so
@@ -10,7 +10,7 @@ use std::process::Command;
 use dynamics_core::effects::{LoadFriction, Payload, Width};
 use dynamics_core::model::BodyInertia;
 
-/// What the compiler says of a file of `mistakes/`, empty if it accepts it.
+/// The compiler's messages on a file of `mistakes/`, empty if it accepts it.
 fn compiled(name: &str, emit: &str) -> String {
     let program = std::env::current_exe().expect("this program has a path");
     let built = program.parent().expect("in a folder");
@@ -121,12 +121,12 @@ fn a_build_finds_impossible_scenes_in_calls() {
 }
 
 #[test]
-fn effects_that_can_mean_two_things_may_occur_twice() {
+fn legitimate_duplicate_effects_compile() {
     assert_eq!(compiled("right", "obj"), "");
 }
 
 #[test]
-fn a_mark_without_its_error_and_other_errors_are_noticed() {
+fn missing_and_unexpected_compile_errors_are_noticed() {
     let said = "error[E0080]: too heavy\n  --> tests/checks/mistakes/x.rs:2:5\n\nerror: aborting\n";
     assert_eq!(demand("x", "a\nb //~ too heavy", said), Ok(()));
     for text in [

@@ -16,7 +16,7 @@ fn drive<R: Real>() -> Actuator<R> {
 }
 
 #[test]
-fn the_current_rises_as_one_less_an_exponential_whatever_the_step() {
+fn the_current_rises_exponentially_whatever_the_step() {
     fn worst<R: Real>(h: f64) -> Worst {
         let (mut drive, mut worst) = (drive::<R>(), Worst::default());
         for i in 1..=(0.02 / h) as u32 {
@@ -32,7 +32,7 @@ fn the_current_rises_as_one_less_an_exponential_whatever_the_step() {
 }
 
 #[test]
-fn torque_falls_with_speed_along_the_back_emf_and_within_the_current_limit() {
+fn torque_follows_back_emf_within_the_current_limit() {
     let drive = drive::<f64>();
     for i in -400..=400 {
         let speed = f64::from(i) * 0.1;
@@ -45,7 +45,7 @@ fn torque_falls_with_speed_along_the_back_emf_and_within_the_current_limit() {
 }
 
 #[test]
-fn a_motor_under_voltage_runs_up_to_its_speed_without_load() {
+fn a_motor_runs_up_to_its_no_load_speed() {
     // Beyond the corner J ω̇ = k (U − k ω)/R: an exponential, here without lag.
     let mut drive = Actuator {
         lag: 1e-9,

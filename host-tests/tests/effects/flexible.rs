@@ -144,7 +144,7 @@ fn motor_torques_in_f32_are_those_in_f64() {
 }
 
 #[test]
-fn stiffer_joints_come_to_the_rigid_robot_with_one_over_k() {
+fn elastic_joints_converge_to_rigid_with_one_over_k() {
     let (rng, rotor) = (&mut random_numbers(), 0.5);
     let c = coefficients::<6>(rng);
     let course = along(&c, 0.0);
@@ -207,7 +207,7 @@ fn stiffer_joints_come_to_the_rigid_robot_with_one_over_k() {
 }
 
 #[test]
-fn a_motor_and_a_sledge_on_a_spring_swing_in_closed_form() {
+fn a_sprung_motor_and_sledge_have_the_closed_form() {
     let (k, j, h) = (500.0, 0.5, 1e-6);
     let joints = ElasticJoints {
         stiffness: [k],
@@ -240,8 +240,9 @@ fn a_motor_and_a_sledge_on_a_spring_swing_in_closed_form() {
     worst.check::<f64>("motor and sledge", "stretch");
 }
 
+// Its error is of first order in the step.
 #[test]
-fn the_plant_is_stable_and_first_order_at_a_stiffness_of_1e7() {
+fn the_elastic_plant_is_stable_at_a_stiffness_of_1e7() {
     fn ends<R: Real>(h: f64, steps: usize) -> [f64; 6] {
         let model = dynamics_core::model::model::<R, Ur5e, 6, 6, 6>();
         let joints = ElasticJoints {
@@ -280,7 +281,7 @@ fn the_plant_is_stable_and_first_order_at_a_stiffness_of_1e7() {
 }
 
 #[test]
-fn fed_forward_through_the_springs_a_compliant_arm_follows_its_course() {
+fn a_compliant_arm_follows_by_elastic_feedforward() {
     // A fifth-order rest-to-rest course in closed form, and a soft arm.
     let joints = ElasticJoints {
         stiffness: [800.0; 6],

@@ -27,7 +27,7 @@ fn turning_points<E: Effect<f64, 1, 1>>(
 }
 
 #[test]
-fn a_pendulum_loses_to_friction_what_friction_takes() {
+fn a_pendulums_energy_loss_is_frictions_work() {
     // m g l (cos θ₁ − cos θ₀) = F (θ₀ + θ₁) between turning points θ₀ and −θ₁, however far it swings.
     const PENDULUM: ArmModel<f64, 1> = Model::new(
         "pendulum",
@@ -51,7 +51,7 @@ fn a_pendulum_loses_to_friction_what_friction_takes() {
 }
 
 #[test]
-fn a_sledge_on_a_spring_stops_short_by_the_same_length_each_time() {
+fn coulomb_friction_shortens_each_swing_equally() {
     let dry = Coulomb {
         torque: [3.0],
         width: Width::new(1e-5),
@@ -99,7 +99,7 @@ fn reference(t_end: f64, h: f64, mut see: impl FnMut(f64, f64)) {
 }
 
 #[test]
-fn a_block_on_a_belt_sticks_and_slips_in_the_limit_cycle_of_a_fine_reference() {
+fn stick_slip_has_the_limit_cycle_of_the_reference() {
     let mut fine = Cycle::default();
     reference(15.0, 1e-5, |t, stretch| fine.see(t, stretch));
     let want = fine.period_and_height();
@@ -123,8 +123,9 @@ fn a_block_on_a_belt_sticks_and_slips_in_the_limit_cycle_of_a_fine_reference() {
     }
 }
 
+// Each direction of motion has its own torque.
 #[test]
-fn asymmetric_friction_has_both_its_ends_and_is_coulombs_between_equals() {
+fn asymmetric_friction_with_equal_ends_is_coulombs() {
     let dry = |forward: f64, backward: f64| AsymmetricCoulomb {
         forward: [forward],
         backward: [backward],
@@ -168,7 +169,7 @@ fn stribeck_friction_has_its_formula() {
 }
 
 #[test]
-fn gravity_of_any_direction_is_the_same_whether_its_direction_is_a_type_or_a_number() {
+fn gravity_directions_by_type_and_by_value_agree() {
     use dynamics_core::effects::{Direction, GravityVector};
     use dynamics_core::{Core, robots::Panda};
     struct Aslant;

@@ -38,7 +38,7 @@ fn gears<R: Real, const N: usize>(
     }
 }
 
-/// What the hoist's motor needs: at this speed and acceleration, without gravity.
+/// The force of the hoist's motor at this speed and acceleration, without gravity.
 fn force(gears: &LoadFriction<f64, 1>, qd: f64, qdd: f64) -> f64 {
     let state = State {
         q: [0.0],
@@ -70,7 +70,7 @@ fn load_friction_opposes_motion_and_is_odd_bit_by_bit() {
 }
 
 #[test]
-fn load_friction_is_the_published_directional_model_solved() {
+fn load_friction_solves_the_published_directional_model() {
     // F = |k_m τ_m − k_e τ_e|, τ_e = −τ the external torque and τ_m = τ + F sgn q̇: iterated from F = 0.
     let [k_m, k_e] = XL330;
     let gears = LoadFriction::of_motor_and_load([k_m], [k_e], Width::new(1e-3));
@@ -259,7 +259,7 @@ fn gears_take_power_from_every_joint_of_an_arm() {
 }
 
 #[test]
-fn a_gear_that_its_load_cannot_drive_has_no_forward_dynamics() {
+fn a_self_locking_gear_has_no_forward_dynamics() {
     // A worm gear held by friction: no smooth sign has the torque that it takes.
     let scene = (Gravity::EARTH, Inertia, gears::<f64, 1>(1.5, 1.0, 1e-3));
     let down = State {

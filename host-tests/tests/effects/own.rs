@@ -47,7 +47,7 @@ fn cable<R: Real>() -> CableDrag<R> {
 }
 
 #[test]
-fn a_cable_drags_in_the_core_as_a_wrench_of_the_same_size() {
+fn a_cables_drag_acts_as_the_same_wrench() {
     use dynamics_core::algorithms::{frame, kinematics};
     let (cable, rng) = (cable::<f64>(), &mut random_numbers());
     for _ in 0..100 {
@@ -68,7 +68,7 @@ fn a_cable_drags_in_the_core_as_a_wrench_of_the_same_size() {
 }
 
 #[test]
-fn in_the_plant_a_cable_takes_the_energy_that_it_drags_away() {
+fn a_cable_dissipates_energy_in_the_plant() {
     let (mut arm, h) = (State::at([0.3, -1.2, 1.0, 0.2, 0.4, 0.0]), 1e-4);
     arm.qd = [2.0, 1.0, -2.0, 1.0, 2.0, 3.0];
     let mut scene = (Inertia, Coriolis, cable::<f64>());
@@ -84,8 +84,9 @@ fn in_the_plant_a_cable_takes_the_energy_that_it_drags_away() {
 }
 
 /// Every effect that the engine takes and that its other tests do not.
+// One of them is a user's own.
 #[test]
-fn engine_equals_core_under_the_other_effects_and_a_users_own() {
+fn engine_equals_core_under_the_remaining_effects() {
     fn ulps<R: Real>(ulp: f64) -> f64 {
         let of = R::from_f64;
         let scene = (
@@ -169,7 +170,7 @@ fn engine_equals_core_under_the_other_effects_and_a_users_own() {
 
 /// A base that moves, and what asks where bodies stand, on a tree with slides, welds and two roots.
 #[test]
-fn engine_equals_core_on_a_moving_base_and_where_poses_are_read() {
+fn engine_equals_core_on_a_moving_base() {
     fn ulps<R: Real>(ulp: f64) -> [f64; 2] {
         let vec = |x, y, z| R::Vec3::new(R::from_f64(x), R::from_f64(y), R::from_f64(z));
         let of = R::from_f64;

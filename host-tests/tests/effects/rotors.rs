@@ -114,8 +114,9 @@ const GYROSCOPIC_ROTORS: GyroscopicRotors<f64, 4> = GyroscopicRotors {
     ratio: RATIOS,
 };
 
+// The expanded tree has the rotors as bodies.
 #[test]
-fn rotors_that_spin_as_bodies_have_the_dynamics_of_the_expanded_tree() {
+fn gyroscopic_rotors_have_the_expanded_trees_dynamics() {
     let (compact, expanded) = (robot::<4>(true), robot::<8>(false));
     let (gears, rng) = (gears(), &mut random_numbers());
     let base = MovingBase::<f64> {
@@ -203,7 +204,7 @@ fn rotors_that_spin_as_bodies_have_the_dynamics_of_the_expanded_tree() {
 }
 
 #[test]
-fn at_high_ratios_the_diagonal_is_what_remains() {
+fn at_high_ratios_rotors_act_as_armatures() {
     use dynamics_core::effects::Armature;
     let (compact, rng) = (robot::<4>(true), &mut random_numbers());
     let [q, qd, qdd] = [3.0, 3.0, 10.0].map(|bound| within::<4>(rng, bound));

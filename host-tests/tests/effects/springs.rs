@@ -104,7 +104,7 @@ fn stops_of_any_stiffness_are_stable_in_long_steps() {
 }
 
 #[test]
-fn cogging_has_its_series_and_does_no_work_over_a_turn() {
+fn cogging_follows_its_series_without_work_per_turn() {
     fn worst<R: Real>() -> Worst {
         let of = R::from_f64;
         let cogging = Cogging {
@@ -132,7 +132,7 @@ fn cogging_has_its_series_and_does_no_work_over_a_turn() {
 }
 
 #[test]
-fn slopes_are_the_slopes_of_the_torques() {
+fn stated_slopes_are_derivatives_of_the_torques() {
     fn holds<E: Effect<f64, 1, 1>>(effect: &E, q: f64, qd: f64) {
         let h = 1e-6;
         let along = |dq: f64, dqd: f64| {
@@ -181,7 +181,7 @@ fn slopes_are_the_slopes_of_the_torques() {
 }
 
 #[test]
-fn an_implicit_step_is_backward_eulers_for_a_damped_spring() {
+fn an_implicit_step_of_a_spring_is_backward_eulers() {
     // (m + h b + h² k) q̇₊ = m q̇ − h k (q − q₀)
     let (k, b, h, m) = (5e5, 300.0, 2e-3, 2.0);
     let spring = Spring {

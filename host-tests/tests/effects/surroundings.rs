@@ -21,8 +21,9 @@ fn halves([a, b, c, d, e, f]: [f64; 6]) -> (DVec3, DVec3) {
     (DVec3::new(a, b, c), DVec3::new(d, e, f))
 }
 
+// The wrenches are in body and in world frames.
 #[test]
-fn wrenches_in_body_and_world_frames_and_a_moving_base_agree_with_pinocchio() {
+fn wrenches_and_moving_bases_agree_with_pinocchio() {
     let r = load("panda");
     let [mut body, mut world, mut base] = [(); 3].map(|()| Worst::default());
     for i in 0..r.first_states() {
@@ -72,7 +73,7 @@ fn wrenches_in_body_and_world_frames_and_a_moving_base_agree_with_pinocchio() {
 }
 
 #[test]
-fn a_base_that_rolls_is_a_joint_that_is_made_to() {
+fn a_rolling_base_equals_a_prescribed_joint() {
     // A gimbal on a deck: the deck as a prescribed first joint, or as the moving base.
     let arm = |parent| {
         let (z, y) = ([0.0, 0.0, 1.0], [0.0, 1.0, 0.0]);
@@ -118,7 +119,6 @@ fn a_base_that_rolls_is_a_joint_that_is_made_to() {
     worst.check::<f64>("gimbal", "rolling base");
 }
 
-/// The ground.
 fn ground<R: Real>(foot: [f64; 3]) -> Contact<R, 1> {
     let of = R::from_f64;
     Contact {
@@ -136,8 +136,9 @@ fn ground<R: Real>(foot: [f64; 3]) -> Contact<R, 1> {
     }
 }
 
+// Its friction opposes slip.
 #[test]
-fn the_ground_never_pulls_and_its_friction_stays_in_the_cone_and_opposes_slip() {
+fn the_ground_never_pulls_nor_leaves_the_friction_cone() {
     fn holds<R: Real>() {
         let (ground, rng) = (ground::<R>([0.0; 3]), &mut random_numbers());
         for _ in 0..100_000 {
@@ -162,7 +163,7 @@ fn the_ground_never_pulls_and_its_friction_stays_in_the_cone_and_opposes_slip() 
 }
 
 #[test]
-fn a_weight_on_the_ground_rests_at_its_weight_over_the_stiffness() {
+fn a_resting_bodys_depth_is_weight_over_stiffness() {
     let weight: ArmModel<f64, 1> = Model::new(
         "weight",
         [Body::new("weight", BASE, Joint::prismatic([0.0, 0.0, 1.0])).mass(3.0)],
@@ -178,7 +179,7 @@ fn a_weight_on_the_ground_rests_at_its_weight_over_the_stiffness() {
 }
 
 #[test]
-fn a_box_on_a_slope_slides_as_coulomb_says() {
+fn a_box_on_a_slope_follows_coulombs_law() {
     // A free body on two turned planes: 0.3 rad slides at g (sin − μ cos), 0.2 rad holds but for slip_tolerance.
     let slab: Model<f64, 1, 7, 6> = Model::new(
         "slab",

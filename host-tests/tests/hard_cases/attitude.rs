@@ -1,12 +1,14 @@
 use super::demand;
 
+// It keeps its length and its attitude.
 #[test]
-fn a_quaternion_keeps_its_length_and_attitude_for_ten_million_steps() {
+fn a_quaternion_survives_ten_million_steps() {
     demand(25);
 }
 
+// It keeps them within the order of its integrator.
 #[test]
-fn a_body_that_turns_over_keeps_energy_and_momentum_within_its_integrators_order() {
+fn a_tumbling_body_keeps_energy_and_momentum() {
     demand(26);
 }
 

@@ -18,7 +18,7 @@ fn chains_of_32() {
 }
 
 #[test]
-fn chains_of_64_say_what_is_left() {
+fn chains_of_64_state_their_lost_digits() {
     demand(10);
 }
 

@@ -5,17 +5,18 @@ fn an_encoder_wrap_is_no_velocity_spike() {
     demand(38);
 }
 
+// The arm stays on its way.
 #[test]
-fn late_and_missed_ticks_leave_commands_within_limits_and_the_arm_on_its_way() {
+fn late_and_missed_ticks_keep_the_command_limits() {
     demand(39);
 }
 
 #[test]
-fn time_does_not_stop_in_a_day() {
+fn time_advances_exactly_over_a_day() {
     demand(40);
 }
 
 #[test]
-fn nothing_winds_up_while_an_arm_is_held_fast() {
+fn a_blocked_arm_recovers_without_windup() {
     demand(41);
 }

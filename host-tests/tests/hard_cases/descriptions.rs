@@ -3,7 +3,7 @@
 use super::demand;
 
 #[test]
-fn impossible_inertias_are_named_and_run() {
+fn impossible_inertias_are_named_and_still_computed() {
     demand(22);
 }
 

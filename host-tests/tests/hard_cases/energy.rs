@@ -6,7 +6,7 @@ fn a_double_pendulum_keeps_its_energy_for_an_hour() {
 }
 
 #[test]
-fn a_tree_that_falls_moves_none_of_its_joints() {
+fn a_falling_tree_does_not_move_its_joints() {
     demand(29);
 }
 

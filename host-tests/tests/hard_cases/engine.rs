@@ -1,6 +1,6 @@
 use super::demand;
 
 #[test]
-fn the_engine_is_the_core_on_every_hard_arm() {
+fn the_engine_agrees_with_the_core_on_hard_arms() {
     demand(47);
 }

@@ -1,12 +1,13 @@
 use super::demand;
 
+// It creeps as its smooth sign says, or it holds.
 #[test]
-fn friction_at_rest_creeps_as_its_sign_says_or_holds_and_never_chatters() {
+fn friction_at_rest_never_chatters() {
     demand(33);
 }
 
 #[test]
-fn a_block_on_a_belt_sticks_and_slips_with_the_textbooks_period() {
+fn stick_slip_has_the_textbook_period() {
     demand(34);
 }
 

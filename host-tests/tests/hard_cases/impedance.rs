@@ -2,7 +2,8 @@
 
 use super::demand;
 
+// It stays within its limits.
 #[test]
-fn an_arm_that_is_pulled_straight_comes_to_rest_within_its_limits_and_returns() {
+fn an_arm_pulled_straight_rests_and_returns() {
     demand(70);
 }

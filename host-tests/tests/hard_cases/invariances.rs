@@ -1,4 +1,4 @@
-//! What must not matter.
+//! Invariances of the dynamics.
 
 use super::demand;
 
@@ -13,6 +13,6 @@ fn numbering_does_not_matter() {
 }
 
 #[test]
-fn rounded_rotations_set_crba_and_aba_apart_by_no_more_than_kappa() {
+fn rounded_rotations_separate_crba_and_aba_within_kappa() {
     demand(48);
 }

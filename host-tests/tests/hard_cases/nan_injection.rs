@@ -1,6 +1,6 @@
 use super::demand;
 
 #[test]
-fn what_is_no_number_reaches_no_drive_and_is_forgotten() {
+fn injected_nan_reaches_no_drive_and_is_forgotten() {
     demand(37);
 }

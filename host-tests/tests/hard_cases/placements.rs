@@ -13,7 +13,7 @@ fn an_offset_in_the_placement_leaves_the_stroke_its_digits() {
 }
 
 #[test]
-fn no_size_changes_a_significand() {
+fn scaling_a_robot_changes_no_significand() {
     demand(42);
 }
 

@@ -1,7 +1,7 @@
 use super::demand;
 
 #[test]
-fn a_spring_of_any_stiffness_swings_as_backward_eulers() {
+fn stiff_springs_swing_as_backward_euler_says() {
     demand(31);
 }
 
@@ -10,7 +10,8 @@ fn damping_of_any_strength_slows_down_and_never_turns_back() {
     demand(32);
 }
 
+// This holds at any stiffness.
 #[test]
-fn a_flexible_joint_of_any_stiffness_carries_what_accelerates_its_link() {
+fn a_flexible_joint_carries_its_links_inertial_torque() {
     demand(36);
 }

@@ -15,7 +15,7 @@ fn alone(joint: usize) -> FourierMotion<6> {
 }
 
 #[test]
-fn where_one_joint_moves_the_parameters_of_the_others_are_named_as_undetermined() {
+fn parameters_of_resting_joints_are_named_as_undetermined() {
     let motion = alone(2);
     assert!(ARM.condition(&states(&motion, 200)) > 1e6);
     let run = Run::new(&motion, &Parameters::off(3), Friction::Modelled);
@@ -51,7 +51,7 @@ fn where_one_joint_moves_the_parameters_of_the_others_are_named_as_undetermined(
 }
 
 #[test]
-fn recordings_that_are_not_whole_finite_periods_are_refused_with_the_reason() {
+fn recordings_of_partial_or_nonfinite_periods_are_refused() {
     let (q, tau) = (vec![[0.0; 6]; 20], vec![[0.0; 6]; 20]);
     let refused = |q: &[[f64; 6]], tau: &[[f64; 6]], each, interval| {
         Recording::try_new(q.to_vec(), tau.to_vec(), each, interval).expect_err("refused")
@@ -88,8 +88,9 @@ fn recordings_that_are_not_whole_finite_periods_are_refused_with_the_reason() {
     assert_eq!(error, Err(harmonics));
 }
 
+// At rest nothing is determined.
 #[test]
-fn an_arm_without_noise_is_found_and_at_rest_nothing_is_determined() {
+fn an_arm_without_noise_is_identified() {
     let still = FourierMotion {
         sines: vec![[0.0; 6]],
         cosines: vec![[0.0; 6]],
@@ -142,8 +143,9 @@ fn an_arm_without_noise_is_found_and_at_rest_nothing_is_determined() {
     );
 }
 
+// A body without mass remains so.
 #[test]
-fn a_nominal_body_that_is_impossible_is_named_and_a_body_without_mass_remains_so() {
+fn an_impossible_nominal_body_is_named() {
     let Parameters { mut bodies, joints } = Parameters::nominal();
     let found = crate::coverage::identified(&ARM, &Parameters::off(1), Friction::Modelled, 1);
     bodies[4] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];

@@ -37,7 +37,7 @@ fn random() -> Vec<f64> {
 
 /// `EXCITATION_WRITE=1` writes the file of the firmware.
 #[test]
-fn a_search_finds_a_motion_as_good_as_that_of_the_file_and_the_same_one_again() {
+fn the_search_is_repeatable_and_as_good_as_recorded() {
     let brief = Search {
         starts: 1,
         steps: 30,
@@ -56,9 +56,9 @@ fn source(motion: &FourierMotion<6>) -> String {
     motion.rust_source("Ur5eExcitation", TICK, PERIODS as u32)
 }
 
+// It is better conditioned, and a pick and place does not show all parameters.
 #[test]
-fn the_chosen_motion_is_better_conditioned_than_100_random_ones_and_a_pick_and_place_shows_not_all()
-{
+fn the_chosen_motion_beats_100_random_ones() {
     let chosen = ARM.condition(&states(&CHOSEN, 500));
     let work = ARM.condition(&pick_and_place());
     let random = random();
@@ -107,7 +107,7 @@ fn the_condition_number_is_that_of_the_singular_values() {
 }
 
 #[test]
-fn at_no_time_is_a_limit_exceeded_and_each_joint_reaches_one() {
+fn each_joint_reaches_a_limit_and_exceeds_none() {
     let at_start = CHOSEN.at(0.0);
     let rates = at_start.qd.into_iter().chain(at_start.qdd);
     assert!(rates.fold(0.0, |most, rate| rate.abs().max(most)) < 1e-5);
@@ -130,8 +130,9 @@ fn at_no_time_is_a_limit_exceeded_and_each_joint_reaches_one() {
     );
 }
 
+// Its reference in f32 follows the motion.
 #[test]
-fn the_file_for_firmware_is_that_of_the_motion_and_its_reference_follows_it_in_f32() {
+fn the_firmware_file_agrees_with_the_motion() {
     let file = std::fs::read_to_string(FILE).expect("the file");
     assert_eq!(file, source(&CHOSEN));
     let host = CHOSEN.reference(TICK, PERIODS as u32);
@@ -158,8 +159,9 @@ fn the_file_for_firmware_is_that_of_the_motion_and_its_reference_follows_it_in_f
     assert_eq!(Ur5eExcitation.at(end).qd, [0.0; 6]);
 }
 
+// Where none is clear there is no motion.
 #[test]
-fn a_configuration_that_is_not_clear_is_avoided_and_where_none_is_clear_there_is_no_motion() {
+fn the_search_keeps_to_clear_configurations() {
     let brief = Search {
         starts: 1,
         fresh: 60,

@@ -28,8 +28,9 @@ pub fn assert_possible(set: &PhysicalSet<6, 6>) {
 
 /// With hardly any knowledge of nominal numbers the nearest set that is not possible has the estimate itself. By optimality that of a
 /// convex problem agrees with the estimate at least as well as the true parameters, which are possible.
+// No possible arm has the estimate, and yet the set is possible.
 #[test]
-fn where_no_possible_arm_has_the_estimate_the_set_is_possible_and_agrees_as_well_as_the_truth() {
+fn the_physical_set_agrees_as_well_as_the_truth() {
     let nominal = Parameters::nominal();
     let mut impossible = 0;
     for seed in 0..10 {

@@ -21,7 +21,6 @@ use crate::chain::{Chain, State};
 use crate::matrix::{Mat, cross, mul_vec, plus};
 use crate::number::Number;
 
-/// The torques of the joints.
 #[inline(never)]
 pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, N>) -> [T; N] {
     let zero = [T::ZERO; 3];
@@ -45,7 +44,7 @@ pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, 
             &moment(&turning, &link.augmented_second),
             &cross(&link.augmented_first, &before),
         );
-        // Of the first link only the torque is needed.
+        // Only the torque of the first link is needed.
         let force = if i > 0 {
             mul_vec(&turning, &link.augmented_first)
         } else {

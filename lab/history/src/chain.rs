@@ -11,7 +11,6 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, Robot};
 use crate::matrix::Mat;
 use crate::number::Number;
 
-/// The longest chain.
 pub const LONGEST: usize = 12;
 /// Gravity in the base's frame, m/s².
 pub const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
@@ -69,9 +68,7 @@ const fn bodies<const N: usize>() -> [Body; N] {
 /// A link's constants, in its own frame i, computed once.
 #[derive(Clone, Copy, Debug)]
 pub struct Link<T> {
-    /// a.
     pub a: T,
-    /// d.
     pub d: T,
     /// cos α.
     pub cos_alpha: T,
@@ -105,7 +102,6 @@ pub struct Link<T> {
     pub augmented_second: Mat<T, 3>,
 }
 
-/// A chain of N links.
 #[derive(Clone, Copy, Debug)]
 pub struct Chain<T, const N: usize> {
     /// From the base to the tip.
@@ -121,9 +117,7 @@ pub struct State<T, const N: usize> {
     pub cos: [T; N],
     /// sin q.
     pub sin: [T; N],
-    /// q̇.
     pub qd: [T; N],
-    /// q̈.
     pub qdd: [T; N],
 }
 

@@ -7,14 +7,11 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::number::Number;
 
-/// How many operations there were.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {
-    /// Products.
     pub products: i64,
     /// Sums and differences; a change of sign is neither.
     pub sums: i64,
-    /// Quotients.
     pub quotients: i64,
 }
 
@@ -32,7 +29,6 @@ impl From<f64> for Counted {
     }
 }
 
-/// The operations of a computation.
 pub fn count<T>(compute: impl FnOnce() -> T) -> Operations {
     COUNT.set(Operations::default());
     core::hint::black_box(compute());

@@ -14,24 +14,19 @@ pub type Both = [Polynomial; 2];
 #[derive(Clone, Copy, Debug)]
 pub struct Term(pub &'static str, pub Both);
 
-/// An ancestor's counts.
 #[derive(Clone, Copy, Debug)]
 pub struct Counts {
-    /// As the firmware calls it.
+    /// Its name in the firmware.
     pub key: &'static str,
-    /// Of its publication.
     pub year: u32,
-    /// Who published it.
     pub authors: &'static str,
-    /// What it is.
     pub form: &'static str,
-    /// As printed.
+    /// The counts as the publication prints them.
     pub published: Option<Both>,
     /// The printed totals at six joints, where they are another figure than the polynomials'.
     pub printed_at_6: Option<[i64; 2]>,
-    /// As counted here.
+    /// The counts of this implementation.
     pub counted: Both,
-    /// All differences.
     pub terms: &'static [Term],
 }
 

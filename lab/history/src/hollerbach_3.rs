@@ -19,7 +19,6 @@ use crate::matrix::{trace_of_product, transposed};
 use crate::number::Number;
 use crate::waters::Turning;
 
-/// The torques of the joints.
 #[inline(never)]
 pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, N>) -> [T; N] {
     let zero = [[T::ZERO; 3]; 3];

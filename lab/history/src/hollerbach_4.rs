@@ -15,7 +15,6 @@ use crate::matrix::{derivative, dot, mul, mul_transposed, mul_vec, plus, sum, tr
 use crate::number::Number;
 use crate::waters::Turning;
 
-/// The torques of the joints.
 #[inline(never)]
 pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, N>) -> [T; N] {
     let zero = [[T::ZERO; 4]; 4];

@@ -19,7 +19,6 @@ use crate::chain::{Chain, Link, State};
 use crate::matrix::{Mat, cross, dot, mul_vec, plus, times, transpose_mul_vec};
 use crate::number::Number;
 
-/// The torques of the joints.
 #[inline(never)]
 pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, N>) -> [T; N] {
     let zero = [T::ZERO; 3];

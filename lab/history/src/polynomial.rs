@@ -9,17 +9,14 @@ pub const fn poly(n2: i64, n1: i64, n0: i64) -> Polynomial {
     Polynomial([0, 0, 12 * n2, 12 * n1, 12 * n0])
 }
 
-/// Nothing.
 pub const NONE: Polynomial = poly(0, 0, 0);
 
 impl Polynomial {
-    /// Twelve times its value.
     pub const fn twelvefold(&self, n: i64) -> i64 {
         let [n4, n3, n2, n1, n0] = self.0;
         (((n4 * n + n3) * n + n2) * n + n1) * n + n0
     }
 
-    /// The sum of two.
     pub const fn plus(&self, other: &Self) -> Self {
         let mut sum = self.0;
         let mut i = 0;

@@ -17,7 +17,6 @@ use crate::chain::{Chain, State};
 use crate::matrix::{Mat, derivative, dot, mul, mul_vec, trace_of_product};
 use crate::number::Number;
 
-/// The torques of the joints.
 #[inline(never)]
 pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, N>) -> [T; N] {
     let mut tau = [T::ZERO; N];

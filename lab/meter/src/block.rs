@@ -4,7 +4,6 @@
 use crate::insn::{Class, Insn, Marker};
 use crate::model::{Pipe, Reading};
 
-/// Instructions, cycles and floating-point operations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Exact.
@@ -16,7 +15,6 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Both together.
     pub fn plus(self, other: Self) -> Self {
         Self {
             instructions: self.instructions + other.instructions,
@@ -37,11 +35,9 @@ impl Tally {
 pub struct Mark {
     /// Number of instructions of the block before it.
     pub index: usize,
-    /// What it says.
     pub marker: Marker,
 }
 
-/// A translated block.
 #[derive(Debug)]
 pub struct Block {
     start: u32,
@@ -87,7 +83,6 @@ impl Block {
         }
     }
 
-    /// Address of the first instruction.
     pub fn start(&self) -> u32 {
         self.start
     }
@@ -97,12 +92,10 @@ impl Block {
         self.end
     }
 
-    /// What it was made of.
     pub fn insns(&self) -> &[Insn] {
         &self.insns
     }
 
-    /// The markers in it.
     pub fn marks(&self) -> &[Mark] {
         &self.marks
     }
@@ -115,7 +108,7 @@ impl Block {
         &self.checkpoints
     }
 
-    /// How many instructions were executed, `passed` checkpoints having been reported.
+    /// The number of instructions that were executed once `passed` checkpoints have been reported.
     pub fn executed(&self, passed: usize) -> usize {
         match passed {
             _ if passed >= self.checkpoints.len() => self.insns.len(),
@@ -178,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn sums_agree_with_the_walk() {
+    fn block_sums_agree_with_single_steps() {
         let block = block(&[NOP, LDR_R0_R1, LDR_R0_R1, NOP]);
         for count in 0..=4 {
             assert_eq!(
@@ -198,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pending_load_shortens_the_first() {
+    fn a_pending_load_shortens_the_first_load() {
         let mut pipe = Pipe::default();
         pipe.step(&decode(LDR_R0_R1, 0));
         assert_eq!(block(&[LDR_R0_R1, NOP]).cost(pipe, 2).0.cycles, 2);
@@ -206,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn checkpoints_tell_how_far_it_came() {
+    fn checkpoints_tell_how_many_instructions_ran() {
         let block = block(&[NOP, LDR_R0_R1, NOP, LDR_R0_R1, NOP]);
         assert_eq!(block.checkpoints(), [1, 3, 4]);
         assert_eq!(

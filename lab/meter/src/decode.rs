@@ -30,7 +30,6 @@ pub fn decode(first: u16, second: u16) -> Insn {
 
 const SP: u32 = 13;
 
-/// A line of the table.
 struct Row {
     /// The bits that are fixed, and what they are.
     mask: u32,
@@ -145,7 +144,6 @@ impl Row {
         names.fold(0, |set, name| set | 1 << register(name))
     }
 
-    /// Floating-point registers.
     fn floats(&self, code: u32, sets: &str) -> u32 {
         let set = |set: &str| {
             let (first, count) = set.split_once('+').unwrap_or((set, "1"));

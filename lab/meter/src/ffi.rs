@@ -146,7 +146,7 @@ mod tests {
     use super::version_to_ask_for;
 
     #[test]
-    fn the_version_is_that_of_the_newest_function_of_the_host() {
+    fn the_hosts_newest_function_decides_the_version() {
         let first = [c"qemu_plugin_insn_data"].as_slice();
         let second = [c"qemu_plugin_scoreboard_new"].as_slice();
         let fourth = [second[0], c"qemu_plugin_read_memory_vaddr"];
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn the_variable_decides_if_it_is_a_number() {
+    fn a_numeric_variable_decides_the_version() {
         let version = |text: &str| version_to_ask_for(Some(OsStr::new(text)), |_| false);
         assert_eq!((version("9"), version("nine")), (9, 1));
     }

@@ -6,7 +6,7 @@
 
 use crate::samples::{Sample, sample};
 
-/// What each sequence must cost, beside what is special about it.
+/// The required cost of each sequence, beside the reason for it.
 const HAND_COUNTED: &str = include_str!("hand_counted.txt");
 
 fn by_hand() -> impl Iterator<Item = (&'static str, Sample)> {

@@ -1,4 +1,4 @@
-//! What the timing model needs to know of an instruction, and nothing more.
+//! The properties of an instruction that the timing model needs.
 
 /// One end of a measured region: `dbg #2k` opens region k, `dbg #2k+1` closes it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -52,7 +52,6 @@ pub enum Class {
 /// A decoded instruction. Register sets are bit masks: bit n for `Rn` or `Sn`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Insn {
-    /// What it costs.
     pub class: Class,
     /// 2 or 4 bytes.
     pub size: u8,
@@ -106,13 +105,11 @@ impl Insn {
         self
     }
 
-    /// Adds address registers.
     pub(crate) const fn addressed_by(mut self, registers: u16) -> Self {
         self.address |= registers & !PC;
         self
     }
 
-    /// Makes it a branch.
     pub(crate) const fn branching(mut self) -> Self {
         self.may_branch = true;
         self

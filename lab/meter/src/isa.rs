@@ -3,15 +3,14 @@
 use crate::decode;
 use crate::insn::{Class, Insn, Marker};
 
-/// The code that QEMU runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Isa {
-    /// Of a Cortex-M4F, with cycles and floating-point operations.
+    /// The code of a Cortex-M4F, with cycles and floating-point operations.
     #[default]
     CortexM4F,
-    /// Of another core of ARMv7-M, or of ARMv8-M with the main extension.
+    /// The code of another core of ARMv7-M, or of ARMv8-M with the main extension.
     Thumb2,
-    /// Of ARMv6-M, which has no `dbg`: markers are moves of a register to itself.
+    /// The code of ARMv6-M, which has no `dbg`: markers are moves of a register to itself.
     Armv6M,
     /// RISC-V with or without compressed instructions: markers are `slti x0, x0, k`.
     RiscV,
@@ -101,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn moves_of_a_register_to_itself_are_the_markers_of_armv6m() {
+    fn armv6m_markers_are_moves_of_registers_to_themselves() {
         // mov rN, rN, in the order of the regions.
         let codes = [
             0x4600, 0x4609, 0x4612, 0x461b, 0x4624, 0x462d, 0x4636, 0x463f, 0x46d2, 0x46c9, 0x46e4,
@@ -127,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn the_two_lowest_bits_say_the_size_of_an_instruction_of_risc_v() {
+    fn the_two_lowest_bits_give_a_riscv_instructions_size() {
         for (code, size) in [(0x0000_0013, 4), (0x0001, 2), (0x4501, 2), (0x8082, 2)] {
             let insn = Isa::RiscV.decode(u32::to_le_bytes(code));
             assert_eq!(insn.size, size, "{code:#x}");

@@ -15,7 +15,7 @@ pub const DIVIDER_BUSY: u32 = 13;
 pub enum Reading {
     /// The fewest cycles.
     Least,
-    /// What every figure is.
+    /// The choice that every figure uses.
     #[default]
     Chosen,
     /// The most cycles.
@@ -51,7 +51,7 @@ impl Reading {
     }
 }
 
-/// What an instruction leaves behind that can delay those after it.
+/// The state that an instruction leaves behind and that can delay later ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pipe {
     reading: Reading,
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn a_marker_is_not_there() {
+    fn a_marker_costs_no_cycles() {
         let (region, opens) = (0, true);
         let marker = Insn::new(Class::Marker(Marker { region, opens }), 4);
         let sequence = [INTEGER.writing(1), load(1, 2), load(4, 8), load(8, 1)];

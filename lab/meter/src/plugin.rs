@@ -14,7 +14,6 @@ use crate::meter::Meter;
 use crate::model::Reading;
 use crate::samples::format_samples;
 
-/// All that the plugin knows.
 struct Plugin {
     qemu: Qemu,
     /// The version of the interface that QEMU speaks, whichever was requested.

@@ -34,7 +34,6 @@ pub struct Sample {
     pub flops: u64,
 }
 
-/// Why a file was refused.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -44,7 +43,7 @@ pub enum Error {
     /// Not a sample: number of the line, from 1, and the line.
     #[error("line {0} is not a sample: `{1}`")]
     Line(usize, String),
-    /// So many markers had no partner.
+    /// The number of markers without a partner.
     #[error("{0} region markers have no partner")]
     Unmatched(u64),
 }
@@ -114,17 +113,15 @@ pub fn format_samples(isa: Isa, samples: &[Sample], unmatched: u64) -> String {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Summary {
-    /// The smallest.
     pub min: u64,
     /// The middle one in order of size; of an even number the lower of the two
     /// middle ones, so that it is a measured value.
     pub median: u64,
-    /// The largest.
     pub max: u64,
 }
 
 impl Summary {
-    /// Of these values; `None` if there are none.
+    /// The summary of these values; `None` if there are none.
     pub fn of(values: impl IntoIterator<Item = u64>) -> Option<Self> {
         let mut values: Vec<u64> = values.into_iter().collect();
         values.sort_unstable();
@@ -136,7 +133,7 @@ impl Summary {
         })
     }
 
-    /// Of what one region's samples say; `None` if it was never closed.
+    /// The summary of one quantity over a region's samples; `None` if the region was never closed.
     pub fn of_region(samples: &[Sample], region: u8, what: fn(&Sample) -> u64) -> Option<Self> {
         let passages = samples.iter().filter(|sample| sample.region == region);
         Self::of(passages.map(what))
@@ -169,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn of_a_core_that_is_not_modelled_instructions_alone_are_written() {
+    fn an_unmodelled_core_is_written_with_instructions_only() {
         let text = format_samples(Isa::RiscV, &SAMPLES, 0);
         let expected = format!("{INSTRUCTIONS_ALONE}\n1 390 0 0\n0 1204 0 0\n");
         assert_eq!(text, expected);
@@ -177,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_sample_is_refused_by_its_line() {
+    fn invalid_samples_are_refused_by_line() {
         assert_eq!(parse_samples(""), Err(Error::Header(String::new())));
         for line in "/0 1 2/0 1 2 3 4/8 1 2 3/0 1 x 3/0 -1 2 3/unmatched x".split('/') {
             let read = parse_samples(&format!("{HEADER}\n{line}\n"));

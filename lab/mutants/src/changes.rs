@@ -1,4 +1,4 @@
-//! What is changed to what, as text.
+//! The replacements of expressions, as text.
 
 /// The longest piece of source in the words of a change.
 const LONGEST: usize = 60;
@@ -48,7 +48,6 @@ pub fn operators(op: &str) -> impl Iterator<Item = (&'static str, &'static str)>
     each.filter_map(move |(kind, one, other)| (one == op).then_some((kind, other)))
 }
 
-/// Whether a binary operator compares.
 pub fn is_comparison(op: &str) -> bool {
     operators(op).any(|(kind, _)| kind == "comparison")
 }
@@ -56,7 +55,7 @@ pub fn is_comparison(op: &str) -> bool {
 /// Another operator between the same operands, which keep their precedence, and the change in words.
 pub fn operator(left: &str, op: &str, other: &str, right: &str) -> (String, String) {
     let text = match op.ends_with('=') && !is_comparison(op) {
-        // What is assigned to is no value.
+        // The left side of an assignment is no value.
         true => format!("{left} {other} ({right})"),
         false => format!("({left}) {other} ({right})"),
     };
@@ -88,7 +87,6 @@ pub fn float(written: &str, digits: &str, suffix: &str) -> Option<String> {
     })
 }
 
-/// Methods and their counterparts.
 const METHODS: [[&str; 2]; 8] = [
     ["min", "max"],
     ["all", "any"],
@@ -106,7 +104,7 @@ pub fn method(name: &str) -> Option<&'static str> {
     Some(pair[usize::from(pair[0] == name)])
 }
 
-/// What a function may return at its beginning, by its type.
+/// The values that a function may return at its beginning, by its type.
 pub fn returned(output: &syn::ReturnType) -> &'static [&'static str] {
     let syn::ReturnType::Type(_, of) = output else {
         return &[""];

@@ -37,7 +37,6 @@ pub struct Program {
     pub folder: PathBuf,
 }
 
-/// What a build gave.
 pub enum Built {
     Programs(Vec<Program>),
     /// The numbers of sites whose changes are no valid Rust there.
@@ -56,7 +55,7 @@ pub fn build(copy: &Path, target: &Path, places: &Places, is_optimised: bool) ->
         let packages = ["", "_BUILD_OVERRIDE"];
         cargo.envs(packages.map(|of| (format!("CARGO_PROFILE_DEV{of}_OPT_LEVEL"), "0")));
     }
-    // Of another workspace, such as that of a test, all.
+    // Another workspace, such as that of a test, is built as a whole.
     if copy.join(MEMBER).is_dir() {
         cargo.args(PACKAGES.iter().flat_map(|package| ["--package", package]));
         cargo.args(["--features", FEATURES]);

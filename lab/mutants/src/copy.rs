@@ -83,7 +83,7 @@ fn manifest(file: &str, text: String) -> String {
     if file == "Cargo.toml" {
         return text.replace("members = [", &format!("members = [\"{SWITCH}\", "));
     }
-    // Where the copy's root is from here.
+    // The path to the copy's root from here.
     let up = "../".repeat(file.matches('/').count());
     text.replacen(
         "[dependencies]\n",

@@ -111,7 +111,6 @@ fn run(args: &Args) -> Result<Results> {
     Ok(results)
 }
 
-/// A build of the tests.
 struct Build {
     kind: &'static str,
     folder: PathBuf,

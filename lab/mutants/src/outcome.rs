@@ -1,11 +1,10 @@
-//! What became of a change, as it is printed and kept for the next run.
+//! The verdict on a change, as it is printed and kept for the next run.
 
 use serde::{Deserialize, Serialize};
 
 use crate::rooms::room_of;
 use crate::site::Site;
 
-/// What became of a change.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -17,7 +16,6 @@ pub enum Verdict {
     Unreached,
 }
 
-/// A change and its verdict.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Outcome {
     pub room: String,
@@ -43,7 +41,6 @@ impl Outcome {
     }
 }
 
-/// All that a run found.
 #[derive(Debug, Default, Serialize)]
 pub struct Results {
     pub tests: usize,

@@ -1,4 +1,4 @@
-//! Which parts of the workspace are changed, and how many changes each of them has.
+//! The parts of the workspace that are changed, and the number of changes of each.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -2,25 +2,23 @@
 
 use std::ops::Range;
 
-/// How the text of a site is changed.
+/// The way in which the text of a site is changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// An expression by another one.
+    /// Another expression replaces it.
     Replace,
-    /// A statement by none.
+    /// The statement is left out.
     Delete,
     /// A function returns at its beginning.
     Return,
 }
 
-/// One change.
 #[derive(Clone, Debug)]
 pub struct Site {
     /// Its number in the environment of a test.
     pub number: u32,
     /// The path from the workspace's root.
     pub file: String,
-    /// The function that contains it.
     pub function: String,
     pub line: usize,
     /// The kind of change, by which the sample is balanced.
@@ -28,14 +26,14 @@ pub struct Site {
     pub form: Form,
     /// The bytes of the source that are changed; none for [`Form::Return`].
     pub bytes: Range<usize>,
-    /// What stands there instead.
+    /// The text that replaces it.
     pub changed: String,
     /// The change in a few words; with file and function the key of its reason.
     pub change: String,
 }
 
 impl Site {
-    /// What names the site even if lines move.
+    /// A key of the site that stays the same if lines move.
     pub fn key(&self) -> String {
         format!("{}: {}: {}", self.file, self.function, self.change)
     }
@@ -58,7 +56,7 @@ pub type Taken = Vec<(u32, Range<usize>)>;
 /// A source in which the sites have switches.
 pub fn rewritten(source: &str, sites: &[&Site]) -> (String, Taken) {
     let mut sites = sites.to_vec();
-    // Of two that begin together, the longer one contains the other.
+    // If two begin together, the longer one contains the other.
     let order = |s: &&Site| (s.bytes.start, std::cmp::Reverse(s.bytes.end), s.number);
     sites.sort_by_key(order);
     let mut written = (String::with_capacity(2 * source.len()), Taken::new());

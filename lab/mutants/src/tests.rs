@@ -13,7 +13,7 @@ fn changes(source: &str) -> Vec<String> {
     sites.into_iter().map(|site| site.change).collect()
 }
 
-/// What the only switch of a source makes of it.
+/// The source with its switches.
 fn switched(source: &str) -> String {
     let sites = sites("a.rs", source).expect("valid Rust");
     let all: Vec<&Site> = sites.iter().collect();
@@ -40,7 +40,7 @@ fn each_change_is_another_one_of_the_same_type() {
         // A declaration is needed by what follows, and the negation of a comparison is one of its own changes.
         ("let x = y; if x == z { w } else { x }", "`x == z` → `!=`"),
         ("if let Some(x) = y && z { x } else { w }", ""),
-        // Of a repetition, the value is evaluated when the function runs, and the length is not.
+        // The value of a repetition is evaluated when the function runs, and its length is not.
         ("[-a; 2 + 3]", "`-a` → `a`"),
         // Arguments of macros are changed like those of functions.
         (
@@ -71,7 +71,7 @@ fn each_change_is_another_one_of_the_same_type() {
 }
 
 #[test]
-fn numbers_become_others() {
+fn literals_become_other_literals() {
     for (literal, other) in [
         ("0", "1"),
         ("1_u8", "0u8"),
@@ -121,7 +121,7 @@ fn constants_tests_and_configured_items_have_no_switch() {
 }
 
 #[test]
-fn a_change_within_another_stays_in_the_text_that_is_not_changed() {
+fn a_nested_change_is_in_the_unchanged_branch() {
     let text = switched("fn f() -> T { a + b * c }");
     let inner = "(if ::mutant_switch::on(1) { (b) / (c) } else { (if ::mutant_switch::on(2) { (b) + (c) } else { b * c }) })";
     assert_eq!(
@@ -147,8 +147,9 @@ fn each_site_has_its_bytes_in_the_new_text() {
     }
 }
 
+// The listed modules are `ROOMS`.
 #[test]
-fn the_draw_is_the_same_each_time_and_of_no_other_rooms() {
+fn the_draw_is_repeatable_and_of_listed_modules_only() {
     let one = |k| format!("fn f{k}() -> T {{ if a{k} < b {{ -c{k} }} else {{ d && e }} }}\n");
     let many: String = (0..400).map(one).collect();
     let of_file = |file, source: &str| sites(file, source).expect("valid Rust");

@@ -19,7 +19,7 @@ pub const RIGID: &str = "rigid_body";
 /// The prefix of the name of a scene without an effect.
 pub const WITHOUT: &str = "less_";
 
-/// What is done with each scene.
+/// Visits each scene.
 pub trait Visitor<const N: usize> {
     /// Takes the scene of this name.
     fn scene<E: Effect<f32, N, N>>(&mut self, name: &'static str, effects: E);
@@ -47,7 +47,6 @@ pub fn rigid<const N: usize>(visitor: &mut impl Visitor<N>) {
     visitor.scene("less_coriolis", (Gravity::EARTH, Inertia));
 }
 
-/// What acts at a joint.
 pub fn joints<const N: usize>(visitor: &mut impl Visitor<N>) {
     let (.., Viscous(viscous), Coulomb { torque, width }, Armature(rotors)) = ur5e::EFFECTS;
     let [sliding, viscous, rotors] = [torque, viscous, rotors].map(spread);
@@ -108,7 +107,7 @@ pub fn joints<const N: usize>(visitor: &mut impl Visitor<N>) {
     visitor.scene("cogging", (RIGID_BODY, cogging));
 }
 
-/// What acts on a body: the one of the number BODY, or the base.
+/// The effects on the body of the number BODY, or on the base.
 pub fn bodies<const N: usize, const BODY: usize>(visitor: &mut impl Visitor<N>) {
     let body = BODY;
     let payload = Payload::<_, BODY>::from_inertia(BodyInertia {

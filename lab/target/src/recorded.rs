@@ -23,7 +23,7 @@ pub fn digests(mut report: impl FnMut(&'static str, &'static str, Digest)) {
     report("any", "friction and duty", saturating());
 }
 
-/// What ends in a saturating conversion, on floats of every sign and exponent, NaN and infinities too.
+/// Saturating conversions of floats of every sign and exponent, of NaN and of infinities.
 fn saturating() -> Digest {
     const STEP: usize = 0x1_0003;
     let mut digest = Digest::EMPTY;

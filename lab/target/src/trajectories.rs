@@ -3,7 +3,6 @@
 use firmware_demo::trajectories::{HOME, READY, pass, stop};
 use motion_control::WayPoint;
 
-/// The Panda's pick and place.
 pub const PANDA_PICK_AND_PLACE: [WayPoint<f32, 7>; 7] = [
     stop(READY, 0),
     stop([-0.70, -0.30, 0.10, -2.00, 0.05, 1.75, 0.10], 1200),
@@ -30,7 +29,7 @@ pub const PANDA_SWING: [WayPoint<f32, 7>; 4] = [
     stop(READY, 1300),
 ];
 
-/// How a quadruped's leg stands, rad.
+/// The standing posture of a quadruped's leg, rad.
 const STANDING: [f32; 3] = [0.0, 0.8, -1.6];
 
 /// Two steps of a quadruped's leg at a trot, one turned outwards: lifted, put ahead, drawn back under the body.

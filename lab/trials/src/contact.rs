@@ -80,7 +80,6 @@ pub fn worst(friction: &str, stiffness: f32, response: usize) -> Worst {
 /// An encoder, a kind of friction, and whether the stated errors hold for joints that stick.
 #[derive(Clone, Copy, Debug)]
 pub struct Watch {
-    /// The bits of the encoder.
     pub bits: u32,
     /// One of [`FRICTIONS`].
     pub friction: &'static str,

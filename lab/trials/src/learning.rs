@@ -20,7 +20,6 @@ pub const ERROR: f32 = 0.05;
 pub const LOAD_ERRORS: [f32; 2] = [0.02, 5e-3];
 /// Ticks from one point of a chart to the next.
 const EVERY: u32 = 250;
-/// The parameters of a joint.
 const OF_JOINTS: [&str; OWN] = [
     "viscous",
     "Coulomb",
@@ -45,7 +44,6 @@ pub fn of_load(outcome: &Outcome) -> [f32; 2] {
     [(mass / LOAD.mass - 1.0).abs(), off]
 }
 
-/// The page.
 pub fn shown() -> Shown {
     let mut rows = Vec::new();
     let mut most = [0.0_f32; 4];
@@ -148,7 +146,6 @@ fn parameters(known: &Known) -> Vec<(String, usize)> {
 
 type Points = Vec<(f64, f64)>;
 
-/// What a run shows.
 struct Curves {
     /// By seconds: each of [`parameters`], and the error of the torques.
     lines: Vec<(String, Points)>,
@@ -190,7 +187,7 @@ fn curves<F: Effect<f32, 6, 6> + Clone>(friction: F) -> Curves {
         let [error, _] = validation(&model.expect("a possible one"));
         errors.push((seconds, 100.0 * f64::from(error)));
     });
-    // What the model lacks without the load is found in the weighing before the last one.
+    // The error of the model without the load is found in the weighing before the last one.
     let tare = *weighings.last().expect("a weighing");
     let load = core::array::from_fn(|i| greedy.estimate()[i] - tare[i]);
     let lines = lines.into_iter().map(|(name, _, points)| (name, points));

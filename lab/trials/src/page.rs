@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-/// What a page shows.
 #[derive(Serialize)]
 pub struct Shown {
     /// In Markdown.
@@ -16,11 +15,8 @@ pub struct Shown {
 /// Lines over two axes.
 #[derive(Serialize)]
 pub struct Chart {
-    /// Above it.
     pub title: String,
-    /// To the right.
     pub x: Scale,
-    /// Upwards.
     pub y: Scale,
     /// Their names and points.
     pub lines: Vec<(String, Vec<(f64, f64)>)>,
@@ -28,7 +24,6 @@ pub struct Chart {
     pub dots: bool,
 }
 
-/// An axis.
 #[derive(Serialize)]
 pub struct Scale {
     /// Quantity and unit.
@@ -40,7 +35,6 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// In equal steps.
     pub fn linear(name: &'static str, ends: [f64; 2]) -> Self {
         Self {
             name,
@@ -49,7 +43,6 @@ impl Scale {
         }
     }
 
-    /// By factors of ten.
     pub fn decades(name: &'static str, ends: [f64; 2]) -> Self {
         Self {
             logarithmic: true,

@@ -15,7 +15,6 @@ use lab_target::learning::parameters::{Known, N, OWN, P, WIDTH};
 use lab_target::learning::run::excitation;
 use motion_control::Excitation;
 
-/// The parameters of a joint.
 fn own() -> [f64; OWN] {
     let (_, gears) = GEARS;
     [
@@ -28,7 +27,6 @@ fn own() -> [f64; OWN] {
     .map(f64::from)
 }
 
-/// The parameters of the arm.
 pub fn truth() -> [f64; N] {
     let bodies = inertial_parameters(&So101::MODEL, &());
     let mut all = bodies
@@ -110,7 +108,6 @@ pub fn selected(nominal: [f64; N]) -> Known {
     }
 }
 
-/// The seed of the firmware.
 pub const SEED: u32 = 1;
 /// The file with what the firmware knows.
 pub const FILE: &str = concat!(

@@ -3,8 +3,9 @@
 use lab_target::contact::crash::{FRICTIONS, RESPONSES, STIFFNESSES};
 use trial_tests::contact::{LATER, PEAK, WATCHES, required, worst};
 
+// It is relieved half a second later, with either friction.
 #[test]
-fn a_contact_peaks_below_its_bar_and_is_relieved_half_a_second_later_with_either_friction() {
+fn a_contact_peaks_below_its_bar_and_is_relieved() {
     for friction in FRICTIONS {
         for stiffness in STIFFNESSES {
             for (number, (name, response)) in RESPONSES.into_iter().enumerate() {
@@ -38,14 +39,16 @@ fn pushes_at_shoulder_and_wrist_are_found_within_their_bars() {
     }
 }
 
+// The motion is the pick and place.
 #[test]
-fn a_million_ticks_of_the_pick_and_place_have_no_false_alarm() {
+fn a_million_ticks_have_no_false_alarm() {
     let [ticks, found] = WATCHES[0].alarms(trial_tests::contact::LAPS);
     assert!(ticks >= 1_000_000 && found == 0, "{found} in {ticks}");
 }
 
+// Stated stiction gives none.
 #[test]
-fn an_arm_whose_joints_stick_gives_false_alarms_unless_stiction_is_stated() {
+fn unstated_stiction_gives_false_alarms() {
     let [_, stated] = WATCHES[2].alarms(10);
     let [_, sliding] = WATCHES[4].alarms(10);
     assert!(stated == 0 && sliding > 1000, "{stated} {sliding}");

@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_count_that_wraps_around_is_a_tick_like_any_other() {
+    fn a_wrapping_count_is_no_missed_tick() {
         let mut counter = TickCounter::new();
         let missed = [u32::MAX - 1, u32::MAX, 0, 3, 3].map(|now| counter.begin(now).missed());
         assert_eq!(missed, [0, 0, 0, 2, 0]);

@@ -96,7 +96,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_second_derivative_of_a_product_with_a_sine_is_its_own() {
+    fn second_derivatives_of_sine_products_are_exact() {
         let x = Dual::new(Dual::new(0.7, 1.0), Dual::new(1.0, 0.0));
         let y = x * x * x.sin_cos().0;
         let (s, c) = 0.7_f64.sin_cos();

@@ -262,7 +262,7 @@ fn a_file_says_which_of_its_inertias_no_body_has() {
 }
 
 #[test]
-fn limits_of_torque_far_above_the_need_are_named_with_both_numbers() {
+fn excessive_torque_limits_are_reported_with_both_numbers() {
     // 2 kg at 0.1 m: gravity takes 2 N·m, and 5 rad/s² another 0.15.
     let limited = |effort: &str| {
         let limit = format!("<limit lower='-1' upper='2' effort='{effort}' velocity='3'/>");

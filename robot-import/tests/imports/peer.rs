@@ -337,7 +337,7 @@ const TERMS: [(&str, &[&str]); 20] = [
 ];
 
 #[test]
-fn what_is_left_out_is_listed_and_no_reason_to_refuse() {
+fn omitted_terms_are_listed_but_not_refused() {
     let python = with_mujoco();
     let files = fs::read_dir(cases()).expect("a folder").count();
     assert_eq!(files, TERMS.len());
@@ -360,7 +360,7 @@ fn what_is_left_out_is_listed_and_no_reason_to_refuse() {
 
 /// Locked joints are where the import has them: at zero, not at the position in the file.
 #[test]
-fn joints_with_a_reference_are_locked_where_the_peer_locks_them() {
+fn joints_with_a_reference_lock_as_the_peer_does() {
     let Some(python) = with_mujoco() else {
         return;
     };

@@ -10,7 +10,6 @@ pub const DIFFERENCE: f64 = 0.6;
 /// The most by which the RMS of a joint's tracking errors may differ, mrad.
 pub const RMS: f64 = 0.01;
 
-/// A joint in two motions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Joint {
     /// The RMS of its tracking errors with the robot outside, mrad.
@@ -21,12 +20,10 @@ pub struct Joint {
     pub max_difference_mrad: f64,
 }
 
-/// Two motions side by side.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     /// Ticks of both.
     pub ticks: usize,
-    /// The joints.
     pub joints: [Joint; JOINTS],
     /// The largest difference of a position that is allowed, mrad.
     pub difference_bound_mrad: f64,
@@ -35,7 +32,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Of the motions with the robot outside and with the robot inside.
+    /// Compares the motions with the robot outside and with the robot inside.
     #[must_use]
     pub fn of(outside: &Motion, inside: &Motion) -> Self {
         let pairs = || outside.estimates.iter().zip(&inside.estimates);

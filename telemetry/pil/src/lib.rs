@@ -16,49 +16,29 @@ pub mod machine;
 pub mod motion;
 pub mod plant;
 
-/// The joints of the scene.
 pub const JOINTS: usize = 6;
 
-/// Why there is no comparison.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The line to the processor.
     #[error(transparent)]
     Line(#[from] telemetry_watch::error::Error),
-    /// The processor does not reply.
     #[error("no reply from {name} to tick {number} after {tries} tries")]
     Silent {
-        /// The port or program.
         name: String,
-        /// The number of the tick.
         number: u32,
         /// How often it was sent.
         tries: u32,
     },
     /// The processor has another number of joints.
     #[error("the reply to tick {number} has {found} joints, not {JOINTS}")]
-    Joints {
-        /// The number of the tick.
-        number: u32,
-        /// What it has.
-        found: usize,
-    },
+    Joints { number: u32, found: usize },
     /// The robot has no forward dynamics any more.
     #[error("in tick {number} the simulated robot has no forward dynamics")]
-    Broken {
-        /// The number of the tick.
-        number: u32,
-    },
+    Broken { number: u32 },
     /// The recorded motion lacks a tick.
     #[error("the record of the plant inside has {found} ticks in a row, not {ticks}")]
-    Record {
-        /// What it has.
-        found: usize,
-        /// What is needed.
-        ticks: usize,
-    },
-    /// The trajectory of the scene.
+    Record { found: usize, ticks: usize },
     #[error("the trajectory needs more than the arm's limits")]
     Trajectory,
     /// The motions differ by more than stated.

@@ -12,9 +12,9 @@ use telemetry_watch::source::Source;
 
 use crate::{Error, JOINTS};
 
-/// How long a reply may take before the request is sent again.
+/// The time limit of a reply; after it the request is sent again.
 const REPLY: Duration = Duration::from_millis(500);
-/// How often a request is sent.
+/// The largest number of times that a request is sent.
 const TRIES: u32 = 10;
 
 /// What controls the robot.
@@ -33,7 +33,6 @@ pub struct Remote {
 }
 
 impl Remote {
-    /// The controller behind this line.
     #[must_use]
     pub fn new(line: Source) -> Self {
         let frames = Frames::new();

@@ -69,7 +69,6 @@ fn run(args: &Args) -> Result<(), Error> {
     comparison.check()
 }
 
-/// The figures as text.
 fn table(comparison: &Comparison) -> String {
     let mut text =
         String::from("joint  RMS error outside, mrad  inside  largest difference, mrad\n");

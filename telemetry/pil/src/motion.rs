@@ -1,4 +1,4 @@
-//! What a run of a controller and a robot gives.
+//! The motion of a run of a controller and a robot.
 
 use std::path::Path;
 
@@ -13,14 +13,12 @@ use crate::{Error, JOINTS};
 /// The references and the estimated positions of each tick, rad.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion {
-    /// The reference positions.
     pub references: Vec<[f32; JOINTS]>,
-    /// The estimated positions.
     pub estimates: Vec<[f32; JOINTS]>,
 }
 
 impl Motion {
-    /// Of a controller and a robot over so many ticks.
+    /// Runs a controller and a robot over a number of ticks.
     ///
     /// # Errors
     /// The controller does not reply, or the robot has no forward dynamics.

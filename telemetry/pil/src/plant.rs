@@ -14,7 +14,6 @@ use joint_drivers::as5047p::{encode, quantise};
 
 use crate::JOINTS;
 
-/// A simulated robot.
 pub trait Robot {
     /// The positions of its joints, rad.
     fn positions(&self) -> [f64; JOINTS];
@@ -22,7 +21,6 @@ pub trait Robot {
     /// Moves on by a tick under these torques, N·m; returns whether it has forward dynamics.
     fn advance(&mut self, torque: &[f64; JOINTS]) -> bool;
 
-    /// What its encoders answer.
     fn answers(&self) -> [u16; JOINTS] {
         self.positions().map(|q| encode(quantise(q as f32)))
     }

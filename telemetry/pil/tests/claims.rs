@@ -20,8 +20,9 @@ fn comparison(friction: f64) -> Comparison {
     )
 }
 
+// The bounds are not slack.
 #[test]
-fn a_robot_in_f64_moves_like_the_one_inside_and_the_bounds_are_not_slack() {
+fn an_f64_robot_moves_like_the_one_inside() {
     let comparison = comparison(1.0);
     let (difference, rms) = comparison.largest();
     assert!(comparison.check().is_ok(), "{difference} {rms}");

@@ -19,11 +19,8 @@ pub mod view;
 
 /// The most joints that a machine may have.
 pub const JOINTS: usize = 32;
-/// A message of any machine.
 pub type Message = telemetry::Message<JOINTS>;
-/// A tick of any machine.
 pub type Tick = telemetry::Tick<JOINTS>;
-/// The constants of any machine.
 pub type Machine = telemetry::Machine<JOINTS>;
 /// The decoder of any machine's frames.
 pub type Decoder = telemetry::Decoder<JOINTS>;

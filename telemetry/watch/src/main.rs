@@ -45,7 +45,7 @@ struct Args {
 fn main() -> ExitCode {
     match run(&Args::parse()) {
         Ok(()) => ExitCode::SUCCESS,
-        // Behind `| head` nobody reads on.
+        // The reader of a pipe, such as `| head`, has closed it.
         Err(Error::Terminal(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => {
             ExitCode::from(128 + 13)
         }

@@ -192,7 +192,7 @@ fn line(tick: &Tick) -> String {
     line + "\n"
 }
 
-/// What viewers of MCAP plot by.
+/// The schema by which viewers of MCAP plot.
 const SCHEMA: &[u8] = br#"{
   "type": "object",
   "properties": {

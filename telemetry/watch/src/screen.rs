@@ -15,7 +15,6 @@ const POSITION: usize = 21;
 /// Columns of the bar of a share.
 const SHARE: usize = 10;
 
-/// Draws the view.
 pub fn draw(frame: &mut Frame<'_>, view: &View, source: &str) {
     let joints = view.last.as_ref().map_or(0, |tick| tick.joints.len());
     let [head, table, costs, events] = Layout::vertical([
@@ -114,7 +113,7 @@ fn joint_row(view: &View, number: usize, joint: &Joint) -> Row<'static> {
     ])
 }
 
-/// Where a joint is between its limits: the estimate as a block, the reference as a line where it is elsewhere.
+/// A joint's position between its limits: the estimate as a block, the reference as a line where it differs.
 fn position_bar(axis: Option<&Axis>, joint: &Joint) -> String {
     let Some(limits) = axis.map(|axis| axis.limits) else {
         return String::new();

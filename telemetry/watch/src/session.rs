@@ -13,7 +13,7 @@ use crate::source::Source;
 use crate::view::View;
 use crate::{Decoder, Message, screen, summary};
 
-/// How long no frame may arrive.
+/// The longest time without a frame.
 pub const PATIENCE: Duration = Duration::from_secs(5);
 /// From one picture to the next.
 const PICTURE: Duration = Duration::from_millis(50);
@@ -23,19 +23,16 @@ const LINE: Duration = Duration::from_secs(1);
 /// A signal has ended the session.
 pub static ENDED: AtomicBool = AtomicBool::new(false);
 
-/// What the session shows while it runs.
+/// The output of the session while it runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Show {
     /// The screen, or a line a second if stdout is no terminal.
     Live,
-    /// Nothing.
     Nothing,
 }
 
-/// How a session runs.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// What it shows.
     pub show: Show,
     /// When it ends at the latest.
     pub limit: Option<Duration>,
@@ -69,7 +66,7 @@ pub fn run(source: &mut Source, mut recorder: Option<Recorder>, options: Options
     if terminal.is_some() {
         ratatui::restore();
     }
-    // What was recorded is kept, however the session ended.
+    // The record is kept, however the session ended.
     let finished = recorder.map_or(Ok(()), Recorder::finish);
     outcome.and(finished).map(|()| session.view)
 }

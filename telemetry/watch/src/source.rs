@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use crate::error::{Error, Result};
 
-/// What stands in a program's arguments for the number of the TCP port that it connects to.
+/// The placeholder in a program's arguments for the number of the TCP port that it connects to.
 pub const TCP_PORT: &str = "{port}";
 
 /// Where the bytes come from.

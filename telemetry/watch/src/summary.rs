@@ -5,32 +5,25 @@ use telemetry::PHASES;
 
 use crate::view::{View, mode};
 
-/// What a session received.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// The name of the machine, if it arrived.
     pub machine: Option<String>,
     /// Ticks that arrived.
     pub ticks: u64,
-    /// Frames with an error.
     pub bad_frames: u64,
     /// Ticks that the machine's queue dropped.
     pub dropped: u64,
     /// Ticks that were lost on the line.
     pub lost: u64,
-    /// Restarts of the machine.
     pub restarts: u64,
-    /// The last mode.
     pub mode: Option<&'static str>,
-    /// The joints.
     pub joints: Vec<JointSummary>,
-    /// The phases of the tick.
     pub cost: Vec<PhaseSummary>,
     /// Changes of mode and fault: number of the tick, and words.
     pub events: Vec<(u32, String)>,
 }
 
-/// What a joint did.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct JointSummary {
     /// The root of the mean square of the tracking error, rad or m.
@@ -43,10 +36,8 @@ pub struct JointSummary {
     pub max_torque_share: Option<f32>,
 }
 
-/// What a phase cost.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PhaseSummary {
-    /// Its name.
     pub phase: &'static str,
     /// The most counts of the timer.
     pub max_counts: u32,
@@ -55,7 +46,6 @@ pub struct PhaseSummary {
 }
 
 impl Summary {
-    /// Of a view.
     #[must_use]
     pub fn of(view: &View) -> Self {
         let joint = |(number, extremes): (usize, &crate::view::Extremes)| JointSummary {

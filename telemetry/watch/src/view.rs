@@ -1,4 +1,4 @@
-//! What is known of the machine so far.
+//! The state of the machine as known so far.
 
 use std::collections::VecDeque;
 
@@ -13,13 +13,11 @@ const EVENTS: usize = 100;
 /// A change of mode or fault.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Event {
-    /// The number of the tick.
     pub number: u32,
-    /// What it is, in words.
     pub text: String,
 }
 
-/// What a joint did so far.
+/// The extremes of a joint so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extremes {
     /// The largest tracking error, rad or m.
@@ -30,18 +28,15 @@ pub struct Extremes {
     pub torque: f32,
 }
 
-/// What is known of the machine so far.
+/// The state of the machine as known so far.
 #[derive(Clone, Debug, Default)]
 pub struct View {
     /// Its constants, once they have arrived.
     pub machine: Option<Machine>,
-    /// The last tick.
     pub last: Option<Tick>,
-    /// What the decoder counted.
     pub counts: Counts,
     /// Ticks that arrived.
     pub ticks: u64,
-    /// What each joint did.
     pub extremes: Vec<Extremes>,
     /// The largest cost of each phase, in counts of the timer.
     pub cost: [u32; PHASES.len()],
@@ -51,12 +46,11 @@ pub struct View {
 }
 
 impl View {
-    /// Takes a message.
     pub fn take(&mut self, message: Message) {
         match message {
             Message::Machine(machine) => self.machine = Some(machine),
             Message::Tick(tick) => self.tick(tick),
-            // Of a later minor version, which this one has nothing to show of.
+            // A message of a later minor version, which this one does not show.
             _ => {}
         }
     }
@@ -115,7 +109,6 @@ impl View {
     }
 }
 
-/// The name of a mode.
 #[must_use]
 pub fn mode(mode: Mode) -> &'static str {
     match mode {

@@ -1,4 +1,4 @@
-//! What the listener claims of its screen, its records and its errors, on recorded frames.
+//! The listener's claims on its screen, its records and its errors, on recorded frames.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -111,7 +111,7 @@ impl Drop for Scratch {
     }
 }
 
-/// What a session on these bytes gives, with its record.
+/// The result of a session on these bytes, with its record.
 fn session(name: &str, bytes: &[u8], record: Option<&Path>) -> Result<View, String> {
     let file = Scratch::holding(name, bytes);
     let mut source = Place::File(file.0.clone()).open().expect("it is there");

@@ -19,7 +19,7 @@ fn a_record_of_another_ending_is_refused() {
 }
 
 #[test]
-fn a_port_that_is_not_there_is_named_with_those_that_are() {
+fn a_missing_port_is_named_with_the_existing_ones() {
     let error = Place::Port("/dev/ttyNONE".into(), 9600).open().err();
     let error = error.expect("there is none").to_string();
     assert!(
@@ -29,7 +29,7 @@ fn a_port_that_is_not_there_is_named_with_those_that_are() {
 }
 
 #[test]
-fn a_program_that_is_not_there_or_ends_at_once_is_named() {
+fn a_missing_or_ended_program_is_named() {
     let start = |words: &[&str]| {
         let words = words.iter().map(ToString::to_string).collect();
         Place::Program(words)

@@ -9,7 +9,7 @@ use crate::kit::{output, shell, toolchain};
 /// The crate of the fuzz targets, a workspace of its own.
 const FUZZ: &str = "host-tests/fuzz";
 
-/// Feeds every target random bytes for so many seconds.
+/// Feeds every target random bytes for a number of seconds.
 pub fn fuzz(seconds: u64) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let mut command = workspace.cargo("test");
@@ -23,7 +23,7 @@ pub fn fuzz(seconds: u64) -> Result<ExitCode> {
     shell::run(&mut command).map(|()| ExitCode::SUCCESS)
 }
 
-/// Runs the control loop under random faults for so many ticks.
+/// Runs the control loop under random faults for a number of ticks.
 pub fn soak(ticks: u64) -> Result<ExitCode> {
     let mut command = Workspace::find()?.cargo("test");
     command.args("--package simulation-tests -- --nocapture soak::".split(' '));

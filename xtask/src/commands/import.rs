@@ -56,7 +56,7 @@ pub fn new(args: &New) -> Result<ExitCode> {
 
 pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    // Behind the file they are among its options.
+    // Options after the file are among its arguments.
     let mut words: Vec<&str> = args.arguments.iter().map(String::as_str).collect();
     let mut flag = |name: &str| {
         let before = words.len();

@@ -104,7 +104,7 @@ impl Order {
             .map(|(_, line)| line.to_owned() + " ")
             .collect();
         for statement in text.split(';') {
-            // Behind its attributes and its visibility.
+            // The words after its attributes and its visibility.
             let words = statement.rsplit(']').next().unwrap_or_default().trim();
             let words = words
                 .trim_start_matches("pub(crate) ")
@@ -162,7 +162,7 @@ impl Order {
 
 /// The names of the crate's root that a source at this depth of modules uses outside its tests, each with its line.
 fn used(source: &str, depth: usize) -> Vec<(usize, String)> {
-    // Behind the code of a line stands no comment for this, and a list of paths may go over several lines.
+    // Comments after the code of a line are ignored, and a list of paths may take several lines.
     let lines: Vec<(usize, &str)> = code(source).collect();
     let bare = |line: &str| line.split(" // ").next().unwrap_or(line).to_owned() + "\n";
     let text: String = lines.iter().map(|(_, line)| bare(line)).collect();

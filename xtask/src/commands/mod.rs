@@ -1,4 +1,4 @@
-//! What a user runs, and the tests.
+//! The commands of a user, and the tests.
 
 pub mod demo;
 pub mod endurance;

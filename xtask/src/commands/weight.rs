@@ -62,7 +62,7 @@ impl Lines {
             let source = workspace::read(&path)?;
             let kind = Kind::of(path.strip_prefix(root).unwrap_or(&path));
             let all = lines_of_code(&source);
-            // What stands behind `#[cfg(test)]` in a file of the product.
+            // The lines after `#[cfg(test)]` in a file of the product.
             let unit_tests = match kind {
                 Kind::Library | Kind::Product => all - code(&source).count(),
                 Kind::Tests | Kind::Apparatus => 0,

@@ -68,7 +68,7 @@ pub fn lines(packages: &[&str]) -> Vec<String> {
     hint.into_iter().chain(lines).collect()
 }
 
-/// What apt-get would do to install some packages.
+/// The changes that apt-get would make to install some packages.
 #[derive(Debug, Default, PartialEq)]
 struct Changes {
     installed: Vec<String>,
@@ -90,7 +90,7 @@ impl Changes {
         }
     }
 
-    /// Of these packages; a simulation needs no privilege.
+    /// Simulates the installation of these packages, which needs no privilege.
     fn of(packages: &[impl AsRef<str>]) -> Result<Self> {
         let mut simulation = Command::new("apt-get");
         simulation.args(["install", "--simulate", "--no-install-recommends"]);

@@ -18,7 +18,6 @@ pub type Bars = BTreeMap<String, Bar>;
 /// The upper bounds of the figures of a row, or of their ratios to those of another row.
 #[derive(Clone, Debug, Default, Deserialize)]
 pub struct Bar {
-    /// The figures by their names.
     #[serde(flatten)]
     pub most: BTreeMap<String, f64>,
     /// The figures that are recorded as missed.
@@ -48,7 +47,6 @@ pub struct Compared {
     pub what: String,
     pub measured: f64,
     pub most: f64,
-    /// It is recorded as missed.
     pub recorded: bool,
     /// It is a multiple, not a number of something.
     pub ratio: bool,

@@ -30,7 +30,6 @@ impl Instruction {
         Some(branch.target.into())
     }
 
-    /// Whether a Cortex-M4F lacks it.
     pub fn is_beyond_m4f(self) -> bool {
         self.insn.class == Class::Unknown
     }

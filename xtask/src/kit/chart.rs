@@ -1,4 +1,4 @@
-//! What the pictures have in common: axes, lines, bars and legends.
+//! The common parts of the pictures: axes, lines, bars and legends.
 
 use std::ops::Range;
 
@@ -32,7 +32,6 @@ pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 pub type Outcome = std::result::Result<(), Box<dyn std::error::Error>>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Axis, Axis>>;
 
-/// A picture as an SVG.
 pub fn svg(size: (u32, u32), draw: impl FnOnce(&Area<'_>) -> Outcome) -> Result<String> {
     // In memory first: the backend swallows errors when it writes to a file on drop.
     let mut svg = String::new();

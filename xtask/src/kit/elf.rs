@@ -1,4 +1,4 @@
-//! What an ELF says of itself: sizes, functions, and where Thumb code is.
+//! The contents of an ELF: sizes, functions, and the places of Thumb code.
 
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -17,7 +17,6 @@ pub enum Error {
         command: String,
         source: std::io::Error,
     },
-    /// A program ran and failed.
     #[error("`{command}` failed ({status}){output}")]
     Failed {
         command: String,
@@ -42,7 +41,6 @@ pub enum Error {
     /// QEMU, or the firmware in it, misbehaved.
     #[error("`{program}` in QEMU: {what}")]
     Qemu { program: String, what: String },
-    /// A check did not hold.
     #[error("{0}")]
     Check(String),
     /// A check does not apply here, and why.
@@ -92,7 +90,6 @@ impl Error {
         move |source| Self::File { verb, path, source }
     }
 
-    /// A firmware in QEMU misbehaved.
     pub fn qemu(program: &str, what: impl Into<String>) -> Self {
         let (program, what) = (program.to_owned(), what.into());
         Self::Qemu { program, what }

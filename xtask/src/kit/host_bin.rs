@@ -1,4 +1,4 @@
-//! What the reports measure on the host: the bins of the package `host-reports`.
+//! The measurements of the reports on the host: the bins of the package `host-reports`.
 
 use serde::de::DeserializeOwned;
 

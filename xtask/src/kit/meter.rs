@@ -1,4 +1,4 @@
-//! What the cycle meter wrote, as statistics of each region.
+//! The samples of the cycle meter, as statistics of each region.
 
 use std::path::Path;
 
@@ -18,7 +18,6 @@ pub const CLOCK_MHZ: f64 = 168.0;
 /// The regions' names by their number; 0 is the whole tick.
 pub const REGIONS: [&str; 6] = ["total", "read", "reference", "dynamics", "safety", "write"];
 
-/// The price of a region.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Cost {
     /// Instructions, exact.

@@ -1,4 +1,4 @@
-//! What studies and commands are made of: programs that run, firmware and its costs, tables, pictures and pages.
+//! The parts of studies and commands: programs that run, firmware and its costs, tables, pictures and pages.
 
 pub mod apt;
 pub mod bars;

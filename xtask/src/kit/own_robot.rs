@@ -25,7 +25,6 @@ pub struct OwnRobot {
     pub name: String,
     /// The name of its type.
     pub type_name: String,
-    /// The number of its joints.
     pub joints: u64,
     /// Its Rust file, and what the bins include: two commands at a time have two.
     folder: TempDir,
@@ -69,7 +68,7 @@ impl OwnRobot {
     }
 }
 
-/// Why a firmware for so many joints does not take the robot of a report, if it does not.
+/// The reason why a firmware for this number of joints does not take the robot of a report, if there is one.
 fn refusal(report: &Value, most: u64) -> Option<String> {
     let [bodies, q, v] = [0, 1, 2].map(|i| report["sizes"][i].as_u64().unwrap_or_default());
     if bodies != v || q != v {

@@ -63,7 +63,6 @@ pub fn within(child: &mut Child, limit: Duration) -> io::Result<Option<ExitStatu
     }
 }
 
-/// Ends a process at once.
 pub fn kill(child: &mut Child) {
     // Both fail only if it has ended already, which is what is wanted.
     let _ = child.kill();

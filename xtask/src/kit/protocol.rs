@@ -62,7 +62,6 @@ pub struct Named {
     pub bytes: u64,
 }
 
-/// A moment of a run.
 #[derive(Clone, Debug)]
 pub struct Sample {
     /// In ticks from the start of the run.
@@ -83,7 +82,6 @@ pub struct Gains {
     pub pose: String,
 }
 
-/// The report of a scene.
 #[derive(Debug, Default)]
 pub struct Recording {
     pub scene: String,
@@ -97,7 +95,6 @@ pub struct Recording {
     pub effects: Vec<Named>,
     /// The feedback's gains, if the scene says.
     pub gains: Option<Gains>,
-    /// The runs in their order.
     pub runs: Vec<Trajectory>,
     /// Peak stack in bytes.
     pub stack: Option<u64>,
@@ -224,7 +221,7 @@ impl Recording {
     }
 }
 
-/// So many numbers, at least one of them, all finite.
+/// This number of finite numbers, at least one of them.
 fn numbers(words: &[&str], count: usize) -> Option<Vec<f64>> {
     let is_all = count > 0 && words.len() == count;
     words

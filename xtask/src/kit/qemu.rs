@@ -43,7 +43,6 @@ const LOADING: Duration = Duration::from_secs(30);
 
 #[derive(Clone)]
 pub struct Qemu {
-    /// The version that it prints.
     pub version: String,
     program: PathBuf,
     /// Whether it takes the meter, once that was tried: with which version of the plugin interface, if not
@@ -170,7 +169,7 @@ impl Qemu {
             return Ok(());
         }
         let said = stderr.as_ref().map_or_else(String::new, said);
-        // Behind the path of the plugin, which the user did not choose.
+        // The text after the path of the plugin, which the user did not choose.
         let why = said.rsplit_once(": ").map_or(&*said, |(_, why)| why);
         let says_nothing = why.is_empty().then(|| status.to_string());
         Err(says_nothing.unwrap_or_else(|| why.to_owned()))

@@ -1,4 +1,4 @@
-//! What functions of the firmware cost: runs bins that announce their calls under the meter and cuts its samples by their logs.
+//! The costs of the firmware's functions: runs bins that announce their calls under the meter and cuts its samples by their logs.
 
 use std::path::{Path, PathBuf};
 

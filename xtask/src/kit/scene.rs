@@ -36,7 +36,6 @@ const fn scene(name: &'static str, help: &'static str) -> Scene {
 }
 
 impl Scene {
-    /// All of them.
     pub fn all() -> &'static [Self] {
         SCENES
     }
@@ -77,7 +76,6 @@ const TRIALS: &[Trial] = &[
 ];
 
 impl Trial {
-    /// All of them.
     pub fn all() -> &'static [Self] {
         TRIALS
     }
@@ -88,7 +86,6 @@ impl Trial {
     }
 }
 
-/// A scene of the demo.
 #[derive(Clone, Copy, Debug)]
 pub enum Shown {
     Tracking(Scene),

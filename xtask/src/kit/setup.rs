@@ -14,7 +14,7 @@ const CLIPPY: &str = "rust-web-clippy";
 #[rustfmt::skip]
 const COMPONENTS: [(&str, &str, &str); 2] = [("fmt", "rustfmt", "rustfmt-web"), ("clippy", "clippy", CLIPPY)];
 
-/// What projects in C need, and Debian's packages.
+/// The tools of projects in C, and Debian's packages of them.
 const C_TOOLS: [(&str, &str); 4] = [
     ("arm-none-eabi-gcc", "gcc-arm-none-eabi"),
     ("make", "make"),
@@ -33,10 +33,8 @@ pub struct Options {
     pub yes: bool,
 }
 
-/// The tools after the set-up.
 #[derive(Clone)]
 pub struct Tools {
-    /// The compiler for the firmware.
     pub toolchain: Toolchain,
     pub qemu: Qemu,
 }
@@ -62,7 +60,6 @@ impl Plan {
         }
     }
 
-    /// Adds a command of rustup.
     fn add_rustup(&mut self, reason: String, line: String) {
         self.reasons.push(reason);
         self.rustup.push(line);
@@ -147,7 +144,6 @@ fn is_yes(answer: &str) -> bool {
     matches!(answer.trim().to_lowercase().as_str(), "y" | "yes")
 }
 
-/// Everything that the demo needs.
 pub fn for_demo(options: Options) -> Result<Tools> {
     let (toolchain, qemu) = (compiler(options)?, Qemu::find()?);
     Ok(Tools { toolchain, qemu })

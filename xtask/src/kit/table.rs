@@ -7,7 +7,6 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table with these headings.
     pub fn new(head: &[&str]) -> Self {
         Self {
             head: head.iter().map(ToString::to_string).collect(),

@@ -8,7 +8,6 @@ use crate::kit::error::{Result, bail};
 use crate::kit::shell;
 use crate::kit::workspace::{FIRMWARE, Workspace};
 
-/// The target of the firmware.
 pub const TARGET: &str = "thumbv7em-none-eabihf";
 
 /// The profile of what is measured, and the same at opt-level s.
@@ -92,7 +91,6 @@ fn native_rustc() -> Command {
     Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
 }
 
-/// A command of Debian's toolchain.
 fn debian(program: &str) -> Command {
     let mut command = Command::new(program);
     clear(&mut command);
@@ -167,7 +165,6 @@ pub fn debian_lacks() -> Option<String> {
     (!has_sources(Path::new(sysroot))).then(|| format!("{sysroot}/{SOURCES} is not there"))
 }
 
-/// Whether Debian's clippy is there.
 pub fn has_debian_clippy() -> bool {
     Path::new(DEBIAN_CLIPPY).is_file()
 }

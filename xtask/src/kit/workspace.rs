@@ -1,4 +1,4 @@
-//! Where the workspace and its artefacts are.
+//! The paths of the workspace and its artefacts.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -166,7 +166,7 @@ pub fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<()> {
 
 /// Writes files so that none is ever half-written: all beside their places first, then each is moved there.
 pub fn write_whole<T: AsRef<[u8]>>(files: &[(PathBuf, T)]) -> Result<()> {
-    // Behind the whole name: files of one stem may differ in their endings alone.
+    // The suffix follows the whole name: files of one stem may differ in their endings alone.
     let beside = |path: &Path| {
         let mut name = path.as_os_str().to_owned();
         name.push(".part");

@@ -111,7 +111,6 @@ impl Rows {
         }
     }
 
-    /// The part of one robot.
     fn only(mut self, robot: &str) -> Self {
         self.rows
             .retain(|key, _| key.split(' ').next() == Some(robot));

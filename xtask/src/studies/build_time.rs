@@ -1,4 +1,4 @@
-//! How much longer a release build takes for one specialised function of a robot.
+//! The additional time of a release build for one specialised function of a robot.
 
 use std::time::Instant;
 
@@ -13,7 +13,6 @@ use crate::kit::{docs, shell};
 use crate::studies::study::{Bench, Found};
 
 const BIN: &str = "build_time";
-/// The robot that is none.
 const NONE: &str = "none";
 /// Builds of each, of which the fastest counts: the machine may have other work.
 const BUILDS: usize = 2;
@@ -28,7 +27,6 @@ struct Row {
     /// A build of the bin with one inverse dynamics by the engine, and of the same without, s.
     seconds: f64,
     without_seconds: f64,
-    /// The difference, and its bar.
     more_seconds: f64,
     at_most_seconds: f64,
 }

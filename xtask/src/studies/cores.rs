@@ -89,7 +89,7 @@ pub fn check(bench: &Bench<'_>) -> Result<String> {
     targets.extend(boards::missing());
     targets.sort_unstable();
     targets.dedup();
-    // What cannot be installed is skipped below, with what it lacks.
+    // A core whose tools cannot be installed is skipped below, with the missing tools named.
     let _ = setup::for_cores(options, &targets, &packages);
     let (cores, lacking): (Vec<&Core>, Vec<&Core>) =
         wanted.iter().partition(|core| core.missing().is_empty());

@@ -1,4 +1,4 @@
-//! What each effect adds to inverse dynamics, and the torque that it contributes.
+//! The cost that each effect adds to inverse dynamics, and the torque that it contributes.
 
 mod picture;
 
@@ -31,7 +31,7 @@ const HOST_BIN: &str = "effects";
 const RIGID: &str = "rigid_body";
 const WITHOUT: &str = "less_";
 
-/// What an effect adds in a form: the fields are those of the JSON.
+/// The additional cost of an effect in a form: the fields are those of the JSON.
 #[derive(Clone, Debug, Serialize)]
 pub struct Price {
     pub effect: String,
@@ -110,7 +110,7 @@ fn priced(
         let bytes = |scene: &str| sizes.get(&[robot, form, scene].map(str::to_owned));
         let bytes = bytes(scene).zip(bytes(RIGID));
         let (own, of_rigid) = bytes.ok_or_else(|| missing("size"))?;
-        // What a scene lacks is the rigid body's own.
+        // An effect that a scene lacks is one of the rigid body's own.
         let (effect, sign) = match row.inputs.strip_prefix(WITHOUT) {
             Some(term) => (term, -1),
             None => (&*row.inputs, 1),

@@ -1,4 +1,4 @@
-//! What few modes leave out of links that bend, and how accurate their inverse dynamics is.
+//! The truncation error of few modes of links that bend, and the accuracy of their inverse dynamics.
 
 use serde::{Deserialize, Serialize};
 

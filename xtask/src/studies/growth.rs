@@ -1,4 +1,4 @@
-//! How the core's algorithms grow with the length of a chain.
+//! The growth of the core's algorithms with the length of a chain.
 
 use crate::kit::bars::{self, Bars, Compared};
 use crate::kit::chart::{self, HPos};

@@ -13,7 +13,6 @@ const HEAD: &str = "
 | --- | ---: | ---: | ---: | ---: | ---: | --- |
 ";
 
-/// The output of the bin.
 #[derive(Deserialize)]
 struct Suite {
     cases: Vec<Case>,

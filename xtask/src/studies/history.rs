@@ -1,4 +1,4 @@
-//! What today's algorithms replaced, counted on the host and measured on the target.
+//! The algorithms that today's replaced, counted on the host and measured on the target.
 
 use crate::kit::error::{Result, check};
 use crate::kit::meter::MODEL;

@@ -197,7 +197,6 @@ fn share(part: usize, all: usize) -> f64 {
     part as f64 / all.max(1) as f64
 }
 
-/// A survivor in the list.
 fn line(outcome: &Outcome, reasons: &Reasons) -> String {
     let reason = reasons.reason.iter().find(|reason| outcome.is_of(reason));
     let reason = reason.map_or(NO_REASON, |reason| reason.because.trim());

@@ -29,7 +29,7 @@ const PRECISIONS: [&str; 2] = ["f32", "f64"];
 /// The algorithms for the largest robot, in f64 and on the host alone.
 const LARGE: [&str; 3] = ["rnea", "crba", "aba"];
 
-/// Numbers that an algorithm gives for a robot of so many joints; of M one triangle.
+/// The number of outputs of an algorithm for a robot with this number of joints; of M one triangle counts.
 fn outputs(algorithm: &str, joints: usize) -> usize {
     if algorithm == "crba" {
         joints * (joints + 1) / 2

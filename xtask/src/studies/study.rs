@@ -14,7 +14,6 @@ use crate::kit::setup::{self, Options, Tools};
 use crate::kit::table::plain;
 use crate::kit::workspace::{self, Workspace};
 
-/// A row of the table.
 pub struct Study {
     /// The name of its command and of its step, and in the markers of its page.
     pub name: &'static str,
@@ -128,7 +127,6 @@ pub struct Found {
 }
 
 impl Found {
-    /// A page and its measurements.
     pub fn new(text: String, measurements: &impl Serialize) -> Result<Self> {
         Ok(Self {
             text,

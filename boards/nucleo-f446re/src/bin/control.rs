@@ -154,13 +154,11 @@ mod app {
         drives
     }
 
-    /// The detectors in their place.
     #[inline(never)]
     fn place_detectors(place: &'static mut Option<Detectors<f32, 6>>) -> Detect {
         place.insert(PickAndPlace::detectors())
     }
 
-    /// The loop in its place.
     #[inline(never)]
     fn place_control(
         place: &mut Option<Control>,
@@ -172,7 +170,6 @@ mod app {
         Some(place.insert(control.ok()?))
     }
 
-    /// The gains.
     #[inline(never)]
     fn gains() -> Gains<f32, 6> {
         PickAndPlace::gains(&())

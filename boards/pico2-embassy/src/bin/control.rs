@@ -52,7 +52,7 @@ mod firmware {
     const MHZ: u8 = 150;
     /// The slice that counts the period.
     const SLICE: usize = 7;
-    /// What the watchdog waits for a completed tick.
+    /// The time that the watchdog waits for a completed tick.
     const STARVED: Duration = Duration::from_millis(20);
 
     static EXECUTOR: InterruptExecutor = InterruptExecutor::new();
@@ -78,7 +78,6 @@ mod firmware {
         }
     }
 
-    /// What a tick needs.
     struct Arm<'a> {
         control: SceneLoop<Encoder<'a>, Channel, Line, 6, Detectors<f32, 6>>,
         reference: Reference,
@@ -202,7 +201,6 @@ mod firmware {
         let Ok(()) = arm.light.set_state(matches!(mode, Mode::Full).into());
     }
 
-    /// Now.
     fn moment() -> Moment {
         Moment {
             micros: pac::TIMER0.timerawl().read(),

@@ -20,7 +20,7 @@ mod firmware {
     use rp235x_hal::block::ImageDef;
     use rp235x_hal::{arch, pac};
 
-    /// What the boot ROM looks for.
+    /// The image definition that the boot ROM looks for.
     #[unsafe(link_section = ".start_block")] // SAFETY: the linker's script has this section
     #[used]
     static IMAGE: ImageDef = ImageDef::secure_exe();

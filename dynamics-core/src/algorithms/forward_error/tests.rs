@@ -139,8 +139,9 @@ fn the_error_of_f32_is_at_most_its_estimate() {
     assert!(humanoid > 1e-3, "a humanoid loses digits, {humanoid:e}");
 }
 
+// An estimate above 1 says that no digit is left.
 #[test]
-fn the_estimate_for_long_chains_says_that_no_digit_is_left() {
+fn for_long_chains_the_error_estimate_exceeds_one() {
     hold(&rods::<16>(false), 0.0);
     hold(&rods::<16>(false), 0.1);
     hold(&rods::<16>(true), 3.0);

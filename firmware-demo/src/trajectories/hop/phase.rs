@@ -60,7 +60,7 @@ impl Phase {
         ]
     }
 
-    /// How deep the foot stands in the ground: (f − ḟ b/k) M/k.
+    /// The depth of the foot in the ground: (f − ḟ b/k) M/k.
     #[inline(always)]
     pub fn depth(&self, s: f32, give: f32, lag: f32) -> Moving {
         let (r, per) = (1.0 - s, self.time_inv);
@@ -76,7 +76,7 @@ impl Phase {
         [0, 1, 2].map(|k| give * (f[k] - lag * f[k + 1]))
     }
 
-    /// How high the foot is above the ground.
+    /// The height of the foot above the ground.
     #[inline(always)]
     pub fn lift(&self, s: f32) -> Moving {
         let (r, per) = (1.0 - s, self.time_inv);

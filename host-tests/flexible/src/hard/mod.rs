@@ -9,7 +9,6 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint};
 use dynamics_core::scalar::Real;
 use host_tests::hard::Case;
 
-/// All of them.
 pub const CASES: &[&[Case]] = &[&[
     Case {
         number: 64,

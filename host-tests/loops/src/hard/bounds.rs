@@ -1,8 +1,7 @@
-//! What is demanded of each quantity: case, quantity, f32, f64. Bounds are about twice what was measured.
+//! The demand on each quantity: case, quantity, f32, f64. Bounds are about twice the measured values.
 
 use super::outcome::Demand::{self, Named, NamedWithin, Within};
 
-/// By cases.
 #[rustfmt::skip]
 pub const BOUNDS: &[(u32, &str, Demand, Demand)] = &[
     (49, "assembly (rad, m), planar four-bar in space", Within(5e-7), Within(1.5e-14)),

@@ -9,7 +9,6 @@ use super::{geared, robots, status};
 
 const ORACLE: &str = "computation in 50 digits from the same numbers (oracle/loops_precise.py)";
 
-/// All cases with loops.
 pub const CASES: &[&[Case]] = &[LINKAGES, SINGULAR, MASSES, MOTIONS, GEARS];
 
 const LINKAGES: &[Case] = &[

@@ -10,7 +10,6 @@ use lab_target::hard::loops::{FourBar, LoopProblem, PROBLEMS, scene};
 use super::outcome::{Outcome, rows};
 use super::setup::{Planar, Truth, rounded};
 
-/// The problem of this name.
 pub fn problem(case: u32, name: &str) -> &'static LoopProblem<3, 1> {
     let mut all = PROBLEMS.iter();
     let found = all.find(|problem| (problem.case, problem.name) == (case, name));
@@ -33,7 +32,7 @@ fn of_problem(problem: &LoopProblem<3, 1>) -> Vec<Row> {
     all
 }
 
-/// Of a cluster in one state, what core and engine make of it.
+/// The outcomes of core and engine for a cluster in one state.
 pub type OfCluster = [Outcome; 3];
 
 fn as_clusters(problem: &LoopProblem<3, 1>, linkage: usize, truth: &Truth) -> Vec<Row> {

@@ -107,7 +107,7 @@ const STEEP_STATES: [State<f64, 1, 1>; 2] = [
     },
 ];
 
-/// What the oracle reads of the differential.
+/// The description of the differential that the oracle reads.
 pub fn differential() -> Exported {
     let (half, slow) = (vec![0.0, 0.5], vec![0.0, 0.5 / 1024.0]);
     let minus = vec![0.0, -0.5 / 1024.0];
@@ -115,18 +115,16 @@ pub fn differential() -> Exported {
     problem::<Wrist, 2>(62, "ratios 1 and 1024", gamma, &WRIST_STATES)
 }
 
-/// What the oracle reads of the belt.
+/// The description of the belt that the oracle reads.
 pub fn belt() -> Exported {
     let gamma = vec![vec![vec![0.0, 1.0]], vec![STEEP.to_vec()]];
     problem::<Steep, 1>(63, "a slope of 1024", gamma, &STEEP_STATES)
 }
 
-/// The differential against the oracle.
 pub fn differential_rows() -> Vec<Row> {
     against::<Wrist, 2>(&differential(), &WRIST_STATES)
 }
 
-/// The belt against the oracle.
 pub fn belt_rows() -> Vec<Row> {
     against::<Steep, 1>(&belt(), &STEEP_STATES)
 }

@@ -28,7 +28,7 @@ pub fn demand(number: u32) -> Result<(), String> {
     host_tests::hard::demand_of(CASES, number)
 }
 
-/// What the oracle reads: all problems but those that have no answer.
+/// The problems that the oracle reads: all but those without an answer.
 pub fn exported() -> Vec<Exported> {
     let closing = PROBLEMS.iter().filter(|problem| problem.case != 52);
     let mut all: Vec<Exported> = closing

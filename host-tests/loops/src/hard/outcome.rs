@@ -1,4 +1,4 @@
-//! What an algorithm made of one state, and what is demanded of it.
+//! The outcome of an algorithm for one state, and the demand on it.
 
 use dynamics_core::scalar::Real;
 use host_tests::hard::Row;
@@ -6,7 +6,7 @@ use host_tests::measured::largest;
 
 use super::bounds::BOUNDS;
 
-/// What is demanded of a quantity in one scalar.
+/// The demand on a quantity in one scalar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Demand {
     /// An error of at most this of full scale, and no status.
@@ -20,20 +20,20 @@ pub enum Demand {
 /// Numbers, and whether they come with a status or an error that names what is singular.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// None of an error.
+    /// The numbers; none after an error.
     pub values: Vec<f64>,
     /// Whether the loop, row, joint or cluster is named.
     pub named: bool,
 }
 
-/// What numbers near a singular configuration may be, as a multiple of what they are elsewhere.
+/// The bound of numbers near a singular configuration, as a multiple of their size elsewhere.
 const BOUNDED: f64 = 1e9;
 
 /// The share of the largest acceleration below which a coordinate does not move.
 const STILL: f64 = 1e-9;
 
 impl Outcome {
-    /// An error that names nothing.
+    /// The outcome of an error that names nothing.
     pub const NOTHING: Self = Self {
         values: Vec::new(),
         named: false,
@@ -44,7 +44,6 @@ impl Outcome {
         named: true,
     };
 
-    /// These numbers.
     pub fn of<R: Real, const N: usize>(values: &[R; N], named: bool) -> Self {
         let values = values.map(R::to_f64).to_vec();
         Self { values, named }

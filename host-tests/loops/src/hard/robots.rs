@@ -8,12 +8,11 @@ use dynamics_core::state::State;
 use super::setup::Setup;
 use crate::machines::{Delta, FlatDelta, Machine, SimilarStewart, Stewart};
 
-/// A Delta in a state.
 pub type OfDelta = Setup<10, 22, 21, 6, 18, 3>;
 /// A Stewart platform in a state.
 pub type OfStewart = Setup<13, 25, 24, 6, 18, 6>;
 
-/// What the angles of the cranks are multiples of, so that nothing is symmetric.
+/// Factors of the angles of the cranks, so that nothing is symmetric.
 const SIDES: [f64; 3] = [1.0, 1.25, 0.75];
 
 fn delta<T: LoopRobot<10, 22, 21, 6, 18, 3>>(
@@ -55,7 +54,7 @@ pub fn deltas() -> Vec<OfDelta> {
         let rods = cranks.map(|crank| FRAC_PI_2 - crank - 0.8 * angle);
         delta::<FlatDelta>(name, cranks, rods, -0.4 * angle)
     };
-    // Where all three are, the cranks are at 1.8037 rad.
+    // With all three arms stretched, the cranks are at 1.8037 rad.
     let stretched = [1.8125, 1.796875, 1.8046875];
     vec![
         delta::<Delta>("arms stretched", stretched, [-FRAC_PI_2; 3], -0.6328125),
@@ -96,7 +95,6 @@ fn stewart<T: LoopRobot<13, 25, 24, 6, 18, 6>>(
     }
 }
 
-/// The Stewart platforms.
 pub fn stewarts() -> Vec<OfStewart> {
     let turned = |name, off: f64| stewart::<Stewart>(name, FRAC_PI_2 - off, [0.0, 0.0, 0.75]);
     let mut quarter = turned("turned by 90°", 0.0);

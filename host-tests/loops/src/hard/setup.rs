@@ -25,7 +25,6 @@ pub struct Setup<
     const C: usize,
     const A: usize,
 > {
-    /// The case's number.
     pub case: u32,
     /// Its name within the case.
     pub name: &'static str,
@@ -33,11 +32,11 @@ pub struct Setup<
     pub tree: Model<f64, B, Q, V>,
     /// In f32.
     pub single: Model<f32, B, Q, V>,
-    /// What closes it, and its motors.
+    /// The joints that close it, and its motors.
     pub loops: Loops<L, C, A>,
     /// The coordinates that are given: the others follow.
     pub held: &'static [usize],
-    /// What assembly moves.
+    /// The coordinates that assembly moves.
     pub moving: Moving,
     /// q, q̇ and q̈ of the coordinates that are held, and a guess of the others.
     pub starts: Vec<State<f64, Q, V>>,
@@ -46,16 +45,14 @@ pub struct Setup<
 /// A planar linkage, and what it is driven by.
 pub type Planar<const N: usize, const A: usize> = Setup<N, N, N, 1, 5, A>;
 
-/// What the oracle says.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Truth {
     name: String,
     inputs: String,
-    /// By states.
     pub states: Vec<TrueState>,
 }
 
-/// What the oracle says of one state.
+/// The oracle's results for one state.
 #[derive(Clone, Debug, Deserialize)]
 pub struct TrueState {
     /// Positions with closed loops.
@@ -68,7 +65,6 @@ pub struct TrueState {
     pub tau: Option<Vec<f64>>,
     /// The torques of forward dynamics, exactly representable in f32.
     pub given: Vec<f64>,
-    /// The accelerations under them.
     pub forward: Vec<f64>,
 }
 
@@ -88,7 +84,6 @@ pub struct Exported {
     pub(super) states: Vec<Start>,
 }
 
-/// A state of a problem.
 #[derive(Clone, Debug, Serialize)]
 pub struct Start {
     q: Vec<f64>,
@@ -97,7 +92,6 @@ pub struct Start {
 }
 
 impl Start {
-    /// These numbers.
     pub fn of<const Q: usize, const V: usize>(state: &State<f64, Q, V>) -> Self {
         let State { q, qd, qdd } = state;
         Self {
@@ -122,7 +116,7 @@ impl Exported {
         self
     }
 
-    /// What the oracle says of it.
+    /// The oracle's results for this problem.
     pub(super) fn truth(&self) -> Truth {
         let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
         let path = root.join(format!("../recordings/hard/loops/{}.json", self.case));
@@ -152,7 +146,6 @@ impl TrueState {
 /// Inverse dynamics as it is by default, where it is damped.
 const DAMPED: &str = "damped inverse dynamics";
 
-/// Numbers in the scalar R.
 pub(super) fn rounded<R: Real, const N: usize>(values: &[f64]) -> [R; N] {
     let values: [f64; N] = values.try_into().expect("a row of this robot");
     values.map(|x| R::select(x, x as f32))
@@ -181,7 +174,7 @@ impl<const N: usize, const A: usize> Planar<N, A> {
 impl<const B: usize, const Q: usize, const V: usize, const L: usize, const C: usize, const A: usize>
     Setup<B, Q, V, L, C, A>
 {
-    /// What the oracle reads.
+    /// The description that the oracle reads.
     pub fn exported(&self) -> Exported {
         let exported = Exported {
             case: self.case,
@@ -198,17 +191,15 @@ impl<const B: usize, const Q: usize, const V: usize, const L: usize, const C: us
         exported.digested()
     }
 
-    /// What the oracle says of it.
+    /// The oracle's results for this problem.
     pub fn truth(&self) -> Truth {
         self.exported().truth()
     }
 
-    /// Everything against the oracle.
     pub fn rows(&self) -> Vec<Row> {
         self.rows_against(&self.truth())
     }
 
-    /// Everything against these results.
     pub fn rows_against(&self, truth: &Truth) -> Vec<Row> {
         let (single, double) = (
             self.outcomes(&self.single, truth),
@@ -248,7 +239,7 @@ impl<const B: usize, const Q: usize, const V: usize, const L: usize, const C: us
         is_bounded(self.case, &format!("{DAMPED}, {}", self.name))
     }
 
-    /// Of assembly, inverse dynamics, the same with the default damping, and forward dynamics, by states.
+    /// The outcomes of assembly, inverse dynamics, the same with the default damping, and forward dynamics, by states.
     ///
     /// In the damped range the first of inverse dynamics are with the least damping there is, which leaves torques exact
     /// up to where elimination loses a pivot.

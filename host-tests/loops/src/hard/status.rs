@@ -1,4 +1,4 @@
-//! What is found of the loops besides numbers: ranks, statuses, errors.
+//! The results besides numbers: ranks, statuses and errors.
 
 use dynamics_core::Core;
 use dynamics_core::clusters::{ClusterProblem, Clustered};

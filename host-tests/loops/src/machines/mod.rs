@@ -24,8 +24,8 @@ pub trait Machine<
 {
     /// A configuration that is nearly closed.
     const HOME: [f64; Q];
-    /// How far the actuated coordinates go from there, rad or m.
+    /// The range of the actuated coordinates about it, rad or m.
     const RANGE: f64;
-    /// Where in q each actuated coordinate is.
+    /// The index in q of each actuated coordinate.
     const ACTUATED_Q: [usize; A];
 }

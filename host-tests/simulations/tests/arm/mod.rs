@@ -38,7 +38,7 @@ impl Law<6> for FullModel {
     }
 }
 
-/// What is wrong with a joint's wires.
+/// The faults of a joint's wires.
 #[derive(Clone, Default)]
 pub struct Bent {
     /// Bits of the answers that are turned over.
@@ -178,14 +178,12 @@ impl Arm {
         self.tick_under::<FullModel>()
     }
 
-    /// The same under another law.
     pub fn tick_under<L: Law<6>>(&mut self) -> Telemetry<6> {
         let telemetry = self.control.tick::<L, _, ()>(&self.trajectory, &());
         self.advance();
         telemetry
     }
 
-    /// A tick of the plant.
     pub fn advance(&mut self) {
         if self.brake.0.0.get() {
             self.rig.plant.state.qd = [0.0; 6];

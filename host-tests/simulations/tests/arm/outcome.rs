@@ -1,4 +1,4 @@
-//! What bad frames do to the arm.
+//! The effect of bad frames on the arm.
 
 use motion_control::{Fault, Mode};
 
@@ -6,7 +6,7 @@ use host_tests::measured::largest;
 
 use super::{Arm, REENTRY};
 
-/// What an interval of bad frames of joint 0 did to the arm.
+/// The effect of an interval of bad frames of joint 0 on the arm.
 pub struct Outcome {
     /// Worst error against the reference of the tick, from the first bad frame on.
     pub worst: f64,
@@ -19,7 +19,7 @@ pub struct Outcome {
     pub modes: Vec<Mode>,
 }
 
-/// The arm on its way, with so many bad frames of joint 0 from the tick `at` on.
+/// The arm on its way, with a number of bad frames of joint 0 from the tick `at` on.
 pub fn bad_frames(at: u32, ticks: u32, mask: u16) -> Outcome {
     let mut arm = Arm::new();
     arm.run(at);

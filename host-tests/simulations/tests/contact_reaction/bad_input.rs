@@ -6,7 +6,7 @@ use crate::contact_reaction::cell::{Cell, STEP, Spoiled};
 use crate::contact_reaction::plant::Setup;
 use crate::contact_reaction::{OFF, RESPONSES};
 
-/// What a second of bad input leads to.
+/// The result of a second of bad input.
 #[derive(Debug)]
 struct Outcome {
     /// Whether a contact was found, or a fault that holds the arm.
@@ -54,32 +54,34 @@ fn undone_by_ten_good_seconds(spoiled: Spoiled, noticed: bool) {
     }
 }
 
+// The noise is ten times the step of the encoders.
 #[test]
-fn noise_of_ten_times_the_step_of_the_encoders_is_undone_by_ten_good_seconds() {
+fn ten_good_seconds_undo_encoder_noise() {
     undone_by_ten_good_seconds(Spoiled::Noise(5.0 * STEP), true);
 }
 
 #[test]
-fn an_encoder_that_sticks_is_undone_by_ten_good_seconds() {
+fn ten_good_seconds_undo_a_stuck_encoder() {
     undone_by_ten_good_seconds(Spoiled::Stuck(0), true);
     undone_by_ten_good_seconds(Spoiled::Stuck(1), true);
 }
 
 #[test]
-fn torques_and_bounds_of_errors_that_are_not_a_number_are_undone_by_ten_good_seconds() {
+fn ten_good_seconds_undo_nan_torques_and_bounds() {
     undone_by_ten_good_seconds(Spoiled::Torque(1), true);
     // The detector refuses these, and no reaction begins.
     undone_by_ten_good_seconds(Spoiled::Detector, false);
 }
 
+// The friction has the wrong sign, and the load is beyond the limits.
 #[test]
-fn friction_of_the_wrong_sign_and_a_load_beyond_limits_are_undone_by_ten_good_seconds() {
+fn ten_good_seconds_undo_wrong_friction_and_load() {
     undone_by_ten_good_seconds(Spoiled::Friction, true);
     undone_by_ten_good_seconds(Spoiled::Load(400.0), true);
 }
 
 #[test]
-fn bad_input_that_goes_on_is_not_undone() {
+fn lasting_bad_input_prevents_recovery() {
     for spoiled in [
         Spoiled::Noise(5.0 * STEP),
         Spoiled::Torque(1),

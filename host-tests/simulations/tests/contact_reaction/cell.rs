@@ -51,7 +51,6 @@ pub enum Spoiled {
     Load(f64),
 }
 
-/// The arm and its loop.
 pub struct Cell {
     pub motion: Trajectory<f64, 6, 2>,
     pub controller: MotionController<f64, 6>,
@@ -151,7 +150,7 @@ impl Cell {
             .dot(self.wall.normal)
     }
 
-    /// What the tip exerts on the wall, N.
+    /// The force of the tip on the wall, N.
     pub fn force(&self) -> f64 {
         self.wall.force(tip(&self.at))
     }

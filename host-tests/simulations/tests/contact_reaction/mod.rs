@@ -38,7 +38,6 @@ const OFF: [Off; 4] = [
     Off::new(-0.03, 0.1),
 ];
 
-/// What became of a contact.
 #[derive(Clone, Copy, Debug, Default)]
 struct Crash {
     /// From the touch to the verdict of the detector, ticks.
@@ -135,8 +134,9 @@ fn row(stiffness: f64, response: Option<ContactResponse<f64>>, worst: &Crash) ->
     format!("| {stiffness:.0} N/mm | {name} | {found} | {peak:.2} | {later:.0} N |\n")
 }
 
+// The peak is below 1.2 times that of a free mass, and half a second later it is relieved.
 #[test]
-fn a_contact_peaks_below_1_2_times_that_of_a_free_mass_and_is_relieved_half_a_second_later() {
+fn a_contacts_peak_is_bounded_and_soon_relieved() {
     let mut table = String::from(
         "| stiffness | response | contact found after | peak | force 0.5 s later |\n|---|---|---:|---:|---:|\n",
     );
@@ -156,8 +156,9 @@ fn a_contact_peaks_below_1_2_times_that_of_a_free_mass_and_is_relieved_half_a_se
     PAGE.check(&table);
 }
 
+// It is relieved half a second later.
 #[test]
-fn a_wall_that_does_not_throw_the_arm_back_is_relieved_half_a_second_later() {
+fn a_wall_without_rebound_is_soon_relieved() {
     for stiffness in STIFFNESSES {
         for response in RESPONSES {
             let worst = worst(stiffness, 12.0, Some(response));
@@ -167,7 +168,7 @@ fn a_wall_that_does_not_throw_the_arm_back_is_relieved_half_a_second_later() {
 }
 
 #[test]
-fn the_margins_are_above_4_9_standard_deviations_of_the_noise() {
+fn the_margins_exceed_4_9_noise_deviations() {
     for motion in MOTIONS {
         let mut cell = Cell::new(&Setup {
             motion,

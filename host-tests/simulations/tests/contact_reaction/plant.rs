@@ -8,7 +8,7 @@ use motion_control::ContactResponse;
 pub use lab_target::contact::plant::{TIP, tip};
 
 pub type Q = [f64; 6];
-/// Of the tip at the contact, m/s.
+/// Speed of the tip at the contact, m/s.
 pub const SPEED: f64 = 0.25;
 /// Those of ISO/TS 15066 for a hand and for the chest, N/m.
 pub const STIFFNESSES: [f64; 2] = [75e3, 10e3];
@@ -29,7 +29,7 @@ pub const MOTIONS: [[Q; 2]; 2] = [
     [HOME, [0.10, -1.20, 2.00, -2.37, -1.57, 0.10]],
 ];
 
-/// How the arm differs from its model: the shares of every other body's inertia (the others: the opposite) and of friction.
+/// The arm's deviation from its model: the shares of every other body's inertia (opposite for the others) and of friction.
 #[derive(Clone, Copy, Debug)]
 pub struct Off {
     pub bodies: f64,
@@ -47,7 +47,6 @@ pub fn arm(off: f64) -> ArmModel<f64, 6> {
     plant::arm(plant::alternating(off))
 }
 
-/// A run.
 #[derive(Clone, Copy, Debug)]
 pub struct Setup {
     pub motion: [Q; 2],

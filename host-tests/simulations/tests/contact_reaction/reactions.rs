@@ -60,7 +60,7 @@ fn an_arm_goes_back_along_its_path_within_its_limits() {
         let ends = [&path[0], &path[path.len() - 1]];
         let went = largest((0..6).map(|j| ends[0].q[j] - ends[1].q[j]));
         assert!((0.095..0.11).contains(&went), "{went}");
-        // How far positions are from the path before the contact.
+        // The distance of positions from the path before the contact.
         let off = |q: &Q| {
             let path = (contact - 1000..contact + 10).map(|tick| cell.motion.at(tick).q);
             path.map(|p| largest((0..6).map(|j| p[j] - q[j])))
@@ -94,10 +94,10 @@ fn an_arm_goes_back_along_its_path_within_its_limits() {
     assert!(speed <= limits.velocity && acceleration <= limits.acceleration);
 }
 
-/// What a hand does to an arm: from tick 1000 on it pushes for a second.
+/// The effect of a hand on an arm: from tick 1000 on it pushes for a second.
 struct Pushed {
     cell: Cell,
-    /// How far the tip went while it was pushed, m.
+    /// The distance of the tip while it was pushed, m.
     went: f64,
     /// The largest speed of a joint in the second half of the push and a second after it, rad/s.
     fastest: f64,
@@ -137,7 +137,7 @@ fn pushed(response: ContactResponse<f64>, off: Off, share: f64) -> Pushed {
 }
 
 #[test]
-fn an_arm_that_floats_is_moved_by_hand_and_stays_where_it_is_left() {
+fn a_floating_arm_stays_where_a_hand_leaves_it() {
     for off in OFF {
         let Pushed {
             mut cell,
@@ -187,8 +187,9 @@ fn an_arm_that_floats_is_damped_more_beyond_its_speed() {
     assert!(slow < 0.8 && free > 2.0 * slow, "{slow} {free}");
 }
 
+// After the push it returns to its motion.
 #[test]
-fn an_arm_is_not_reset_while_a_hand_pushes_it_and_is_on_its_motion_after_that() {
+fn a_pushed_arm_is_not_reset() {
     let mut cell = pushed(FLOAT, OFF[2], 0.6).cell;
     cell.wall.hand = DVec3::new(0.0, 0.0, 40.0);
     for _ in 0..100 {

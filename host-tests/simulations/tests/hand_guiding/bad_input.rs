@@ -5,8 +5,9 @@ use motion_control::Estimate;
 use crate::hand_guiding::cell::Cell;
 use crate::hand_guiding::{POSTURES, SHARE, setup};
 
+// The arm does not move.
 #[test]
-fn velocities_and_frictions_that_are_not_a_number_have_no_torque_and_do_not_move_the_arm() {
+fn nonfinite_velocities_and_frictions_give_no_torque() {
     let setup = setup(SHARE, 0.1);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for q in POSTURES {
@@ -32,7 +33,7 @@ fn velocities_and_frictions_that_are_not_a_number_have_no_torque_and_do_not_move
 }
 
 #[test]
-fn a_velocity_that_is_far_off_is_compensated_up_to_the_limit_only() {
+fn a_wrong_velocity_is_compensated_within_the_limit() {
     let setup = setup(SHARE, 0.1);
     for wrong in [1e3, -1e3, 1e300, f64::MIN_POSITIVE] {
         let mut cell = Cell::new(POSTURES[0], &setup);

@@ -28,7 +28,7 @@ const NOISE: f64 = 0.5;
 const RIGID: (Gravity, Inertia, Coriolis, Armature<f64, 6>) =
     (Gravity::EARTH, Inertia, Coriolis, ROTORS);
 
-/// Of hand guiding with walls that are far away.
+/// The configuration of hand guiding with walls that are far away.
 pub fn config(error: f64, share: f64) -> HandGuidingConfig<f64, 6> {
     let spring = LimitedSpring {
         stiffness: [400.0, 400.0, 400.0, 60.0, 60.0, 60.0],
@@ -47,7 +47,7 @@ pub fn config(error: f64, share: f64) -> HandGuidingConfig<f64, 6> {
     }
 }
 
-/// How an arm is guided, and how it differs from its model.
+/// The hand guiding of an arm, and the errors of its model.
 #[derive(Clone, Copy, Debug)]
 pub struct Setup {
     pub config: HandGuidingConfig<f64, 6>,
@@ -58,7 +58,6 @@ pub struct Setup {
     pub gravity_error: f64,
 }
 
-/// The arm and its loop.
 pub struct Cell {
     pub guiding: HandGuiding<f64, 6>,
     pub at: State<f64, 6, 6>,
@@ -140,7 +139,6 @@ impl Cell {
         })
     }
 
-    /// One tick with this estimate.
     pub fn tick_by(&mut self, estimate: &Estimate<f64, 6>) {
         let Estimate { q, qd } = *estimate;
         let at = State { qd, ..State::at(q) };

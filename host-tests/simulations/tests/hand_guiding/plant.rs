@@ -36,7 +36,6 @@ pub fn arm(off: Inertias) -> ArmModel<f64, 6> {
     })
 }
 
-/// A hand at the tip.
 #[derive(Clone, Copy, Debug)]
 pub enum Hand {
     Away,
@@ -47,7 +46,7 @@ pub enum Hand {
 }
 
 impl Hand {
-    /// What it exerts on the tip, N.
+    /// The force of the hand on the tip, N.
     pub fn force(&self, [place, velocity]: [DVec3; 2]) -> DVec3 {
         match *self {
             Self::Away => DVec3::ZERO,

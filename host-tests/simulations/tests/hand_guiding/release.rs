@@ -10,7 +10,7 @@ const OFF: [[Inertias; 2]; 2] = [
     [Inertias::All(0.03), Inertias::All(-0.03)],
 ];
 
-/// What the tip does after the release, m.
+/// The motion of the tip after the release, m.
 #[derive(Clone, Copy, Debug, Default)]
 struct Drift {
     /// Its way in the first two seconds.
@@ -57,7 +57,7 @@ fn worst(off: &[Inertias], share: f64, over: f64, gravity_error: f64, speed: f64
 }
 
 #[test]
-fn a_released_arm_comes_to_rest_does_not_drift_and_does_not_oscillate() {
+fn a_released_arm_neither_drifts_nor_oscillates() {
     let mut rows = String::from(
         "| stated error of gravity | released | comes to rest after | drift in the next 10 s | oscillation |\n\
          |---|---|---:|---:|---:|\n",
@@ -77,14 +77,14 @@ fn a_released_arm_comes_to_rest_does_not_drift_and_does_not_oscillate() {
 }
 
 #[test]
-fn a_model_that_is_further_off_than_stated_lets_the_arm_run_on() {
+fn an_understated_model_error_lets_the_arm_drift() {
     // Friction compensated in full and over-estimated, and errors of gravity that were not stated.
     assert!(worst(&OFF[1], 1.0, 0.1, 0.03, 0.05).drift > 0.1);
     assert!(worst(&OFF[1], SHARE, 0.1, 0.0, 0.05).drift > 0.1);
 }
 
 #[test]
-fn without_a_speed_of_rest_the_noise_of_the_encoders_lets_the_arm_creep() {
+fn without_a_rest_speed_encoder_noise_causes_creep() {
     for (rest, creeps) in [(0.002, false), (1e-6, true)] {
         let mut setup = Setup {
             inertias: OFF[1][1],

@@ -22,8 +22,9 @@ fn moved(cell: &Cell) -> Q {
     core::array::from_fn(|j| (cell.at.q[j] - POSTURES[0][j]).abs())
 }
 
+// The joint does not oscillate.
 #[test]
-fn a_wall_stops_the_joint_without_oscillation_and_pushes_it_back() {
+fn a_virtual_wall_stops_and_returns_the_joint() {
     let mut walls = setup(SHARE, 0.1);
     (walls.config.lower[0], walls.config.upper[0]) = (-0.1, 0.1);
     let others = [false, true, true, true, true, true];
@@ -56,8 +57,9 @@ fn a_wall_stops_the_joint_without_oscillation_and_pushes_it_back() {
     }
 }
 
+// The other joints are moved.
 #[test]
-fn a_locked_joint_stays_unless_the_hand_is_stronger_and_the_others_are_moved() {
+fn a_locked_joint_yields_only_to_a_stronger_hand() {
     let (strong, push) = (setup(SHARE, 0.1), DVec3::new(0.0, 25.0, 0.0));
     let first = [true, false, false, false, false, false];
     let free = moved(&pushed(&strong, [false; 6], push, 700));
@@ -89,7 +91,7 @@ fn led(level: Option<CartesianImpedance<f64, 1>>) -> [f64; 3] {
 }
 
 #[test]
-fn a_locked_direction_of_the_tip_stays_and_the_others_are_moved() {
+fn only_unlocked_directions_of_the_tip_move() {
     let config = ImpedanceConfig {
         stiffness: [3000.0],
         zeta: 1.0,

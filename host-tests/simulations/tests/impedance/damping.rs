@@ -60,7 +60,7 @@ fn damping_ratio<const N: usize>(mut sprung: Sprung<N>, fastest: bool) -> f64 {
 }
 
 #[test]
-fn the_fastest_and_the_slowest_mode_swing_with_the_damping_ratio() {
+fn the_fastest_and_slowest_modes_have_the_damping_ratio() {
     let mut worst = [(); 2].map(|()| Worst::default());
     for zeta in [0.3, 0.5, 0.7] {
         let config = ImpedanceConfig { zeta, ..CONFIG };
@@ -133,8 +133,9 @@ fn the_damping_diagonalises_inertia_and_stiffness_at_once() {
     assert!(worst[2].error > 0.1 * worst[2].full_scale);
 }
 
+// It is the tangent to the period as a function of ω².
 #[test]
-fn below_the_slowest_mode_the_damping_is_that_of_the_tangent_to_the_period() {
+fn below_the_slowest_mode_damping_follows_a_tangent() {
     let config = ImpedanceConfig {
         stiffness: [9.0_f64],
         zeta: 0.7,

@@ -37,7 +37,6 @@ impl<const B: usize, const V: usize> Effect<f64, B, V> for Push {
         });
 }
 
-/// An arm on an impedance.
 #[derive(Clone, Copy)]
 pub struct Sprung<const N: usize> {
     pub arm: ArmModel<f64, N>,
@@ -53,7 +52,7 @@ pub struct Sprung<const N: usize> {
 pub type Task<const N: usize> = OperationalSpace<f64, 6, N>;
 
 impl<const N: usize> Sprung<N> {
-    /// At rest at its goal.
+    /// The arm at rest at its goal.
     pub fn at(arm: ArmModel<f64, N>, q: [f64; N]) -> Self {
         let state = State::at(q);
         Self {

@@ -35,10 +35,10 @@ fn largest_step(impedance: CartesianImpedance<f64, 6>, damping: f64, steps: i32)
 }
 
 #[test]
-fn the_torque_does_not_jump_where_the_elbow_passes_its_stretched_posture() {
+fn the_torque_is_continuous_through_the_stretched_elbow() {
     let impedance = CartesianImpedance::try_new(CONFIG).unwrap();
     let [coarse, fine] = [200, 2000].map(|steps| largest_step(impedance, 1e-4, steps));
-    // Of a function with a slope, steps go to zero with the distance of the neighbours.
+    // For a differentiable function, steps go to zero with the distance of the neighbours.
     assert!(fine < 0.15 * coarse, "{coarse} {fine}");
     // Without damping of the null space and of slow modes they do not.
     let config = ImpedanceConfig {

@@ -18,8 +18,9 @@ fn displaced<const N: usize>(mut sprung: Sprung<N>, worst: &mut Worst) {
     worst.see(moved, [0.0, 0.0, 0.0, x, y, z]);
 }
 
+// The posture does not change it.
 #[test]
-fn a_force_on_the_tip_displaces_it_by_force_over_stiffness_whatever_the_posture() {
+fn the_tip_displacement_is_force_over_stiffness() {
     let mut worst = [(); 2].map(|()| Worst::default());
     displaced(Sprung::at(Ur5e::MODEL, UR5E), &mut worst[0]);
     displaced(Sprung::at(Panda::MODEL, PANDA), &mut worst[1]);
@@ -107,7 +108,7 @@ fn balance<const N: usize>(arm: ArmModel<f64, N>, more: f64) -> Worst {
 }
 
 #[test]
-fn the_energy_of_the_arm_and_its_spring_changes_by_the_damper_alone() {
+fn only_the_damper_changes_the_arm_and_spring_energy() {
     let mut verdict = Verdict::default();
     let quantity = "energy on an impedance";
     verdict.see("ur5e", quantity, "f64", &balance(Ur5e::MODEL, 0.0));

@@ -27,9 +27,9 @@ pub const TICK: f64 = 2e-3;
 pub const START: usize = 200;
 /// Rows of half a minute.
 pub const LEARNED: usize = 15_000;
-/// Of the measured torque, N·m: two steps of the duty.
+/// Noise of the measured torque, N·m: two steps of the duty.
 pub const NOISE: f64 = 7e-3;
-/// Of a row, joint by joint: with encoders of 12 bits and velocities and accelerations from them.
+/// Noise of a row, joint by joint: with encoders of 12 bits and velocities and accelerations from them.
 pub const STATED: [f64; 6] = [0.025, 0.025, 0.025, 0.025, 0.055, 0.03];
 /// Ticks before and after a row of which the difference of velocities is its acceleration.
 pub const APART: usize = 8;
@@ -169,7 +169,6 @@ impl<R: Real> Row<R> {
         Excitation::row(self.joint, &self.bodies, &self.own)
     }
 
-    /// The torque by all parameters.
     pub fn torque(&self, all: &[f64; N]) -> f64 {
         dot(&self.all().map(R::to_f64), all)
     }

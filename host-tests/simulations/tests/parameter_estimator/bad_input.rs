@@ -61,8 +61,9 @@ fn nan(row: &mut Row, _: &mut [f64; N], _: &mut Rng) {
 }
 
 /// Without the limit, friction of the wrong sign and an encoder that sticks spoil the estimate, and noise passes.
+// Twenty seconds later the estimation goes on.
 #[test]
-fn bad_input_freezes_the_estimate_with_the_joint_named_and_20_s_later_it_goes_on() {
+fn bad_input_freezes_the_estimate_and_names_the_joint() {
     let stuck = run(&nominal(1), 2 * LEARNED, FAULTY);
     let faults: [(&[_], Change); 4] = [
         (minute(1), nan),
@@ -94,8 +95,9 @@ fn bad_input_freezes_the_estimate_with_the_joint_named_and_20_s_later_it_goes_on
     }
 }
 
+// Neither the estimate nor its deviations change.
 #[test]
-fn a_row_that_is_refused_has_its_reason_and_changes_neither_estimate_nor_deviations() {
+fn a_refused_row_has_a_reason_and_changes_nothing() {
     let mut learner = learned(1, FORGETTING);
     let (_, row) = minute(1)[LEARNED - 1000];
     let (y, residual) = learner.row(&row);
@@ -152,9 +154,9 @@ fn others(learner: &Learner) -> impl Iterator<Item = (usize, [f32; P], f32)> {
     })
 }
 
+// It ends after 1024 good rows of other joints, and the next row of its own joint renews it.
 #[test]
-fn a_freeze_by_a_joint_that_then_rests_ends_after_1024_good_rows_of_others_and_its_next_row_renews_it()
- {
+fn a_freeze_by_a_resting_joint_ends() {
     let mut learner = learned(1, FORGETTING);
     let frozen = Err(RejectedRow::Frozen { joint: 2 });
     let hit = |learner: &mut Learner| {
@@ -197,7 +199,7 @@ fn a_freeze_by_a_joint_that_then_rests_ends_after_1024_good_rows_of_others_and_i
 }
 
 #[test]
-fn a_configuration_beyond_its_range_and_an_impossible_nominal_arm_are_refused() {
+fn invalid_configurations_and_impossible_arms_are_refused() {
     let good = config(&Learner::new(1, 0.0, 5.0).base, 0.0, 5.0);
     let refused = |config| ParameterEstimator::<f32, P, 6>::try_new(config).err();
     let named = |parameter| Some(ConfigError::OutOfRange { parameter });

@@ -8,9 +8,9 @@ use crate::parameter_estimator::arm::*;
 use crate::parameter_estimator::learner::*;
 use crate::parameter_estimator::stored::stored_of;
 
+// They start 30 % off, and then give the torques of another path within 5 %.
 #[test]
-fn in_half_a_minute_24_parameters_that_are_30_percent_off_give_the_torques_of_another_path_within_5_percent()
- {
+fn half_a_minute_of_motion_identifies_24_parameters() {
     for seed in 1..4 {
         let learner = learned(seed, FORGETTING);
         let mut stored = stored_of(&learner.nominal);
@@ -28,7 +28,7 @@ fn in_half_a_minute_24_parameters_that_are_30_percent_off_give_the_torques_of_an
 
 /// Each of these errors would pass a check of the torques that finds nothing.
 #[test]
-fn torques_of_the_wrong_sign_and_columns_of_another_joint_are_found() {
+fn wrong_torque_signs_and_joint_columns_are_found() {
     let of = |change: fn(&mut Row)| {
         let mut learner = Learner::new(1, FORGETTING, 1000.0);
         for (_, row) in minute(1).iter().take(LEARNED / 2) {
@@ -48,7 +48,7 @@ fn torques_of_the_wrong_sign_and_columns_of_another_joint_are_found() {
 const RANK: usize = 1 + 5 * 7 + 6 * OWN - 2;
 
 #[test]
-fn all_base_parameters_by_selection_give_the_torques_of_all_parameters_at_any_state() {
+fn selected_base_parameters_give_the_torques_of_all_parameters() {
     let nominal = nominal(1);
     let rank = base_of::<f64, N>(&nominal).expect_err("more columns than are independent");
     assert_eq!(rank, RANK);
@@ -70,8 +70,9 @@ fn all_base_parameters_by_selection_give_the_torques_of_all_parameters_at_any_st
 }
 
 /// The smallest deviation of the prior is 4.3 · 10⁻⁷ kg·m², of a product of inertia of the jaw.
+// They give the torques of another path.
 #[test]
-fn all_64_base_parameters_are_estimated_in_f32_and_give_the_torques_of_another_path() {
+fn all_64_base_parameters_are_estimated_in_f32() {
     let mut learner = Learner::new(1, FORGETTING, LIMIT);
     let base = base_of::<f32, RANK>(&learner.nominal).expect("all of them");
     assert!(base.prior.iter().any(|prior| *prior < 1e-6));
@@ -104,7 +105,7 @@ fn all_64_base_parameters_are_estimated_in_f32_and_give_the_torques_of_another_p
 }
 
 #[test]
-fn an_estimator_of_24_parameters_of_six_joints_has_2_8_kilobytes() {
+fn an_estimator_of_24_parameters_takes_2768_bytes() {
     assert_eq!(size_of::<ParameterEstimator<f32, 24, 6>>(), 2768);
 }
 

@@ -130,7 +130,7 @@ pub fn validation(all: &[f64; N]) -> (f64, f64) {
     (of(errors.iter().sum(), sizes.iter().sum()), worst)
 }
 
-/// After half a minute.
+/// A learner after half a minute.
 pub fn learned(seed: u64, forgetting: f32) -> Learner {
     let mut learner = Learner::new(seed, forgetting, LIMIT);
     for (_, row) in minute(seed).iter().filter(|(k, _)| *k < LEARNED) {

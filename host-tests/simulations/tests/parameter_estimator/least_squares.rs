@@ -21,8 +21,9 @@ fn solved(mut a: Vec<[f64; P]>, mut b: [f64; P]) -> [f64; P] {
     core::array::from_fn(|k| b[k] / a[k][k])
 }
 
+// The estimate in f32 follows.
 #[test]
-fn the_estimate_and_its_deviations_are_those_of_least_squares_and_f32_follows() {
+fn the_estimate_and_deviations_are_those_of_least_squares() {
     let learner = Learner::new(2, 0.0, 1000.0);
     let ParameterEstimatorConfig { noise, prior, .. } = config(&learner.base, 0.0, 1000.0);
     let config = ParameterEstimatorConfig {
@@ -70,8 +71,9 @@ fn the_estimate_and_its_deviations_are_those_of_least_squares_and_f32_follows() 
 }
 
 /// One of them processes all 24 places of each row.
+// Own parameters are of one joint alone, and declaring them changes only the work of a row.
 #[test]
-fn that_parameters_are_of_one_joint_alone_changes_the_work_of_a_row_and_not_the_estimate() {
+fn declaring_own_parameters_does_not_change_the_estimate() {
     let learner = Learner::new(3, FORGETTING, LIMIT);
     let given = config(&learner.base, FORGETTING, LIMIT);
     assert!(given.own.iter().all(|own| *own > 0), "{:?}", given.own);
@@ -109,9 +111,9 @@ fn that_parameters_are_of_one_joint_alone_changes_the_work_of_a_row_and_not_the_
     }
 }
 
+// No parameter becomes less certain.
 #[test]
-fn an_estimator_that_forgets_follows_a_friction_that_changes_and_no_parameter_becomes_less_certain()
-{
+fn a_forgetting_estimator_follows_changing_friction() {
     let of = |forgetting| {
         let mut learner = Learner::new(1, forgetting, 100.0);
         let mut deviations = learner.estimator.deviations();

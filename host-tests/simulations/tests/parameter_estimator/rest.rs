@@ -59,7 +59,7 @@ fn without_excitation_nothing_drifts() {
         assert!(drift(plain.theta) > 1e3, "{:.1e}", drift(plain.theta));
         // White noise spreads the estimate by at most half of its variance: of 24 parameters the worst is within two deviations.
         assert!(by_all || drift(after) < 2.0, "{:.1e}", drift(after));
-        // What 24 parameters cannot explain of a posture moves them, but not what they give elsewhere.
+        // The unexplained part of a posture moves the 24 parameters, but not their torques elsewhere.
         let error = validation(&learner.found());
         assert!(error.0 < 0.03 && error.1 < 0.05, "{error:?}");
     }

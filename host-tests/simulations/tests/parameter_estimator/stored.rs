@@ -49,8 +49,9 @@ fn no_stored_set_is_impossible_in_many_noisy_ticks() {
     assert!(outside > ticks / 100, "{outside}");
 }
 
+// The other bodies follow the estimate.
 #[test]
-fn a_body_without_mass_and_inertia_stays_without_and_the_others_follow_the_estimate() {
+fn a_massless_body_stays_massless_under_updates() {
     let mut nominal = truth();
     nominal[30..40].fill(0.0);
     let mut stored: PhysicalParameters<f64, 6, N> =

@@ -75,8 +75,9 @@ fn parameters(bodies: &[[f64; 10]; 6], mut of: impl FnMut() -> f64) -> [f64; N] 
     })
 }
 
+// The error is a share of full scale.
 #[test]
-fn in_half_a_minute_the_torques_of_a_ur5e_are_within_1_percent_of_full_scale() {
+fn half_a_minute_brings_ur5e_torques_within_1_percent() {
     let bodies = inertial_parameters(&Ur5e::MODEL, &());
     let truth = parameters(&bodies, || 1.0);
     let mut rng = Rng::new(4);

@@ -61,7 +61,6 @@ pub fn reference(t: f64) -> State<f64, 6, 6> {
     }
 }
 
-/// A run in closed loop.
 #[derive(Clone, Debug)]
 pub struct Run {
     pub ticks: usize,
@@ -85,7 +84,7 @@ pub const GOOD: Run = Run {
     noise: 1.0,
 };
 
-/// What an estimator gets in each tick of a run.
+/// The measurements of an estimator in each tick of a run.
 pub fn measure(run: &Run) -> Vec<Tick> {
     const KP: [f64; 6] = [4000.0, 4000.0, 3000.0, 600.0, 600.0, 400.0];
     const KD: [f64; 6] = [200.0, 200.0, 150.0, 20.0, 20.0, 15.0];

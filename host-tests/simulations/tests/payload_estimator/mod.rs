@@ -16,7 +16,7 @@ use motion_control::{
     ConfigError, ConfigParameter, PayloadEstimator, PayloadEstimatorConfig, RejectedMeasurement,
 };
 
-/// Of the innovations of a tick.
+/// Limit of the innovations of a tick.
 const LIMIT: f64 = 5.0;
 
 fn config<R: Real>(forgetting: f64) -> PayloadEstimatorConfig<R, 6> {
@@ -32,7 +32,7 @@ fn estimator<R: Real>(forgetting: f64) -> PayloadEstimator<R, 6> {
     PayloadEstimator::try_new(config(forgetting)).expect("a good one")
 }
 
-/// One that rejects ticks.
+/// An estimator that rejects ticks.
 fn limited<R: Real>() -> PayloadEstimator<R, 6> {
     let limit = R::from_f64(LIMIT);
     PayloadEstimator::try_new(PayloadEstimatorConfig {
@@ -42,7 +42,6 @@ fn limited<R: Real>() -> PayloadEstimator<R, 6> {
     .expect("a good one")
 }
 
-/// The estimate and its deviations.
 fn estimated<R: Real>(single: &PayloadEstimator<R, 6>) -> (SpatialInertia<R>, [R; 10]) {
     (single.inertia(), single.deviations())
 }
@@ -68,8 +67,9 @@ fn errors<R: Real>(estimator: &PayloadEstimator<R, 6>, truth: &BodyInertia<f64>)
     ((found.mass.to_f64() / truth.mass - 1.0).abs(), distance)
 }
 
+// The mass is within 2 % and the centre of mass within 5 mm, in f32.
 #[test]
-fn in_5_s_of_motion_the_mass_is_within_2_percent_and_the_centre_within_5_mm_in_f32() {
+fn five_seconds_of_motion_identify_the_payload() {
     for (seed, friction) in [(1, 1.0), (2, 1.0), (3, 1.0), (1, 0.9), (1, 1.1)] {
         let mut single = limited::<f32>();
         for tick in measure(&Run {
@@ -90,7 +90,7 @@ fn in_5_s_of_motion_the_mass_is_within_2_percent_and_the_centre_within_5_mm_in_f
 
 /// Torques of the other sign, and two components exchanged, miss the bars that the same run meets.
 #[test]
-fn half_of_the_joints_in_each_tick_in_turn_meet_the_same_bars() {
+fn half_the_joints_in_turn_meet_the_same_bars() {
     let mut single = estimator::<f32>(0.0);
     for (k, (y, z)) in measure(&GOOD).into_iter().enumerate() {
         let joints = [k % 2, 2 + k % 2, 4 + k % 2];
@@ -172,8 +172,9 @@ fn at_once(ticks: &[Tick]) -> ([f64; 10], [f64; 10]) {
     (solved(a, b), core::array::from_fn(|k| variance(k).sqrt()))
 }
 
+// The estimate in f32 follows.
 #[test]
-fn the_estimate_and_its_deviations_are_those_of_least_squares_and_f32_follows() {
+fn the_estimate_and_deviations_are_those_of_least_squares() {
     let ticks = measure(&Run {
         ticks: 1000,
         ..GOOD
@@ -246,7 +247,7 @@ impl Plain {
 }
 
 #[test]
-fn what_the_motion_does_not_show_neither_drifts_nor_is_forgotten() {
+fn unexcited_parameters_neither_drift_nor_are_forgotten() {
     const FORGETTING: f64 = 1e-3;
     let mut single = estimator::<f32>(FORGETTING);
     for tick in measure(&GOOD) {
@@ -294,7 +295,7 @@ fn what_the_motion_does_not_show_neither_drifts_nor_is_forgotten() {
 }
 
 #[test]
-fn a_tick_that_is_not_finite_or_too_large_is_refused_with_its_reason_and_leaves_no_trace() {
+fn a_nonfinite_or_huge_tick_is_refused_without_trace() {
     let mut single = estimator::<f32>(1e-3);
     let mut other = single;
     let y = [[1.0_f32; 10]; 6];
@@ -318,8 +319,9 @@ fn a_tick_that_is_not_finite_or_too_large_is_refused_with_its_reason_and_leaves_
     assert_eq!(single, estimator(1e-3));
 }
 
+// This holds although the estimator forgets.
 #[test]
-fn a_tick_without_information_changes_no_bit_even_if_the_estimator_forgets() {
+fn a_tick_without_information_changes_no_bit() {
     let mut single = estimator::<f32>(0.5);
     single.update(&[[0.3; 10]; 6], &[0.7; 6]).expect("finite");
     let before = estimated(&single);
@@ -330,7 +332,7 @@ fn a_tick_without_information_changes_no_bit_even_if_the_estimator_forgets() {
 }
 
 #[test]
-fn a_configuration_that_is_no_deviation_or_no_share_is_refused() {
+fn configurations_out_of_range_are_refused() {
     let refused = |config| PayloadEstimator::<f64, 6>::try_new(config).err();
     let named = |parameter| Some(ConfigError::OutOfRange { parameter });
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-10] {

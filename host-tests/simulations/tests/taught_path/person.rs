@@ -10,7 +10,7 @@ use crate::hand_guiding::plant::{Hand, Inertias, Q};
 pub const START: Q = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0];
 /// The time of the motion, s.
 const SECONDS: f64 = 10.0;
-/// Of the hand, m and Hz.
+/// Tremor of the hand, m and Hz.
 const TREMOR: [(f64, f64); 3] = [(0.8e-3, 8.7), (0.6e-3, 9.6), (0.7e-3, 11.3)];
 /// A step of an encoder of 14 bits, rad; its noise is uniform and as large.
 pub const STEP: f64 = TAU / 16_384.0;

@@ -19,7 +19,7 @@ use crate::taught_path::ur5e::{RIGID, inverse_dynamics};
 use lab_target::contact::plant::VISCOUS;
 
 const TORQUE: Q = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];
-/// Of the torques, for the motion; the rest is for the feedback and stiction.
+/// Share of the torques for the motion; the rest is for the feedback and stiction.
 const SHARE: f64 = 0.85;
 const SPACING: Q = [0.04; 6];
 const N: usize = 256;
@@ -86,7 +86,6 @@ fn off(path: &Path, positions: &[Q]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// What a playback was like.
 #[derive(Clone, Copy, Debug)]
 struct Played {
     limited: u32,
@@ -156,11 +155,11 @@ fn play(motion: &impl Reference<f64, 6>) -> Played {
     played
 }
 
-/// Of the way-points, rad.
+/// Tolerances of the way-points, rad.
 const TOLERANCES: [f64; 4] = [0.0, 0.002, 0.005, 0.01];
 
 #[test]
-fn a_taught_path_is_played_back_within_the_torques_of_the_motors() {
+fn a_taught_path_is_played_within_motor_torques() {
     let guided = guide(1.0);
     let measured = measured(&guided);
     let person = guided.len() as f64 * TICK;
@@ -208,7 +207,7 @@ fn feedforward(motion: &impl Reference<f64, 6>) -> f64 {
 }
 
 #[test]
-fn noise_of_the_encoders_and_tremor_of_the_hand_cost_little_time() {
+fn encoder_noise_and_hand_tremor_cost_little_time() {
     let calm = guide(0.0);
     let shaken = shaken(&calm);
     let mut rows = String::from(

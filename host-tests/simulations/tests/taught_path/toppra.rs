@@ -50,7 +50,7 @@ impl Recorded {
                 velocity: speed[j],
                 acceleration: acceleration[j],
             }),
-            // Of toppra all of it counts everywhere.
+            // In toppra the whole friction counts everywhere.
             friction: self.coulomb.map(|coulomb| JointFriction {
                 coulomb,
                 viscous: 0.0,
@@ -74,7 +74,7 @@ fn recording() -> Recording {
     recording
 }
 
-/// Of all paths, on a grid of M points.
+/// The comparison over all paths, on a grid of M points.
 struct Compared {
     /// Durations as shares of those of toppra.
     durations: Vec<f64>,
@@ -108,8 +108,9 @@ fn least(x: &[f64]) -> f64 {
     x.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
+// The limits hold between the grid points too.
 #[test]
-fn durations_are_those_of_toppra_and_the_limits_hold_between_grid_points() {
+fn durations_agree_with_toppra_within_the_limits() {
     let mut rows = String::from(
         "| grid points | duration against toppra, mean | worst | greatest share of a torque's limit | of a speed's | of an acceleration's |\n\
          |---:|---:|---:|---:|---:|---:|\n",
@@ -150,7 +151,7 @@ fn durations_are_those_of_toppra_and_the_limits_hold_between_grid_points() {
 }
 
 #[test]
-fn on_the_grid_of_toppra_every_square_rate_is_that_of_toppra() {
+fn square_rates_agree_with_toppra_on_its_grid() {
     let (mut times, mut squares, mut reversals) = (0.0_f64, 0.0_f64, 0.0_f64);
     for recorded in recording().paths {
         let (path, limits) = (recorded.path(), recorded.limits());

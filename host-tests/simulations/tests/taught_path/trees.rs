@@ -30,7 +30,6 @@ fn tree(rng: &mut TestRng) -> Model<f64, N, N, N> {
     Model::new("tree", bodies)
 }
 
-/// A walk of twelve way-points.
 fn walk(rng: &mut TestRng) -> PathSpline<f64, N, 12> {
     let (mut q, mut step) = (draw::<N>(rng, 1.0), draw::<N>(rng, 0.1));
     let points: [[f64; N]; 12] = core::array::from_fn(|_| {
@@ -46,8 +45,9 @@ fn walk(rng: &mut TestRng) -> PathSpline<f64, N, 12> {
     path
 }
 
+// The robots are random trees.
 #[test]
-fn random_paths_of_random_trees_are_within_all_limits_and_one_is_always_reached() {
+fn random_paths_keep_all_limits_and_reach_one() {
     let mut rng = random_numbers();
     let (mut excess, mut reached) = (0.0_f64, f64::INFINITY);
     for _ in 0..100 {

@@ -23,13 +23,13 @@ const BODY_POSE: u32 = 32;
 const BASE_MOTION: u32 = 64;
 const PAYLOAD: u32 = 128;
 const GYROSCOPIC_ROTORS: u32 = 256;
-/// Of the field the x axis alone.
+/// The field along the x axis alone.
 const ALONG_X: u32 = 512;
 const ELASTICITY: u32 = 1024;
 const LOAD_DEPENDENT: u32 = 2048;
-/// Of another robot, so that no algorithm takes it.
+/// Base parameters of another robot, so that no algorithm uses them.
 const BASE_PARAMETERS: u32 = 4096;
-/// Of a kind of which a scene contains at most one.
+/// The effect is of a kind that a scene contains at most once.
 const ONCE: u32 = 8192;
 
 /// Has every hook at joints, and of the others those whose bits are set.
@@ -193,7 +193,7 @@ fn acting<const FLAGS: u32>() -> [f64; 3] {
 }
 
 #[test]
-fn hooks_that_are_not_there_do_nothing() {
+fn absent_hooks_do_nothing() {
     idle::<0>();
     idle::<ALONG_X>();
     let (none, robot) = (All::<{ ALONG_X }>, Static::<TwoHands>::NEW);
@@ -224,7 +224,7 @@ fn each_hook_acts_alone_in_core_and_engine() {
     acting::<WRENCH>();
     acting::<BASE_MOTION>();
     acting::<LOAD_DEPENDENT>();
-    // What reads nothing, and inertia that nothing accelerates, are no torques.
+    // A hook whose results nobody reads and inertia without acceleration give no torques.
     idle::<BODY_VELOCITY>();
     idle::<BODY_POSE>();
     idle::<PAYLOAD>();
@@ -233,7 +233,7 @@ fn each_hook_acts_alone_in_core_and_engine() {
     assert_ne!(acting::<{ FIELD | ALONG_X }>(), acting::<FIELD>());
 }
 
-/// All that the engine has.
+/// Every hook that the engine supports.
 const ENGINE: u32 = FIELD
     | ACCELERATIONS
     | VELOCITY_PRODUCTS
@@ -245,7 +245,7 @@ const ENGINE: u32 = FIELD
     | LOAD_DEPENDENT;
 
 #[test]
-fn among_all_hooks_every_one_of_them_counts() {
+fn each_hook_counts_among_all_others() {
     let all = acting::<ENGINE>();
     // The engine agrees one constant at a time and under all of them.
     let less = [
@@ -267,7 +267,7 @@ fn among_all_hooks_every_one_of_them_counts() {
     assert!((spinning[0] - all[0]).abs() > 0.01);
 }
 
-/// What a scene says of itself and what its hooks add, in numbers.
+/// The constants of a scene and the contributions of its hooks, in numbers.
 fn observed<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
     let flags = [
         E::FIELD,
@@ -333,7 +333,7 @@ fn observed<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
     numbers.into_iter().map(R::to_f64).collect()
 }
 
-/// What `advance` of a scene adds up to.
+/// The sum of all calls of a scene's `advance`.
 fn advanced<E: Effect<f32, 6, 3>>(scene: &mut E) -> f64 {
     ADVANCED.set(0.0);
     scene.advance(1, JointState::new(0.25, 0.5), 0.125);
@@ -358,7 +358,7 @@ delegate_effect! {
 }
 
 #[test]
-fn whatever_forwards_effects_forwards_every_hook() {
+fn every_forwarder_forwards_every_hook() {
     let direct = observed::<f32, _>(&EVERY);
     // All numbers differ from what is there without the effect.
     let none = observed::<f32, _>(&());
@@ -372,7 +372,7 @@ fn whatever_forwards_effects_forwards_every_hook() {
     assert_eq!(advanced(&mut Wrapper(EVERY)), 1.875);
     assert_eq!(observed::<f32, _>(&Toggle::<true>(EVERY)), direct);
     assert_eq!(advanced(&mut Toggle::<true>(EVERY)), 1.875);
-    // What the demo's laws leave out, and what they keep.
+    // The effects that the demo's laws leave out, and those that they keep.
     assert_eq!(observed::<f32, _>(&Without::<_, 0>(((), EVERY))), direct);
 }
 
@@ -426,7 +426,7 @@ fn declared(source: &str) -> Vec<&str> {
 }
 
 #[test]
-fn a_hook_or_constant_that_is_added_is_forwarded_and_tested() {
+fn every_added_hook_is_forwarded_and_tested() {
     let effects = include_str!("../../../../dynamics-core/src/effects/mod.rs");
     let (_, the_trait) = effects
         .split_once("pub trait Effect<")

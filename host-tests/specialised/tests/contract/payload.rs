@@ -48,8 +48,9 @@ fn acts_as<E: Effect<f64, 6, 3>>(scene: &E, loads: &[(usize, SpatialInertia<f64>
     close(&Engine::<TwoHands>::rnea(&MOVING, scene), &tau, 2e-15);
 }
 
+// The frame that is listed last carries none.
 #[test]
-fn two_hands_carry_a_payload_each_and_the_frame_that_is_listed_last_carries_none() {
+fn each_hand_carries_its_own_payload() {
     let (cup, plate) = (cup::<LEFT>(), plate::<RIGHT>());
     acts_as(
         &(RIGID_BODY, cup, plate),
@@ -96,7 +97,7 @@ impl<const V: usize> Effect<f64, 6, V> for Ice {
 }
 
 #[test]
-fn an_effect_of_ones_own_loads_the_bodies_that_it_says_and_no_others() {
+fn a_users_effect_loads_only_the_bodies_it_names() {
     let ice = cup::<0>().0;
     let mut loads = [(0, ice), (1, ice), (3, ice)];
     for (body, ice) in &mut loads {

@@ -131,7 +131,7 @@ fn an_engine_with_loaded_base_parameters_computes_the_calibrated_robot() {
 }
 
 #[test]
-fn base_parameters_of_the_description_are_not_those_of_the_calibrated_robot() {
+fn calibration_changes_the_base_parameters() {
     let nominal = |_: &_| loaded(&Calibrated::<Panda, f64, 7, 7, 7>::nominal());
     assert!(apart::<Panda, _, 7, 7>(RIGID_BODY, nominal) > 0.01);
 }
@@ -159,7 +159,7 @@ fn a_payload_in_the_set_is_one_in_the_scene() {
 }
 
 #[test]
-fn a_calibrated_placement_and_an_inertia_that_is_not_finite_are_named() {
+fn a_changed_placement_or_nonfinite_inertia_is_named() {
     let mut arm = calibrated::<Panda, 7, 7>();
     let set = |arm: &_| Engine::<Panda>::base_parameters(arm, &());
     assert!(set(&arm).is_ok());

@@ -1,4 +1,4 @@
-//! What the engine does with M(q) and J(q), on trees, with prismatic joints, rotors and payloads.
+//! The engine's M(q) and J(q) on trees, with prismatic joints, rotors and payloads.
 
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::algorithms::frame::LocalWorldAligned;
@@ -77,7 +77,7 @@ where
 }
 
 #[test]
-fn m_is_what_inverse_dynamics_asks_for_each_acceleration() {
+fn columns_of_m_are_torques_of_unit_accelerations() {
     columns::<StressRobot, _, 11, 7>(&(Inertia,), "engine columns of M");
     #[cfg(feature = "full")]
     columns::<dynamics_core::robots::A1, _, 16, 12>(&(Inertia,), "engine columns of M");
@@ -110,8 +110,9 @@ fn inverted<R: Real, T, E, const B: usize, const N: usize>(
     check(T::MODEL.name, quantity, std::any::type_name::<R>(), worst);
 }
 
+// Rotors and a payload are part of the tree.
 #[test]
-fn forward_inverts_rnea_on_an_odd_tree_with_rotors_and_payload() {
+fn forward_dynamics_inverts_rnea_on_an_odd_tree() {
     let quantity = "engine forward of rnea";
     let scene = (
         Gravity::EARTH,
@@ -158,8 +159,9 @@ impl Robot<4, 4, 4> for Fork {
     );
 }
 
+// Rotors and a payload are part of the tree.
 #[test]
-fn aba_inverts_rnea_on_an_odd_tree_with_rotors_and_payload() {
+fn aba_inverts_rnea_on_an_odd_tree() {
     let rotors = Armature([0.2, 0.1, 0.3, 0.05]);
     let scene = (Gravity::EARTH, Inertia, Coriolis, rotors, payload::<_, 3>());
     inverted::<f64, Fork, _, 4, 4>(&scene, "engine aba of rnea", |state, tau, scene| {

@@ -167,9 +167,10 @@ fn engine_equals_core_on_an_odd_tree_under_every_effect() {
     odd_tree::<f32>();
 }
 
+// Every effect acts.
 #[cfg(feature = "full")]
 #[test]
-fn engine_equals_core_on_an_odd_tree_under_every_effect_in_f64() {
+fn engine_equals_core_on_an_odd_tree_in_f64() {
     odd_tree::<f64>();
     let ulps = compare::<f64, StressRobot, _, 11, 7>(
         &(Gravity::<Aslant>::new(9.81), Inertia, Drag),
@@ -216,7 +217,7 @@ fn a_payload_is_inertia_of_its_body() {
 }
 
 #[test]
-fn an_effect_that_reads_velocities_does_not_switch_coriolis_on() {
+fn an_effect_of_velocities_adds_no_coriolis_torque() {
     let scene = (Gravity::<Aslant>::new(9.81), Inertia, Drag);
     let ulps = compare::<f32, StressRobot, _, 11, 7>(&scene, 10_000);
     assert!(ulps <= ULPS, "{ulps:.2} ulp");

@@ -98,9 +98,10 @@ fn momenta_and_coriolis_products_of_engine_and_core_are_equal() {
     odd_tree::<f32>();
 }
 
+// Those of the engine are compared with those of the core.
 #[cfg(feature = "full")]
 #[test]
-fn momenta_and_coriolis_products_of_engine_and_core_are_equal_in_f64() {
+fn momenta_and_coriolis_products_are_equal_in_f64() {
     agree::<f64, Ur5e, _, 6, 6>(&());
     agree::<f64, dynamics_core::robots::Panda, _, 7, 7>(&());
     odd_tree::<f64>();

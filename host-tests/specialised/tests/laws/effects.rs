@@ -1,4 +1,4 @@
-//! What effects add, and that absent ones add nothing.
+//! The contributions of effects; absent ones add nothing.
 
 use super::*;
 
@@ -30,7 +30,7 @@ fn absent_effects_change_nothing() {
                 want
             );
             assert_eq!(rnea(model, state, &()), [0.0; N]);
-            // What a scene does not name does not matter.
+            // Quantities that a scene does not name do not matter.
             let mut other = *state;
             other.qdd = [f64::NAN; N];
             let gravity = (Gravity::EARTH, Coriolis);

@@ -112,7 +112,7 @@ fn is_positive_definite<const N: usize>(m: &[[f64; N]; N]) -> bool {
     true
 }
 
-/// What holds for every model in every state.
+/// A law that holds for every model in every state.
 trait Law {
     fn hold<const B: usize, const N: usize>(
         model: &Model<f64, B, N, N>,
@@ -296,7 +296,7 @@ fn torques_are_those_of_lagranges_equations() {
 }
 
 #[test]
-fn motors_supply_the_change_of_energy_and_what_friction_takes() {
+fn motor_power_is_energy_rate_plus_friction_loss() {
     struct Power;
     impl Law for Power {
         fn hold<const B: usize, const N: usize>(
@@ -327,7 +327,7 @@ fn motors_supply_the_change_of_energy_and_what_friction_takes() {
 /// MotorState on a differential of two joints, a mimicked pair, and gears: they feel Gᵀ M G, and their power is
 /// the joints'.
 #[test]
-fn motors_behind_a_transmission_feel_its_inertia_and_keep_its_power() {
+fn a_transmission_keeps_power_and_reflects_inertia() {
     let g = [
         [0.01, 0.0, 0.0, 0.0],
         [0.0, 0.5, 0.5, 0.0],

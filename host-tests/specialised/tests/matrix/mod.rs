@@ -29,9 +29,9 @@ use trees::*;
 /// The largest errors of one scalar, each relative to its full scale.
 #[derive(Default)]
 struct Worst {
-    /// Of what does not solve with M, by quantity.
+    /// Errors of algorithms that do not solve with M, by quantity.
     plain: Vec<(&'static str, f64)>,
-    /// Of what does: the largest part of its bound that was used, and κ there.
+    /// Errors of those that do: the largest used share of their bound, and κ there.
     solved: Vec<(&'static str, f64, f64)>,
 }
 
@@ -151,7 +151,7 @@ fn matrix<R: Real, const B: usize, const Q: usize, const V: usize>(
     worst.plain("Jacobian", &numbers(velocity), &want);
 }
 
-/// What solves with M: each way to it gives the same.
+/// Solutions with M: all algorithms give the same.
 fn solutions<R: Real, const B: usize, const Q: usize, const V: usize>(
     model: &Model<R, B, Q, V>,
     state: &State<R, Q, V>,
@@ -259,7 +259,7 @@ fn hold<const B: usize, const Q: usize, const V: usize>(
 }
 
 #[test]
-fn every_way_to_m_and_through_it_agrees_on_trees_of_every_joint() {
+fn all_mass_matrix_algorithms_agree_on_every_joint() {
     use JointKind::*;
     let run = || {
         let mut worst = <[Worst; 2]>::default();

@@ -29,7 +29,7 @@ fn massless_tip() -> ArmModel<f64, 3> {
     )
 }
 
-/// What each algorithm says of the robot under a scene.
+/// The verdict of each algorithm on the robot under a scene.
 fn verdicts<R: Real, E: Effect<R, N, N>, const N: usize>(
     model: &ArmModel<R, N>,
     scene: &E,
@@ -69,14 +69,16 @@ fn names_the_massless_tip<R: Real>(model: &ArmModel<R, 3>) {
     assert_eq!(verdicts(model, &scene), [None; 7]);
 }
 
+// Without a rotor it is named, and with one M is definite.
 #[test]
-fn a_massless_last_link_is_named_and_its_rotor_makes_m_definite() {
+fn a_massless_last_link_needs_a_rotor() {
     names_the_massless_tip::<f64>(&massless_tip());
     names_the_massless_tip::<f32>(&massless_tip().to_f32());
 }
 
+// A joint of prescribed motion needs no inertia.
 #[test]
-fn an_inertia_that_is_not_a_number_is_named_and_prescribed_motion_needs_none() {
+fn a_nan_inertia_is_named() {
     let mut model = massless_tip();
     let state = State::at([0.1; 3]);
     let mut given = [Prescribed::Torque(0.0); 3];
@@ -95,7 +97,7 @@ fn an_inertia_that_is_not_a_number_is_named_and_prescribed_motion_needs_none() {
     assert_eq!(named, [Some(2); 7]);
 }
 
-/// What elimination leaves of a singular M is rounding, of either sign.
+/// Elimination leaves rounding errors of either sign of a singular M.
 #[test]
 fn a_pivot_of_rounding_errors_is_refused_whatever_its_size() {
     fn refuse<R: Real>(model: &ArmModel<R, 2>) {

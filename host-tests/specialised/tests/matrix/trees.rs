@@ -30,7 +30,6 @@ pub fn mixed<const B: usize, const Q: usize, const V: usize>(
     tree(rng, kinds)
 }
 
-/// A tree of these joints.
 pub fn tree<const B: usize, const Q: usize, const V: usize>(
     rng: &mut TestRng,
     kinds: [JointKind; B],

@@ -9,7 +9,6 @@ use proptest::test_runner::TestRng;
 
 use crate::random::{random_numbers, within};
 
-/// All of them.
 pub fn exported() -> Vec<Exported> {
     let mut all: Vec<Exported> = (DOUBLE.iter())
         .map(|problem| arm(problem.case, problem.name).exported())
@@ -48,7 +47,6 @@ pub fn arm(case: u32, name: &str) -> Setup<N> {
     Setup::new(case, name, &double.arm, double.extras, states)
 }
 
-/// How a chain stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stance {
     /// Stretched out, all axes parallel.

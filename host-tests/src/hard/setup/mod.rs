@@ -14,7 +14,6 @@ use serde::{Deserialize, Serialize};
 /// A robot, its load, and the states at which it is evaluated.
 #[derive(Clone, Debug)]
 pub struct Setup<const N: usize> {
-    /// The case's number.
     pub case: u32,
     /// Its name within the case.
     pub name: String,
@@ -22,24 +21,21 @@ pub struct Setup<const N: usize> {
     pub single: ArmModel<f32, N>,
     /// The same numbers in f64, see [`same_in_f64`].
     pub double: ArmModel<f64, N>,
-    /// What it carries.
     pub extras: Extras<N>,
     /// The states at which it is evaluated.
     pub states: Vec<State<f32, N, N>>,
 }
 
-/// What the oracle says.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Truth {
     name: String,
     inputs: String,
     /// κ(M), the largest over the states.
     pub condition: Option<f64>,
-    /// By states.
     pub states: Vec<TrueState>,
 }
 
-/// What the oracle says of one state.
+/// The oracle's results for one state.
 #[derive(Clone, Debug, Deserialize)]
 pub struct TrueState {
     /// Torques of the state's q̈.
@@ -90,7 +86,7 @@ impl<const N: usize> Setup<N> {
         std::array::from_fn(|i| number(&truth.states[k].tau[i]))
     }
 
-    /// What the oracle says of this setup.
+    /// The oracle's results for this setup.
     pub fn truth(&self) -> Truth {
         let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
         let path = root.join(format!("recordings/hard/{}.json", self.case));
@@ -106,7 +102,7 @@ impl<const N: usize> Setup<N> {
         truth
     }
 
-    /// What the oracle reads.
+    /// The description that the oracle reads.
     pub fn exported(&self) -> Exported {
         let links = self.single.links.iter().map(exported_link).collect();
         let state = |state: &State<f32, N, N>| ExportedState {
@@ -142,7 +138,6 @@ pub fn turning<R: Real, const N: usize>(arm: &ArmModel<R, N>) -> Revolute<'_, R,
     arm.as_all_revolute().expect("every joint turns")
 }
 
-/// The state in f64.
 pub fn widened<const Q: usize, const V: usize>(state: &State<f32, Q, V>) -> State<f64, Q, V> {
     State {
         q: state.q.map(f64::from),

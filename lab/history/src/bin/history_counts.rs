@@ -55,7 +55,6 @@ fn at_6(both: Both) -> [i64; 2] {
     both.map(|polynomial| polynomial.twelvefold(6) / 12)
 }
 
-/// A cell with both.
 fn cell([products, sums]: [i64; 2]) -> String {
     format!("{products} + {sums}")
 }

@@ -1,11 +1,10 @@
-//! What an instruction reaches by a distance from itself: where a branch goes, what is loaded of a literal pool.
+//! The addresses that an instruction states relative to itself: targets of branches and literals.
 
 /// A distance from an instruction, and where its encoding holds it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Relative {
-    /// The address that is reached.
     pub target: u32,
-    /// How many words are loaded from there; 0 of a branch.
+    /// The number of words that are loaded from there; 0 for a branch.
     pub words: u32,
     /// The bits of the two halfwords that say how far it is.
     pub bits: [u16; 2],
@@ -55,7 +54,7 @@ pub fn relative(address: u32, first: u16, second: u16) -> Option<Relative> {
     }
 }
 
-/// The number of so many bits with its sign.
+/// Sign-extends a number of this many bits.
 const fn extend(value: u32, bits: u32) -> i32 {
     (value << (32 - bits)) as i32 >> (32 - bits)
 }
@@ -90,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn the_bits_of_a_distance_are_those_that_change_it_alone() {
+    fn distance_bits_are_those_that_change_the_target() {
         for code in [
             [0xF000, 0xF87E], // bl
             [0xF000, 0xB87E], // b.w

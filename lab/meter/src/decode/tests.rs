@@ -43,7 +43,7 @@ fn narrow_results_and_addresses_are_found() {
 }
 
 #[test]
-fn a_branch_through_any_register_is_indirect_and_a_return_is_not() {
+fn register_branches_are_indirect_and_returns_are_not() {
     let is_indirect = |[first, second]: [u16; 2]| decode(first, second).indirect;
     let narrow = |first| is_indirect([first, 0]);
     // blx r3, blx lr, bx r3, mov pc, r3, add pc, r3

@@ -20,15 +20,12 @@ type Run<R> = unsafe extern "C" fn(*mut c_void, *const R, usize, *mut R);
 pub struct Foreign {
     /// The robot that it is for.
     pub robot: String,
-    /// What it computes.
     pub algorithm: String,
-    /// What it is called in the report.
+    /// Its name in the report.
     pub peer: String,
     /// `f32` or `f64`.
     pub precision: String,
-    /// The library.
     library: PathBuf,
-    /// The function.
     run: String,
     /// The function that makes its context from a file and a name, and that file.
     open: Option<(String, String)>,

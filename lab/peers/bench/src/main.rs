@@ -23,7 +23,6 @@ use foreign::Foreign;
 /// What xtask has built.
 #[derive(Deserialize)]
 struct Manifest {
-    /// The functions.
     foreign: Vec<Foreign>,
     /// The directory of `<robot>.urdf`; nothing if robots without loops are not compared.
     urdfs: Option<PathBuf>,

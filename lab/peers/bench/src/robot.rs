@@ -113,7 +113,7 @@ pub fn print<R: Real>(
     Ok(())
 }
 
-/// So many recorded states; in forward dynamics the torque stands in the place of q̈.
+/// This number of recorded states; for forward dynamics the torque takes the place of q̈.
 fn states<R: Real, const N: usize>(
     recording: &Recording,
     algorithm: &str,
@@ -136,7 +136,7 @@ fn states<R: Real, const N: usize>(
         .collect()
 }
 
-/// What Pinocchio recorded, under `gravity` times its own, and its full scale.
+/// Pinocchio's results under `gravity` times its own, and their full scale.
 fn expected(recording: &Recording, algorithm: &str, gravity: f64) -> (Vec<Vec<f64>>, f64) {
     let scale = &recording.full_scale;
     let (rows, full_scale) = match algorithm {

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 /// Rounds in which every subject runs once.
 const ROUNDS: usize = 101;
-/// How long a subject runs in a round, at least: long against the clock's steps.
+/// The least time of a subject in a round: long against the clock's steps.
 const TURN: Duration = Duration::from_micros(300);
 
 /// Fills an output.
@@ -17,13 +17,13 @@ pub type Batch<R> = Box<dyn FnMut(&mut [R])>;
 
 /// A function with its inputs.
 pub struct Subject<R> {
-    /// What it is called in the report.
+    /// Its name in the report.
     pub peer: String,
     /// Fills the output for a batch of states.
     pub run: Batch<R>,
     /// Numbers that it writes for a state.
     pub outputs: usize,
-    /// Which of the recorded numbers each of its own is; what is none of them is not looked at.
+    /// The index of the recorded number for each of its own; numbers without an index are not compared.
     pub order: Vec<Option<usize>>,
     /// Whether it is timed, or only checked.
     pub timed: bool,
@@ -31,14 +31,11 @@ pub struct Subject<R> {
     pub gravity: f64,
 }
 
-/// A line of the result.
 #[derive(Serialize)]
 pub struct Row<'a> {
-    /// The robot's name.
     pub robot: &'a str,
     /// `rnea`, `bias`, `gravity`, `crba` or `aba`.
     pub algorithm: &'a str,
-    /// The subject's name.
     pub peer: &'a str,
     /// `f32` or `f64`.
     pub precision: &'a str,

@@ -13,14 +13,12 @@ use host_tests::random::{random_numbers, within};
 use host_tests::widen::widened;
 use proptest::test_runner::TestRng;
 
-/// States of each case.
 const STATES: usize = 32;
 /// The fifteenth root of 1000.
 const PER_ROD: f64 = 1.584_893_192_461_113_6;
 /// Steps of the power iterations that find κ(M).
 const STEPS: usize = 60;
 
-/// How the joints stand.
 #[derive(Clone, Copy)]
 enum Stance {
     Straight,
@@ -92,7 +90,6 @@ fn bodies<const N: usize>(factor: f64, in_space: bool) -> [Body; N] {
     })
 }
 
-/// Prints a case's line.
 fn case<const B: usize, const Q: usize, const V: usize>(
     name: &str,
     model: &Model<f64, B, Q, V>,

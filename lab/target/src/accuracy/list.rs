@@ -24,7 +24,6 @@ macro_rules! ways {
 
 /// The engine on the robot of a model, in f32.
 type Own<M, const B: usize, const N: usize> = In<f32, M, Engine<<M as Modelled<B, N>>::Robot>, B>;
-/// The same by a kernel.
 type Kernel<K, M, const B: usize, const N: usize> =
     By<f32, K, M, Engine<<M as Modelled<B, N>>::Robot>, B>;
 /// The kernel whose errors are as small as what the approximations of the model leave out.

@@ -60,7 +60,6 @@ use key::Key;
 
 /// A way to compute the torques of N joints, tick by tick.
 pub trait Inverse<const N: usize>: Sized {
-    /// Its name.
     const KEY: Key;
     /// It remembers the ticks before: it has to be run along a way.
     const MEMORY: bool = false;
@@ -77,7 +76,6 @@ pub trait Inverse<const N: usize>: Sized {
     fn start(first: &State<f32, N, N>) -> Self;
     /// Where the joints are to be, in its own numbers: what a firmware of this kind would have computed with so far.
     fn input(course: &ElasticReference<f32, N, N>) -> Self::Input;
-    /// One tick: what is measured.
     fn tick(&mut self, input: &Self::Input) -> [Self::Scalar; N];
     /// Torques, N·m.
     fn torque(output: [Self::Scalar; N]) -> [f64; N] {
@@ -89,8 +87,7 @@ pub trait Inverse<const N: usize>: Sized {
     }
 }
 
-/// What is done with each way.
+/// Visits each configuration.
 pub trait Visitor<const N: usize> {
-    /// Takes a way.
     fn way<W: Inverse<N>>(&mut self);
 }

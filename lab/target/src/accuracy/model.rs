@@ -14,12 +14,10 @@ pub trait Modelled<const B: usize, const N: usize> {
     const NAME: &'static str;
     /// The robot, or the simplified robot in its place.
     type Robot: Robot<B, N, N>;
-    /// The effects.
     type Scene: Effect<f32, B, N>
         + Effect<f64, B, N>
         + Effect<Compensated, B, N>
         + Effect<Fixed, B, N>;
-    /// Their numbers.
     const SCENE: Self::Scene;
     /// Their numbers in the [`Units`] of the robot.
     const IN_UNITS: Self::Scene;

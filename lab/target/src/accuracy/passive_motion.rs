@@ -51,16 +51,14 @@ impl PassiveMotion<6> for Ur5e {
     const DAMPING: [f64; 6] = [12.0, 12.0, 8.0, 2.0, 2.0, 1.5];
 }
 
-/// Nothing but its weight.
+/// The robot under its weight alone.
 pub type Free = (Gravity, Inertia, Coriolis);
-/// Viscous friction too.
 pub type Damped<R, const N: usize> = (Free, Viscous<R, N>);
 
-/// What acts on a robot that is let go.
+/// The effects on a robot that is let go.
 pub trait Scene<T, R: Real, const N: usize>: Effect<R, N, N> {
     /// On the axis `scene`.
     const NAME: &'static str;
-    /// The effects with their numbers.
     fn effects() -> Self;
 }
 

@@ -19,10 +19,9 @@ pub trait Compared<const B: usize, const N: usize, const W: usize>: Robot<B, N, 
     /// Greatest acceleration, rad/s².
     const ACCELERATION: f32;
 
-    /// Through these points.
     fn points() -> [WayPoint<f32, N>; W];
 
-    /// Where it goes, tick by tick.
+    /// The trajectory, tick by tick.
     ///
     /// # Errors
     /// Way-points that the limits do not allow.
@@ -34,13 +33,11 @@ pub trait Compared<const B: usize, const N: usize, const W: usize>: Robot<B, N, 
 
 /// An arm with joints that give way, and a swing of so many stops that leaves them time.
 pub trait Swung<const N: usize>: Robot<N, N, N> + Sized {
-    /// From stop to stop.
     const STOPS: [WayPoint<f32, N>; 4];
     /// Stiffness, N·m/rad, reflected inertia of the rotor, kg·m², and friction, N·m·s/rad: assumed, of the order of
     /// harmonic drives of this size.
     const JOINTS: [[f64; N]; 3];
 
-    /// The joints in a scalar.
     fn joints<R: Real>() -> ElasticJoints<R, N> {
         let [stiffness, rotor, friction] = Self::JOINTS.map(|numbers| numbers.map(R::from_f64));
         ElasticJoints {
@@ -50,7 +47,7 @@ pub trait Swung<const N: usize>: Robot<N, N, N> + Sized {
         }
     }
 
-    /// Where it goes, tick by tick.
+    /// The trajectory, tick by tick.
     ///
     /// # Errors
     /// End stops that the limits do not allow.

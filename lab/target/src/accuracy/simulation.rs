@@ -13,13 +13,9 @@ use super::key::Named;
 pub use super::key::Simulated as Key;
 pub use super::passive_motion::{Damped, DoublePendulum, Engined, Free, PassiveMotion, Scene};
 
-/// A way to simulate.
 pub trait Simulation<const N: usize> {
-    /// Its name.
     const KEY: Key;
-    /// Its numbers.
     type Scalar: Real;
-    /// From the robot's start.
     fn start() -> Self;
     /// One step of h seconds.
     ///
@@ -43,9 +39,8 @@ pub trait Simulation<const N: usize> {
     }
 }
 
-/// What is done with each way to simulate.
+/// Visits each configuration of a simulation.
 pub trait Visitor<const N: usize> {
-    /// Takes one.
     fn simulation<S: Simulation<N>>(&mut self);
 }
 

@@ -1,4 +1,4 @@
-//! What each way to compute a quadruped leg's torques costs.
+//! The cost of each way to compute a quadruped leg's torques.
 #![no_std]
 #![no_main]
 

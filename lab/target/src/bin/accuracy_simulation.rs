@@ -1,4 +1,4 @@
-//! What each way to simulate costs, a step.
+//! The cost of a step of each way to simulate.
 #![no_std]
 #![no_main]
 

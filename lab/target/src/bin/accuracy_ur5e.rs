@@ -1,4 +1,4 @@
-//! What each way to compute the UR5e's torques costs.
+//! The cost of each way to compute the UR5e's torques.
 #![no_std]
 #![no_main]
 

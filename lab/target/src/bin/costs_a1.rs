@@ -1,4 +1,4 @@
-//! What inverse dynamics costs on the A1.
+//! The cost of inverse dynamics on the A1.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! What dynamics of robots with clusters cost, and inverse dynamics of their spanning trees with all angles given.
+//! The cost of dynamics of robots with clusters, and of inverse dynamics of their spanning trees with all angles given.
 #![no_std]
 #![no_main]
 
@@ -67,7 +67,6 @@ fn rows<T, E, const N: usize, const Y: usize>(
 /// Pose, twist and acceleration of a Stewart platform.
 type Moving = (Pose<f32>, Motion<f32>, Motion<f32>);
 
-/// The forces of its legs.
 #[inline(never)]
 fn of_legs((pose, twist, acceleration): &Moving) -> Option<MotorTorques<f32, 6>> {
     let y = Stewart::coordinates(pose, *twist, *acceleration).ok()?;

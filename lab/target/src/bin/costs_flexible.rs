@@ -1,4 +1,4 @@
-//! What dynamics of an arm whose links bend cost, and inverse dynamics of the same arm without modes.
+//! The cost of dynamics of an arm whose links bend, and of inverse dynamics of the same arm without modes.
 #![no_std]
 #![no_main]
 
@@ -47,7 +47,6 @@ fn cases<const M: usize>() -> [Case<M>; STATES] {
     })
 }
 
-/// Without modes.
 #[inline(never)]
 fn rigid<const M: usize>(case: &Case<M>) -> [f32; 2] {
     algorithms::rnea(&ROBOT, &case.joints, &RIGID_BODY)
@@ -58,9 +57,8 @@ trait Bending<const M: usize> {
     const MODES: Modes<f32, M>;
 }
 
-/// Of the first shape of each link.
+/// The arm with the first mode of each link.
 struct One;
-/// Of the first two.
 struct Two;
 
 impl Bending<2> for One {

@@ -1,4 +1,4 @@
-//! What inverse dynamics costs on the iiwa 14.
+//! The cost of inverse dynamics on the iiwa 14.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! What control laws and the regressor cost on the UR5e, beside inverse dynamics.
+//! The cost of control laws and the regressor on the UR5e, beside inverse dynamics.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! What dynamics of machines with kinematic loops cost, by general constraints.
+//! The cost of dynamics of machines with kinematic loops, by general constraints.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! What inverse dynamics costs on the Panda.
+//! The cost of inverse dynamics on the Panda.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! What inverse dynamics costs on the SO-101, and its compensation of gravity and friction as a command of voltage.
+//! The cost of inverse dynamics on the SO-101, and of its compensation of gravity and friction as a command of voltage.
 #![no_std]
 #![no_main]
 
@@ -10,7 +10,6 @@ use dynamics_core::effects::{Gravity, RIGID_BODY};
 use dynamics_core::state::State;
 use firmware_demo::scenes::so101_teach::{COMPENSATION, with_back_emf};
 
-/// A measured function.
 type Torque = fn(&State<f32, 6, 6>) -> [f32; 6];
 
 /// The torques that hold and move the arm without effort.

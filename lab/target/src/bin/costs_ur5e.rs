@@ -1,4 +1,4 @@
-//! What inverse dynamics costs on the UR5e.
+//! The cost of inverse dynamics on the UR5e.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! What every effect costs in the core's inverse dynamics.
+//! The cost of every effect in the core's inverse dynamics.
 #![no_std]
 #![no_main]
 

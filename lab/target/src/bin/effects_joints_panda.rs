@@ -1,4 +1,4 @@
-//! What effects at joints cost in the engine's inverse dynamics of the Panda.
+//! The cost of effects at joints in the engine's inverse dynamics of the Panda.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! What effects at joints cost in the engine's inverse dynamics of the UR5e.
+//! The cost of effects at joints in the engine's inverse dynamics of the UR5e.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! What M, forward dynamics and Jacobians cost on the A1, by the core: the engine's build takes too long for a test.
+//! The cost of M, forward dynamics and Jacobians on the A1, by the core: the engine's build takes too long for a test.
 #![no_std]
 #![no_main]
 

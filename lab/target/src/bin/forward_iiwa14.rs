@@ -1,4 +1,4 @@
-//! What M, forward dynamics and Jacobians cost on the iiwa 14.
+//! The cost of M, forward dynamics and Jacobians on the iiwa 14.
 #![no_std]
 #![no_main]
 

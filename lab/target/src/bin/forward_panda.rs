@@ -1,4 +1,4 @@
-//! What M, forward dynamics and Jacobians cost on the Panda.
+//! The cost of M, forward dynamics and Jacobians on the Panda.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! What M, forward dynamics and Jacobians cost on the UR5e.
+//! The cost of M, forward dynamics and Jacobians on the UR5e.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! What inverse dynamics costs on the robot of a file: a bin of `cargo xtask costs --file`.
+//! The cost of inverse dynamics on the robot of a file: a bin of `cargo xtask costs --file`.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! What inverse dynamics of robots from files costs: `cargo xtask import` names the files while this is compiled.
+//! The cost of inverse dynamics of robots from files: `cargo xtask import` names the files while this is compiled.
 #![no_std]
 #![no_main]
 
@@ -21,7 +21,6 @@ fn main() -> ! {
     done()
 }
 
-/// The rows of a robot.
 #[inline(never)]
 #[allow(dead_code, reason = "the file's module calls this or `in_full`")]
 fn robot<T: Robot<N, N, N>, const N: usize>(name: &'static str) {

@@ -20,20 +20,17 @@ use heapless::Vec;
 use costs::row::Row;
 use costs::{Ask, asks, done};
 
-/// What CasADi's C takes: cosines, sines, and two vectors of which an algorithm may need none.
+/// A function of CasADi's C: its arguments are cosines, sines, and two vectors that an algorithm may not need.
 type C = unsafe extern "C" fn(*const f32, *const f32, *const f32, *const f32, *mut f32);
 type Scene = (Gravity, Inertia, Coriolis);
-/// What ours take.
 type Inverse<'a, E, const N: usize> = fn(StateWithTrig<'a, f32, N, N>, &E) -> [f32; N];
 type Matrix<const N: usize> = fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>;
 type Forward<'a, const N: usize> =
     fn(StateWithTrig<'a, f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 type Asks<const N: usize> = [Ask<N>; STATES];
 type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
-/// A form's name and function.
 type Form<F> = (&'static str, F);
 
-/// A function of the C.
 struct Peer {
     robot: &'static str,
     algorithm: &'static str,
@@ -58,7 +55,6 @@ fn main() -> ! {
     done()
 }
 
-/// Everything of a robot.
 fn robot<T: Robot<B, N, N>, const B: usize, const N: usize>() {
     let asks = &asks::<T, B, N, STATES>();
     inverse::<T, B, N>(asks);

@@ -13,11 +13,11 @@ use super::firmware::{Cell, Firmware, Sensing};
 use super::path::Off;
 use super::plant::{Plant, Wall, tip};
 
-/// Of the tip at the contact, m/s.
+/// Speed of the tip at the contact, m/s.
 pub const SPEED: f32 = 0.25;
 /// Those of ISO/TS 15066 for a hand and for the chest, N/m.
 pub const STIFFNESSES: [f32; 2] = [75e3, 10e3];
-/// What the arm does after a contact.
+/// The reactions to a contact, with their names.
 pub const RESPONSES: [(&str, Option<ContactResponse<f32>>); 4] = [
     ("stop", Some(ContactResponse::Stop)),
     (
@@ -39,7 +39,7 @@ pub const RESPONSES: [(&str, Option<ContactResponse<f32>>); 4] = [
     ),
     ("none", None),
 ];
-/// Where the arm goes: along the first motion of the pick and place, the wall halfway.
+/// The end of the motion, which is the first one of the pick and place; the wall is halfway.
 const AWAY: [f32; 6] = [-0.70, -1.35, 1.75, -1.97, -1.57, -0.70];
 /// Ticks that are observed from the touch on.
 const OBSERVED: u32 = 1500;
@@ -48,12 +48,11 @@ const LATER: u32 = 500;
 /// Steps of the plant in a tick.
 const STEPS: u32 = 8;
 
-/// A moment of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
     /// Ticks since the touch.
     pub tick: i32,
-    /// What the tip exerts on the wall, N.
+    /// The force of the tip on the wall, N.
     pub force: f32,
     /// The external torques of the joints, N·m.
     pub external: [f32; 6],
@@ -63,7 +62,6 @@ pub struct Sample {
     pub found: bool,
 }
 
-/// What became of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// From the touch to the verdict of the detector, ticks; none without one.
@@ -171,13 +169,11 @@ pub const COLUMNS: &str =
 /// A run of the firmware, as it prints it.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
-    /// Of the arm.
     pub friction: &'static str,
-    /// Of the wall, N/m.
+    /// Stiffness of the wall, N/m.
     pub stiffness: f32,
-    /// To the contact.
     pub response: &'static str,
-    /// What became of it; nothing if the arm has no forward dynamics.
+    /// The outcome; `None` if the arm has no forward dynamics.
     pub outcome: Option<Outcome>,
 }
 
@@ -207,7 +203,7 @@ impl fmt::Display for Row {
     }
 }
 
-/// How the arms of [`rows`] differ from their model: inertias by 3 %, friction by 10 %.
+/// The signs of the model errors of [`rows`]: inertias are off by 3 %, friction by 10 %.
 pub const SIGNS: u32 = 0b10_1010;
 
 /// The kinds of friction, as [`rows`] names them: that of the model, and that of bristles.

@@ -1,4 +1,4 @@
-//! What runs on the arm: a tick in five regions of the meter, and the arm behind it.
+//! The firmware of the arm, with a tick in five regions of the meter, and the arm behind it.
 
 use dynamics_core::Engine;
 use dynamics_core::algorithms::NotPositiveDefinite;
@@ -65,7 +65,6 @@ impl Sensing {
         margin: [2.3, 3.12, 2.15, 0.33, 0.3, 0.3],
         sticks: false,
     };
-    /// 20 bits.
     pub const BITS_20: Self = Self {
         step: core::f32::consts::TAU / 1_048_576.0,
         bandwidth: 400.0,
@@ -81,16 +80,12 @@ impl Sensing {
     }
 }
 
-/// Controller, detector and reaction.
 #[derive(Clone, Debug)]
 pub struct Firmware {
-    /// The controller.
     pub controller: MotionController<f32, 6>,
-    /// The reaction.
     pub reaction: ContactReaction<f32, 6>,
-    /// The detector.
     pub detector: ContactDetector<f32, 6>,
-    /// What the detector has found in the last tick.
+    /// The contact that the detector found in the last tick.
     pub contact: Option<DetectedContact<f32>>,
     sensing: Sensing,
     velocities: Observer<f32, 6>,
@@ -227,18 +222,14 @@ fn detect(
     detector.update(&model.p, &model.beta, &errors)
 }
 
-/// The arm with its firmware.
 #[derive(Clone, Debug)]
 pub struct Cell<F> {
-    /// What runs on it.
     pub firmware: Firmware,
-    /// The arm.
     pub plant: Plant<F>,
     latched: [f32; 6],
 }
 
 impl<F: Effect<f32, 6, 6> + Clone> Cell<F> {
-    /// An arm with its encoders.
     pub fn new(firmware: Firmware, plant: Plant<F>) -> Self {
         Self {
             latched: firmware.sensing.read(&plant.at.state.q),

@@ -14,9 +14,9 @@ const STEPS: u32 = 4;
 /// By how much a plant differs from the model: its inertias and its friction, as shares of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Off {
-    /// Of each body's inertia.
+    /// The share of each body's inertia.
     pub inertia: [f32; 6],
-    /// Of each joint's friction.
+    /// The share of each joint's friction.
     pub friction: [f32; 6],
 }
 
@@ -41,7 +41,6 @@ impl Off {
         coulomb(self.friction, width)
     }
 
-    /// With bristles.
     pub fn sticking(&self) -> Lugre<f32, 6> {
         bristles(self.friction)
     }
@@ -50,7 +49,6 @@ impl Off {
 /// A torque on one joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push {
-    /// The joint.
     pub joint: usize,
     /// N·m.
     pub torque: f32,

@@ -23,7 +23,6 @@ pub const SLIDING: [f64; 6] = [8.0, 8.0, 6.0, 1.5, 1.5, 1.2];
 /// Stiction exceeds sliding friction by this share of it.
 pub const EXCESS: f64 = 0.15;
 
-/// The rotors' inertias.
 pub fn rotors<R: Real>() -> Armature<R, 6> {
     Armature(ROTORS.map(R::from_f64))
 }
@@ -87,7 +86,7 @@ pub fn tip<R: Real>(state: &State<R, 6, 6>) -> [R::Vec3; 2] {
 pub struct Wall<R: Real> {
     /// A point of its surface, m.
     pub origin: R::Vec3,
-    /// Into it.
+    /// It points into the wall.
     pub normal: R::Vec3,
     /// Stiffness, N/m.
     pub stiffness: R,
@@ -107,7 +106,7 @@ impl<R: Real> Wall<R> {
         hand: R::Vec3::ZERO,
     };
 
-    /// What the tip exerts on it, N.
+    /// The force of the tip on the wall, N.
     pub fn force(&self, [place, velocity]: [R::Vec3; 2]) -> R {
         let depth = (place - self.origin).dot(self.normal);
         let share = R::ONE + self.loss * velocity.dot(self.normal);
@@ -128,13 +127,10 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Wall<R> {
 /// A simulated UR5e with friction of the kind `F`.
 #[derive(Clone, Debug)]
 pub struct Plant<F> {
-    /// Where it is.
     pub at: KahanState<f32, 6, true>,
-    /// What it touches.
     pub wall: Wall<f32>,
     /// Torques on its joints from outside, N·m.
     pub pushed: [f32; 6],
-    /// Its bodies.
     pub arm: ArmModel<f32, 6>,
     friction: F,
 }
@@ -170,7 +166,7 @@ impl<F: Effect<f32, 6, 6> + Clone> Plant<F> {
         Ok(())
     }
 
-    /// What the tip exerts on the wall, N.
+    /// The force of the tip on the wall, N.
     pub fn force(&self) -> f32 {
         self.wall.force(tip(&self.at.state))
     }

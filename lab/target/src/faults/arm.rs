@@ -21,7 +21,7 @@ const REENTRY: u32 = 200;
 /// The most ticks that are missed at once.
 const MISSED: u32 = 40;
 
-/// What of the firmware may be wrong on purpose.
+/// The parts of the firmware that may be wrong on purpose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setup {
     /// The supervisor's limits of torque and rate, as a share of the rated ones.
@@ -31,27 +31,25 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// Everything as it should be.
+    /// The setup without any fault.
     pub const SOUND: Self = Self {
         limits: 1.0,
         watchdog: 20,
     };
-    /// No watchdog.
     pub const UNWATCHED: Self = Self {
         watchdog: MISSED,
         ..Self::SOUND
     };
 }
 
-/// What did not hold in a run.
+/// A claim that did not hold in a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Violation {
     /// A joint is faster than its rated speed.
     Speed {
-        /// The joint.
         joint: usize,
-        /// Its velocity, rad/s.
+        /// The joint's velocity, rad/s.
         velocity: f32,
     },
     /// The kinetic energy is above that at the rated speeds.
@@ -63,20 +61,14 @@ pub enum Violation {
     },
     /// A torque or its change in a tick is above its limit, or not finite.
     Torque {
-        /// The joint.
         joint: usize,
         /// N·m.
         torque: f32,
-        /// In the tick before, N·m.
+        /// The torque in the tick before, N·m.
         before: f32,
     },
     /// The arm was not on its motion at the end.
-    NotRecovered {
-        /// Its mode then.
-        mode: Mode,
-        /// Its fault then.
-        fault: Option<Fault>,
-    },
+    NotRecovered { mode: Mode, fault: Option<Fault> },
     /// The motion itself exceeds the arm's limits.
     Motion,
 }
@@ -135,7 +127,6 @@ impl<const V: usize> Reference<f32, V> for Path<'_, V> {
     }
 }
 
-/// An episode of a fault.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Episode {
     pub onset: Onset,
@@ -148,7 +139,6 @@ pub(super) struct Episode {
 /// The controller of an arm of the injection.
 pub type Controller<const V: usize> = MotionController<f32, V, CurrentTick>;
 
-/// The controller of a plant.
 pub fn controller<P: Plant<V>, const V: usize>(setup: Setup) -> Controller<V> {
     // A speed is detected when it is exceeded: the reaction takes place between the supervisor's limit and the rated speed.
     let mut limits = P::LIMITS.with_speed_share(0.8);

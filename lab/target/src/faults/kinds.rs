@@ -50,7 +50,6 @@ const KINDS: [(Kind, [&str; 3]); 18] = [
     (Kind::External, ["external stop", "loop, by `stop_by`", "its release"]),
 ];
 
-/// A fault that begins.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Onset {
     pub kind: Kind,
@@ -69,7 +68,6 @@ impl Onset {
 }
 
 impl Kind {
-    /// All kinds.
     pub const ALL: [Self; KINDS.len()] = {
         let (mut all, mut i) = ([KINDS[0].0; KINDS.len()], 0);
         while i < all.len() {

@@ -16,28 +16,24 @@ const OMEGA: f32 = 25.0;
 
 /// An arm with the law that knows it.
 pub trait Plant<const V: usize> {
-    /// Its name.
     const NAME: &'static str;
     /// The rated torque, rate, speed and range.
     const LIMITS: SafetyLimits<f32, V>;
     /// Decay rate of a held arm, 1/s: at the speeds of the motion its torque is below the limits.
     const DECAY: f32;
-    /// Where its motion begins and ends.
+    /// The start and end of its motion.
     const HOME: [f32; V];
     /// Where it stops in between.
     const AWAY: [f32; V];
     /// The limits of the path to the motion.
     const MOTION: MotionLimits<f32>;
-    /// What follows a controlled stop.
     const STOP: StopCategory<f32, V>;
     /// Whether a brake holds the arm.
     const BRAKE: bool;
 
-    /// The gains of its feedback.
     fn gains() -> Gains<f32, V>;
     /// The torque of a reference, N·m.
     fn feed_forward(reference: &State<f32, V, V>) -> [f32; V];
-    /// A tick under a torque.
     fn step(state: &mut State<f32, V, V>, tau: &[f32; V]);
     /// Kinetic energy, and the most that joints at these speeds can have, J.
     fn kinetic(state: &State<f32, V, V>) -> [f32; 2];

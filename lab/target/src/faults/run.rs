@@ -32,12 +32,11 @@ impl Random {
     }
 }
 
-/// What was observed of a fault that came alone while the arm followed its motion.
+/// The observations of a single fault while the arm followed its motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Observed {
-    /// The fault.
     pub kind: Kind,
-    /// How long it lasted, ticks; of those that last.
+    /// Its duration, ticks, if it is a lasting one.
     pub ticks: u32,
     /// Ticks from its begin to its report; none if it had no effect.
     pub latency: Option<u32>,
@@ -49,7 +48,7 @@ pub struct Observed {
     pub whole: bool,
 }
 
-/// What a run without a violation leaves.
+/// The result of a run without a violation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Outcome {
     /// The digest of all torques.

@@ -8,10 +8,8 @@ use glam::{DMat3, DVec3};
 
 const UR5E: ArmModel<f64, N> = Ur5e::MODEL;
 
-/// How many problems there are.
 pub const COUNT: usize = 28;
 
-/// The problems.
 pub(super) static LIST: [Problem<ArmModel<f64, N>>; COUNT] = [
     plain(1, "tip × 10⁶", scaled(UR5E, 5, 1e6)),
     plain(2, "tip × 10⁻⁶", scaled(UR5E, 5, 1e-6)),
@@ -125,7 +123,6 @@ const fn sized(mut arm: ArmModel<f64, N>, length: f64, mass: f64) -> ArmModel<f6
     arm
 }
 
-/// The base elsewhere.
 const fn moved(mut arm: ArmModel<f64, N>, by: [f64; 3]) -> ArmModel<f64, N> {
     let p = arm.links[0].placement.pos;
     arm.links[0].placement.pos = DVec3::new(p.x + by[0], p.y + by[1], p.z + by[2]);
@@ -232,7 +229,7 @@ const RENUMBERED: ArmModel<f64, N> = Model::new(
     ],
 );
 
-/// Where each body of the renumbered tree stands in the other.
+/// The index of each body of the renumbered tree in the original one.
 pub const RENUMBERING: [usize; N] = [0, 2, 1, 4, 5, 3];
 
 /// Axes, placements and inertias without a zero.

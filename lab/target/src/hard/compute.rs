@@ -12,7 +12,7 @@ use dynamics_core::spatial::{Force, SpatialInertia};
 use dynamics_core::state::State;
 use firmware_demo::digest::Digest;
 
-/// What acts on every hard case.
+/// The effects of every hard case.
 pub type Scene<R, const N: usize> = (
     GravityVector<R>,
     Inertia,
@@ -57,7 +57,6 @@ pub type Revolute<'a, R, const N: usize> = AllRevolute<'a, R, N, N, N>;
 /// 9.8125 m/s² down: a number that f32 has.
 pub const GRAVITY: f64 = 9.8125;
 
-/// The scene with these additions.
 pub fn scene<R: Real, const N: usize>(extras: &Extras<N>) -> Scene<R, N> {
     let real = |x: f32| R::select(f64::from(x), x);
     let payload = OnLast::new(
@@ -70,14 +69,13 @@ pub fn scene<R: Real, const N: usize>(extras: &Extras<N>) -> Scene<R, N> {
     (GravityVector(g), Inertia, Coriolis, rotors, payload)
 }
 
-/// What is computed of one state of an arm.
+/// The results for one state of an arm.
 #[derive(Clone, Copy, Debug)]
 pub struct Answers<R, const N: usize> {
     /// τ of the state's q̈.
     pub rnea: [R; N],
     /// q̈ of that τ by M = Lᵀ D L.
     pub forward: Result<[R; N], NotPositiveDefinite>,
-    /// The same by articulated bodies.
     pub aba: Result<[R; N], NotPositiveDefinite>,
     /// Λ⁻¹ of the last body's origin in that body's axes, 1/kg, by articulated bodies.
     pub mobility: Result<[[R; 3]; 3], NotPositiveDefinite>,

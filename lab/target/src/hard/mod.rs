@@ -19,7 +19,7 @@ use firmware_demo::digest::Digest;
 /// Bodies of an arm.
 pub const N: usize = 6;
 
-/// What is added to the arm itself.
+/// Additions to the arm itself.
 #[derive(Clone, Copy, Debug)]
 pub struct Extras<const N: usize> {
     /// Rotor inertia at each joint, kg·m².
@@ -33,7 +33,6 @@ pub struct Extras<const N: usize> {
 }
 
 impl<const N: usize> Extras<N> {
-    /// Nothing.
     pub const NONE: Self = Self {
         rotors: [0.0; N],
         payload: 0.0,
@@ -50,13 +49,10 @@ pub type Numbers = [[f32; N]; 3];
 pub struct Problem<A> {
     /// The number of the case that it belongs to.
     pub case: u32,
-    /// What is special about it.
     pub name: &'static str,
-    /// The arm.
     pub arm: A,
     /// The states at which it is evaluated.
     pub states: &'static [Numbers],
-    /// What it carries.
     pub extras: Extras<N>,
 }
 

@@ -47,7 +47,7 @@ pub const QUICK: [Numbers; 4] = paced(4.0);
 /// As [`COMMON`], for an arm 2⁴ as long.
 pub const SLOW: [Numbers; 4] = paced(0.25);
 
-/// As [`COMMON`], so many times as fast.
+/// As [`COMMON`], faster by this factor.
 const fn paced(by: f32) -> [Numbers; 4] {
     let (mut states, mut k) = (COMMON, 0);
     while k < states.len() {
@@ -117,7 +117,7 @@ pub const fn counts(k: usize, i: usize) -> i32 {
     if i.is_multiple_of(2) { counts } else { -counts }
 }
 
-/// The angle within ±π of so many counts, 4096 a turn.
+/// The angle within ±π of a number of counts, 4096 a turn.
 pub const fn remainder(counts: i32) -> f32 {
     const PER_COUNT: f32 = (core::f64::consts::TAU / 4096.0) as f32;
     ((counts << 20) >> 20) as f32 * PER_COUNT

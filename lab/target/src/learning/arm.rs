@@ -56,9 +56,7 @@ pub const GEARS: (Armature<f32, 6>, LoadFriction<f32, 6>) = (
 /// An arm with friction of the kind `F`, its encoders, and its drives.
 #[derive(Clone, Debug)]
 pub struct Arm<F> {
-    /// Where it is.
     pub at: KahanState<f32, 6, true>,
-    /// What it carries.
     pub load: Payload<f32, GRIPPER>,
     friction: F,
     random: u32,
@@ -75,7 +73,6 @@ impl<F: Effect<f32, 6, 6> + Clone> Arm<F> {
         }
     }
 
-    /// The encoders.
     pub fn encoders(&self) -> [f32; 6] {
         self.at.state.q.map(|q| nearest(q, RESOLUTION))
     }

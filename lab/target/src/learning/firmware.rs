@@ -1,4 +1,4 @@
-//! What runs on the arm: a tick in five regions of the meter.
+//! The firmware of the arm: a tick in five regions of the meter.
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::{friction_regressor, regressor_columns};
@@ -34,11 +34,11 @@ const START: u32 = 200;
 const SLOWEST: f32 = 0.15;
 /// Standard deviations of the torques of a row, N·m: with the errors of velocities and accelerations.
 pub const STATED: [f32; 6] = [0.025, 0.025, 0.025, 0.025, 0.055, 0.03];
-/// Of a load: kg, kg·m, kg·m².
+/// Standard deviations of a load's parameters: kg, kg·m, kg·m².
 const LOAD_PRIOR: [f32; 10] = [0.5, 0.05, 0.05, 0.05, 2e-3, 2e-3, 2e-3, 2e-3, 2e-3, 2e-3];
 const MOST: f32 = MAX_DUTY * STALL;
 
-/// What the firmware does beside following its motion.
+/// The firmware's task beside following its motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Task {
     /// It estimates the arm's parameters, a row of one joint in each tick.
@@ -47,27 +47,23 @@ pub enum Task {
     Weigh,
 }
 
-/// Observer, estimators and law.
 #[derive(Clone, Debug)]
 pub struct Firmware<'a> {
     known: &'a Known,
-    /// The model of the law.
     pub model: Model,
     /// The estimator of the arm's parameters.
     pub estimator: ParameterEstimator<f32, P, 6>,
-    /// The estimator of the load.
     pub payload: PayloadEstimator<f32, 6>,
     observer: Observer<f32, 6>,
-    /// One without a position.
+    /// An observer that has no position yet.
     fresh: Observer<f32, 6>,
     /// Estimates and measured torques of the last ticks, in rotation.
     past: [(Estimate<f32, 6>, [f32; 6]); KEPT],
     tick: u32,
-    /// Rows that were left out.
     pub rejected: u32,
 }
 
-/// What a tick adds to an estimator.
+/// The data that a tick adds to an estimator.
 enum Addition {
     Nothing,
     Row(usize, [f32; P], f32),

@@ -15,9 +15,9 @@ use motion_control::SelectedParameters;
 pub const OWN: usize = 5;
 /// Ten of each body, then [`OWN`] of each joint.
 pub const N: usize = 60 + 6 * OWN;
-/// Those that are estimated.
+/// The number of parameters that are estimated.
 pub const P: usize = 24;
-/// Of the smooth sign of friction, rad/s.
+/// Width of the smooth sign of friction, rad/s.
 pub const WIDTH: Width<f32> = Width::f32(0.05);
 
 /// What the firmware knows before the arm moves.
@@ -45,7 +45,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// Of all parameters; nothing if a body is impossible.
+    /// The model of all parameters; `None` if a body is impossible.
     pub fn of(parameters: &[f32; N]) -> Option<Self> {
         let mut arm = Calibrated::<So101, f32, 6, 6, 6>::nominal();
         for (body, phi) in parameters.as_chunks().0.iter().take(6).enumerate() {

@@ -24,7 +24,7 @@ use super::{TICK, selected};
 pub const LEARNING: u32 = 15_000;
 /// Ticks of the estimate of a load: five seconds without it for taring, five seconds with it.
 pub const WEIGHING: u32 = 2_500;
-/// What the arm carries at last.
+/// The load that the arm carries in the end.
 pub const LOAD: BodyInertia<f32> = BodyInertia {
     mass: 0.15,
     com: [0.01, -0.02, -0.05],
@@ -105,12 +105,10 @@ pub fn possible(known: &Known, estimate: &[f32; P]) -> Option<[f32; N]> {
     Some(*stored.parameters())
 }
 
-/// What a run has found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// The relative error of the torques on the validation path, of all joints and of the worst one, before and after learning.
     pub errors: [[f32; 2]; 2],
-    /// Rows that were rejected.
     pub rejected: u32,
     /// The mass of the load, kg, and how far its centre is from where it was found, m.
     pub load: [f32; 2],
@@ -154,7 +152,7 @@ pub fn run<F: Effect<f32, 6, 6> + Clone>(
     arm.at = KahanState::at(weighing(0.0));
     firmware.restart();
     ticks(&mut firmware, &mut arm, Task::Weigh)?;
-    // What the model still lacks would count as load.
+    // The remaining error of the model would count as load.
     firmware.payload.restart();
     ticks(&mut firmware, &mut arm, Task::Weigh)?;
     let tare = firmware.payload.inertia().parameters();
@@ -183,9 +181,8 @@ pub const COLUMNS: &str = "friction|torque error before|after 30 s|of the worst 
 /// A run of the firmware, as it prints it.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
-    /// Of the arm.
     pub friction: &'static str,
-    /// What it has found; nothing if the arm has no forward dynamics.
+    /// The outcome; `None` if the arm has no forward dynamics.
     pub outcome: Option<Outcome>,
 }
 

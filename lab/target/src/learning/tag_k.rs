@@ -10,7 +10,6 @@
 //! x ← x + r_i / ‖a_i‖² a_i      i drawn from U with probabilities in proportion to r_i²
 //! ```
 
-/// Ten parameters.
 #[derive(Clone, Debug)]
 pub struct TagK {
     estimate: [f32; 10],
@@ -27,7 +26,6 @@ impl Default for TagK {
 }
 
 impl TagK {
-    /// The parameters.
     pub fn estimate(&self) -> &[f32; 10] {
         &self.estimate
     }

@@ -9,7 +9,6 @@ use super::{
 };
 use crate::page::{Chart, Scale, Shown, bar, table};
 
-/// The page.
 pub fn shown() -> Shown {
     let mut bars = Vec::new();
     let mut crashes = Vec::new();

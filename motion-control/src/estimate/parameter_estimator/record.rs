@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn a_record_comes_back_with_its_quality_and_any_bit_that_changed_is_noticed() {
+    fn a_record_roundtrips_and_any_flipped_bit_is_noticed() {
         let (mut other, mut record) = (arm(), record());
         assert_eq!(other.read(&record), Ok(1.5));
         assert_eq!(other.parameters()[10], 0.25);
@@ -210,9 +210,9 @@ mod tests {
     }
 
     /// Records in a memory that is larger.
+    // Another size is another model, and another layout has its version.
     #[test]
-    fn the_whole_record_of_a_robot_of_another_size_is_of_another_model_and_that_of_another_layout_has_its_version()
-     {
+    fn a_foreign_record_reports_its_model_or_version() {
         type Two = PhysicalParameters<f32, 1, 12>;
         let all = core::array::from_fn(|i| NOMINAL.get(i).copied().unwrap_or(0.1));
         let two = Two::try_new(all).expect("a possible body");
@@ -228,8 +228,9 @@ mod tests {
         assert_eq!(larger, two);
     }
 
+    // They are of other layouts, robots and sizes.
     #[test]
-    fn records_of_other_layouts_robots_and_sizes_leave_the_nominal_model() {
+    fn other_records_leave_the_nominal_model() {
         let mut arm = arm();
         let needed = Arm::RECORD_BYTES;
         let short = RecordError::TooShort { needed };

@@ -78,7 +78,7 @@ fn compensation_and_true_friction_together_never_have_positive_power() {
 }
 
 #[test]
-fn velocities_of_an_observer_that_lags_do_not_make_the_compensation_active() {
+fn a_lagging_observer_keeps_the_compensation_passive() {
     use crate::estimate::{Observer, ObserverConfig};
     let (tick, bandwidth) = (1e-3, 30.0);
     // The energy that compensation and true friction have absorbed together by the end of each tick, J.
@@ -107,8 +107,9 @@ fn velocities_of_an_observer_that_lags_do_not_make_the_compensation_active() {
     assert!(least(full, 0.1, 5.0) < -0.1);
 }
 
+// It is an error of the other torques.
 #[test]
-fn an_error_of_the_other_torques_within_what_is_stated_has_no_power_either() {
+fn an_error_within_the_stated_one_adds_no_power() {
     let (guiding, error) = (guiding(config()), 1.5);
     for qd in velocities() {
         let real = friction(qd, 1e-9) / 1.1;
@@ -126,8 +127,9 @@ fn an_error_of_the_other_torques_within_what_is_stated_has_no_power_either() {
     }
 }
 
+// They push back up to their torque.
 #[test]
-fn walls_push_back_up_to_their_torque_never_pull_and_damp_only_motion_into_them() {
+fn walls_only_push_and_damp_inward_motion() {
     let guiding = guiding(config());
     let wall = |q, qd| torque(&guiding, q, qd, 0.0, 0.0);
     for side in [1.0, -1.0] {
@@ -159,7 +161,7 @@ fn walls_push_back_up_to_their_torque_never_pull_and_damp_only_motion_into_them(
 }
 
 #[test]
-fn a_locked_joint_is_held_where_it_was_locked_and_a_second_call_does_not_move_it() {
+fn a_locked_joint_is_held_where_first_locked() {
     let mut guiding = guiding(config());
     guiding.lock(&[true], &[0.5]).expect("finite");
     guiding.lock(&[true], &[0.7]).expect("finite");

@@ -114,14 +114,16 @@ fn growth(damping: f64) -> f64 {
     fastest(5000) / first
 }
 
+// A joint without damping oscillates.
 #[test]
-fn in_contact_with_a_spring_a_passive_joint_comes_to_rest_and_an_undamped_one_oscillates() {
+fn only_a_passive_joint_rests_on_a_spring() {
     let [passive, undamped] = [growth(1.0), growth(0.0)];
     assert!(passive < 1e-3 && undamped > 10.0, "{passive} {undamped}");
 }
 
+// Every torque is finite.
 #[test]
-fn errors_within_the_dead_band_are_not_amplified_and_every_torque_is_finite_and_limited() {
+fn the_dead_band_is_not_amplified_and_torques_limited() {
     let law = InertiaShaping::try_new(InertiaShapingConfig {
         amplification: 2.0,
         dead_band: [3.0],

@@ -122,7 +122,7 @@ fn the_text_of_a_limit_has_joint_limit_and_value() {
 }
 
 #[test]
-fn an_arm_with_such_limits_is_stopped_and_says_why_instead_of_going_limp() {
+fn an_arm_with_invalid_limits_stops_and_says_why() {
     for of in [
         LimitKind::Torque,
         LimitKind::Rate,

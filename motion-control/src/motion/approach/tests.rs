@@ -104,7 +104,7 @@ fn refusals_name_the_joint_and_the_limit() {
 }
 
 #[test]
-fn an_arm_with_an_unknown_position_gets_no_way_and_no_torque() {
+fn an_unknown_position_gets_no_approach_and_no_torque() {
     let mut controller = MotionController::<f64, 2>::new(MotionControllerConfig {
         supervisor: SupervisorConfig {
             limits: BOUNDS,

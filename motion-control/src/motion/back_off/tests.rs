@@ -82,8 +82,9 @@ impl Bench {
     }
 }
 
+// This holds at either bound and under gravity of either sign.
 #[test]
-fn a_joint_beyond_either_bound_comes_back_under_gravity_of_either_sign() {
+fn a_joint_beyond_a_bound_backs_off_under_gravity() {
     for side in [1.0, -1.0] {
         for gravity in [-8.0, 0.0, 8.0] {
             let start = side * 1.2;
@@ -129,7 +130,7 @@ fn no_law_drives_a_joint_further_out() {
 }
 
 #[test]
-fn a_joint_that_is_pushed_out_is_stopped_in_the_same_tick() {
+fn a_joint_pushed_outwards_stops_in_its_tick() {
     let mut bench = Bench::new(1.2, 0.0);
     let mut back_off = BackOff::start(&mut bench.controller, &SLOW).expect("measured");
     (0..400).for_each(|_| bench.back_off(&mut back_off, 0.0));
@@ -171,7 +172,7 @@ fn by_hand_an_arm_comes_back_as_well() {
 }
 
 #[test]
-fn without_a_measurement_or_a_stop_there_is_no_way_back() {
+fn back_off_needs_a_measurement_and_a_stop() {
     let mut controller = Controller::new(CONFIG);
     let refused = |controller: &mut Controller| BackOff::start(controller, &SLOW).unwrap_err();
     assert_eq!(

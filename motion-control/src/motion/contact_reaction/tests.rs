@@ -142,7 +142,7 @@ impl Joint {
 }
 
 #[test]
-fn an_arm_that_goes_back_is_held_at_a_second_contact_and_at_a_lasting_fault() {
+fn a_second_contact_or_lasting_fault_holds_the_retraction() {
     let lost = Err(Fault::Stale);
     for (again, phase) in [
         (Ok(None), ContactPhase::Retracting),
@@ -160,8 +160,9 @@ fn an_arm_that_goes_back_is_held_at_a_second_contact_and_at_a_lasting_fault() {
     }
 }
 
+// The arm goes on where it left its motion.
 #[test]
-fn an_arm_is_reset_after_ticks_without_a_contact_and_goes_on_where_it_left_its_motion() {
+fn a_reset_after_contactless_ticks_resumes_the_motion() {
     let mut joint = Joint::new(config().response);
     joint.run(500, Ok(None));
     let left = joint.controller.trajectory_tick();
@@ -200,8 +201,9 @@ const FLOAT: ContactResponse<f64> = ContactResponse::Float {
     speed: 1.0,
 };
 
+// This holds after a hold too.
 #[test]
-fn the_reference_of_an_arm_that_floats_is_its_estimate_also_after_a_hold() {
+fn a_floating_arms_reference_is_its_estimate() {
     let mut joint = Joint::new(FLOAT);
     joint.run(500, Ok(None));
     // The first tick after a hold is one of the hold.
@@ -223,7 +225,7 @@ fn the_reference_of_an_arm_that_floats_is_its_estimate_also_after_a_hold() {
 }
 
 #[test]
-fn an_arm_floats_until_it_is_at_rest_or_a_fault_lasts() {
+fn an_arm_floats_until_rest_or_a_lasting_fault() {
     let mut joint = Joint::new(FLOAT);
     joint.run(500, Ok(None));
     joint.run(1, CONTACT);

@@ -74,8 +74,9 @@ fn measurements_of_either_age_give_the_estimate_of_now() {
     }
 }
 
+// This holds for measurements of either age.
 #[test]
-fn a_position_after_a_hold_is_that_of_now_at_either_age() {
+fn after_a_hold_the_position_is_current() {
     fn error<A: MeasurementAge>(late: u32) -> f64 {
         let mut controller = following::<A>(400, late);
         for _ in 0..=RIDE {
@@ -109,7 +110,7 @@ fn the_steps_of_a_tick_are_those_of_the_closure() {
 }
 
 #[test]
-fn a_tick_without_a_command_is_a_fault_of_the_next_one() {
+fn a_tick_without_command_faults_the_next() {
     let mut controller = following::<PreviousTick>(50, 1);
     let _ = controller.observe(Ok(&Cruise.at(49).q));
     let command = controller.tick(Ok(&Cruise.at(50).q), &Cruise, |_, _| [1.0]);
@@ -161,8 +162,9 @@ fn a_held_arm_slows_down_and_its_trajectory_waits() {
     assert_eq!(controller.trajectory_tick(), 100 + RIDE + 40);
 }
 
+// It acts in its own tick.
 #[test]
-fn an_external_stop_acts_in_its_tick_and_stays_until_a_reset() {
+fn an_external_stop_lasts_until_a_reset() {
     let mut controller = following::<PreviousTick>(50, 1);
     assert_eq!(controller.reset(&Cruise), Err(ResetError::NotStopped));
     let q = Cruise.at(49).q;
@@ -221,8 +223,9 @@ fn numbers_outside_their_range_are_refused_by_name() {
     );
 }
 
+// The arm has to be near its trajectory.
 #[test]
-fn an_arm_on_its_brake_starts_by_a_reset_near_its_trajectory_and_no_other_way() {
+fn a_braked_arm_starts_only_by_a_near_reset() {
     let mut controller = controller::<PreviousTick>().on_brake();
     assert_eq!(controller.reset(&Cruise), Err(ResetError::NoMeasurement));
     for q in [[0.2], [0.2]] {

@@ -93,8 +93,9 @@ fn cubic_polynomials_with_straight_ends_are_met_exactly() {
     );
 }
 
+// It is as smooth as the tolerance allows.
 #[test]
-fn it_is_off_by_no_more_than_the_tolerance_and_as_smooth_as_that_allows() {
+fn the_spline_stays_within_its_tolerance() {
     let points = arc::<33>(0.004);
     let (mut last, mut curvatures) = (0.0, std::vec::Vec::new());
     for tolerance in [0.0, 0.002, 0.004, 0.008, 0.1] {
@@ -125,7 +126,7 @@ fn it_is_off_by_no_more_than_the_tolerance_and_as_smooth_as_that_allows() {
 }
 
 #[test]
-fn noise_of_the_size_of_the_tolerance_leaves_little_in_the_curvature() {
+fn the_tolerance_keeps_noise_out_of_the_curvature() {
     // The arc has a curvature of 1/rad.
     let curvature = |tolerance: f64| {
         let path = fit(&arc::<33>(0.002), tolerance);
@@ -170,7 +171,7 @@ fn f32_has_the_path_of_f64() {
 }
 
 #[test]
-fn way_points_that_make_no_path_are_named_and_leave_an_empty_one() {
+fn invalid_way_points_are_named_and_leave_no_path() {
     let mut path = PathSpline::<f64, 2, 4>::EMPTY;
     let mut refused = |points: &[[f64; 2]], spacing: f64, tolerance: f64| {
         let error = path
@@ -208,8 +209,9 @@ fn way_points_that_make_no_path_are_named_and_leave_an_empty_one() {
     }
 }
 
+// Spans differ by one segment at most.
 #[test]
-fn a_grid_has_all_knots_and_as_many_segments_in_every_span_or_one_more() {
+fn a_grid_has_all_knots_and_even_spans() {
     let path = fit(&arc::<17>(0.0), 0.0);
     for segments in [16, 17, 40, 400] {
         let grid: std::vec::Vec<f64> = (0..=segments)

@@ -52,7 +52,7 @@ fn the_path_ends_where_the_arm_is() {
 }
 
 #[test]
-fn a_full_path_keeps_all_its_way_points_and_can_be_played() {
+fn a_full_path_keeps_its_points_and_is_playable() {
     let mut taught = taught();
     for k in 0..4 {
         assert_eq!(taught.record(&[f64::from(k), 0.0]), Recorded::Stored);

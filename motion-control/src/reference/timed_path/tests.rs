@@ -98,7 +98,7 @@ fn limits_of_speed_and_acceleration_make_it_a_trapezoid() {
 }
 
 #[test]
-fn position_velocity_and_acceleration_belong_together_and_both_ends_are_at_rest() {
+fn timed_path_derivatives_agree_and_both_ends_rest() {
     let path = Curve(|s: f64| {
         let (sin, cos) = (3.0 * s).sin_cos();
         [

@@ -129,7 +129,7 @@ fn way_points_are_met_exactly() {
 }
 
 #[test]
-fn a_move_of_a_day_is_as_exact_at_its_end_as_at_its_start() {
+fn a_day_later_a_move_has_the_same_bits() {
     let day = 86_400_000;
     let end = WayPoint {
         q: [1.0_f32],
@@ -199,7 +199,7 @@ fn unusable_way_points_are_named() {
 }
 
 #[test]
-fn what_overflows_is_an_error_and_so_is_a_limit_that_is_not_a_number() {
+fn overflows_and_nan_limits_are_errors() {
     let unlimited = MotionLimits {
         velocity: f64::INFINITY,
         acceleration: f64::INFINITY,

@@ -1,8 +1,9 @@
 use super::*;
 use crate::limits::{Command, Mode, Status};
 
+// The reference comes back to the frozen angle.
 #[test]
-fn a_frozen_encoder_stays_a_fault_when_the_reference_comes_back() {
+fn a_frozen_encoder_stays_a_fault() {
     let mut frozen = FrozenEncoder::new([0.01_f64; 2], 2);
     let frozen_at = |reference: f64, frozen: &mut FrozenEncoder<f64, 2>| {
         frozen.check(&[reference, 0.5], &[reference, 0.5 + reference])

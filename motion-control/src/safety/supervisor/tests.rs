@@ -114,8 +114,9 @@ fn each_fault_names_its_joint() {
     assert_eq!(status.fault, Some(Fault::Speed { joint: 0 }));
 }
 
+// The arm stays stopped.
 #[test]
-fn a_lasting_fault_goes_from_full_to_hold_to_stopped_and_stays_there() {
+fn a_lasting_fault_leads_over_hold_to_stopped() {
     let mut supervisor = riding(2);
     good(&mut supervisor, [3.0; 2]);
     for mode in [Mode::Full, Mode::Full, Mode::Hold, Mode::Hold, Mode::Hold] {
@@ -166,7 +167,7 @@ fn a_speed_is_not_ridden_through() {
 }
 
 #[test]
-fn a_failure_from_outside_stops_the_arm_in_the_next_tick() {
+fn an_external_failure_stops_the_arm_next_tick() {
     let mut supervisor = supervisor();
     good(&mut supervisor, [3.0; 2]);
     supervisor.stop(Fault::Drive { joint: 1 });
@@ -176,8 +177,9 @@ fn a_failure_from_outside_stops_the_arm_in_the_next_tick() {
     assert_eq!(command.status.fault, Some(Fault::Drive { joint: 1 }));
 }
 
+// It acts in its own tick.
 #[test]
-fn an_external_stop_acts_in_its_tick_and_stays_until_a_reset() {
+fn an_external_stop_lasts_until_a_reset() {
     let mut supervisor = riding(5);
     good(&mut supervisor, [3.0; 2]);
     bad(&mut supervisor, [3.0; 2]);
@@ -199,8 +201,9 @@ fn an_external_stop_acts_in_its_tick_and_stays_until_a_reset() {
     assert!(good(&mut supervisor, [3.0; 2]).brake);
 }
 
+// At first the last torques stand.
 #[test]
-fn without_a_torque_the_last_ones_stand_then_a_hold_then_the_brake() {
+fn missing_torques_lead_over_a_hold_to_the_brake() {
     let mut supervisor = riding(2);
     good(&mut supervisor, [4.0; 2]);
     let nan = [4.0, f32::NAN];
@@ -253,7 +256,7 @@ fn good_ticks_up_to_full_authority_forget_a_fault() {
 }
 
 #[test]
-fn without_any_good_position_a_fault_stops_the_arm_at_once() {
+fn without_a_good_position_a_fault_stops_at_once() {
     let mut supervisor = supervisor();
     assert_eq!(supervisor.accept_measurement(Ok(&[2.0; 2])), Mode::Stopped);
     supervisor.reset();
@@ -261,7 +264,7 @@ fn without_any_good_position_a_fault_stops_the_arm_at_once() {
 }
 
 #[test]
-fn the_plausible_step_of_a_joint_grows_with_the_ticks_that_were_lost() {
+fn the_plausible_step_grows_with_lost_ticks() {
     let mut supervisor = supervisor();
     good(&mut supervisor, [0.0; 2]);
     bad(&mut supervisor, [0.0; 2]);
@@ -310,7 +313,7 @@ fn after_a_reset_faults_are_counted_anew() {
 }
 
 #[test]
-fn a_speed_adds_to_the_faults_before_it() {
+fn excess_speed_adds_to_the_counted_faults() {
     let mut supervisor = riding(2);
     good(&mut supervisor, [1.0; 2]);
     for _ in 0..2 + HOLD {

@@ -106,7 +106,7 @@ pub fn compilers(context: &Context) -> Result<String> {
     let firsts = list.lines().filter_map(|line| line.split(' ').next());
     let mut names: Vec<&str> = firsts.collect();
     names.sort_unstable();
-    // What should be there stands in the outcome if it is not.
+    // A missing toolchain is listed in the outcome.
     let mut wanted = vec![oldest, "stable"];
     wanted.retain(|wanted| !names.iter().any(|name| name.starts_with(wanted)));
     let lacks = |name| format!("{name} is not there: `rustup toolchain install {name}`");

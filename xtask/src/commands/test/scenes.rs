@@ -35,7 +35,7 @@ pub fn runs(context: &Context) -> Result<String> {
     let mut ticks = 0;
     for measured in context.measured()? {
         let name = &measured.report.scene;
-        // Of the default scene no law needs the gate; elsewhere some are there to show that they do.
+        // No law of the default scene needs the gate; other scenes have laws that show the need of it.
         let is_checked = |law: &str| law == FEEDFORWARD || *name == Scene::default().name();
         let other = measured.recording.differing_status(PLAIN, is_checked);
         let run = other.as_deref().unwrap_or_default();
@@ -143,7 +143,7 @@ pub fn readme(context: &Context) -> Result<String> {
             let brackets = demo::brackets(workspace, &context.tools, context.meter()?, measured)?;
             let (text, rustc) = (measured.report.markdown(&brackets), &measured.report.rustc);
             docs::README.check(workspace, &text, Some(rustc))?;
-            // What the scene does is the same to the bit, whatever compiled it.
+            // The scene's result is the same to the bit with every compiler.
             let (picture, command) = (plot::svg(&measured.recording)?, docs::README.command);
             docs::compare_picture(workspace, demo::PICTURE, command, &picture, true)?;
         }

@@ -1,10 +1,9 @@
-//! How far the figures of another compiler may lie from those that are written: by what their column is about.
+//! The tolerance of another compiler's figures against the written ones, by the kind of their column.
 
 use crate::kit::bars::OTHER_RUSTC;
 
 use super::{MEASURED, NO_LINE};
 
-/// The kind of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     /// A number that nothing measured: of joints, of bodies, of a bound.
@@ -113,7 +112,6 @@ fn is_rule(cell: &str) -> bool {
     cell.starts_with("--") && cell.trim_matches(['-', ':']).is_empty()
 }
 
-/// The kind of each column.
 fn of_headings(headings: &[&str]) -> Vec<Kind> {
     let kinds = headings.iter().scan(Kind::Exact, |before, heading| {
         *before = Kind::of(heading, *before);

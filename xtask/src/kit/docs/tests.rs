@@ -62,7 +62,7 @@ fn costs_of_another_compiler_are_within_three_per_cent() {
           −100: −103 close, 100 refused
     "#]];
     let headings = "insn|cycles|worst tick|flash, B|RAM|µs|tick's code, B";
-    // What is small is no less exact.
+    // Small figures are held as exactly.
     let cases = "1,000 → 1,000 / 1,030 / 1,031 / 969; 6 → 7; 0.10 → 0.40; −100 → −103 / 100";
     check(&expected, headings, cases);
     // Without a heading of its own, a column is like the one before it.

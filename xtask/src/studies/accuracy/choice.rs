@@ -9,16 +9,13 @@ use super::{code, front};
 use crate::kit::error::{Error, Result};
 use crate::kit::table::thousands;
 
-/// An allowed error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Allowed {
     /// In the unit of [`Allowed::kind`]: N·m or rad.
     pub error: f64,
-    /// The kind of quantity.
     pub kind: Kind,
 }
 
-/// The criterion of the choice.
 #[derive(Clone, Copy, Debug)]
 pub enum Budget {
     /// The cheapest within this error.

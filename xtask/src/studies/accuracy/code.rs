@@ -115,7 +115,7 @@ fn torques(point: &Point) -> Result<String> {
     let uses: String = uses
         .map(|(library, path)| format!("use {library}::{path};\n"))
         .collect();
-    // Where the importer's file is a module of the program, the user knows.
+    // The user knows in which module of the program the importer's file is.
     let own = point.own.as_ref();
     let own = own.map(|[arm, _]| format!("use crate::robot::{arm};\n"));
     Ok(format!("{uses}{}\n{code}", own.unwrap_or_default()))

@@ -22,7 +22,7 @@ const BINS: [&str; 3] = ["accuracy_ur5e", "accuracy_panda", "accuracy_leg"];
 const QUICK_BIN: &str = "accuracy_quick";
 const SIMULATION_BIN: &str = "accuracy_simulation";
 
-/// A robot that there is something to measure of.
+/// A robot with measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Robot {
     Ur5e,

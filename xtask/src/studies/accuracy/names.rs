@@ -1,4 +1,4 @@
-//! What each way to compute is called, what the library has for it, and what it does and gives up.
+//! The names of the ways to compute, the library's items for them, and their advantages and costs.
 
 use super::point::{Kind, Point};
 use crate::kit::table::thousands;
@@ -81,7 +81,7 @@ fn rows(point: &Point) -> impl Iterator<Item = &'static Row> {
     let changed = point.changes().flat_map(|(axis, value)| match axis {
         // In a simulation they stand first; of the scene a heading speaks.
         "integrator" | "step" | "scene" | "between" => [None, None],
-        // What happens in the ticks between comes with it.
+        // The method of the ticks between comes with it.
         "rate" => [row(axis, value), row("between", point.on("between"))],
         _ => [row(axis, value), None],
     });

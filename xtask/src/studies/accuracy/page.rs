@@ -125,7 +125,6 @@ fn table(rows: &[(String, &Point)], first: &str, columns: &str) -> Table {
     table
 }
 
-/// These points by their names.
 fn named<'a>(points: &[&'a Point]) -> Vec<(String, &'a Point)> {
     points.iter().map(|point| (name(point), *point)).collect()
 }
@@ -222,7 +221,7 @@ fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
     }
     for (cost, which) in ["worst tick", "mean over ticks"].into_iter().enumerate() {
         let mut shown = steps(&rigid, cost);
-        // What is on both fronts stands in the first; the default is shown even where a front passes it by.
+        // A point on both fronts is listed in the first; the default is always shown.
         shown.retain(|point| cost == 0 || !point.fronts[0]);
         shown.extend(rigid.iter().filter(|point| point.is_default()));
         shown.sort_by(|a, b| a.costs()[cost].total_cmp(&b.costs()[cost]));
@@ -252,7 +251,6 @@ fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
     )
 }
 
-/// A table under a heading.
 fn section(head: &str, rows: &[(String, &Point)], first: &str, columns: &str) -> String {
     format!("### {head}\n\n{}\n", table(rows, first, columns).markdown())
 }

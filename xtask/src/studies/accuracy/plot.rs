@@ -141,7 +141,7 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
     );
     let default = points.iter().find(|point| point.is_default());
     let mut shown = fronts::front(points, 0);
-    // What is dearer than the default by far, in other numbers, is in the other picture.
+    // Points that cost more than the default are in the other picture.
     shown.retain(|point| default.is_none_or(|default| point.cycles <= default.cycles));
     svg((800, 520), |root| {
         let ends = shown.iter().map(|point| point.place());

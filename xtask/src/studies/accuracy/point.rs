@@ -107,7 +107,6 @@ impl Point {
     }
 }
 
-/// The points of a group.
 pub fn of_group<'a>(points: &'a [Point], group: (&str, Kind, &str)) -> Vec<&'a Point> {
     let own = points.iter().filter(|point| point.group() == group);
     own.collect()

@@ -32,7 +32,7 @@ pub fn write(workspace: &Workspace) -> Result<PathBuf> {
         let of = |point: &&Point| point.robot == name && is_sample(point);
         let codes = points.iter().filter(of).enumerate();
         let codes = codes.filter_map(|(i, point)| Some((i, point, code::rust(point).ok()?)));
-        // Of a robot that nothing is printed of, the visitor is not used.
+        // The visitor is unused if nothing is printed for a robot.
         let mut visits = String::from("    let _ = &visitor;\n");
         for (i, point, code) in codes {
             let way = format!("{name}_{i}");

@@ -1,4 +1,4 @@
-//! What the last whole run has measured: what a choice is made from in no time.
+//! The results of the last whole run, from which a choice is made without measuring.
 
 use std::path::PathBuf;
 

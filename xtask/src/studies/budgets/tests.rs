@@ -131,7 +131,6 @@ fn a_scene_is_held_to_its_budget_and_bar() {
     assert!(hold_scene(&Budgets::default(), "arm", &budget("rustc 1", 1)).is_err());
 }
 
-/// The budget of one row.
 fn rows(rustc: &str, key: &str, cycles: u64) -> Rows {
     let text = format!(
         "rustc = {rustc:?}\n[rows]\n{key:?} = {{ instructions = 9, cycles = {cycles}, \
@@ -151,7 +150,7 @@ fn the_same_costs_leave_the_file_as_it_is() {
 }
 
 #[test]
-fn a_row_or_figure_over_budget_or_of_one_side_is_named() {
+fn rows_and_figures_over_budget_are_named() {
     let row = |rustc, key, cycles| rows(rustc, key, cycles);
     let of_arm = || row("rustc 1", "ur5e rnea core full", 9).only("ur5e");
     let other_robot = || row("rustc 1", "ur5e10 rnea core full", 9).only("ur5e");

@@ -13,7 +13,6 @@ use crate::kit::toolchain::{self, RELEASE, SMALL};
 use crate::kit::workspace::Workspace;
 use crate::studies::costs::IMAGE;
 
-/// A bin for a board.
 struct Bin {
     package: &'static str,
     name: &'static str,
@@ -147,7 +146,6 @@ fn within_bars(board: &Board, bars: &Bars) -> Result<()> {
     Ok(())
 }
 
-/// The table of the page.
 pub fn markdown(boards: &[Board]) -> String {
     let bound = |bytes: Option<u64>| bytes.map_or("–".into(), thousands);
     let columns: [Column<'_, Board>; 9] = [

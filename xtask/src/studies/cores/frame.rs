@@ -1,4 +1,4 @@
-//! What single instructions do to the stack pointer, and where those of RISC-V go.
+//! The effect of single instructions on the stack pointer, and the targets of those of RISC-V.
 //!
 //! Every instruction that lowers the stack pointer is added up, wherever in a function it stands: the sum is a bound of the
 //! frame, since compilers lower it in the prologue and nowhere in a loop. What restores it is left out.
@@ -171,7 +171,6 @@ fn jump(code: u32) -> i64 {
     )
 }
 
-/// The offset of a branch.
 fn branch(code: u32) -> i64 {
     let part = |from: u32, bits: u32, to: u32| i64::from(code >> from & ((1 << bits) - 1)) << to;
     signed(
@@ -180,7 +179,7 @@ fn branch(code: u32) -> i64 {
     )
 }
 
-/// A number of so many bits with its sign.
+/// Sign-extends a number of this many bits.
 fn signed(value: i64, bits: u32) -> i64 {
     value << (64 - bits) >> (64 - bits)
 }

@@ -17,7 +17,6 @@ pub const PAGE: Page<'_> = Page {
 type Line<'a> = (&'a Row, &'a Core);
 
 impl Report {
-    /// The tables of the page.
     pub fn markdown(&self) -> Result<String> {
         let mut text = String::from(
             "The torques of every tick have the same bits on every core and on the host:\n\n",

@@ -15,7 +15,6 @@ use crate::kit::shell;
 use crate::kit::toolchain::RELEASE;
 use crate::kit::workspace::Workspace;
 
-/// The package, and its bin.
 const PACKAGE: &str = "cores";
 /// The time limit of a core in QEMU.
 const LIMIT: Duration = Duration::from_secs(300);
@@ -31,7 +30,6 @@ pub struct Torques {
     pub digest: String,
 }
 
-/// A scene on a core.
 #[derive(Debug, Serialize)]
 pub struct Replayed {
     pub torques: Torques,

@@ -1,4 +1,4 @@
-//! What a function can reach, and the most stack that it can take: read from the machine code of any of the cores.
+//! The functions that a function can reach, and its largest stack: read from the machine code of any of the cores.
 
 use std::collections::BTreeMap;
 

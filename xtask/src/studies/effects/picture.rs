@@ -17,7 +17,6 @@ const STEP: u32 = 30;
 /// The room of an axis.
 const ROOM: u32 = 46;
 
-/// The plot as an SVG.
 pub fn svg(prices: &[Price]) -> Result<String> {
     let of = |form: &'static str| {
         let all = prices.iter();

@@ -1,4 +1,4 @@
-//! How engine and core stand against the best peer, and what was promised of that.
+//! Engine and core against the best peer, and the bars for that.
 
 use crate::kit::bars::{Bars, Compared};
 use crate::studies::peers::PRECISIONS;

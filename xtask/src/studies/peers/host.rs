@@ -89,7 +89,7 @@ fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
         let (robot, algorithm, precision) = wanted;
         let sizes = [robot.joints(), outputs(algorithm, robot.joints())];
         for (inputs, compilers) in [("q", &C_COMPILERS[..]), ("cs", &C_COMPILERS[..1])] {
-            // What takes cosines is for the target, where large robots are not compared; it is timed there.
+            // Functions that take cosines are for the target, where large robots are not compared; they are timed there.
             if inputs == "cs" && robot.has_subtree_functions() {
                 continue;
             }

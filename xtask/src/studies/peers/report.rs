@@ -1,4 +1,4 @@
-//! What was measured, as tables, as JSON and as the page in the docs.
+//! The measurements, as tables, as JSON and as the page in the docs.
 
 use serde::{Deserialize, Serialize};
 
@@ -40,7 +40,6 @@ pub struct Row {
 pub struct Report {
     pub rows: Vec<Row>,
     pub compared: Vec<Compared>,
-    /// The versions of all programs.
     pub versions: Vec<String>,
     /// The day of the run, and the commit.
     pub date: String,

@@ -6,7 +6,7 @@ use super::{ALGORITHMS, PRECISIONS};
 use crate::kit::bars::{self, Bars, Compared};
 use crate::kit::docs::repository::{root, rows_of};
 
-/// What a ratio of figures may be off by that are printed in three digits or more.
+/// The rounding error of a ratio of figures that are printed with at least three digits.
 const ROUNDING: f64 = 0.005;
 
 fn page() -> String {
@@ -88,7 +88,7 @@ fn check(page: &str, promised: &Bars) -> Result<(), String> {
     for (compared, cells) in of_rows.iter_mut().zip(&bars) {
         let now: f64 = number(cells[2].trim_end_matches('×')).ok_or("no figure")?;
         let off = (now / compared.measured - 1.0).abs();
-        // What is not a number is off as well.
+        // NaN is off as well.
         if off.is_nan() || off > ROUNDING {
             return Err(format!(
                 "{}: {now}, by the tables {:.4}",

@@ -37,7 +37,6 @@ pub struct Peers {
     pub python: PathBuf,
     /// The directory of its packages, with headers and libraries.
     pub packages: PathBuf,
-    /// The list of those packages.
     pub requirements: PathBuf,
     pub eigen: PathBuf,
 }

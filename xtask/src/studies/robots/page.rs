@@ -30,7 +30,6 @@ pub fn compare(written: &str, fresh: &str, name: &str, same_compiler: bool) -> R
     }
 }
 
-/// The column of the peer.
 const PEER: usize = 4;
 
 /// The cells of a robot's row.

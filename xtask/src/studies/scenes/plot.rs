@@ -21,7 +21,6 @@ pub fn write(recording: &Recording, path: &Path) -> Result<()> {
     workspace::write(path, svg(recording)?)
 }
 
-/// The plot as an SVG.
 pub fn svg(recording: &Recording) -> Result<String> {
     let height = 52 + ROWS.iter().sum::<i32>();
     chart::svg((WIDTH as u32, height as u32), |root| {
@@ -68,7 +67,6 @@ fn columns(
     Ok(())
 }
 
-/// Seconds of a tick count.
 fn seconds(recording: &Recording, tick: u32) -> f64 {
     f64::from(tick) * f64::from(recording.tick_us) * 1e-6
 }

@@ -9,7 +9,6 @@ use crate::kit::protocol::label;
 use crate::kit::table::{Column, Table, thousands};
 use crate::studies::scenes::report::{Errors, JointError, Report, Tracking};
 
-/// The column of the brackets.
 const BY_MANUAL: &str = "max by the manual";
 
 impl Report {

@@ -1,4 +1,4 @@
-//! What a scene's run amounts to; its fields are those of the JSON.
+//! The summary of a scene's run; its fields are those of the JSON.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,6 @@ use crate::kit::meter::{self, BETWEEN, Cost, MODEL, REGIONS};
 use crate::kit::protocol::{FEEDFORWARD, Gains, PD, PLANTS, Recording, Trajectory, WITHOUT};
 use crate::kit::rows::code_bytes;
 
-/// Everything that the demo prints.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Report {
     pub scene: String,
@@ -51,7 +50,6 @@ pub struct Report {
     pub qemu: String,
 }
 
-/// The error of each law.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Tracking {
     /// Full inverse dynamics along the reference, and PD.

@@ -25,15 +25,14 @@ const MORE_STATES: usize = 2000;
 /// that compute: elsewhere, what rates lose would look too small.
 const REST: u32 = 3;
 
-/// What every way of a robot is compared with.
+/// The reference that every way of a robot is compared with.
 pub struct Bench<const N: usize> {
-    /// What the lines call them.
     pub kind: &'static str,
     robot: &'static str,
-    /// What its joints are: `rigid` or `compliant`.
+    /// The kind of its joints: `rigid` or `compliant`.
     plant: &'static str,
     full_scale: f64,
-    /// How far the oracle itself is off, N·m: smaller errors are given as that.
+    /// The error of the oracle itself, N·m: smaller errors are given as this one.
     floor: f64,
     states: Vec<Problem<N>>,
     way: Vec<Problem<N>>,

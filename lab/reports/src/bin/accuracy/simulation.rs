@@ -95,7 +95,7 @@ impl<const N: usize> Visitor<N> for Bench<N> {
                 "unit": "rad per simulated second",
                 "drift": drift.max() / kinetic / seconds as f64,
             });
-            // What has left the robot's range has no error worth a number.
+            // A simulation that has left the robot's range has no meaningful error.
             if failed || errors.max() >= 100.0 || drift.max() >= 1e3 * kinetic {
                 for name in [
                     "error_max",

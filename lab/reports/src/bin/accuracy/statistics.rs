@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 pub struct Errors(Vec<f64>);
 
 impl Errors {
-    /// Of answers and what they should have been.
+    /// The errors of answers against the truth.
     pub fn of<const N: usize>(pairs: impl Iterator<Item = ([f64; N], [f64; N])>) -> Self {
         let mut errors = Self::default();
         pairs.for_each(|(answer, truth)| errors.add(&answer, &truth));
@@ -63,7 +63,6 @@ pub fn object<'a>(axes: impl Iterator<Item = &'a (&'a str, &'a str)>) -> Value {
     Value::Object(axes.map(named).collect())
 }
 
-/// The same state in f64.
 pub fn widened<const N: usize>(state: &State<f32, N, N>) -> State<f64, N, N> {
     let [q, qd, qdd] = [state.q, state.qd, state.qdd].map(|numbers| numbers.map(f64::from));
     State { q, qd, qdd }

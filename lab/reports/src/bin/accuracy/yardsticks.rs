@@ -27,7 +27,6 @@ const FRICTION: f64 = 0.1;
 /// rad/s: every joint's speed lies within ± this.
 const SPEEDS: [f64; 7] = [0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0];
 
-/// States of each.
 const STATES: usize = 1000;
 
 /// Prints a line for each of them.
@@ -67,7 +66,7 @@ pub fn print<T: Robot<B, N, N>, const B: usize, const N: usize>(
     line("friction10", what, &friction);
 }
 
-/// Of the drawing with the largest RMS.
+/// The errors of the drawing with the largest RMS.
 fn inertial<T: Robot<B, N, N>, const B: usize, const N: usize>(
     way: &[Problem<N>],
     share: f64,

@@ -4,7 +4,6 @@ use dynamics_core::scalar::{Matrix, Real, Vector};
 
 use super::{assigning, operators};
 
-/// A vector of three.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vec3<R>(pub [R; 3]);
 

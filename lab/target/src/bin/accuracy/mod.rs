@@ -25,13 +25,12 @@ const TICKS: usize = 40;
 /// Steps of each way to simulate, and their length in s: short enough for every integrator.
 const STEPS: [f64; 8] = [1e-4; 8];
 
-/// Where a robot is to be in some ticks.
+/// The references of a robot in some ticks.
 type Courses<const N: usize> = [ElasticReference<f32, N, N>; TICKS];
 
 /// Measures each way that it visits.
 pub struct Priced<const N: usize> {
     robot: &'static str,
-    /// What the log calls them.
     pub algorithm: &'static str,
     /// Anywhere, for ways that remember nothing.
     spread: Courses<N>,

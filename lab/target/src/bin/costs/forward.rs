@@ -62,7 +62,6 @@ fn of_engine<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: u
     }
 }
 
-/// Measures core and engine.
 pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> ! {
     let asks = &asks::<T, B, N, STATES>();
     run::<T, B, N>(asks, &[of_core::<T, B, N>(), of_engine::<T, B, N, TIP>()]);
@@ -72,7 +71,6 @@ pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>
     done()
 }
 
-/// Measures the core alone.
 pub fn core<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
     let asks = &asks::<T, B, N, STATES>();
     run::<T, B, N>(asks, &[of_core::<T, B, N>()]);

@@ -23,7 +23,6 @@ type Scene<const N: usize> = (
     LoadFriction<f32, N>,
 );
 
-/// Measures core and engine.
 pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; STATES]) {
     let forms: [(&str, Inside<'_, N>, Precomputed<'_, N>); 2] = [
         (

@@ -13,7 +13,6 @@ use firmware_demo::digest::Digest;
 use super::super::GRAVITY;
 use super::{FourBar, LoopProblem, PROBLEMS, RIG, Start};
 
-/// Weight, inertia and velocity products.
 pub type Scene<R> = (GravityVector<R>, Inertia, Coriolis);
 
 /// A field of [`GRAVITY`] down.
@@ -90,7 +89,7 @@ where
 pub fn digests(mut report: impl FnMut(u32, &'static str, Digest)) {
     for problem in &PROBLEMS {
         report(problem.case, problem.name, of_loops(problem));
-        // Of the others the code would be the same.
+        // The code of the other linkages would be the same.
         let cluster = match problem.linkage {
             Some(1) => of_cluster::<1>(problem.starts),
             Some(2) => of_cluster::<2>(problem.starts),

@@ -6,12 +6,11 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
 
-/// A four-bar linkage.
 #[derive(Clone, Copy, Debug)]
 pub struct Linkage {
-    /// Of crank, coupler, rocker and ground, m.
+    /// Lengths of crank, coupler, rocker and ground, m.
     pub lengths: [f64; 4],
-    /// Of crank, coupler and rocker, kg.
+    /// Masses of crank, coupler and rocker, kg.
     pub masses: [f64; 3],
 }
 

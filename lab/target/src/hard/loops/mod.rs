@@ -20,25 +20,20 @@ pub type Start<const N: usize> = [[f32; N]; 3];
 pub struct LoopProblem<const N: usize, const A: usize> {
     /// The number of the case that it belongs to.
     pub case: u32,
-    /// What is special about it.
     pub name: &'static str,
-    /// Which of [`LINKAGES`] it is, if it is one.
+    /// Its index in [`LINKAGES`], if it is one of them.
     pub linkage: Option<usize>,
-    /// The tree.
     pub tree: &'static ArmModel<f64, N>,
     /// The same in f32: what is computed with.
     pub single: &'static ArmModel<f32, N>,
-    /// The loop, and the motors.
     pub loops: &'static Loops<1, 5, A>,
     /// The coordinates that are given: the others follow.
     pub held: &'static [usize],
-    /// What assembly moves.
+    /// The coordinates that assembly moves.
     pub moving: Moving,
-    /// The states.
     pub starts: &'static [Start<N>],
 }
 
-/// What a machine's problems share.
 trait Constants<const N: usize, const A: usize>: LoopRobot<N, N, N, 1, 5, A> {
     const TREE: &'static ArmModel<f64, N> = &Self::MODEL;
     const SINGLE: &'static ArmModel<f32, N> = &Self::MODEL.to_f32();
@@ -106,7 +101,6 @@ pub static PROBLEMS: [LoopProblem<3, 1>; 22] = [
     four_bar::<0>(61, "10⁴ rad", &starts::TURNS),
 ];
 
-/// The rig with three motors.
 pub static RIG: LoopProblem<4, 3> = LoopProblem {
     case: 56,
     name: "three motors for two degrees of freedom",

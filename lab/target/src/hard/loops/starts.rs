@@ -63,7 +63,7 @@ pub(super) const OUT_OF_REACH: [Start<3>; 2] = [
     crank(-2.0, [1.0, 1.0], [0.5, 0.5]),
 ];
 
-/// Of a crank of 1 mm.
+/// States of the linkage with a crank of 1 mm.
 pub(super) const THIN: [Start<3>; 4] = [
     crank(-1.0, [2.5, -6.0], [1.016, 1.546]),
     crank(0.5, [-1.75, 8.0], [-0.485, 1.523]),
@@ -81,7 +81,7 @@ pub(super) const fn slider(angle: f32) -> [Start<3>; 2] {
     ]
 }
 
-/// Of the rig with three motors.
+/// States of the rig with three motors.
 pub(super) const RIG: [Start<4>; 4] = [
     rig([-2.25, 1.542, -0.875, -1.549], [2.5, -1.0], [-6.0, 3.0]),
     rig([-2.0, 1.175, -1.0, -1.247], [-1.75, 2.0], [8.0, 5.0]),

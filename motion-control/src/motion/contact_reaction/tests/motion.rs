@@ -2,8 +2,9 @@
 
 use super::*;
 
+// This holds whatever the ticks of a return are.
 #[test]
-fn the_references_of_a_retraction_are_within_its_limits_whatever_the_ticks_of_a_return() {
+fn a_retraction_keeps_its_limits() {
     let response = ContactResponse::Retract {
         distance: 0.1,
         limits: SLOW,
@@ -35,8 +36,9 @@ fn the_references_of_a_retraction_are_within_its_limits_whatever_the_ticks_of_a_
     }
 }
 
+// Nor does it go to where it never was.
 #[test]
-fn an_arm_does_not_go_back_to_where_it_was_stopped_nor_to_where_it_never_was() {
+fn an_arm_does_not_retract_to_where_it_was_stopped() {
     let mut joint = Joint::new(config().response);
     joint.controller = joint.controller.on_brake();
     // Before a measurement, and then moved by a hand.
@@ -57,7 +59,7 @@ fn an_arm_does_not_go_back_to_where_it_was_stopped_nor_to_where_it_never_was() {
 }
 
 #[test]
-fn the_clock_of_the_motion_stands_still_while_the_arm_retracts_or_floats() {
+fn the_motion_clock_stands_still_during_a_reaction() {
     for response in [config().response, FLOAT] {
         let mut joint = Joint::new(response);
         joint.run(500, Ok(None));

@@ -15,7 +15,7 @@ fn floated(held: bool) -> Joint {
 }
 
 #[test]
-fn a_push_does_not_release_an_arm_that_an_operator_has_stopped() {
+fn a_push_does_not_release_an_operators_stop() {
     let categories = [
         StopCategory::ControlledHold,
         StopCategory::ControlledOff,
@@ -44,7 +44,7 @@ fn a_push_does_not_release_an_arm_that_an_operator_has_stopped() {
 }
 
 #[test]
-fn a_stop_within_the_tick_of_a_push_is_not_released_by_the_next_one() {
+fn a_stop_during_a_push_survives_the_next_push() {
     for held in [false, true] {
         let mut joint = floated(held);
         let observed = joint.controller.observe(Ok(&[joint.q]));
@@ -61,7 +61,7 @@ fn a_stop_within_the_tick_of_a_push_is_not_released_by_the_next_one() {
 }
 
 #[test]
-fn an_arm_floats_again_after_the_reset_of_an_operators_stop() {
+fn an_arm_floats_again_after_stop_and_reset() {
     for held in [false, true] {
         let mut joint = floated(held);
         let hold = StopCategory::ControlledHold;
@@ -78,8 +78,9 @@ fn an_arm_floats_again_after_the_reset_of_an_operators_stop() {
     }
 }
 
+// The arm floats for the second time.
 #[test]
-fn an_arm_that_floats_again_is_decelerated_by_the_next_stop() {
+fn the_next_stop_decelerates_a_floating_arm() {
     let mut joint = Joint::with_ticks(FLOAT, 0, 400);
     joint.run(500, Ok(None));
     joint.run(1, CONTACT);

@@ -51,7 +51,7 @@ fn peaks(path: &TravelledPath<f64, 2, 16>) -> [f64; 2] {
 }
 
 #[test]
-fn the_retraction_is_the_path_over_its_distance_from_rest_to_rest() {
+fn the_retraction_follows_the_path_from_rest_to_rest() {
     let path = travelled::<16>();
     let [first, last] = [path.at(0), path.at(path.ticks())];
     assert_eq!((first.qd, first.qdd), ([0.0; 2], [0.0; 2]));
@@ -70,7 +70,7 @@ fn the_retraction_is_the_path_over_its_distance_from_rest_to_rest() {
 }
 
 #[test]
-fn the_retraction_is_as_fast_as_its_limits_allow_and_no_faster() {
+fn the_retraction_is_as_fast_as_its_limits_allow() {
     let mut path = travelled();
     for (velocity, acceleration) in [(0.5, 2.0), (0.2, 20.0), (3.0, 1.0), (3.0, f64::INFINITY)] {
         let limits = MotionLimits {
@@ -89,8 +89,9 @@ fn the_retraction_is_as_fast_as_its_limits_allow_and_no_faster() {
     }
 }
 
+// The gap between arm and path is closed within the limits too.
 #[test]
-fn the_retraction_begins_where_the_arm_is_and_its_gap_to_the_path_is_within_the_limits_too() {
+fn the_retraction_begins_at_the_arm_within_limits() {
     let mut path = travelled::<16>();
     let end = path.at(path.ticks()).q;
     let [x, y] = path.point(0);

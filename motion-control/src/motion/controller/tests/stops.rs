@@ -52,7 +52,7 @@ fn tick(controller: &mut Controller, joint: &mut Joint, share: f64) -> Command<f
 }
 
 #[test]
-fn category_2_stands_where_it_came_to_rest_with_a_model_that_is_wrong() {
+fn category_2_stays_at_rest_despite_model_errors() {
     let (mut controller, mut joint) = cruising(StopCategory::ControlledOff);
     controller.stop_by(Fault::External, StopCategory::ControlledHold);
     (0..400).for_each(|_| _ = tick(&mut controller, &mut joint, 0.9));
@@ -88,8 +88,9 @@ fn a_sinking_joint_has_the_speed_of_gravity_over_damping() {
     assert!(fastest < 1.05 * 0.2, "{fastest}");
 }
 
+// A wrong measurement gives no torque.
 #[test]
-fn a_sinking_joint_is_damped_beyond_its_bounds_and_by_no_wrong_measurement() {
+fn a_sinking_joint_is_damped_beyond_its_bounds() {
     let (mut controller, mut joint) = cruising(StopCategory::DampedLowering { damping: [20.0] });
     controller.stop(Fault::External);
     joint.0 = -2.1;
@@ -148,7 +149,7 @@ fn too_many_missed_ticks_stop_the_arm() {
 }
 
 #[test]
-fn a_reported_fault_is_ridden_through_and_forgotten_by_a_reset() {
+fn a_reported_fault_is_ridden_through_and_forgotten() {
     let (mut controller, mut joint) = cruising(StopCategory::ControlledOff);
     for mode in [Mode::Full, Mode::Full, Mode::Hold] {
         controller.report(Fault::NotReady { joint: 0 });

@@ -73,8 +73,9 @@ fn a_grid_point_of_zero_inertia_exactly_bounds_x() {
     assert!(share_off(most, 1.5) < 1e-12, "{most}");
 }
 
+// It is part of the torques that are limited.
 #[test]
-fn friction_is_within_the_limits_and_helps_only_as_far_as_it_is_certain() {
+fn friction_helps_only_as_far_as_it_is_certain() {
     let (d, tau, coulomb, viscous) = (2.0, 10.0, 2.0, 1.5);
     let path = line(d);
     let real = |state: &State<f64, 1, 1>| {

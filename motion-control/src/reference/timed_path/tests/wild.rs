@@ -20,8 +20,9 @@ impl Random {
     }
 }
 
+// The torques hold at the points of the grid.
 #[test]
-fn of_any_numbers_the_motion_is_finite_and_within_the_torques_at_the_grid() {
+fn random_motions_are_finite_and_within_the_torques() {
     let mut random = Random(0x1234_5678);
     let (mut timed_paths, mut excess, mut refusals) = (0, 0.0_f32, 0);
     for _ in 0..2000 {

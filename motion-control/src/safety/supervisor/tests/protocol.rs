@@ -15,7 +15,7 @@ fn a_tick_without_a_measurement_is_stale() {
 }
 
 #[test]
-fn a_tick_without_a_torque_is_a_fault_of_the_next_one() {
+fn a_tick_without_torque_faults_the_next() {
     let mut supervisor = riding(2);
     good(&mut supervisor, [3.0; 2]);
     let unfinished = Some(Fault::Unfinished);

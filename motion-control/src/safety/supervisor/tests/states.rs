@@ -100,8 +100,9 @@ fn every_transition_of_the_table_occurs_and_no_other_one() {
     assert_eq!(found_modes, modes);
 }
 
+// An arm with useless limits stays stopped.
 #[test]
-fn a_reset_leads_from_every_state_but_useless_limits_to_the_full_law() {
+fn a_reset_restores_the_full_law() {
     let required = Required {
         reason: Fault::External,
         again: false,

@@ -22,7 +22,7 @@ fn modes(supervisor: &mut Supervisor<f32, 2>, ticks: u32) -> Vec<Mode> {
 }
 
 #[test]
-fn category_0_is_off_at_once_and_ends_a_controlled_stop() {
+fn category_0_ends_a_controlled_stop_at_once() {
     let off = |supervisor: &mut Supervisor<f32, 2>| {
         let command = good(supervisor, [3.0; 2]);
         assert_eq!((command.torque, command.brake), ([0.0; 2], true));
@@ -117,8 +117,9 @@ fn sinks(supervisor: &mut Supervisor<f32, 2>, qd: [f32; 2]) -> [f32; 2] {
     command.torque
 }
 
+// Its torque and the rate of the torque are limited.
 #[test]
-fn a_damping_is_limited_in_torque_and_rate_and_never_drives() {
+fn damping_is_limited_and_never_drives() {
     let damping = [2.0, f32::NAN];
     let mut supervisor = supervisor().with_stop(StopCategory::DampedLowering { damping });
     good(&mut supervisor, [4.0; 2]);
@@ -148,7 +149,7 @@ fn a_damping_is_limited_in_torque_and_rate_and_never_drives() {
 }
 
 #[test]
-fn an_external_stop_of_category_0_takes_the_torque_of_an_arm_that_would_sink() {
+fn category_0_takes_the_torque_of_a_sinking_arm() {
     let sinking = StopCategory::DampedLowering { damping: [2.0; 2] };
     let mut supervisor = supervisor().with_stop(sinking);
     good(&mut supervisor, [4.0; 2]);
@@ -161,7 +162,7 @@ fn an_external_stop_of_category_0_takes_the_torque_of_an_arm_that_would_sink() {
 }
 
 #[test]
-fn the_torque_of_a_sinking_arm_is_where_the_rate_of_a_restart_begins() {
+fn a_restart_ramps_from_the_sinking_arms_torque() {
     let sinking = StopCategory::DampedLowering { damping: [2.0; 2] };
     let mut supervisor = supervisor().with_stop(sinking);
     good(&mut supervisor, [4.0; 2]);
@@ -173,7 +174,7 @@ fn the_torque_of_a_sinking_arm_is_where_the_rate_of_a_restart_begins() {
 }
 
 #[test]
-fn a_fault_whose_reaction_is_a_controlled_stop_stops_by_the_configured_category() {
+fn a_controlled_reaction_stops_by_the_configured_category() {
     let (held, stopped) = (Mode::Hold, Mode::Stopped);
     for (category, wanted) in [
         (StopCategory::TorqueOff, [stopped; 5]),
@@ -194,7 +195,7 @@ fn a_fault_whose_reaction_is_a_controlled_stop_stops_by_the_configured_category(
 }
 
 #[test]
-fn after_a_stop_of_category_2_the_full_law_returns_over_its_ticks() {
+fn after_category_2_the_full_law_returns_gradually() {
     let mut supervisor = stopped_by(StopCategory::ControlledHold);
     modes(&mut supervisor, 2 * HOLD);
     supervisor.release();
@@ -206,7 +207,7 @@ fn after_a_stop_of_category_2_the_full_law_returns_over_its_ticks() {
 }
 
 #[test]
-fn an_arm_is_at_rest_when_each_of_its_joints_is() {
+fn an_arm_rests_when_each_joint_rests() {
     let supervisor = supervisor();
     // A hundredth of 2 rad/s, and 1 mrad/s.
     for (qd, rests) in [

@@ -82,7 +82,7 @@ where
 pub fn name<T>() -> &'static str {
     let path = type_name::<T>();
     let path = path.split('<').next().unwrap_or(path);
-    path.rsplit("::").next().unwrap_or(path)
+    path.rsplit(':').next().unwrap_or(path)
 }
 
 /// [`Effects`] and [`Without`] for one length.

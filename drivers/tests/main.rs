@@ -2,6 +2,8 @@
 
 mod absolute;
 mod can;
+mod can_joints;
+mod control_loop;
 mod drives;
 mod feetech;
 mod incremental;

@@ -6,8 +6,9 @@ use std::process::Command;
 use serde_json::Value;
 
 use super::Context;
-use crate::kit::error::Result;
-use crate::kit::shell;
+use crate::kit::error::{Result, refuse_if};
+use crate::kit::sources::sources;
+use crate::kit::{shell, workspace};
 
 /// The tests that take the compiler long: further robots and scalars of claims that are tested without.
 const FULL: &str =
@@ -34,7 +35,27 @@ pub fn clippy(context: &Context) -> Result<String> {
     ])
 }
 
+/// The files of tests beside a `main.rs` that does not name them, which cargo would not compile.
+fn unnamed(root: &Path) -> Result<Vec<PathBuf>> {
+    let mut unnamed = Vec::new();
+    let all = sources(root)?;
+    for main in all.iter().filter(|path| path.ends_with("tests/main.rs")) {
+        let text = workspace::read(main)?;
+        let beside = all.iter().filter(|path| path.parent() == main.parent());
+        unnamed.extend(beside.filter(|path| {
+            let name = path.file_stem().unwrap_or_default().to_string_lossy();
+            name != "main" && !text.contains(&format!("mod {name};"))
+        }));
+    }
+    Ok(unnamed.into_iter().cloned().collect())
+}
+
 pub fn tests(context: &Context) -> Result<String> {
+    let unnamed = unnamed(&context.workspace.root)?;
+    refuse_if!(
+        !unnamed.is_empty(),
+        "no `mod` in the `main.rs` beside them: {unnamed:?}"
+    );
     let more = if context.full { FULL } else { "" };
     // All failures in one run, which takes long.
     let [all, xtask] = TESTS;
@@ -98,7 +119,19 @@ fn count(output: &str) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::executable;
+    use super::{executable, unnamed};
+
+    #[test]
+    fn a_file_of_tests_without_its_mod_is_found() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let tests = folder.path().join("drivers/tests");
+        std::fs::create_dir_all(&tests).expect("a folder");
+        for (file, text) in [("main", "mod can;"), ("can", ""), ("loops", "")] {
+            std::fs::write(tests.join(format!("{file}.rs")), text).expect("a file");
+        }
+        let found = unnamed(folder.path()).expect("a folder");
+        assert_eq!(found, [tests.join("loops.rs")]);
+    }
 
     #[test]
     fn only_programs_of_tests_are_weighed() {

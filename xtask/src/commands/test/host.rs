@@ -19,9 +19,11 @@ const HOST: &str = "--workspace --exclude firmware-demo --exclude lab-target --e
 /// other features, and all crates would be compiled once more. xtask is there already, with its own.
 const SHARED: &str =
     "--workspace --exclude xtask --exclude telemetry-watch --exclude telemetry-pil";
-/// Not `--tests`, which takes the bins of the firmware for the target too, nor `--bins`, which takes those with `test = false`.
+/// Of the firmware's packages, whose bins are for the target, the libraries are tested through those that use them. Neither `--lib`
+/// nor `--bins`: they compile what has `test = false`, too.
 const TESTS: [&str; 2] = [
-    "test --workspace --exclude xtask --exclude telemetry-watch --exclude telemetry-pil --lib --test * --bin mutants",
+    "test --workspace --exclude xtask --exclude telemetry-watch --exclude telemetry-pil --exclude firmware-demo --exclude lab-target \
+     --tests",
     "test --package xtask",
 ];
 /// The part of the firmware that runs anywhere.

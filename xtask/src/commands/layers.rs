@@ -47,6 +47,14 @@ fn complaint(a: &Use) -> Option<String> {
     let ships = !by_lab && !is_unshipped(&a.user);
     let is_wrong = ships && (of_lab || !a.is_for_tests && is_unshipped(&a.used));
     let (user, used) = (a.user.display(), a.used.display());
+    // Dynamics know no controller, and neither knows a device.
+    let may_use = |name: &str| a.user == Path::new("motion-control") && a.used == Path::new(name);
+    let is_library = LIBRARIES
+        .iter()
+        .any(|(library, _)| Path::new(library).starts_with(&a.user));
+    if is_library && !a.is_for_tests && !may_use("dynamics-core") {
+        return Some(format!("{user}/Cargo.toml: a library uses `{used}`"));
+    }
     is_wrong.then(|| format!("{user}/Cargo.toml: what ships uses `{used}`, which does not"))
 }
 
@@ -276,11 +284,14 @@ mod tests {
             ("identification", "lab/target", true),
             ("telemetry/pil", "host-tests", false),
             ("boards/pico2", "xtask", false),
+            ("dynamics-core", "motion-control", false),
+            ("motion-control", "drivers", false),
         ] {
             assert!(verdict(user, used, is_for_tests).is_some(), "{user}");
         }
         for (user, used, is_for_tests) in [
             ("firmware-demo", "drivers", false),
+            ("motion-control", "dynamics-core", false),
             ("identification", "host-tests", true),
             ("host-tests/loops", "lab/target", false),
             ("lab/reports", "host-tests", false),

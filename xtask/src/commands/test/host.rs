@@ -11,8 +11,7 @@ use crate::kit::sources::sources;
 use crate::kit::{shell, workspace};
 
 /// The tests that take the compiler long: further robots and scalars of claims that are tested without.
-const FULL: &str =
-    "--features host-tests/full,robot-import/full,simulation-tests/full,specialised-tests/full";
+const FULL: &str = "--features host-tests/full,robot-import/full,simulation-tests/full,specialised-tests/full,trial-tests/full";
 /// All packages but the firmware and its listeners, which the steps `telemetry` and `pil` build and test.
 const HOST: &str = "--workspace --exclude firmware-demo --exclude lab-target --exclude telemetry-watch --exclude telemetry-pil";
 /// The packages whose tests are built at once, with one set of features of their dependencies: another selection of packages has

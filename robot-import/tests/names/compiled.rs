@@ -67,31 +67,48 @@ fn libraries(name: &str, folder: &str) -> Vec<PathBuf> {
 /// What written files and projects are compiled against: crates' names and their libraries.
 type Externs = [(&'static str, PathBuf); 4];
 
+/// Compiles against libraries that were built with each other alone.
+const PROBE: &str = "use ::joint_drivers::{Law, NoBrake};
+pub fn limits(limits: ::dynamics_core::model::JointLimits<f32>) -> ::motion_control::MotionLimits<f32> { limits.into() }
+pub fn torque<L: Law<1>>(state: &::dynamics_core::state::State<f32, 1, 1>) -> [f32; 1] { L::feedforward(state, &()) }
+pub fn gains<L: Law<1>>(gains: ::motion_control::Gains<f32, 1>, state: &::dynamics_core::state::State<f32, 1, 1>,
+    estimate: &::motion_control::Estimate<f32, 1>) -> [f32; 1] { L::torque(&gains, state, estimate, &()) }
+pub fn brake() -> impl ::embedded_hal::digital::OutputPin { NoBrake }
+";
+
 /// The newest libraries that were built with each other. The folder can have several of each crate, for other features.
 fn externs() -> &'static Externs {
     static EXTERNS: OnceLock<Externs> = OnceLock::new();
     EXTERNS.get_or_init(|| {
         let folder = Folder::new();
-        let root = folder.write(
-            "probe.rs",
-            "pub fn of(limits: ::dynamics_core::model::JointLimits<f32>) -> ::motion_control::MotionLimits<f32> { limits.into() }",
-        );
-        let newest = |name, folder| libraries(name, folder).swap_remove(0);
-        let set = |core: &PathBuf, control: &PathBuf| {
-            [
-                ("dynamics_core", core.clone()),
-                ("motion_control", control.clone()),
-                ("joint_drivers", newest("joint_drivers", "drivers")),
-                ("embedded_hal", newest("embedded_hal", "embedded-hal-1")),
-            ]
-        };
+        let root = folder.write("probe.rs", PROBE);
         let out = format!("metadata={}", folder.0.join("probe").display());
-        let controls = libraries("motion_control", "motion-control");
+        let fits = |set: &Externs| {
+            call("rustc", set, &root, &["--emit", &out])
+                .status
+                .success()
+        };
         let cores = libraries("dynamics_core", "dynamics-core");
-        let pairs = controls.iter().flat_map(|control| cores.iter().map(move |core| (core, control)));
-        let mut sets = pairs.map(|(core, control)| set(core, control));
-        let fits = |set: &Externs| call("rustc", set, &root, &["--emit", &out]).status.success();
-        sets.find(fits).expect("libraries that were built with each other")
+        let controls = libraries("motion_control", "motion-control");
+        let drivers = libraries("joint_drivers", "drivers");
+        let hals = libraries("embedded_hal", "embedded-hal-1");
+        let mut sets = hals.iter().flat_map(|hal| {
+            let (cores, controls, drivers) = (&cores, &controls, &drivers);
+            drivers.iter().flat_map(move |driver| {
+                controls.iter().flat_map(move |control| {
+                    cores.iter().map(move |core| {
+                        [
+                            ("dynamics_core", core.clone()),
+                            ("motion_control", control.clone()),
+                            ("joint_drivers", driver.clone()),
+                            ("embedded_hal", hal.clone()),
+                        ]
+                    })
+                })
+            })
+        });
+        sets.find(fits)
+            .expect("libraries that were built with each other")
     })
 }
 

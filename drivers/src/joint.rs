@@ -1,4 +1,4 @@
-//! What a control loop asks of the encoders and drives of a robot, whatever they are made of.
+//! The traits through which the control loop reads encoders and sets drives.
 //!
 //! Each has one trait for a joint ([`JointEncoder`], [`JointDrive`]), which an array of devices makes one for the robot
 //! ([`JointEncoders`], [`JointDrives`]). Devices that one transfer reads together implement the latter themselves.

@@ -1,8 +1,8 @@
 //! A control loop without its control law and devices: observer, supervisor, clock and the reaction to faults.
 //!
 //! A tick has four steps: [`MotionController::observe`] checks the measurement and updates the estimate,
-//! [`ObservedTick::reference`] gives the reference of the joints, the caller's law computes torques, and
-//! [`ReferencedTick::command`] limits them. [`MotionController::tick`] does all four with the law as a closure.
+//! [`ObservedTick::reference`](crate::ObservedTick::reference) gives the reference of the joints, the caller's law computes torques, and
+//! [`ReferencedTick::command`](crate::ReferencedTick::command) limits them. [`MotionController::tick`] does all four with the law as a closure.
 //!
 //! | a fault lasts | reference | estimate |
 //! |---|---|---|

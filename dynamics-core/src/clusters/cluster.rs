@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::engine::for_each_joint;
+use crate::engine::{Index, for_each_joint};
 use crate::model::JointCoordinate;
 use crate::scalar::Real;
 use crate::state::all_finite;
@@ -108,7 +108,7 @@ impl<R: Real, const M: usize, const N: usize> ClusterMotion<R, M, N> {
 pub(super) fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
     let mut sum = R::ZERO;
     for_each_joint!(K, {
-        if const { K < N } {
+        if Index::<K, N>::IS_BELOW {
             let term = a[K] * b[K];
             sum = if K == 0 { term } else { sum + term };
         }
@@ -120,7 +120,7 @@ pub(super) fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn add_torque<R: Real, const N: usize>(sums: &mut [Option<R>; N], g: &[R; N], tau: R) {
     for_each_joint!(K, {
-        if const { K < N } {
+        if Index::<K, N>::IS_BELOW {
             add(&mut sums[K], g[K] * tau);
         }
     });

@@ -1,13 +1,14 @@
 //! [`Clustered`]: the algorithms for a robot with clusters.
 
+use super::places::{TreeCoordinate, TreeLayout};
 use core::marker::PhantomData;
 
-use super::layout::{EXPANDED, NONE, at, joint};
+use super::layout::{EXPANDED, NONE};
 use super::set::{TreeState, sealed::Set};
 use super::{ClusterError, ClusteredRobot, TreeMotion};
 use crate::algorithms::rnea;
 use crate::effects::{Effect, JointState, OfBodies, no_load_friction};
-use crate::engine::{for_each_joint, has_subtree_functions};
+use crate::engine::{CompiledJoint, Index, for_each_joint, has_subtree_functions};
 use crate::model::{JointCoordinate, Robot, RobotModel, Static};
 use crate::scalar::Real;
 use crate::state::{JointTrig, State, entry};
@@ -84,7 +85,7 @@ where
     where
         T: ClusteredRobot<B, Q, V, P, Y>,
     {
-        let layout = const { &TreeMotion::<R, T, B, Q, V, P, Y>::LAYOUT };
+        let layout = TreeLayout::<T, B, Q, V, P, Y>::LAYOUT;
         for link in Static::<T, K>::NEW.links() {
             let v = link.coordinates().start;
             if layout.cluster.get(v) == Some(&NONE) {
@@ -118,9 +119,9 @@ where
         T: ClusteredRobot<B, Q, V, P, Y>,
     {
         for_each_joint!(J, {
-            if const { J < V && TreeMotion::<R, T, B, Q, V, P, Y>::LAYOUT.cluster[J] == NONE } {
+            if TreeCoordinate::<T, B, Q, V, P, Y, J>::IS_FREE {
                 // The engine takes joints of one coordinate only: J is the place of the position, too.
-                turns[J] = match const { joint(&T::MODEL, J) } {
+                turns[J] = match TreeCoordinate::<T, B, Q, V, P, Y, J>::JOINT {
                     (true, _) => JointCoordinate::linear(q[J]),
                     (false, true) => JointCoordinate::revolute_bounded::<K>(q[J]),
                     (false, false) => JointCoordinate::with_kernel::<K>(q[J]),
@@ -144,9 +145,9 @@ where
             coordinates: [JointCoordinate::default(); Q],
         };
         for_each_joint!(J, {
-            if const { J < V } {
+            if Index::<J, V>::IS_BELOW {
                 let of = &trig.coordinates[J];
-                turns.coordinates[J] = if const { joint(&T::MODEL, J).0 } {
+                turns.coordinates[J] = if CompiledJoint::<T, B, Q, V, J>::PRISMATIC {
                     *of
                 } else {
                     JointCoordinate { q: R::ZERO, ..*of }
@@ -159,7 +160,7 @@ where
         };
         let mut tau = Engine::<T>::run(&turns, &turns, &at_zero, &OfBodies(effects));
         for_each_joint!(J, {
-            if const { J < V } {
+            if Index::<J, V>::IS_BELOW {
                 effects.torque(J, JointState::new(state.q[J], state.qd[J]), &mut tau[J]);
                 if let Some(inertia) = effects.inertia(J) {
                     tau[J] += inertia * state.qdd[J];
@@ -270,7 +271,7 @@ where
     A: TreeAlgorithms<R, B, Q, V>,
     A::Robot: ClusteredRobot<B, Q, V, P, Y>,
 {
-    let layout = const { &TreeMotion::<R, A::Robot, B, Q, V, P, Y>::LAYOUT };
+    let layout = TreeLayout::<A::Robot, B, Q, V, P, Y>::LAYOUT;
     let mut tree = State {
         q: [R::ZERO; Q],
         qd: [R::ZERO; V],
@@ -279,8 +280,8 @@ where
     // Not by loops alone, which might not be unrolled: the tree's state would stay in memory, and with it numbers that
     // no effect reads.
     for_each_joint!(J, {
-        let p = const { at(&TreeMotion::<R, A::Robot, B, Q, V, P, Y>::LAYOUT.free_q, J) };
-        let y_k = const { at(&TreeMotion::<R, A::Robot, B, Q, V, P, Y>::LAYOUT.free, J) };
+        let p = TreeCoordinate::<A::Robot, B, Q, V, P, Y, J>::FREE_POSITION;
+        let y_k = TreeCoordinate::<A::Robot, B, Q, V, P, Y, J>::FREE_VELOCITY;
         if p < P {
             tree.q[J] = y.q[p];
         }

@@ -1,7 +1,5 @@
 //! How a robot with clusters is described: its spanning tree, and what drives its coordinates.
 
-use super::layout::Layout;
-use super::set::sealed;
 use super::{ClusterError, ClusterProblem, ClusterSet};
 use crate::model::Robot;
 
@@ -209,19 +207,4 @@ pub trait ClusteredRobot<
     const CLUSTERS: Self::Clusters;
     /// Which velocity coordinates of the tree each cluster drives, in the order of its rows.
     const COORDINATES: &'static [&'static [usize]];
-}
-
-/// The layout of a robot's coordinates, with its checks.
-pub(super) struct Places<T, const B: usize, const P: usize, const Y: usize>(
-    core::marker::PhantomData<T>,
-);
-
-impl<T, const B: usize, const P: usize, const Y: usize> Places<T, B, P, Y> {
-    pub(super) const fn layout<const Q: usize, const V: usize>() -> Layout<Q, V>
-    where
-        T: ClusteredRobot<B, Q, V, P, Y>,
-    {
-        let sizes = <T::Clusters as sealed::Set>::SIZES;
-        Layout::of(&T::MODEL, T::COORDINATES, sizes, [P, Y])
-    }
 }

@@ -64,6 +64,7 @@ mod linkages;
 mod motor_motion;
 mod motors;
 mod passes;
+mod places;
 mod set;
 mod status;
 mod tree_motion;

@@ -123,7 +123,7 @@ where
     /// [`Clustered::motors`].
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn motors(&self, y: &State<R, P, Y>) -> State<R, P, Y> {
-        let (set, layout) = const { (T::CLUSTERS, &Self::LAYOUT) };
+        let (set, layout) = (const { T::CLUSTERS }, Self::LAYOUT);
         let mut out = *y;
         for (c, coordinates) in T::COORDINATES.iter().enumerate() {
             let (Some(rows), Some(&[p, first])) = (set.actuated(c), layout.first.get(c)) else {

@@ -1,12 +1,12 @@
 //! The torques of a robot's motors, where they are not at the independent coordinates of its clusters.
 
-use super::description::Places;
+use super::places::TreeLayout;
 use super::set::sealed::Set;
 use super::{
     Cluster, ClusterError, ClusterMotion, ClusterProblem, ClusteredRobot, Driven, TreeMotion,
 };
 use crate::algorithms::shifted_inverse;
-use crate::engine::for_each_joint;
+use crate::engine::{Index, for_each_joint};
 use crate::scalar::Real;
 use crate::state::{all_finite, entry};
 
@@ -117,8 +117,7 @@ where
     pub fn from_motors(&self, tau: &[R; Y]) -> [R; Y] {
         let (mut out, set) = (*tau, const { T::CLUSTERS });
         for c in 0..<T::Clusters as Set>::SIZES.len() {
-            let (Some(actuated), Some(&[_, first])) =
-                (set.actuated(c), const { &Self::LAYOUT }.first.get(c))
+            let (Some(actuated), Some(&[_, first])) = (set.actuated(c), Self::LAYOUT.first.get(c))
             else {
                 continue;
             };
@@ -154,7 +153,7 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
         let Some(rows) = self.actuated else {
             return Ok(());
         };
-        let [_, first] = const { Places::<T, B, P, Y>::layout::<Q, V>().first[I] };
+        let [_, first] = TreeLayout::<T, B, Q, V, P, Y>::LAYOUT.first[I];
         let g = rows.map(|row| motion.g.get(row).copied().unwrap_or([R::ZERO; N]));
         let wanted: [R; N] = core::array::from_fn(|k| entry(&torques.tau, first + k));
         let (tau, singular) = match solve(&g, &wanted, &self.per.map(R::from_f64)) {
@@ -210,7 +209,7 @@ fn eliminate<R: Real, const N: usize>(
     let mut inv = [R::ZERO; N];
     // Not a loop, which might not be unrolled: the matrix is then addressed entry by entry.
     for_each_joint!(K, {
-        if const { K < N } {
+        if Index::<K, N>::IS_BELOW {
             for i in K + 1..N {
                 if a[i][K].abs() > a[K][K].abs() * R::from_f64(PIVOT) {
                     a.swap(i, K);
@@ -229,7 +228,7 @@ fn eliminate<R: Real, const N: usize>(
         }
     });
     for_each_joint!(J, {
-        if const { J < N } {
+        if Index::<J, N>::IS_BELOW {
             let k = const { N.saturating_sub(J + 1) };
             for j in k + 1..N {
                 b[k] -= a[k][j] * b[j];

@@ -1,6 +1,7 @@
 //! The first and the third pass of forward dynamics by clusters, [`Clustered::aba`](super::Clustered::aba), and the
 //! forces within a cluster; the second pass is in `inward.rs`.
 
+use super::places::TreeLayout;
 use heapless::Vec;
 
 use super::articulated::{Body, Factor, Group};
@@ -91,13 +92,13 @@ where
     fn cluster(&self, i: usize) -> usize {
         let link = self.bodies.get(i).map(|body| &body.link);
         let v = link.map_or(NONE, LinkView::idx_v);
-        let clusters = const { &TreeMotion::<R, T, B, Q, V, P, Y>::LAYOUT.cluster };
+        let clusters = &TreeLayout::<T, B, Q, V, P, Y>::LAYOUT.cluster;
         clusters.get(v).copied().unwrap_or(NONE)
     }
 
     /// The cluster or joint that moves body `i`, if `i` is its first body.
     pub(super) fn group(&self, i: usize) -> Option<Group> {
-        let layout = const { &TreeMotion::<R, T, B, Q, V, P, Y>::LAYOUT };
+        let layout = TreeLayout::<T, B, Q, V, P, Y>::LAYOUT;
         let cluster = self.cluster(i);
         if let (Some(&root), Some(&[_, first])) =
             (layout.root.get(cluster), layout.first.get(cluster))

@@ -1,11 +1,10 @@
 //! All clusters of a robot: a tuple.
 
 use super::cluster::{add, add_torque, dot};
-use super::description::Places;
-use super::layout::{at, independent};
 use super::motors::MotorTorques;
+use super::places::{ClusterRow, IndependentRow, TreeLayout};
 use super::{Cluster, ClusterError, ClusterMotion, ClusteredRobot, Driven};
-use crate::engine::for_each_joint;
+use crate::engine::{Index, for_each_joint};
 use crate::model::JointCoordinate;
 use crate::scalar::Real;
 use crate::state::{State, entry};
@@ -115,7 +114,7 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
         y: &State<R, P, Y>,
         tree: &mut TreeState<'_, R, Q, V>,
     ) -> Result<ClusterMotion<R, M, N>, ClusterError> {
-        let layout = const { &Places::<T, B, P, Y>::layout::<Q, V>() };
+        let layout = TreeLayout::<T, B, Q, V, P, Y>::LAYOUT;
         let [p, first] = layout.first[I];
         let place = core::array::from_fn(|k| {
             let y = entry(&y.q, p + k);
@@ -133,21 +132,16 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
         };
         for_each_joint!(J, {
             // Not a loop, which might not be unrolled: angles that no effect reads are then computed.
-            if const { J < M } {
-                let v = const { at(T::COORDINATES[I], J) };
-                let q = const {
-                    at(
-                        &Places::<T, B, P, Y>::layout::<Q, V>().position,
-                        at(T::COORDINATES[I], J),
-                    )
-                };
+            if Index::<J, M>::IS_BELOW {
+                let v = ClusterRow::<T, B, Q, V, P, Y, I, J>::VELOCITY;
+                let q = ClusterRow::<T, B, Q, V, P, Y, I, J>::POSITION;
                 if let (Some(turn), Some(angle)) = (tree.turns.get_mut(q), tree.state.q.get_mut(q))
                 {
                     (*turn, *angle) = (motion.q[J], motion.q[J].q);
                 }
                 if let (Some(qd), Some(qdd)) = (tree.state.qd.get_mut(v), tree.state.qdd.get_mut(v))
                 {
-                    (*qd, *qdd) = match const { independent::<N>(&C::INDEPENDENT, J) } {
+                    (*qd, *qdd) = match IndependentRow::<C, M, N, J>::COLUMN {
                         Some(k) => (entry(&yd, k), entry(&ydd, k)),
                         None => {
                             let g = &motion.g[J];
@@ -176,12 +170,12 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
         tau: &[R; V],
         out: &mut [R; Y],
     ) {
-        let layout = const { &Places::<T, B, P, Y>::layout::<Q, V>() };
+        let layout = TreeLayout::<T, B, Q, V, P, Y>::LAYOUT;
         let mut sums = [None; N];
         for_each_joint!(J, {
-            if const { J < M } {
-                let tau = entry(tau, const { at(T::COORDINATES[I], J) });
-                match const { independent::<N>(&C::INDEPENDENT, J) } {
+            if Index::<J, M>::IS_BELOW {
+                let tau = entry(tau, ClusterRow::<T, B, Q, V, P, Y, I, J>::VELOCITY);
+                match IndependentRow::<C, M, N, J>::COLUMN {
                     Some(k) => {
                         if let Some(sum) = sums.get_mut(k) {
                             add(sum, tau);

@@ -1,9 +1,9 @@
 //! The state of the spanning tree at independent coordinates, and the maps of torques, M and Jacobians to these.
 
+use super::places::{TreeCoordinate, TreeLayout};
 use core::fmt;
 
-use super::description::Places;
-use super::layout::{EXPANDED, Layout, NONE, at};
+use super::layout::{EXPANDED, Layout, NONE};
 use super::set::sealed::Set;
 use super::{ClusterError, ClusterProblem, ClusteredRobot};
 use crate::algorithms::MassMatrix;
@@ -96,7 +96,7 @@ where
     R: Real,
     T: ClusteredRobot<B, Q, V, P, Y>,
 {
-    pub(super) const LAYOUT: Layout<Q, V> = Places::<T, B, P, Y>::layout::<Q, V>();
+    pub(super) const LAYOUT: &'static Layout<Q, V> = TreeLayout::<T, B, Q, V, P, Y>::LAYOUT;
 
     /// γ(y), G ẏ and G ÿ + Ġ ẏ: the state of the tree with its sines and cosines.
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -126,9 +126,9 @@ where
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn torque(&self, tau: &[R; V]) -> [R; Y] {
         let mut out = [R::ZERO; Y];
-        let layout = const { &Self::LAYOUT };
+        let layout = Self::LAYOUT;
         for_each_joint!(J, {
-            let place = const { at(&Self::LAYOUT.free, J) };
+            let place = TreeCoordinate::<T, B, Q, V, P, Y, J>::FREE_VELOCITY;
             if place < Y {
                 out[place] = tau[J];
             }
@@ -199,7 +199,7 @@ where
     #[cold]
     #[inline(never)]
     fn not_finite(of_y: &[R; Y]) -> ClusterError {
-        let layout = const { &Self::LAYOUT };
+        let layout = Self::LAYOUT;
         let mut clusters = layout.first.iter().zip(&layout.count).enumerate();
         let found = clusters.find(|&(_, (&[_, first], &count))| {
             let own = of_y.iter().skip(first).take(count);
@@ -214,7 +214,7 @@ where
     /// Row v of G, beginning at a place of ẏ, and the entry of Ġ ẏ.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn row(&self, v: usize) -> (usize, &[R], R) {
-        let layout = const { &Self::LAYOUT };
+        let layout = Self::LAYOUT;
         match layout.cluster.get(v) {
             Some(&NONE) | None => (entry(&layout.free, v), &self.one, R::ZERO),
             Some(&c) => {

@@ -10,14 +10,14 @@ use core::marker::PhantomData;
 
 use super::acceleration_field::{Wrench, enter};
 use super::articulated_inertia::Articulated;
-use super::compile::CompiledRobot;
+use super::compile::{CompiledJoint, CompiledRobot, JointPair};
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::gate::EngineScene;
 use super::ltdl::positive;
 use super::pivot_noise::noise;
-use super::rnea::{inertia, is_on_base, is_parent};
-use super::{Engine, Specialised};
+use super::rnea::inertia;
+use super::{Engine, Specialised, only_if};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::Effect;
 use crate::model::{BASE, JointCoordinate, Robot};
@@ -95,8 +95,13 @@ where
         x: &mut x,
     };
     for_each_joint!(J, {
-        if const { is_on_base::<T, B, Q, V>(J) } {
-            let _ = inward::<R, T, E, B, Q, V, J>(&mut task);
+        if let Some(inward) = const {
+            only_if(
+                CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
+                inward::<R, T, E, B, Q, V, J> as Inward<R, E, Q, V>,
+            )
+        } {
+            let _ = inward(&mut task);
         }
     });
     positive(
@@ -104,12 +109,22 @@ where
         &noise::<R, T, E, B, Q, V>(&trig.coordinates, effects),
     )?;
     for_each_joint!(J, {
-        if const { is_on_base::<T, B, Q, V>(J) } {
-            outward::<R, T, E, B, Q, V, J>(&mut task, [R::Vec3::ZERO; 2]);
+        if let Some(outward) = const {
+            only_if(
+                CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
+                outward::<R, T, E, B, Q, V, J> as Outward<R, E, Q, V>,
+            )
+        } {
+            outward(&mut task, [R::Vec3::ZERO; 2]);
         }
     });
     Ok(x)
 }
+
+type Inward<R, E, const Q: usize, const V: usize> =
+    fn(&mut Task<'_, R, E, Q, V>) -> (Articulated<R>, Wrench<R>);
+type Outward<R, E, const Q: usize, const V: usize> =
+    fn(&mut Task<'_, R, E, Q, V>, [<R as Real>::Vec3; 2]);
 
 /// The inward pass: the articulated inertia of joint I and its bias force, in the parent's frame.
 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -121,8 +136,8 @@ where
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
-    let length_inv = Folded::constant(const { 1.0 / CompiledRobot::<T, B, Q, V>::TREE.length });
+    let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
+    let length_inv = Folded::constant(CompiledRobot::<T, B, Q, V>::LENGTH_INV);
     let body = inertia::<R, T, E, B, Q, V, I>(task.effects, false);
     let mut ia = Articulated::of(&body);
     let mut push = Wrench {
@@ -130,8 +145,13 @@ where
         n: Vec3::ZERO,
     };
     for_each_joint!(J, {
-        if const { is_parent::<T, B, Q, V>(I, J) } {
-            let (inertia, wrench) = inward::<R, T, E, B, Q, V, J>(task);
+        if let Some(inward) = const {
+            only_if(
+                JointPair::<T, B, Q, V, I, J>::IS_PARENT,
+                inward::<R, T, E, B, Q, V, J> as Inward<R, E, Q, V>,
+            )
+        } {
+            let (inertia, wrench) = inward(task);
             ia = ia + inertia;
             push = Wrench {
                 f: push.f + wrench.f,
@@ -181,8 +201,8 @@ fn outward<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usi
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
-    let length_inv = Folded::constant(const { 1.0 / CompiledRobot::<T, B, Q, V>::TREE.length });
+    let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
+    let length_inv = Folded::constant(CompiledRobot::<T, B, Q, V>::LENGTH_INV);
     let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
     let turn = task.turns[I];
     // Plain numbers: what is known of them ends with the first joints, which are at rest.
@@ -213,8 +233,13 @@ fn outward<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usi
         alpha.0[2] = alpha.0[2] + qdd;
     }
     for_each_joint!(J, {
-        if const { is_parent::<T, B, Q, V>(I, J) } {
-            outward::<R, T, E, B, Q, V, J>(task, [alpha.get(), a.get()]);
+        if let Some(outward) = const {
+            only_if(
+                JointPair::<T, B, Q, V, I, J>::IS_PARENT,
+                outward::<R, T, E, B, Q, V, J> as Outward<R, E, Q, V>,
+            )
+        } {
+            outward(task, [alpha.get(), a.get()]);
         }
     });
 }

@@ -14,7 +14,7 @@
 
 use core::ops::Add;
 
-use super::compile::{CompiledRobot, Joint};
+use super::compile::{CompiledJoint, Joint};
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
 use super::folding::{offset_cross, rotate_symmetric_to_parent, rotate_to_parent};
@@ -93,7 +93,7 @@ impl<R: Real> Wrench<R> {
         T: Robot<B, Q, V>,
     {
         let (mut f, mut n) = (self.f, self.n);
-        if const { !CompiledRobot::<T, B, Q, V>::joint(I).prismatic } {
+        if !CompiledJoint::<T, B, Q, V, I>::PRISMATIC {
             let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
             (f, n) = (f.turn(sin, cos), n.turn(sin, cos));
         }
@@ -175,10 +175,10 @@ impl<R: Real> Inertia<R> {
     where
         T: Robot<B, Q, V>,
     {
-        let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
+        let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
         let mut p = Vec3::constant(joint.pos);
         let (mut h, mut second) = (self.moment, self.second);
-        if const { CompiledRobot::<T, B, Q, V>::joint(I).prismatic } {
+        if CompiledJoint::<T, B, Q, V, I>::PRISMATIC {
             p = p + Vec3::constant(joint.rot.z_axis).scale(slide);
         } else {
             let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));

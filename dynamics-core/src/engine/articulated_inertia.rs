@@ -9,7 +9,7 @@
 use core::ops::Add;
 
 use super::acceleration_field::Inertia;
-use super::compile::CompiledRobot;
+use super::compile::CompiledJoint;
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
 use super::folding::{cross_offset, rotate_matrix_to_parent, rotate_symmetric_to_parent};
@@ -76,7 +76,7 @@ impl<R: Real> Articulated<R> {
         T: Robot<B, Q, V>,
     {
         let mut at = self;
-        if const { !CompiledRobot::<T, B, Q, V>::joint(I).prismatic } {
+        if !CompiledJoint::<T, B, Q, V, I>::PRISMATIC {
             let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
             at = Self {
                 ang: at.ang.turn(sin, cos),

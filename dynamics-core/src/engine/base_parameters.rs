@@ -59,7 +59,7 @@ impl<T, K> Engine<T, K> {
     {
         let mut joints = joints_of(robot, effects)?;
         let sizes = sizes::<R, T, E, B, Q, V>(robot, effects);
-        let length = R::from_f64(const { CompiledRobot::<T, B, Q, V>::TREE.length });
+        let length = R::from_f64(CompiledRobot::<T, B, Q, V>::LENGTH);
         let mut set = BaseParameters {
             joints: [RegroupedInertia::default(); V],
             robot: PhantomData,

@@ -8,12 +8,12 @@ use core::marker::PhantomData;
 
 use super::acceleration_field::{Inertia, Wrench, along_z};
 use super::base::no_gyroscopic_rotors;
-use super::compile::CompiledRobot;
+use super::compile::{CompiledJoint, CompiledRobot, JointPair};
 use super::folding::Folded;
 use super::folding::Vec3;
 use super::gate::EngineScene;
-use super::rnea::{inertia, is_on_base, is_parent};
-use super::{Engine, Specialised};
+use super::rnea::inertia;
+use super::{Engine, Specialised, only_if};
 use crate::algorithms::MassMatrix;
 use crate::effects::Effect;
 use crate::model::{BASE, JointCoordinate, Robot};
@@ -84,11 +84,18 @@ pub(crate) fn mass_matrix<R, T, E, const B: usize, const Q: usize, const V: usiz
     no_gyroscopic_rotors::<R, E, B, V>();
     let mut task = Task { turns, effects, m };
     for_each_joint!(J, {
-        if const { is_on_base::<T, B, Q, V>(J) } {
-            let _ = composite::<R, T, E, B, Q, V, J>(&mut task);
+        if let Some(composite) = const {
+            only_if(
+                CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
+                composite::<R, T, E, B, Q, V, J> as Composite<R, E, Q, V>,
+            )
+        } {
+            let _ = composite(&mut task);
         }
     });
 }
+
+type Composite<R, E, const Q: usize, const V: usize> = fn(&mut Task<'_, R, E, Q, V>) -> Inertia<R>;
 
 /// Writes the columns of joint I and of its descendants; returns their inertia in the parent's
 /// frame.
@@ -103,12 +110,17 @@ where
 {
     let mut body = inertia::<R, T, E, B, Q, V, I>(task.effects, false);
     for_each_joint!(J, {
-        if const { is_parent::<T, B, Q, V>(I, J) } {
-            body = body + composite::<R, T, E, B, Q, V, J>(task);
+        if let Some(composite) = const {
+            only_if(
+                JointPair::<T, B, Q, V, I, J>::IS_PARENT,
+                composite::<R, T, E, B, Q, V, J> as Composite<R, E, Q, V>,
+            )
+        } {
+            body = body + composite(task);
         }
     });
     column::<R, T, E, B, Q, V, I>(task, &body);
-    let length_inv = Folded::constant(const { 1.0 / CompiledRobot::<T, B, Q, V>::TREE.length });
+    let length_inv = Folded::constant(CompiledRobot::<T, B, Q, V>::LENGTH_INV);
     let turn = task.turns[I];
     body.to_parent::<T, B, Q, V, I>(turn, Folded::runtime(turn.q) * length_inv)
 }
@@ -123,8 +135,8 @@ fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usiz
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
-    let length_inv = Folded::constant(const { 1.0 / CompiledRobot::<T, B, Q, V>::TREE.length });
+    let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
+    let length_inv = Folded::constant(CompiledRobot::<T, B, Q, V>::LENGTH_INV);
     let ([hx, hy, _], s) = (body.moment.0, &body.second);
     let mut wrench = if joint.prismatic {
         Wrench {
@@ -142,13 +154,13 @@ fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usiz
     task.m.rows[I][I] = diagonal;
     // From joint I to the base: parents come before their children.
     for_each_joint_reversed!(K, {
-        if const { CompiledRobot::<T, B, Q, V>::supports(K, I) } {
-            let joint = const { &CompiledRobot::<T, B, Q, V>::joint(K) };
+        if JointPair::<T, B, Q, V, K, I>::SUPPORTS {
+            let joint = CompiledJoint::<T, B, Q, V, K>::JOINT;
             if joint.parent != BASE {
                 let turn = task.turns[K];
                 wrench =
                     wrench.to_parent::<T, B, Q, V, K>(turn, Folded::runtime(turn.q) * length_inv);
-                let parent = const { &CompiledRobot::<T, B, Q, V>::parent_of(K) };
+                let parent = CompiledJoint::<T, B, Q, V, K>::PARENT;
                 let entry = wrench.along(parent.prismatic, length_inv).get();
                 task.m.rows[I][joint.parent] = entry;
                 task.m.rows[joint.parent][I] = entry;

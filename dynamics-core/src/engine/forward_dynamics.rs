@@ -11,7 +11,7 @@ use super::crba::mass_matrix;
 use super::gate::EngineScene;
 use super::ltdl::{decompose, positive, substitute};
 use super::pivot_noise::noise;
-use super::{Engine, Specialised};
+use super::{Engine, Index, Specialised};
 use crate::algorithms::MassMatrix;
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::{Bias, Effect, JointState, transmitted};
@@ -80,7 +80,7 @@ impl<T, K> Engine<T, K> {
         let mut rest = *tau;
         if const { E::LOAD_DEPENDENT } {
             for_each_joint!(J, {
-                if const { J < V } {
+                if Index::<J, V>::IS_BELOW {
                     let at = JointState::new(state.q[J], state.qd[J]);
                     rest[J] = transmitted(effects, J, at, rest[J]);
                 }
@@ -112,7 +112,7 @@ impl<T> Engine<T> {
         let bias = Self::run(trig, trig, state, &Bias(effects));
         let mut rest = Self::transmitted_torque(state, tau, effects);
         for_each_joint!(J, {
-            if const { J < V } {
+            if Index::<J, V>::IS_BELOW {
                 rest[J] -= bias[J];
             }
         });

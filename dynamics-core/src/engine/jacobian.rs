@@ -5,12 +5,11 @@
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 
-use super::compile::CompiledRobot;
+use super::compile::{CompiledJoint, CompiledRobot, JointAndBody, JointPair};
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
-use super::rnea::is_parent;
-use super::{Engine, Specialised};
-use crate::model::{BASE, JointCoordinate, Robot};
+use super::{Engine, Specialised, only_if};
+use crate::model::{JointCoordinate, Robot};
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
 use crate::state::Configuration;
@@ -75,13 +74,22 @@ where
     }
     let mut columns = [Motion::ZERO; V];
     for_each_joint!(J, {
-        if const { is_supporting::<T, B, Q, V, BODY>(BASE, J) } {
+        if let Some(reach) = const {
+            only_if(
+                CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE
+                    && JointAndBody::<T, B, Q, V, J, BODY>::SUPPORTS,
+                reach::<R, T, B, Q, V, BODY, J> as Reach<R, Q, V>,
+            )
+        } {
             let base = Mat3::constant(&glam::DMat3::IDENTITY);
-            let _ = reach::<R, T, B, Q, V, BODY, J>(turns, &base, &mut columns);
+            let _ = reach(turns, &base, &mut columns);
         }
     });
     columns
 }
+
+type Reach<R, const Q: usize, const V: usize> =
+    fn(&[JointCoordinate<R>; Q], &Mat3<R>, &mut [Motion<R>; V]) -> Vec3<R>;
 
 /// Writes the columns of joint I and of its descendants; returns the offset of the body's origin from the
 /// parent's, in base coordinates, m. `parent` holds the axes of the parent's frame.
@@ -102,8 +110,8 @@ fn reach<
 where
     T: Robot<B, Q, V>,
 {
-    let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
-    let length = const { CompiledRobot::<T, B, Q, V>::TREE.length };
+    let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
+    let length = CompiledRobot::<T, B, Q, V>::LENGTH;
     let rot = Mat3::constant(&joint.rot);
     let [x, y, z] = rot.0;
     let (x, y, z) = (parent.mul(x), parent.mul(y), parent.mul(z));
@@ -116,13 +124,19 @@ where
         axes = Mat3([x.scale(cos) + y.scale(sin), y.scale(cos) - x.scale(sin), z]);
     }
     let mut beyond = Vec3::<R>::ZERO;
-    if const { CompiledRobot::<T, B, Q, V>::place(BODY).joint == I } {
-        let place = const { &CompiledRobot::<T, B, Q, V>::place(BODY) };
+    if JointAndBody::<T, B, Q, V, I, BODY>::IS_ON_JOINT {
+        let place = JointAndBody::<T, B, Q, V, I, BODY>::PLACE;
         beyond = axes.mul(Vec3::constant(place.pos * length));
     }
     for_each_joint!(J, {
-        if const { is_supporting::<T, B, Q, V, BODY>(I, J) } {
-            beyond = reach::<R, T, B, Q, V, BODY, J>(turns, &axes, columns);
+        if let Some(reach) = const {
+            only_if(
+                JointPair::<T, B, Q, V, I, J>::IS_PARENT
+                    && JointAndBody::<T, B, Q, V, J, BODY>::SUPPORTS,
+                reach::<R, T, B, Q, V, BODY, J> as Reach<R, Q, V>,
+            )
+        } {
+            beyond = reach(turns, &axes, columns);
         }
     });
     columns[I] = if joint.prismatic {
@@ -131,16 +145,4 @@ where
         Motion::new(z.get(), z.cross(beyond).get())
     };
     offset + beyond
-}
-
-/// Whether joint `j` is the child of joint `i` that supports the body.
-const fn is_supporting<T, const B: usize, const Q: usize, const V: usize, const BODY: usize>(
-    i: usize,
-    j: usize,
-) -> bool
-where
-    T: Robot<B, Q, V>,
-{
-    is_parent::<T, B, Q, V>(i, j)
-        && CompiledRobot::<T, B, Q, V>::supports(j, CompiledRobot::<T, B, Q, V>::place(BODY).joint)
 }

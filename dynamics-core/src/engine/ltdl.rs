@@ -3,8 +3,8 @@
 //! Featherstone, RBDA (2008), section 6.5, tables 6.3 and 6.4: from the tips to the base, so that no zero is filled.
 //! All sums run over the ancestors of a joint, λ(i), λ(λ(i)) …
 
-use super::Engine;
-use super::compile::CompiledRobot;
+use super::compile::JointPair;
+use super::{Engine, Index, only_if};
 use crate::algorithms::{Ltdl, MassMatrix};
 use crate::algorithms::{MATRIX_ROUNDINGS, NotPositiveDefinite};
 use crate::model::Robot;
@@ -44,7 +44,7 @@ impl<T, K> Engine<T, K> {
         let d_inv = decompose::<R, T, B, Q, V>(&mut rows);
         let mut noise = [R::ZERO; V];
         for_each_joint!(J, {
-            if const { J < V } {
+            if Index::<J, V>::IS_BELOW {
                 noise[J] = m.rows[J][J] * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS));
             }
         });
@@ -84,9 +84,14 @@ where
 {
     let mut d_inv = [R::ZERO; V];
     for_each_joint_reversed!(K, {
-        if const { K < V } {
+        if let Some(eliminate) = const {
+            only_if(
+                K < V,
+                eliminate::<R, T, B, Q, V, K> as fn(&mut [[R; V]; V], R),
+            )
+        } {
             d_inv[K] = R::ONE / m[K][K];
-            eliminate::<R, T, B, Q, V, K>(m, d_inv[K]);
+            eliminate(m, d_inv[K]);
         }
     });
     d_inv
@@ -101,9 +106,14 @@ fn eliminate<R: Real, T, const B: usize, const Q: usize, const V: usize, const K
     T: Robot<B, Q, V>,
 {
     for_each_joint_reversed!(I, {
-        if const { CompiledRobot::<T, B, Q, V>::is_ancestor(I, K) } {
+        if let Some(subtract) = const {
+            only_if(
+                JointPair::<T, B, Q, V, I, K>::IS_ANCESTOR,
+                subtract::<R, T, B, Q, V, K, I> as fn(&mut [[R; V]; V], R),
+            )
+        } {
             let l = m[K][I] * d_inv;
-            subtract::<R, T, B, Q, V, K, I>(m, l);
+            subtract(m, l);
             m[K][I] = l;
         }
     });
@@ -126,11 +136,14 @@ fn subtract<
     T: Robot<B, Q, V>,
 {
     for_each_joint!(J, {
-        if const { CompiledRobot::<T, B, Q, V>::supports(J, I) } {
+        if JointPair::<T, B, Q, V, J, I>::SUPPORTS {
             m[I][J] -= l * m[K][J];
         }
     });
 }
+
+/// A function of one row.
+type Row<R, const V: usize> = fn(&[[R; V]; V], &mut [R; V]);
 
 /// Lᵀ y = τ, D z = y, L x = z, in place.
 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -142,14 +155,14 @@ pub(crate) fn substitute<R: Real, T, const B: usize, const Q: usize, const V: us
     T: Robot<B, Q, V>,
 {
     for_each_joint_reversed!(I, {
-        if const { I < V } {
-            scatter::<R, T, B, Q, V, I>(l, x);
+        if let Some(scatter) = const { only_if(I < V, scatter::<R, T, B, Q, V, I> as Row<R, V>) } {
+            scatter(l, x);
         }
     });
     for_each_joint!(I, {
-        if const { I < V } {
+        if let Some(gather) = const { only_if(I < V, gather::<R, T, B, Q, V, I> as Row<R, V>) } {
             x[I] *= d_inv[I];
-            gather::<R, T, B, Q, V, I>(l, x);
+            gather(l, x);
         }
     });
 }
@@ -163,7 +176,7 @@ fn scatter<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: 
     T: Robot<B, Q, V>,
 {
     for_each_joint!(J, {
-        if const { CompiledRobot::<T, B, Q, V>::is_ancestor(J, I) } {
+        if JointPair::<T, B, Q, V, J, I>::IS_ANCESTOR {
             x[J] -= l[I][J] * x[I];
         }
     });
@@ -178,7 +191,7 @@ fn gather<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: u
     T: Robot<B, Q, V>,
 {
     for_each_joint!(J, {
-        if const { CompiledRobot::<T, B, Q, V>::is_ancestor(J, I) } {
+        if JointPair::<T, B, Q, V, J, I>::IS_ANCESTOR {
             x[I] -= l[I][J] * x[J];
         }
     });
@@ -192,7 +205,7 @@ pub(crate) fn positive<R: Real, const V: usize>(
 ) -> Result<(), NotPositiveDefinite> {
     let mut all = true;
     for_each_joint!(J, {
-        if const { J < V } {
+        if Index::<J, V>::IS_BELOW {
             all &= is_pivot(d_inv[J], noise[J]);
         }
     });

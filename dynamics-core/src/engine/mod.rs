@@ -35,6 +35,20 @@ macro_rules! for_each_joint_reversed {
     };
 }
 
+/// The place I in a list of N: a constant with a name, which the compiler evaluates once, and not in each instance of a function.
+pub(crate) struct Index<const I: usize, const N: usize>;
+
+impl<const I: usize, const N: usize> Index<I, N> {
+    /// Whether there is an I-th.
+    pub(crate) const IS_BELOW: bool = I < N;
+}
+
+/// The function if the condition holds, for an inline `const`. A call in a branch that is never taken would still make the
+/// compiler visit its function and all that this calls: 32 × 32 pairs of joints in place of those that exist.
+const fn only_if<F: Copy>(condition: bool, function: F) -> Option<F> {
+    if condition { Some(function) } else { None }
+}
+
 mod aba;
 mod acceleration_field;
 mod articulated_inertia;
@@ -63,9 +77,10 @@ use crate::scalar::{Native, Real};
 use crate::state::{Configuration, JointTrig, RobotState, State, TrigSource};
 use crate::trig::Kernel;
 use base::base;
+pub(crate) use compile::CompiledJoint;
 use compile::CompiledRobot;
 use gate::EngineScene;
-use rnea::{Task, is_on_base, visit};
+use rnea::{Task, Visit, visit};
 pub(crate) use subtree::has_subtree_functions;
 use subtree::root_subtree;
 
@@ -118,8 +133,8 @@ impl<T, K> Engine<T, K> {
     {
         let mut turns = [JointCoordinate::default(); Q];
         for_each_joint!(J, {
-            if const { J < V } {
-                let joint = const { &CompiledRobot::<T, B, Q, V>::joint(J) };
+            if Index::<J, V>::IS_BELOW {
+                let joint = CompiledJoint::<T, B, Q, V, J>::JOINT;
                 turns[J] = match (joint.prismatic, joint.near) {
                     (true, _) => JointCoordinate::linear(q[J]),
                     (false, true) => JointCoordinate::revolute_bounded::<K>(q[J]),
@@ -207,7 +222,7 @@ impl<T> Engine<T> {
         T: Robot<B, Q, V>,
         E: Effect<R, B, V>,
     {
-        let length = const { CompiledRobot::<T, B, Q, V>::TREE.length };
+        let length = CompiledRobot::<T, B, Q, V>::LENGTH;
         let base = base::<R, E, B, V>(effects, length);
         let mut tau = [R::ZERO; V];
         let mut task = Task {
@@ -218,12 +233,21 @@ impl<T> Engine<T> {
             tau: &mut tau,
         };
         for_each_joint!(J, {
-            if const { is_on_base::<T, B, Q, V>(J) } {
-                if const { has_subtree_functions(V) } {
-                    root_subtree::<R, T, E, B, Q, V, J>(&mut task);
-                } else {
-                    visit::<R, T, E, B, Q, V, J>(&mut task, &base);
-                }
+            if let Some(visit) = const {
+                only_if(
+                    CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE && !has_subtree_functions(V),
+                    visit::<R, T, E, B, Q, V, J> as Visit<R, E, Q, V>,
+                )
+            } {
+                visit(&mut task, &base);
+            }
+            if let Some(visit) = const {
+                only_if(
+                    CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE && has_subtree_functions(V),
+                    root_subtree::<R, T, E, B, Q, V, J> as fn(&mut Task<'_, R, E, Q, V>),
+                )
+            } {
+                visit(&mut task);
             }
         });
         tau

@@ -11,11 +11,11 @@ use core::marker::PhantomData;
 
 use super::acceleration_field::{AccelerationField, Inertia, JointRates, Wrench};
 use super::base::{no_gyroscopic_rotors, unaccelerated};
-use super::compile::CompiledRobot;
+use super::compile::{CompiledJoint, CompiledRobot, JointPair};
 use super::folding::{Folded, Vec3};
 use super::gate::EngineScene;
-use super::rnea::{environment, inertia, is_on_base, is_parent};
-use super::{Engine, Specialised};
+use super::rnea::{Environment, environment, inertia};
+use super::{Engine, Specialised, only_if};
 use crate::algorithms::{MomentumAndCoriolis, MomentumAndDrift};
 use crate::effects::{Effect, JointState};
 use crate::model::{JointCoordinate, Robot};
@@ -128,7 +128,7 @@ impl<T, K> Engine<T, K> {
         } else {
             trig
         };
-        let length = const { CompiledRobot::<T, B, Q, V>::TREE.length };
+        let length = CompiledRobot::<T, B, Q, V>::LENGTH;
         let mut base = unaccelerated::<R, E, B, V>(effects, length);
         if !DRIFT {
             base.a = Vec3::ZERO;
@@ -141,8 +141,13 @@ impl<T, K> Engine<T, K> {
             result: &mut result,
         };
         for_each_joint!(J, {
-            if const { is_on_base::<T, B, Q, V>(J) } {
-                visit::<R, T, E, B, Q, V, DRIFT, J>(&mut task, &base);
+            if let Some(visit) = const {
+                only_if(
+                    CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
+                    visit::<R, T, E, B, Q, V, DRIFT, J> as Visit<R, E, Q, V>,
+                )
+            } {
+                visit(&mut task, &base);
             }
         });
         result
@@ -166,6 +171,9 @@ struct Carried<R> {
     load: Wrench<R>,
 }
 
+type Visit<R, E, const Q: usize, const V: usize> =
+    fn(&mut Task<'_, R, E, Q, V>, &AccelerationField<R>) -> Carried<R>;
+
 /// Visits joint I and its descendants; returns what they carry about the origin of the parent, in its frame.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn visit<
@@ -186,8 +194,8 @@ where
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
-    let length_inv = Folded::constant(const { 1.0 / CompiledRobot::<T, B, Q, V>::TREE.length });
+    let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
+    let length_inv = Folded::constant(CompiledRobot::<T, B, Q, V>::LENGTH_INV);
     let (turn, at) = (
         task.turns[I],
         JointState::new(task.state.q[I], task.state.qd[I]),
@@ -213,8 +221,13 @@ where
         load: Wrench::ZERO,
     };
     for_each_joint!(J, {
-        if const { is_parent::<T, B, Q, V>(I, J) } {
-            let child = visit::<R, T, E, B, Q, V, DRIFT, J>(task, &body);
+        if let Some(visit) = const {
+            only_if(
+                JointPair::<T, B, Q, V, I, J>::IS_PARENT,
+                visit::<R, T, E, B, Q, V, DRIFT, J> as Visit<R, E, Q, V>,
+            )
+        } {
+            let child = visit(task, &body);
             inner = Carried {
                 h: inner.h + child.h,
                 load: inner.load + child.load,
@@ -234,8 +247,13 @@ where
     let mut load = Wrench::ZERO;
     if DRIFT {
         load = body.wrench(&own);
-        if E::WRENCH {
-            load = environment::<R, T, E, B, Q, V, I>(task.effects, &body, load);
+        if let Some(environment) = const {
+            only_if(
+                E::WRENCH,
+                environment::<R, T, E, B, Q, V, I> as Environment<R, E>,
+            )
+        } {
+            load = environment(task.effects, &body, load);
         }
         load = load + inner.load;
         let mut held = load.along(joint.prismatic, length_inv).get();

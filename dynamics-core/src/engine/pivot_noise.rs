@@ -3,7 +3,8 @@
 //! As in [`crate::algorithms`], m, |h| and ∫ r² dm of a joint and its descendants, as if they lay in one line away from
 //! it. Turns do not change them, so that they are constants of the robot; slides and a payload add to them.
 
-use super::compile::CompiledRobot;
+use super::compile::{CompiledJoint, CompiledRobot, JointPair};
+use super::only_if;
 use crate::effects::{Effect, RegroupedInertia};
 use crate::model::{BASE, JointCoordinate, JointKind, Model, Robot};
 use crate::scalar::{Matrix, Real, Vector};
@@ -130,9 +131,13 @@ where
 {
     let mut noise = [R::ZERO; V];
     for_each_joint!(J, {
-        if const { J < V } {
-            let size = of_joint::<R, T, E, B, Q, V, J>(turns, effects);
-            noise[J] = size * (R::EPSILON * R::from_f64(ROUNDINGS));
+        if let Some(of_joint) = const {
+            only_if(
+                J < V,
+                of_joint::<R, T, E, B, Q, V, J> as fn(&[JointCoordinate<R>; Q], &E) -> R,
+            )
+        } {
+            noise[J] = of_joint(turns, effects) * (R::EPSILON * R::from_f64(ROUNDINGS));
         }
     });
     noise
@@ -156,15 +161,12 @@ where
         effects.regrouped(I, &mut body);
         [mass, moment, second] = body.size;
     }
-    let prismatic = const { CompiledRobot::<T, B, Q, V>::joint(I).prismatic };
+    let prismatic = CompiledJoint::<T, B, Q, V, I>::PRISMATIC;
     let mut size = if prismatic { mass } else { second };
     let mut slides = R::ZERO;
     if !prismatic {
         for_each_joint!(K, {
-            if const {
-                CompiledRobot::<T, B, Q, V>::is_ancestor(I, K)
-                    && CompiledRobot::<T, B, Q, V>::joint(K).prismatic
-            } {
+            if JointPair::<T, B, Q, V, I, K>::IS_SLIDE_BEYOND {
                 slides += turns[K].q.abs();
             }
         });
@@ -172,6 +174,29 @@ where
             size += slides * (moment + moment + slides * mass);
         }
     }
+    if let Some(loaded) = const {
+        only_if(
+            load::<T, B, Q, V>(I, 0, &E::PAYLOAD) < B,
+            loaded::<R, T, E, B, Q, V, I> as fn(&E, R, R) -> R,
+        )
+    } {
+        size = loaded(effects, size, slides);
+    }
+    size
+}
+
+/// Adds the payloads that joint I moves to the inertia that it could move.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn loaded<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    effects: &E,
+    mut size: R,
+    slides: R,
+) -> R
+where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
     const {
         assert!(
             load::<T, B, Q, V>(I, 32, &E::PAYLOAD) == B,
@@ -183,7 +208,7 @@ where
         if body < B {
             let mut payload = SpatialInertia::ZERO;
             effects.payload(body, &mut payload);
-            size += if prismatic {
+            size += if CompiledJoint::<T, B, Q, V, I>::PRISMATIC {
                 payload.mass
             } else {
                 let reach = const { reach(&T::MODEL, I, load::<T, B, Q, V>(I, K, &E::PAYLOAD)) };

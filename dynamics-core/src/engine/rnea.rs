@@ -2,13 +2,14 @@
 //! its children, so that intermediate values stay in registers.
 
 use super::acceleration_field::{AccelerationField, Inertia, JointRates, Wrench};
-use super::compile::{BodyPlacement, CompiledRobot, CompiledTree, Joint};
+use super::compile::{BodyPlacement, CompiledJoint, CompiledRobot, CompiledTree, Joint, JointPair};
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
 use super::gate::EngineScene;
+use super::only_if;
 use super::subtree::visit_child;
 use crate::effects::{BodyState, Effect, JointState, RegroupedInertia, load_friction};
-use crate::model::{BASE, JointCoordinate, Robot};
+use crate::model::{JointCoordinate, Robot};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::State;
@@ -23,6 +24,10 @@ pub(crate) struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
     pub(crate) tau: &'a mut [R; V],
 }
 
+/// A function that visits a joint.
+pub(crate) type Visit<R, E, const Q: usize, const V: usize> =
+    fn(&mut Task<'_, R, E, Q, V>, &AccelerationField<R>) -> Wrench<R>;
+
 /// Visits joint I and its descendants; returns the wrench that they need from the parent, in its frame.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn visit<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
@@ -34,8 +39,8 @@ where
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let tree: &'static CompiledTree<B, V> = const { &CompiledRobot::<T, B, Q, V>::TREE };
-    let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
+    let tree: &'static CompiledTree<B, V> = CompiledRobot::<T, B, Q, V>::TREE;
+    let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
     let (at, qdd) = (
         JointState::new(task.state.q[I], task.state.qd[I]),
         task.state.qdd[I],
@@ -66,13 +71,23 @@ where
         task.effects,
         E::BASE_MOTION,
     ));
-    if E::WRENCH {
-        total = environment::<R, T, E, B, Q, V, I>(task.effects, &field, total);
+    if let Some(environment) = const {
+        only_if(
+            E::WRENCH,
+            environment::<R, T, E, B, Q, V, I> as Environment<R, E>,
+        )
+    } {
+        total = environment(task.effects, &field, total);
     }
 
     for_each_joint!(J, {
-        if const { is_parent::<T, B, Q, V>(I, J) } {
-            let child = visit_child::<R, T, E, B, Q, V, I, J>(task, &field);
+        if let Some(visit) = const {
+            only_if(
+                JointPair::<T, B, Q, V, I, J>::IS_PARENT,
+                visit_child::<R, T, E, B, Q, V, I, J> as Visit<R, E, Q, V>,
+            )
+        } {
+            let child = visit(task, &field);
             total = Wrench {
                 f: total.f + child.f,
                 n: total.n + child.n,
@@ -88,7 +103,7 @@ where
     load_friction(task.effects, I, at, &mut tau);
     task.tau[I] = tau;
 
-    let turn = if const { reload_sines::<T, B, Q, V>() } {
+    let turn = if CompiledRobot::<T, B, Q, V>::LOADS_SINES_AGAIN {
         task.back[I]
     } else {
         turn
@@ -107,12 +122,16 @@ where
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
+    let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
     let body = own_inertia::<R, T, E, B, Q, V, I>(effects, joint, base_moves);
-    if const { CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
-        loaded::<R, T, E, B, Q, V, I>(effects, body)
-    } else {
-        body
+    match const {
+        only_if(
+            CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0,
+            loaded::<R, T, E, B, Q, V, I> as fn(&E, Inertia<R>) -> Inertia<R>,
+        )
+    } {
+        Some(loaded) => loaded(effects, body),
+        None => body,
     }
 }
 
@@ -163,7 +182,7 @@ where
                 let of = CompiledRobot::<T, B, Q, V>::load(I, K, &E::PAYLOAD);
                 &CompiledRobot::<T, B, Q, V>::place(of)
             };
-            let length = const { CompiledRobot::<T, B, Q, V>::TREE.length };
+            let length = CompiledRobot::<T, B, Q, V>::LENGTH;
             body = with_load(effects, of, place, length, body);
         }
     });
@@ -215,6 +234,9 @@ where
     }
 }
 
+/// A function that subtracts the wrenches of the environment.
+pub(crate) type Environment<R, E> = fn(&E, &AccelerationField<R>, Wrench<R>) -> Wrench<R>;
+
 /// Subtracts the wrenches fˣ of the bodies on joint I.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn environment<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
@@ -230,15 +252,15 @@ where
     // Evaluated in scenes without wrenches, too, where their number does not matter.
     const {
         assert!(
-            !E::WRENCH || CompiledRobot::<T, B, Q, V>::bodies_on(I) <= 32,
+            !E::WRENCH || CompiledJoint::<T, B, Q, V, I>::BODIES <= 32,
             "the engine takes wrenches on up to 32 bodies that move with one joint; use `Core`"
         )
     };
     // Body by body: in a loop their places would be no constants, and nothing would fold.
     for_each_joint!(K, {
-        if const { K < CompiledRobot::<T, B, Q, V>::bodies_on(I) } {
-            let (body, place) = const { &CompiledRobot::<T, B, Q, V>::body_on(I, K) };
-            let length = const { CompiledRobot::<T, B, Q, V>::TREE.length };
+        if JointPair::<T, B, Q, V, I, K>::HAS_BODY {
+            let (body, place) = JointPair::<T, B, Q, V, I, K>::BODY;
+            let length = CompiledRobot::<T, B, Q, V>::LENGTH;
             let fx = exerted(effects, *body, place, length, field);
             total = Wrench {
                 f: total.f - fx.f,
@@ -289,45 +311,4 @@ where
     let f = rot.mul(Vec3::runtime(fx.lin)).scale(length);
     let n = rot.mul(Vec3::runtime(fx.ang)) + pos.cross(f);
     Wrench { f, n }
-}
-
-/// Whether joint `i` is the parent of joint `j`.
-pub(crate) const fn is_parent<T, const B: usize, const Q: usize, const V: usize>(
-    i: usize,
-    j: usize,
-) -> bool
-where
-    T: Robot<B, Q, V>,
-{
-    j < V && CompiledRobot::<T, B, Q, V>::PARENTS[j] == i
-}
-
-/// Whether some chain of joints is too long for its sines and cosines to stay in registers: measured
-/// on chains of 3 (slower by 1 % if they are loaded anew), 6 and 7 (faster by 1 %).
-const fn reload_sines<T, const B: usize, const Q: usize, const V: usize>() -> bool
-where
-    T: Robot<B, Q, V>,
-{
-    let tree = &CompiledRobot::<T, B, Q, V>::TREE;
-    let mut j = 0;
-    while j < V {
-        let (mut depth, mut i) = (1, j);
-        while tree.joints[i].parent != BASE {
-            i = tree.joints[i].parent;
-            depth += 1;
-        }
-        if depth > 4 {
-            return true;
-        }
-        j += 1;
-    }
-    false
-}
-
-/// Whether joint `j` is a child of the base.
-pub(crate) const fn is_on_base<T, const B: usize, const Q: usize, const V: usize>(j: usize) -> bool
-where
-    T: Robot<B, Q, V>,
-{
-    is_parent::<T, B, Q, V>(BASE, j)
 }

@@ -10,7 +10,7 @@ use super::compile::CompiledRobot;
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::pose::Pose;
-use super::rnea::{Task, is_parent, visit};
+use super::rnea::{Task, visit};
 use crate::effects::Effect;
 use crate::model::Robot;
 use crate::scalar::{Real, Vector};
@@ -30,7 +30,7 @@ where
 {
     let (mut children, mut j) = (0, 0);
     while j < V {
-        if is_parent::<T, B, Q, V>(i, j) {
+        if CompiledRobot::<T, B, Q, V>::is_parent(i, j) {
             children += 1;
         }
         j += 1;
@@ -55,7 +55,7 @@ pub(crate) fn root_subtree<
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let length = const { CompiledRobot::<T, B, Q, V>::TREE.length };
+    let length = CompiledRobot::<T, B, Q, V>::LENGTH;
     let base = base::<R, E, B, V>(task.effects, length);
     visit::<R, T, E, B, Q, V, I>(task, &base);
 }

@@ -15,7 +15,7 @@ mod snap;
 mod topology;
 mod tree;
 
-pub(crate) use topology::CompiledRobot;
+pub(crate) use topology::{CompiledJoint, CompiledRobot, JointAndBody, JointPair};
 pub(crate) use tree::{BodyPlacement, CompiledTree, Joint};
 
 use glam::{DMat3, DVec3};

@@ -1,7 +1,7 @@
 //! Products with a joint's constants, selected before LLVM: only terms that are not zero are generated. LLVM would
 //! remove the others as well, but in ten times the time.
 
-use crate::engine::compile::CompiledRobot;
+use crate::engine::compile::{CompiledJoint, Joint};
 use crate::engine::folding::Folded;
 use crate::engine::folding::{Mat3, Sym3, Vec3};
 use crate::model::Robot;
@@ -47,8 +47,8 @@ where
     T: Robot<B, Q, V>,
 {
     let mut sum = product::<R, T, B, Q, V, CROSS, I>(v);
-    if const { CompiledRobot::<T, B, Q, V>::joint(I).prismatic } {
-        let axis = Vec3::constant(const { CompiledRobot::<T, B, Q, V>::joint(I).rot.z_axis });
+    if CompiledJoint::<T, B, Q, V, I>::PRISMATIC {
+        let axis = Vec3::constant(CompiledJoint::<T, B, Q, V, I>::JOINT.rot.z_axis);
         sum = sum + axis.scale(slide).cross(v);
     }
     sum
@@ -170,29 +170,49 @@ where
     T: Robot<B, Q, V>,
 {
     let mut sum = Folded::ZERO;
-    if const { entry::<T, B, Q, V>(M, I, K, 0) != 0.0 } {
-        sum = Folded::constant(const { entry::<T, B, Q, V>(M, I, K, 0) }) * x;
+    if Entry::<T, B, Q, V, M, I, K, 0>::IS_NONZERO {
+        sum = Folded::constant(Entry::<T, B, Q, V, M, I, K, 0>::VALUE) * x;
     }
-    if const { entry::<T, B, Q, V>(M, I, K, 1) != 0.0 } {
-        sum = sum + Folded::constant(const { entry::<T, B, Q, V>(M, I, K, 1) }) * y;
+    if Entry::<T, B, Q, V, M, I, K, 1>::IS_NONZERO {
+        sum = sum + Folded::constant(Entry::<T, B, Q, V, M, I, K, 1>::VALUE) * y;
     }
-    if const { entry::<T, B, Q, V>(M, I, K, 2) != 0.0 } {
-        sum = sum + Folded::constant(const { entry::<T, B, Q, V>(M, I, K, 2) }) * z;
+    if Entry::<T, B, Q, V, M, I, K, 2>::IS_NONZERO {
+        sum = sum + Folded::constant(Entry::<T, B, Q, V, M, I, K, 2>::VALUE) * z;
     }
     sum
 }
 
-/// Row k, column c of the matrix.
-const fn entry<T, const B: usize, const Q: usize, const V: usize>(
-    matrix: usize,
-    i: usize,
-    k: usize,
-    c: usize,
-) -> f64
+/// Row K, column C of matrix M of joint I.
+struct Entry<
+    T,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const M: usize,
+    const I: usize,
+    const K: usize,
+    const C: usize,
+>(core::marker::PhantomData<T>);
+
+impl<
+    T,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const M: usize,
+    const I: usize,
+    const K: usize,
+    const C: usize,
+> Entry<T, B, Q, V, M, I, K, C>
 where
     T: Robot<B, Q, V>,
 {
-    let joint = &CompiledRobot::<T, B, Q, V>::joint(i);
+    const VALUE: f64 = entry(CompiledJoint::<T, B, Q, V, I>::JOINT, M, K, C);
+    const IS_NONZERO: bool = Self::VALUE != 0.0;
+}
+
+/// Row k, column c of a matrix of a joint.
+const fn entry(joint: &Joint, matrix: usize, k: usize, c: usize) -> f64 {
     if matrix == ROT {
         let column = match c {
             0 => joint.rot.x_axis,

@@ -1,7 +1,9 @@
 //! The core on the host: recordings of independent oracles, one tolerance table, and the robots
 //! as those oracles are given them.
 
+pub mod controller;
 pub mod export;
+pub mod friction;
 pub mod fuzz;
 pub mod hard;
 pub mod measured;

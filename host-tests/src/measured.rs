@@ -15,6 +15,11 @@ pub fn largest<T: Into<f64>>(values: impl IntoIterator<Item = T>) -> f64 {
         .fold(f64::NEG_INFINITY, larger)
 }
 
+/// The larger one, or the one that is not a number.
+pub fn larger(a: f64, b: f64) -> f64 {
+    largest([a, b])
+}
+
 /// Holds a measured value against its bound; a bound of 0 stands for exactly 0.
 ///
 /// # Panics

@@ -1,9 +1,6 @@
 //! The ways to compute that `cargo xtask accuracy` compares: that there are enough of them, each once, and that the
 //! default and its oracle are as good as the report says.
 
-#[path = "../../lab/reports/src/bin/accuracy/motion.rs"]
-mod motion;
-
 use std::collections::BTreeSet;
 
 use dynamics_core::effects::RIGID_BODY;
@@ -22,7 +19,7 @@ use lab_target::accuracy::key::Key;
 use lab_target::accuracy::model::{Full, InUnits, Rounded};
 use lab_target::accuracy::numbers::{Compensated, Fixed, FixedPoint, HalfTurns};
 use lab_target::accuracy::robots::momentary;
-use lab_target::accuracy::simulation::{self, DoublePendulum, PassiveMotion};
+use lab_target::accuracy::simulation::{self, DoublePendulum};
 use lab_target::accuracy::{Inverse, Visitor, list};
 use motion_control::{FirstOrderHold, InertiaUpdate};
 
@@ -296,77 +293,4 @@ fn robots_in_other_numbers_keep_their_parameters() {
     assert_eq!(scaled.links[1].inertia.mass, 8.058 / 32.0);
     let lengths = |links: &[dynamics_core::model::Link<f64>; 6]| links[2].placement.pos.length();
     assert_eq!(lengths(&scaled.links), lengths(&Ur5e::MODEL.links) / 2.0);
-}
-
-/// The double pendulum by Lagrange's equations, angles from the vertical, the second's relative to the first.
-fn lagrange() -> Vec<[[f64; 2]; 2]> {
-    let (m, l, c, i, g) = (1.0, 0.5, 0.25, 1.0 / 48.0, 9.81);
-    let acceleration = |[q, qd]: [[f64; 2]; 2]| -> [f64; 2] {
-        let (a, b) = (i + m * c * c + m * l * l, i + m * c * c);
-        let (cross, sine) = (m * l * c * q[1].cos(), m * l * c * q[1].sin());
-        let mass = [[a + b + 2.0 * cross, b + cross], [b + cross, b]];
-        let weight = m * g * c * (q[0] + q[1]).sin();
-        let bias = [
-            -sine * (2.0 * qd[0] * qd[1] + qd[1] * qd[1]) + m * g * (c + l) * q[0].sin() + weight,
-            sine * qd[0] * qd[0] + weight,
-        ];
-        let det = mass[0][0] * mass[1][1] - mass[0][1] * mass[1][0];
-        [
-            (-bias[0] * mass[1][1] + bias[1] * mass[0][1]) / det,
-            (-bias[1] * mass[0][0] + bias[0] * mass[1][0]) / det,
-        ]
-    };
-    let plus = |[q, qd]: [[f64; 2]; 2], [dq, dqd]: [[f64; 2]; 2], h: f64| {
-        [
-            [q[0] + h * dq[0], q[1] + h * dq[1]],
-            [qd[0] + h * dqd[0], qd[1] + h * dqd[1]],
-        ]
-    };
-    let slope = |at: [[f64; 2]; 2]| [at[1], acceleration(at)];
-    let mut at = DoublePendulum::START;
-    let h = f64::from(motion::FINE) * 1e-6;
-    let samples = (0..motion::SECOND).map(|_| {
-        for _ in 0..motion::SAMPLE / motion::FINE {
-            let first = slope(at);
-            let second = slope(plus(at, first, h / 2.0));
-            let third = slope(plus(at, second, h / 2.0));
-            let last = slope(plus(at, third, h));
-            for (slope, share) in [(first, 6.0), (second, 3.0), (third, 3.0), (last, 6.0)] {
-                at = plus(at, slope, h / share);
-            }
-        }
-        at
-    });
-    samples.collect()
-}
-
-/// The reference of the simulations agrees with equations of another kind, and does not depend on its step.
-#[test]
-fn true_motions_agree_with_lagrange_and_longer_steps() {
-    fn apart<const N: usize>(a: &[[[f64; N]; 2]], b: &[[[f64; N]; 2]]) -> f64 {
-        let pairs = a
-            .iter()
-            .zip(b)
-            .flat_map(|(a, b)| a[0].into_iter().zip(b[0]));
-        largest(pairs.map(|(a, b)| (a - b).abs()))
-    }
-    fn coarser<T: PassiveMotion<N>, const N: usize>() -> f64 {
-        let motion = |step| motion::true_motion::<T, _, N>(&RIGID_BODY, step);
-        apart(&motion(motion::FINE), &motion(2 * motion::FINE))
-    }
-    let pendulum = motion::true_motion::<DoublePendulum, _, 2>(&RIGID_BODY, motion::FINE);
-    let errors = [
-        ("true motion from Lagrange's", apart(&pendulum, &lagrange())),
-        (
-            "true motion of the pendulum at twice the step",
-            coarser::<DoublePendulum, 2>(),
-        ),
-        (
-            "true motion of the UR5e at twice the step",
-            coarser::<Ur5e, 6>(),
-        ),
-    ];
-    for (what, error) in errors {
-        assert!(error <= 1e-9, "{what}: {error:.1e} rad");
-    }
 }

@@ -4,8 +4,8 @@
 #[path = "checks/mistakes.rs"]
 mod mistakes;
 
-use host_tests::hard::measure::larger;
 use host_tests::hard::{Row, Verdict};
+use host_tests::measured::larger;
 use host_tests::tolerances::{Errors, check};
 
 /// An entry of the table: 1e-15 in f64, 5e-7 in f32.

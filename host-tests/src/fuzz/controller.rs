@@ -1,7 +1,7 @@
 //! The controller under any sequence of wrong inputs, missed ticks and resets.
 
 use super::bytes::Bytes;
-use crate::hard::controller::{Bench, INPUTS, Poison, TICK};
+use crate::controller::{Bench, INPUTS, Poison, TICK};
 use motion_control::{Command, Fault, Mode};
 
 /// Ticks of an arm in motion, one or a few for every four bytes.

@@ -5,7 +5,7 @@ use dynamics_core::effects::{
     AsymmetricCoulomb, Coulomb, Gravity, Inertia, RIGID_BODY, Spring, Stribeck, Width,
 };
 use dynamics_core::sim::linearly_implicit;
-use host_tests::hard::stick_slip::{Belt, Cycle};
+use host_tests::friction::{Belt, Cycle};
 
 /// Steps until the velocity changes sign `turns` times; where it does.
 fn turning_points<E: Effect<f64, 1, 1>>(

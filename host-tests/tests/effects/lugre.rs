@@ -1,7 +1,7 @@
 //! LuGre friction: sliding and passivity; presliding is a hard case.
 
 use super::*;
-use host_tests::hard::friction::{STICTION, STIFFNESS, lugre as friction};
+use host_tests::friction::{STICTION, STIFFNESS, lugre as friction};
 use host_tests::random::random_numbers;
 use proptest::prelude::RngExt;
 

@@ -1,4 +1,7 @@
-//! The measurements of the reports on the host: the bins of the package `host-reports`.
+//! The programs that measure and simulate on the host.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use serde::de::DeserializeOwned;
 
@@ -6,23 +9,52 @@ use crate::kit::error::{Result, check};
 use crate::kit::shell;
 use crate::kit::workspace::Workspace;
 
+/// The packages of the host whose crates are built together, whichever of their programs is wanted: another selection has other
+/// features of the crates below, which would be compiled once more. xtask is there already, with features of its own.
+pub const SHARED: &str = "--workspace --exclude xtask --exclude telemetry-watch --exclude telemetry-pil --exclude firmware-demo \
+     --exclude lab-target --exclude identification --exclude simulation-tests --exclude trial-tests";
+
+/// The packages that simulate, likewise, and the profile that inlines the library into them.
+pub const SIMULATED: &str =
+    "--profile simulated --package identification --package simulation-tests --package trial-tests";
+
+/// Builds programs of [`SHARED`] packages, and returns their folder.
+pub fn build(workspace: &Workspace, targets: &[&str]) -> Result<PathBuf> {
+    built(workspace, SHARED, targets, "debug")
+}
+
+fn built(workspace: &Workspace, of: &str, targets: &[&str], folder: &str) -> Result<PathBuf> {
+    let mut command = workspace.cargo("build");
+    let command = command.arg("--quiet").args(of.split_whitespace());
+    shell::capture(command.args(targets))?;
+    Ok(workspace.target.join(folder))
+}
+
+/// Runs a program in a folder, and returns what it printed.
+pub fn run(folder: &Path, name: &str) -> Result<String> {
+    let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
+    shell::capture(&mut Command::new(folder.join(file)))
+}
+
+/// What a bin of the [`SHARED`] packages prints.
 pub fn text(workspace: &Workspace, bin: &str) -> Result<String> {
-    text_of(workspace, "host-reports", bin)
+    run(&build(workspace, &["--bin", bin])?, bin)
 }
 
-/// Runs a bin of another package and returns its output.
-pub fn text_of(workspace: &Workspace, package: &str, bin: &str) -> Result<String> {
-    let mut command = workspace.cargo("run");
-    shell::capture(command.args(["--quiet", "--package", package, "--bin", bin]))
+/// What a bin of the [`SIMULATED`] packages prints.
+pub fn simulated(workspace: &Workspace, bin: &str) -> Result<String> {
+    run(
+        &built(workspace, SIMULATED, &["--bin", bin], "simulated")?,
+        bin,
+    )
 }
 
-/// Runs a bin of `host-reports` and parses its JSON.
+/// The JSON that a bin of the [`SHARED`] packages prints.
 pub fn json<T: DeserializeOwned>(workspace: &Workspace, bin: &str) -> Result<T> {
-    json_of(workspace, "host-reports", bin)
+    parsed(bin, &text(workspace, bin)?)
 }
 
-/// Runs a bin of another package and parses its JSON.
-pub fn json_of<T: DeserializeOwned>(workspace: &Workspace, package: &str, bin: &str) -> Result<T> {
-    serde_json::from_str(&text_of(workspace, package, bin)?)
-        .map_err(|e| check!("`{bin}` printed what is not understood: {e}"))
+/// The JSON that a bin printed.
+pub fn parsed<T: DeserializeOwned>(bin: &str, text: &str) -> Result<T> {
+    serde_json::from_str(text).map_err(|e| check!("`{bin}` printed what is not understood: {e}"))
 }

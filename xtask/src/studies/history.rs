@@ -47,7 +47,7 @@ struct Report {
 /// Counts on the host and runs the firmware's bin under the meter.
 pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     let (workspace, tools) = (bench.workspace, bench.tools()?);
-    let counts = host_bin::text_of(workspace, "history", "history_counts")?;
+    let counts = host_bin::text(workspace, "history_counts")?;
     let (ancestors, differences) = counts
         .split_once("\n\n")
         .ok_or_else(|| check!("`history_counts` printed no differences"))?;

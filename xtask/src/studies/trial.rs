@@ -23,9 +23,6 @@ use crate::studies::study::Bench;
 
 const CHART: u32 = 330;
 
-/// The package of the bins of the host.
-const PACKAGE: &str = "trial-tests";
-
 /// The bin that measures what the page shows beside the runs.
 fn report(trial: Trial) -> String {
     format!("{}_report", trial.name())
@@ -83,7 +80,7 @@ impl Recorded {
             lines.collect()
         };
         let rows = said("row");
-        compare(name, &rows, &host_bin::text_of(workspace, PACKAGE, name)?)?;
+        compare(name, &rows, &host_bin::simulated(workspace, name)?)?;
         let only = |word| match *said(word) {
             [value] => Ok(value.to_owned()),
             _ => Err(check!(
@@ -220,7 +217,10 @@ fn measure(
     trial: Trial,
     recorded: &Recorded,
 ) -> Result<(String, String)> {
-    let shown: Shown = host_bin::json_of(workspace, PACKAGE, &report(trial))?;
+    let shown: Shown = host_bin::parsed(
+        &report(trial),
+        &host_bin::simulated(workspace, &report(trial))?,
+    )?;
     let rustc = tools.toolchain.rustc_version()?;
     let text = format!(
         "{}\n{}\nMeasured with {rustc}.",

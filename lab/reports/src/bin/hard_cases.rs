@@ -1,6 +1,7 @@
 //! Prints the hard cases and all that they measure as JSON: `cargo xtask hard-cases` makes a page of it.
 
-use host_tests::hard::{CASES, Case, Row};
+use hard_cases::CASES;
+use host_tests::hard::{Case, Row};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -18,6 +19,10 @@ fn main() {
         .chain(flexible_tests::hard::CASES);
     let mut cases: Vec<Case> = all.copied().flatten().copied().collect();
     cases.sort_by_key(|case| case.number);
+    let without_gap = cases
+        .windows(2)
+        .all(|pair| pair[0].number + 1 == pair[1].number);
+    assert!(without_gap, "a number of a case is missing, or given twice");
     let rows = cases.iter().flat_map(Case::rows).collect();
     let suite = Suite {
         cases,

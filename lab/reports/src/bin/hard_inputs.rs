@@ -1,6 +1,6 @@
 //! Prints the inputs of the hard cases, by their bits, for `host-tests/oracle/hard.py`.
 
-use host_tests::hard::setup::list::exported;
+use hard_cases::setup::list::exported;
 
 fn main() -> serde_json::Result<()> {
     println!("{}", serde_json::to_string(&exported())?);

@@ -2,13 +2,13 @@
 
 use cycle_meter::Sample;
 
-use super::{Context, host};
+use super::Context;
 use crate::kit::callgraph::f32_only;
 use crate::kit::elf::Image;
 use crate::kit::error::{Error, Result, bail, check, refuse_if};
 use crate::kit::meter::Cost;
 use crate::kit::qemu::Run;
-use crate::kit::{firmware, shell};
+use crate::kit::{firmware, host_bin, shell};
 
 /// The least number of hard cases in QEMU.
 const HARD_CASES: usize = 25;
@@ -39,7 +39,7 @@ pub fn bits(context: &Context) -> Result<String> {
     let elf = context.built(name)?;
     let mut on_target = context.tools.qemu.lines(&Run::logging(name, &elf, None))?;
     on_target.retain(|line| line.starts_with("bits "));
-    let host = host::run(&host::build(context, "--bin bits")?, name)?;
+    let host = host_bin::text(&context.workspace, name)?;
     same_bits(&on_target, &host.lines().collect::<Vec<_>>())
 }
 
@@ -51,7 +51,7 @@ pub fn faults(context: &Context) -> Result<String> {
     let elf = context.built(name)?;
     let mut on_target = context.tools.qemu.lines(&Run::logging(name, &elf, None))?;
     on_target.retain(|line| line.starts_with("run "));
-    let host = host::run(&host::build(context, "--bin fault_runs")?, name)?;
+    let host = host_bin::text(&context.workspace, name)?;
     same_runs(&on_target, &host.lines().collect::<Vec<_>>())
 }
 

@@ -1,36 +1,28 @@
 //! The steps that need no target.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use serde_json::Value;
 
 use super::Context;
 use crate::kit::error::{Result, refuse_if};
+use crate::kit::host_bin::{SHARED, SIMULATED};
 use crate::kit::sources::sources;
-use crate::kit::{shell, workspace};
+use crate::kit::workspace;
 
-/// The tests that take the compiler long: further robots and scalars of claims that are tested without.
-const FULL: &str = "--features host-tests/full,robot-import/full,simulation-tests/full,specialised-tests/full,trial-tests/full";
+/// The tests that take the compiler or a simulation long: further robots, scalars and hours of claims that are tested without, of
+/// the packages that simulate and of the others.
+const FULL_SIMULATED: &str = "--features simulation-tests/full,trial-tests/full";
+const FULL: &str =
+    "--features hard-cases/full,host-tests/full,robot-import/full,specialised-tests/full";
 /// All packages but the firmware and its listeners, which the steps `telemetry` and `pil` build and test.
 const HOST: &str = "--workspace --exclude firmware-demo --exclude lab-target --exclude telemetry-watch --exclude telemetry-pil";
-/// The packages whose tests are built at once, with one set of features of their dependencies: another selection of packages has
-/// other features, and all crates would be compiled once more. xtask is there already, with its own.
-const SHARED: &str =
-    "--workspace --exclude xtask --exclude telemetry-watch --exclude telemetry-pil";
-/// Of the firmware's packages, whose bins are for the target, the libraries are tested through those that use them. Neither `--lib`
-/// nor `--bins`: they compile what has `test = false`, too.
-const TESTS: [&str; 2] = [
-    "test --workspace --exclude xtask --exclude telemetry-watch --exclude telemetry-pil --exclude firmware-demo --exclude lab-target \
-     --tests",
-    "test --package xtask",
-];
 /// The part of the firmware that runs anywhere.
 const FIRMWARE: &str = "--package firmware-demo --package lab-target --lib";
 
 pub fn clippy(context: &Context) -> Result<String> {
     context.cargo(&[
-        &format!("clippy {HOST} --all-targets {FULL} -- -D warnings"),
+        &format!("clippy {HOST} --all-targets {FULL} {FULL_SIMULATED} -- -D warnings"),
         &format!("clippy {FIRMWARE} -- -D warnings"),
         "clippy --package telemetry-watch --package telemetry-pil --all-targets -- -D warnings",
     ])
@@ -51,38 +43,40 @@ fn unnamed(root: &Path) -> Result<Vec<PathBuf>> {
     Ok(unnamed.into_iter().cloned().collect())
 }
 
+/// The tests, by cargo's command line.
+fn lines() -> [String; 3] {
+    // Neither `--lib` nor `--bins`: they compile what has `test = false`, too.
+    let [shared, simulated] =
+        [SHARED, SIMULATED].map(|packages| format!("test {packages} --tests"));
+    [shared, simulated, "test --package xtask".into()]
+}
+
 pub fn tests(context: &Context) -> Result<String> {
     let unnamed = unnamed(&context.workspace.root)?;
     refuse_if!(
         !unnamed.is_empty(),
         "no `mod` in the `main.rs` beside them: {unnamed:?}"
     );
-    let more = if context.full { FULL } else { "" };
+    let [more, more_simulated] = match context.full {
+        true => [FULL, FULL_SIMULATED],
+        false => [""; 2],
+    };
+    let [all, simulated, xtask] = lines();
     // All failures in one run, which takes long.
-    let [all, xtask] = TESTS;
-    let printed = context.cargo(&[&format!("{all} --no-fail-fast {more}"), xtask])?;
+    let printed = context.cargo(&[
+        &format!("{all} --no-fail-fast {more}"),
+        &format!("{simulated} --no-fail-fast {more_simulated}"),
+        &xtask,
+    ])?;
     Ok(format!("{} tests", count(&printed)))
 }
 
 /// The programs of the tests, built.
 pub fn programs(context: &Context) -> Result<Vec<PathBuf>> {
-    let [all, xtask] = TESTS.map(|line| format!("{line} --no-run --message-format json"));
-    let printed = context.cargo(&[&all, &xtask])?;
+    let [all, simulated, xtask] =
+        lines().map(|line| format!("{line} --no-run --message-format json"));
+    let printed = context.cargo(&[&all, &simulated, &xtask])?;
     Ok(printed.lines().filter_map(executable).collect())
-}
-
-/// Builds programs for the host among all packages of the tests, whose crates they share.
-pub fn build(context: &Context, targets: &str) -> Result<PathBuf> {
-    context.cargo(&[&format!(
-        "build {SHARED} --exclude firmware-demo --exclude lab-target {targets}"
-    )])?;
-    Ok(context.workspace.target.join("debug"))
-}
-
-/// Runs a program that [`build`] built, and returns what it printed.
-pub fn run(folder: &Path, name: &str) -> Result<String> {
-    let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
-    shell::capture(&mut Command::new(folder.join(file)))
 }
 
 /// The test program that a message of cargo announces, if it does.
@@ -93,7 +87,8 @@ fn executable(message: &str) -> Option<PathBuf> {
 }
 
 pub fn doctests(context: &Context) -> Result<String> {
-    let printed = context.cargo(&[&format!("test {SHARED} --doc")])?;
+    let printed =
+        context.cargo(&[SHARED, SIMULATED].map(|packages| format!("test {packages} --doc")))?;
     Ok(format!("{} examples", count(&printed)))
 }
 

@@ -122,10 +122,10 @@ impl Context {
     }
 
     /// Runs cargo for host crates, once for each line of words, and returns what it printed.
-    fn cargo(&self, lines: &[&str]) -> Result<String> {
+    fn cargo(&self, lines: &[impl AsRef<str>]) -> Result<String> {
         let mut printed = String::new();
         for line in lines {
-            let mut words = line.split_whitespace();
+            let mut words = line.as_ref().split_whitespace();
             let subcommand = words.next().unwrap_or_default();
             let mut command = self.workspace.cargo(subcommand);
             if subcommand == "doc" {
@@ -201,7 +201,7 @@ pub fn list() -> Result<ExitCode> {
         steps(Named),
         unheld.collect::<String>()
     );
-    for folder in "host-tests/tests host-tests/simulations/tests host-tests/specialised/tests robot-import/tests lab/trials/tests".split(' ') {
+    for folder in "host-tests/hard/tests host-tests/tests host-tests/simulations/tests host-tests/specialised/tests robot-import/tests lab/trials/tests".split(' ') {
         for (program, test) in claims::full_only(&workspace.root.join(folder))? {
             text += &format!("  {program:16} {}\n", test.replace('_', " "));
         }

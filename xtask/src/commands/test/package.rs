@@ -6,11 +6,11 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
-use super::{Context, host};
+use super::Context;
 use crate::kit::error::{Error, Result, refuse_if};
-use crate::kit::shell;
 use crate::kit::toolchain::{TARGET, Toolchain};
 use crate::kit::workspace::{read, write};
+use crate::kit::{host_bin, shell};
 
 const LIBRARY: &str = "dynamics-core";
 const CONTROLLER: &str = "motion-control";
@@ -110,13 +110,13 @@ pub fn features(context: &Context) -> Result<String> {
 }
 
 pub fn examples(context: &Context) -> Result<String> {
-    let folder = host::build(context, "--examples")?.join("examples");
+    let folder = host_bin::build(&context.workspace, &["--examples"])?.join("examples");
     let mut ran = Vec::new();
     for library in [LIBRARY, CONTROLLER] {
         ran.extend(example_names(&context.workspace.root, library)?);
     }
     for name in &ran {
-        host::run(&folder, name)?;
+        host_bin::run(&folder, name)?;
     }
     Ok(ran.join(", "))
 }

@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 
 /// The packages whose tests are run. The full run of the tests adds robots and scalars to `specialised-tests`, which
 /// take longer to compile than all else.
-const PACKAGES: [&str; 12] = [
+const PACKAGES: [&str; 13] = [
     "dynamics-core",
     "motion-control",
     "joint-drivers",
@@ -19,6 +19,7 @@ const PACKAGES: [&str; 12] = [
     "cluster-tests",
     "cycle-meter",
     "flexible-tests",
+    "hard-cases",
     "loop-tests",
     "simulation-tests",
     "history",
@@ -59,6 +60,9 @@ pub fn build(copy: &Path, target: &Path, places: &Places, is_optimised: bool) ->
     if copy.join(MEMBER).is_dir() {
         cargo.args(PACKAGES.iter().flat_map(|package| ["--package", package]));
         cargo.args(["--features", FEATURES]);
+        if is_optimised {
+            cargo.args(["--profile", "simulated"]);
+        }
     } else {
         cargo.arg("--workspace");
     }

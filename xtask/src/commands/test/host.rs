@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::Context;
+use crate::commands::weight;
 use crate::kit::error::{Result, refuse_if};
 use crate::kit::host_bin::{SHARED, SIMULATED};
 use crate::kit::sources::sources;
@@ -71,8 +72,17 @@ pub fn tests(context: &Context) -> Result<String> {
     Ok(format!("{} tests", count(&printed)))
 }
 
+/// Weighs the tests' programs of an everyday run; a full run builds others.
+pub fn weight(context: &Context) -> Result<String> {
+    let programs = match context.full {
+        true => None,
+        false => Some(programs(context)?),
+    };
+    weight::check(&context.workspace, programs.as_deref())
+}
+
 /// The programs of the tests, built.
-pub fn programs(context: &Context) -> Result<Vec<PathBuf>> {
+fn programs(context: &Context) -> Result<Vec<PathBuf>> {
     let [all, simulated, xtask] =
         lines().map(|line| format!("{line} --no-run --message-format json"));
     let printed = context.cargo(&[&all, &simulated, &xtask])?;

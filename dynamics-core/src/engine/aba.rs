@@ -95,12 +95,14 @@ where
         x: &mut x,
     };
     for_each_joint!(J, {
-        if let Some(inward) = const {
-            only_if(
-                CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
-                inward::<R, T, E, B, Q, V, J> as Inward<R, E, Q, V>,
-            )
-        } {
+        if CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE
+            && let Some(inward) = const {
+                only_if(
+                    CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
+                    inward::<R, T, E, B, Q, V, J> as Inward<R, E, Q, V>,
+                )
+            }
+        {
             let _ = inward(&mut task);
         }
     });
@@ -109,12 +111,14 @@ where
         &noise::<R, T, E, B, Q, V>(&trig.coordinates, effects),
     )?;
     for_each_joint!(J, {
-        if let Some(outward) = const {
-            only_if(
-                CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
-                outward::<R, T, E, B, Q, V, J> as Outward<R, E, Q, V>,
-            )
-        } {
+        if CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE
+            && let Some(outward) = const {
+                only_if(
+                    CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
+                    outward::<R, T, E, B, Q, V, J> as Outward<R, E, Q, V>,
+                )
+            }
+        {
             outward(&mut task, [R::Vec3::ZERO; 2]);
         }
     });
@@ -145,12 +149,14 @@ where
         n: Vec3::ZERO,
     };
     for_each_joint!(J, {
-        if let Some(inward) = const {
-            only_if(
-                JointPair::<T, B, Q, V, I, J>::IS_PARENT,
-                inward::<R, T, E, B, Q, V, J> as Inward<R, E, Q, V>,
-            )
-        } {
+        if JointPair::<T, B, Q, V, I, J>::IS_PARENT
+            && let Some(inward) = const {
+                only_if(
+                    JointPair::<T, B, Q, V, I, J>::IS_PARENT,
+                    inward::<R, T, E, B, Q, V, J> as Inward<R, E, Q, V>,
+                )
+            }
+        {
             let (inertia, wrench) = inward(task);
             ia = ia + inertia;
             push = Wrench {
@@ -233,12 +239,14 @@ fn outward<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usi
         alpha.0[2] = alpha.0[2] + qdd;
     }
     for_each_joint!(J, {
-        if let Some(outward) = const {
-            only_if(
-                JointPair::<T, B, Q, V, I, J>::IS_PARENT,
-                outward::<R, T, E, B, Q, V, J> as Outward<R, E, Q, V>,
-            )
-        } {
+        if JointPair::<T, B, Q, V, I, J>::IS_PARENT
+            && let Some(outward) = const {
+                only_if(
+                    JointPair::<T, B, Q, V, I, J>::IS_PARENT,
+                    outward::<R, T, E, B, Q, V, J> as Outward<R, E, Q, V>,
+                )
+            }
+        {
             outward(task, [alpha.get(), a.get()]);
         }
     });

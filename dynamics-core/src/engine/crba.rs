@@ -84,12 +84,14 @@ pub(crate) fn mass_matrix<R, T, E, const B: usize, const Q: usize, const V: usiz
     no_gyroscopic_rotors::<R, E, B, V>();
     let mut task = Task { turns, effects, m };
     for_each_joint!(J, {
-        if let Some(composite) = const {
-            only_if(
-                CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
-                composite::<R, T, E, B, Q, V, J> as Composite<R, E, Q, V>,
-            )
-        } {
+        if CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE
+            && let Some(composite) = const {
+                only_if(
+                    CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
+                    composite::<R, T, E, B, Q, V, J> as Composite<R, E, Q, V>,
+                )
+            }
+        {
             let _ = composite(&mut task);
         }
     });
@@ -110,12 +112,14 @@ where
 {
     let mut body = inertia::<R, T, E, B, Q, V, I>(task.effects, false);
     for_each_joint!(J, {
-        if let Some(composite) = const {
-            only_if(
-                JointPair::<T, B, Q, V, I, J>::IS_PARENT,
-                composite::<R, T, E, B, Q, V, J> as Composite<R, E, Q, V>,
-            )
-        } {
+        if JointPair::<T, B, Q, V, I, J>::IS_PARENT
+            && let Some(composite) = const {
+                only_if(
+                    JointPair::<T, B, Q, V, I, J>::IS_PARENT,
+                    composite::<R, T, E, B, Q, V, J> as Composite<R, E, Q, V>,
+                )
+            }
+        {
             body = body + composite(task);
         }
     });

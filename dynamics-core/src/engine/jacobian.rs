@@ -74,7 +74,10 @@ where
     }
     let mut columns = [Motion::ZERO; V];
     for_each_joint!(J, {
-        if let Some(reach) = const {
+        if const {
+            CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE
+                && JointAndBody::<T, B, Q, V, J, BODY>::SUPPORTS
+        } && let Some(reach) = const {
             only_if(
                 CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE
                     && JointAndBody::<T, B, Q, V, J, BODY>::SUPPORTS,
@@ -129,7 +132,10 @@ where
         beyond = axes.mul(Vec3::constant(place.pos * length));
     }
     for_each_joint!(J, {
-        if let Some(reach) = const {
+        if const {
+            JointPair::<T, B, Q, V, I, J>::IS_PARENT
+                && JointAndBody::<T, B, Q, V, J, BODY>::SUPPORTS
+        } && let Some(reach) = const {
             only_if(
                 JointPair::<T, B, Q, V, I, J>::IS_PARENT
                     && JointAndBody::<T, B, Q, V, J, BODY>::SUPPORTS,

@@ -84,12 +84,14 @@ where
 {
     let mut d_inv = [R::ZERO; V];
     for_each_joint_reversed!(K, {
-        if let Some(eliminate) = const {
-            only_if(
-                K < V,
-                eliminate::<R, T, B, Q, V, K> as fn(&mut [[R; V]; V], R),
-            )
-        } {
+        if Index::<K, V>::IS_BELOW
+            && let Some(eliminate) = const {
+                only_if(
+                    K < V,
+                    eliminate::<R, T, B, Q, V, K> as fn(&mut [[R; V]; V], R),
+                )
+            }
+        {
             d_inv[K] = R::ONE / m[K][K];
             eliminate(m, d_inv[K]);
         }
@@ -106,12 +108,14 @@ fn eliminate<R: Real, T, const B: usize, const Q: usize, const V: usize, const K
     T: Robot<B, Q, V>,
 {
     for_each_joint_reversed!(I, {
-        if let Some(subtract) = const {
-            only_if(
-                JointPair::<T, B, Q, V, I, K>::IS_ANCESTOR,
-                subtract::<R, T, B, Q, V, K, I> as fn(&mut [[R; V]; V], R),
-            )
-        } {
+        if JointPair::<T, B, Q, V, I, K>::IS_ANCESTOR
+            && let Some(subtract) = const {
+                only_if(
+                    JointPair::<T, B, Q, V, I, K>::IS_ANCESTOR,
+                    subtract::<R, T, B, Q, V, K, I> as fn(&mut [[R; V]; V], R),
+                )
+            }
+        {
             let l = m[K][I] * d_inv;
             subtract(m, l);
             m[K][I] = l;
@@ -155,12 +159,17 @@ pub(crate) fn substitute<R: Real, T, const B: usize, const Q: usize, const V: us
     T: Robot<B, Q, V>,
 {
     for_each_joint_reversed!(I, {
-        if let Some(scatter) = const { only_if(I < V, scatter::<R, T, B, Q, V, I> as Row<R, V>) } {
+        if Index::<I, V>::IS_BELOW
+            && let Some(scatter) =
+                const { only_if(I < V, scatter::<R, T, B, Q, V, I> as Row<R, V>) }
+        {
             scatter(l, x);
         }
     });
     for_each_joint!(I, {
-        if let Some(gather) = const { only_if(I < V, gather::<R, T, B, Q, V, I> as Row<R, V>) } {
+        if Index::<I, V>::IS_BELOW
+            && let Some(gather) = const { only_if(I < V, gather::<R, T, B, Q, V, I> as Row<R, V>) }
+        {
             x[I] *= d_inv[I];
             gather(l, x);
         }

@@ -44,7 +44,8 @@ impl<const I: usize, const N: usize> Index<I, N> {
 }
 
 /// The function if the condition holds, for an inline `const`. A call in a branch that is never taken would still make the
-/// compiler visit its function and all that this calls: 32 × 32 pairs of joints in place of those that exist.
+/// compiler visit its function and all that this calls: 32 × 32 pairs of joints in place of those that exist. The condition
+/// stands before it, too: without optimisation that alone keeps the branch out of the machine code.
 const fn only_if<F: Copy>(condition: bool, function: F) -> Option<F> {
     if condition { Some(function) } else { None }
 }
@@ -233,20 +234,24 @@ impl<T> Engine<T> {
             tau: &mut tau,
         };
         for_each_joint!(J, {
-            if let Some(visit) = const {
-                only_if(
-                    CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE && !has_subtree_functions(V),
-                    visit::<R, T, E, B, Q, V, J> as Visit<R, E, Q, V>,
-                )
-            } {
+            if const { CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE && !has_subtree_functions(V) }
+                && let Some(visit) = const {
+                    only_if(
+                        CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE && !has_subtree_functions(V),
+                        visit::<R, T, E, B, Q, V, J> as Visit<R, E, Q, V>,
+                    )
+                }
+            {
                 visit(&mut task, &base);
             }
-            if let Some(visit) = const {
-                only_if(
-                    CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE && has_subtree_functions(V),
-                    root_subtree::<R, T, E, B, Q, V, J> as fn(&mut Task<'_, R, E, Q, V>),
-                )
-            } {
+            if const { CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE && has_subtree_functions(V) }
+                && let Some(visit) = const {
+                    only_if(
+                        CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE && has_subtree_functions(V),
+                        root_subtree::<R, T, E, B, Q, V, J> as fn(&mut Task<'_, R, E, Q, V>),
+                    )
+                }
+            {
                 visit(&mut task);
             }
         });

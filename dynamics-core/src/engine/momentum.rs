@@ -141,12 +141,14 @@ impl<T, K> Engine<T, K> {
             result: &mut result,
         };
         for_each_joint!(J, {
-            if let Some(visit) = const {
-                only_if(
-                    CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
-                    visit::<R, T, E, B, Q, V, DRIFT, J> as Visit<R, E, Q, V>,
-                )
-            } {
+            if CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE
+                && let Some(visit) = const {
+                    only_if(
+                        CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
+                        visit::<R, T, E, B, Q, V, DRIFT, J> as Visit<R, E, Q, V>,
+                    )
+                }
+            {
                 visit(&mut task, &base);
             }
         });
@@ -221,12 +223,14 @@ where
         load: Wrench::ZERO,
     };
     for_each_joint!(J, {
-        if let Some(visit) = const {
-            only_if(
-                JointPair::<T, B, Q, V, I, J>::IS_PARENT,
-                visit::<R, T, E, B, Q, V, DRIFT, J> as Visit<R, E, Q, V>,
-            )
-        } {
+        if JointPair::<T, B, Q, V, I, J>::IS_PARENT
+            && let Some(visit) = const {
+                only_if(
+                    JointPair::<T, B, Q, V, I, J>::IS_PARENT,
+                    visit::<R, T, E, B, Q, V, DRIFT, J> as Visit<R, E, Q, V>,
+                )
+            }
+        {
             let child = visit(task, &body);
             inner = Carried {
                 h: inner.h + child.h,
@@ -247,12 +251,14 @@ where
     let mut load = Wrench::ZERO;
     if DRIFT {
         load = body.wrench(&own);
-        if let Some(environment) = const {
-            only_if(
-                E::WRENCH,
-                environment::<R, T, E, B, Q, V, I> as Environment<R, E>,
-            )
-        } {
+        if E::WRENCH
+            && let Some(environment) = const {
+                only_if(
+                    E::WRENCH,
+                    environment::<R, T, E, B, Q, V, I> as Environment<R, E>,
+                )
+            }
+        {
             load = environment(task.effects, &body, load);
         }
         load = load + inner.load;

@@ -4,7 +4,7 @@
 //! it. Turns do not change them, so that they are constants of the robot; slides and a payload add to them.
 
 use super::compile::{CompiledJoint, CompiledRobot, JointPair};
-use super::only_if;
+use super::{Index, only_if};
 use crate::effects::{Effect, RegroupedInertia};
 use crate::model::{BASE, JointCoordinate, JointKind, Model, Robot};
 use crate::scalar::{Matrix, Real, Vector};
@@ -131,12 +131,14 @@ where
 {
     let mut noise = [R::ZERO; V];
     for_each_joint!(J, {
-        if let Some(of_joint) = const {
-            only_if(
-                J < V,
-                of_joint::<R, T, E, B, Q, V, J> as fn(&[JointCoordinate<R>; Q], &E) -> R,
-            )
-        } {
+        if Index::<J, V>::IS_BELOW
+            && let Some(of_joint) = const {
+                only_if(
+                    J < V,
+                    of_joint::<R, T, E, B, Q, V, J> as fn(&[JointCoordinate<R>; Q], &E) -> R,
+                )
+            }
+        {
             noise[J] = of_joint(turns, effects) * (R::EPSILON * R::from_f64(ROUNDINGS));
         }
     });
@@ -174,12 +176,14 @@ where
             size += slides * (moment + moment + slides * mass);
         }
     }
-    if let Some(loaded) = const {
-        only_if(
-            load::<T, B, Q, V>(I, 0, &E::PAYLOAD) < B,
-            loaded::<R, T, E, B, Q, V, I> as fn(&E, R, R) -> R,
-        )
-    } {
+    if const { load::<T, B, Q, V>(I, 0, &E::PAYLOAD) < B }
+        && let Some(loaded) = const {
+            only_if(
+                load::<T, B, Q, V>(I, 0, &E::PAYLOAD) < B,
+                loaded::<R, T, E, B, Q, V, I> as fn(&E, R, R) -> R,
+            )
+        }
+    {
         size = loaded(effects, size, slides);
     }
     size

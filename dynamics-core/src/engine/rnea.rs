@@ -71,22 +71,26 @@ where
         task.effects,
         E::BASE_MOTION,
     ));
-    if let Some(environment) = const {
-        only_if(
-            E::WRENCH,
-            environment::<R, T, E, B, Q, V, I> as Environment<R, E>,
-        )
-    } {
+    if E::WRENCH
+        && let Some(environment) = const {
+            only_if(
+                E::WRENCH,
+                environment::<R, T, E, B, Q, V, I> as Environment<R, E>,
+            )
+        }
+    {
         total = environment(task.effects, &field, total);
     }
 
     for_each_joint!(J, {
-        if let Some(visit) = const {
-            only_if(
-                JointPair::<T, B, Q, V, I, J>::IS_PARENT,
-                visit_child::<R, T, E, B, Q, V, I, J> as Visit<R, E, Q, V>,
-            )
-        } {
+        if JointPair::<T, B, Q, V, I, J>::IS_PARENT
+            && let Some(visit) = const {
+                only_if(
+                    JointPair::<T, B, Q, V, I, J>::IS_PARENT,
+                    visit_child::<R, T, E, B, Q, V, I, J> as Visit<R, E, Q, V>,
+                )
+            }
+        {
             let child = visit(task, &field);
             total = Wrench {
                 f: total.f + child.f,

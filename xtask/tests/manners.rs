@@ -202,7 +202,11 @@ fn wait(seconds: u64, is_over: impl Fn() -> bool, what: &str) {
     }
 }
 
-const FIGURES: &str = "echo '| a figure | 1 |'";
+/// Builds a program that prints a figure.
+const FIGURES: &str = r#"program="$CARGO_TARGET_DIR/debug/eliminations"
+mkdir -p "$CARGO_TARGET_DIR/debug"
+printf '#!/bin/sh\necho "| a figure | 1 |"\n' > "$program"
+chmod +x "$program""#;
 
 #[test]
 fn reports_written_elsewhere_leave_the_workspace_as_it_is() {
@@ -213,7 +217,8 @@ fn reports_written_elsewhere_leave_the_workspace_as_it_is() {
     let mut command = xtask(&["eliminations", "--out"]);
     command
         .arg(&out)
-        .env("CARGO", cargo_but(&dir, "run", FIGURES));
+        .env("CARGO_TARGET_DIR", dir.join("target"))
+        .env("CARGO", cargo_but(&dir, "build", FIGURES));
     let (code, _, said) = outcome(&mut command);
     assert_eq!(code, Some(0), "{said}");
     let written = std::fs::read_to_string(out.join("eliminations.md")).expect("the report");
@@ -231,7 +236,7 @@ fn a_read_only_directory_is_named_before_anything_is_measured() {
     let mut command = xtask(&["eliminations", "--out"]);
     command
         .arg(file.join("reports"))
-        .env("CARGO", cargo_but(&dir, "run", &touch));
+        .env("CARGO", cargo_but(&dir, "build", &touch));
     let (code, _, said) = outcome(&mut command);
     assert_eq!(code, Some(1), "{said}");
     assert!(said.contains("cannot create"), "{said}");

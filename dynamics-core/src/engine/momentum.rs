@@ -14,7 +14,7 @@ use super::base::{no_gyroscopic_rotors, unaccelerated};
 use super::compile::{CompiledJoint, CompiledRobot, JointPair};
 use super::folding::{Folded, Vec3};
 use super::gate::EngineScene;
-use super::rnea::{Environment, environment, inertia};
+use super::rnea::{environment, inertia};
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::{MomentumAndCoriolis, MomentumAndDrift};
 use crate::effects::{Effect, JointState};
@@ -251,15 +251,8 @@ where
     let mut load = Wrench::ZERO;
     if DRIFT {
         load = body.wrench(&own);
-        if E::WRENCH
-            && let Some(environment) = const {
-                only_if(
-                    E::WRENCH,
-                    environment::<R, T, E, B, Q, V, I> as Environment<R, E>,
-                )
-            }
-        {
-            load = environment(task.effects, &body, load);
+        if E::WRENCH {
+            load = environment::<R, T, E, B, Q, V, I>(task.effects, &body, load);
         }
         load = load + inner.load;
         let mut held = load.along(joint.prismatic, length_inv).get();

@@ -71,15 +71,8 @@ where
         task.effects,
         E::BASE_MOTION,
     ));
-    if E::WRENCH
-        && let Some(environment) = const {
-            only_if(
-                E::WRENCH,
-                environment::<R, T, E, B, Q, V, I> as Environment<R, E>,
-            )
-        }
-    {
-        total = environment(task.effects, &field, total);
+    if E::WRENCH {
+        total = environment::<R, T, E, B, Q, V, I>(task.effects, &field, total);
     }
 
     for_each_joint!(J, {
@@ -237,9 +230,6 @@ where
         second: body.second + Sym3::of(&second),
     }
 }
-
-/// A function that subtracts the wrenches of the environment.
-pub(crate) type Environment<R, E> = fn(&E, &AccelerationField<R>, Wrench<R>) -> Wrench<R>;
 
 /// Subtracts the wrenches fˣ of the bodies on joint I.
 #[cfg_attr(not(debug_assertions), inline(always))]

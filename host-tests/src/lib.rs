@@ -15,6 +15,15 @@ pub mod tolerances;
 pub mod trees;
 pub mod widen;
 
+/// A number of states, runs or ticks: of tests whose claim is the same for fewer of them, the second one is for the feature `full`.
+pub const fn everyday_or_full(everyday: u32, full: u32) -> u32 {
+    if cfg!(feature = "full") {
+        full
+    } else {
+        everyday
+    }
+}
+
 /// The README's examples compile: here, since a packaged crate does not contain the repository's files.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]

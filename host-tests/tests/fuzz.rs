@@ -1,5 +1,6 @@
 //! The fuzz targets on a fixed stream of bytes: the bounded run of `cargo xtask fuzz`.
 
+use host_tests::everyday_or_full;
 use host_tests::fuzz::{controller, description, dynamics, frames};
 use host_tests::random::random_numbers;
 use proptest::prelude::RngExt;
@@ -25,7 +26,7 @@ fn no_state_breaks_the_dynamics() {
 
 #[test]
 fn no_inputs_drive_the_controller_beyond_its_limits() {
-    run(controller, 300);
+    run(controller, everyday_or_full(100, 300) as usize);
 }
 
 #[test]

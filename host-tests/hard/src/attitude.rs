@@ -48,14 +48,22 @@ pub(super) fn ball(mass: f64, com: f64, moments: [f64; 3]) -> Model<f64, 1, 4, 3
 }
 
 fn quaternion() -> Vec<Row> {
-    const STEPS: u32 = 10_000_000;
+    turned(10_000_000)
+}
+
+/// The quaternion after a twentieth of the case's steps.
+pub fn half_a_million_steps() -> Vec<Row> {
+    turned(500_000)
+}
+
+fn turned(steps: u32) -> Vec<Row> {
     const STEP: [f64; 3] = [2.0 / 8192.0, 3.0 / 8192.0, 6.0 / 8192.0];
-    fn run<R: Real>(rows: &mut Vec<Row>, bounds: [f64; 2]) {
+    fn run<R: Real>(steps: u32, rows: &mut Vec<Row>, bounds: [f64; 2]) {
         let model = ball(1.0, 0.0, [1.0; 3]);
         let model = R::cast(&model);
         let (mut q, step) = (neutral(&model), STEP.map(R::from_f64));
         let mut longest = 0.0_f64;
-        for i in 0..STEPS {
+        for i in 0..steps {
             q = integrate(&model, &q, &step);
             if i % 1000 == 0 {
                 longest = larger(longest, (length(&q) - 1.0).abs());
@@ -70,14 +78,14 @@ fn quaternion() -> Vec<Row> {
         rows.push(Row::measured(
             "attitude, rad",
             name::<R>(),
-            off(&q),
+            off(steps, &q),
             bounds[1],
         ));
     }
     /// From the turn that it should be.
-    fn off<R: Real>(q: &[R; 4]) -> f64 {
+    fn off<R: Real>(steps: u32, q: &[R; 4]) -> f64 {
         let axis = DVec3::new(2.0, 3.0, 6.0) / 7.0;
-        let half = f64::from(STEPS) * 7.0 / 16_384.0;
+        let half = f64::from(steps) * 7.0 / 16_384.0;
         let want = DQuat::from_xyzw(
             axis.x * half.sin(),
             axis.y * half.sin(),
@@ -91,10 +99,10 @@ fn quaternion() -> Vec<Row> {
         DQuat::from_array(q.map(R::to_f64)).length()
     }
     /// q += ½ q ω h, never normalised.
-    fn naive() -> [f32; 4] {
+    fn naive(steps: u32) -> [f32; 4] {
         let [x, y, z] = STEP.map(|x| 0.5 * x as f32);
         let mut q = [0.0_f32, 0.0, 0.0, 1.0];
-        for _ in 0..STEPS {
+        for _ in 0..steps {
             let [a, b, c, w] = q;
             q[0] += w * x + b * z - c * y;
             q[1] += w * y + c * x - a * z;
@@ -104,9 +112,14 @@ fn quaternion() -> Vec<Row> {
         q
     }
     let mut rows = Vec::new();
-    run::<f32>(&mut rows, [2.0 * f64::from(f32::EPSILON), 4e-3]);
-    run::<f64>(&mut rows, [2.0 * f64::EPSILON, 9e-13]);
-    let drifted = naive();
+    let attitude = f64::from(steps) / 1e7;
+    run::<f32>(
+        steps,
+        &mut rows,
+        [2.0 * f64::from(f32::EPSILON), 4e-3 * attitude],
+    );
+    run::<f64>(steps, &mut rows, [2.0 * f64::EPSILON, 9e-13 * attitude]);
+    let drifted = naive(steps);
     rows.push(Row::naive(
         "length when q̇ = ½ q ω is added up",
         "f32",
@@ -168,12 +181,23 @@ fn spin<R: Real>(how: &Integrator, h: f64, seconds: f64) -> Spun {
 }
 
 fn dzhanibekov() -> Vec<Row> {
+    spun_by(INTEGRATORS.len())
+}
+
+/// The Dzhanibekov body by the first of the integrators alone.
+pub fn one_integrator() -> Vec<Row> {
+    spun_by(1)
+}
+
+/// The case by the first `n` integrators.
+fn spun_by(n: usize) -> Vec<Row> {
     let mut rows = Vec::new();
     // Energy and momentum in f32 and in f64.
     let first = [1.5e-1, 1e-1, 1.5e-1, 1e-1];
     for (how, bounds) in INTEGRATORS
         .iter()
         .zip([first, first, [1e-4, 5e-5, 1e-12, 1e-10]])
+        .take(n)
     {
         let (single, double) = (spin::<f32>(how, 1e-3, 60.0), spin::<f64>(how, 1e-3, 60.0));
         let half = spin::<f64>(how, 5e-4, 60.0);

@@ -235,6 +235,16 @@ fn jitter() -> Vec<Row> {
 const DAY: u32 = 86_400_000;
 
 fn day() -> Vec<Row> {
+    observed(DAY)
+}
+
+/// The case with a hundredth of the observer's ticks.
+pub fn quarter_of_an_hour() -> Vec<Row> {
+    observed(DAY / 100)
+}
+
+/// The motion after a day, and an observer after so many ticks.
+fn observed(ticks: u32) -> Vec<Row> {
     fn run<R: Real>(rows: &mut Vec<Row>) {
         let of = R::from_f64;
         let stop = |q, ticks| WayPoint {
@@ -266,7 +276,7 @@ fn day() -> Vec<Row> {
     let mut rows = Vec::new();
     run::<f32>(&mut rows);
     run::<f64>(&mut rows);
-    // An observer of a joint that swings by steps of its encoder, and one that begins a second before the day ends.
+    // An observer of a joint that swings by steps of its encoder, and one that begins a second before the end.
     let position = |tick: u32| {
         let phase = tick % 4096;
         (if phase < 2048 { phase } else { 4096 - phase }) as f32 * 3.834_952e-4
@@ -277,9 +287,9 @@ fn day() -> Vec<Row> {
             tick: 1e-3,
         })
     });
-    for tick in 0..DAY {
+    for tick in 0..ticks {
         old.update(&[position(tick)], &[0.0]);
-        if tick >= DAY - 1000 {
+        if tick >= ticks - 1000 {
             new.update(&[position(tick)], &[0.0]);
         }
     }
@@ -298,8 +308,9 @@ fn day() -> Vec<Row> {
         speed,
         250.0 * epsilon,
     ));
-    let time = (0..DAY).fold(0.0_f32, |t, _| t + 1e-3);
-    let off = (f64::from(time) - 86_400.0).abs() / 86_400.0;
+    let time = (0..ticks).fold(0.0_f32, |t, _| t + 1e-3);
+    let elapsed = f64::from(ticks) * 1e-3;
+    let off = (f64::from(time) - elapsed).abs() / elapsed;
     rows.push(Row::naive("t += 0.001, of the day", "f32", off, epsilon));
     rows
 }

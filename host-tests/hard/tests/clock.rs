@@ -1,4 +1,5 @@
-use crate::demand;
+use crate::{demand, demand_part};
+use hard_cases::clock::quarter_of_an_hour;
 
 #[test]
 fn an_encoder_wrap_is_no_velocity_spike() {
@@ -13,7 +14,7 @@ fn late_and_missed_ticks_keep_the_command_limits() {
 
 #[test]
 fn time_advances_exactly_over_a_day() {
-    demand(40);
+    demand_part(40, quarter_of_an_hour);
 }
 
 #[test]

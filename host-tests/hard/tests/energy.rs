@@ -1,17 +1,9 @@
-use crate::demand;
+use crate::{demand, demand_part};
+use hard_cases::energy::pendulum_for_seconds;
 
-/// The everyday witness of the hour.
 #[test]
-fn a_double_pendulum_keeps_its_energy_for_seconds() {
-    for row in hard_cases::energy::pendulum_for_seconds() {
-        row.demand().unwrap_or_else(|wrong| panic!("{wrong}"));
-    }
-}
-
-#[cfg(feature = "full")]
-#[test]
-fn a_double_pendulum_keeps_its_energy_for_an_hour() {
-    demand(28);
+fn a_double_pendulum_keeps_its_energy() {
+    demand_part(28, pendulum_for_seconds);
 }
 
 #[test]

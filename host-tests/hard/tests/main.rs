@@ -18,10 +18,20 @@ mod speeds;
 mod stiff;
 
 use hard_cases::NUMBERS;
+use host_tests::hard::{Row, demand_rows};
 
 /// Runs a case and demands every row's verdict.
 fn demand(number: u32) {
     hard_cases::demand(number).unwrap_or_else(|wrong| panic!("{wrong}"));
+}
+
+/// Demands a part of a case that takes long, and with the feature `full` the whole case.
+fn demand_part(number: u32, part: fn() -> Vec<Row>) {
+    if cfg!(feature = "full") {
+        demand(number);
+    } else {
+        demand_rows(number, &part()).unwrap_or_else(|wrong| panic!("{wrong}"));
+    }
 }
 
 #[test]

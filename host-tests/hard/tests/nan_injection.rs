@@ -1,6 +1,7 @@
-use crate::demand;
+use crate::demand_part;
+use hard_cases::nan_injection::in_single_precision;
 
 #[test]
 fn injected_nan_reaches_no_drive_and_is_forgotten() {
-    demand(37);
+    demand_part(37, in_single_precision);
 }

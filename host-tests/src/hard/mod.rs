@@ -42,7 +42,14 @@ pub fn demand_of(cases: &[&[Case]], number: u32) -> Result<(), String> {
     let case = cases
         .find(|case| case.number == number)
         .ok_or_else(|| format!("there is no case {number}"))?;
-    let rows = case.rows();
+    demand_rows(number, &case.rows())
+}
+
+/// Demands these rows, all of the case of this number or a part of them.
+///
+/// # Errors
+/// There is none, or not every row is as demanded: says which.
+pub fn demand_rows(number: u32, rows: &[Row]) -> Result<(), String> {
     let wrong: Vec<String> = rows.iter().filter_map(|row| row.demand().err()).collect();
     if rows.is_empty() {
         return Err(format!("case {number} measures nothing"));

@@ -16,6 +16,22 @@ use crate::error::{ImportError, Problem, Result};
 pub const MOST_LINKS: usize = 2_000;
 /// The largest length (m), mass (kg), inertia and other number.
 const MOST: f64 = 1e9;
+/// The stack, bytes, for the deepest nesting that is read, by an unoptimised build.
+const STACK: usize = 32 << 20;
+
+/// Runs what is recursive in the nesting of a file on a stack that is large enough, whichever thread calls.
+fn on_a_large_stack<T: Send>(work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(STACK);
+        let thread = thread.spawn_scoped(scope, work);
+        let no_thread = |error: std::io::Error| Problem::File {
+            path: "a thread that reads it".into(),
+            reason: error.to_string(),
+        };
+        let finished = thread.map_err(no_thread)?.join();
+        finished.unwrap_or_else(|panicked| std::panic::resume_unwind(panicked))
+    })
+}
 
 /// The robot that a file describes.
 ///
@@ -37,11 +53,14 @@ fn folder(path: &Path) -> &Path {
 /// As [`read`].
 pub fn for_peer(path: &Path) -> Result<String> {
     let text = text(path)?;
-    let document = xml::parse(text.trim_start_matches('\u{feff}'))?;
-    match document.root_element().tag_name().name() {
-        "mujoco" => mjcf::text::of(document.root_element(), folder(path)),
-        _ => Ok(text.trim_start_matches('\u{feff}').to_owned()),
-    }
+    let text = text.trim_start_matches('\u{feff}');
+    on_a_large_stack(|| {
+        let document = xml::parse(text)?;
+        match document.root_element().tag_name().name() {
+            "mujoco" => mjcf::text::of(document.root_element(), folder(path)),
+            _ => Ok(text.to_owned()),
+        }
+    })
 }
 
 /// The text of a file that is not too large.
@@ -73,6 +92,10 @@ fn text(path: &Path) -> Result<String> {
 /// # Errors
 /// [`ImportError`] with the line and the element.
 pub fn parse(text: &str, folder: &Path) -> Result<Description> {
+    on_a_large_stack(|| described(text, folder))
+}
+
+fn described(text: &str, folder: &Path) -> Result<Description> {
     let text = text.trim_start_matches('\u{feff}');
     let document = xml::parse(text)?;
     let root = document.root_element();

@@ -4,6 +4,8 @@ mod motion;
 mod refused;
 mod shapes;
 
+pub use motion::energy_for;
+
 use dynamics_core::flexible::{Beam, Modes, Shape};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint};
 use dynamics_core::scalar::Real;

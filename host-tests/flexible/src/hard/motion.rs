@@ -56,7 +56,12 @@ pub(super) fn rigid_limit() -> Vec<Row> {
 }
 
 pub(super) fn energy() -> Vec<Row> {
-    fn run<R: Scalar>(rows: &mut Vec<Row>, bound: f64) {
+    energy_for(60)
+}
+
+/// The energy of the bending arm for so many seconds, with the bounds in proportion to them.
+pub fn energy_for(seconds: u32) -> Vec<Row> {
+    fn run<R: Scalar>(seconds: u32, rows: &mut Vec<Row>, bound: f64) {
         let (robot, modes) = two::<R, 1, 2>(&[UPPER, LOWER]);
         let scene = (Inertia, Coriolis, Elasticity);
         let both = |x: f64, y: f64| [number::<R>(x), number(y)];
@@ -86,7 +91,7 @@ pub(super) fn energy() -> Vec<Row> {
         };
         let start = whole(&joints, &bent);
         let mut worst = 0.0_f64;
-        for step in 0..300_000 {
+        for step in 0..seconds * 5_000 {
             runge_kutta(&robot, &modes, &mut joints, &mut bent, &scene, number(2e-4));
             if step % 1000 == 0 {
                 worst = worst.max((whole(&joints, &bent) / start - 1.0).abs());
@@ -100,8 +105,9 @@ pub(super) fn energy() -> Vec<Row> {
         ));
     }
     let mut rows = Vec::new();
-    run::<f32>(&mut rows, 1e-3);
-    run::<f64>(&mut rows, 1e-6);
+    let minutes = f64::from(seconds) / 60.0;
+    run::<f32>(seconds, &mut rows, 1e-3 * minutes);
+    run::<f64>(seconds, &mut rows, 1e-6 * minutes);
     rows
 }
 

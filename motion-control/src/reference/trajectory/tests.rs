@@ -41,7 +41,7 @@ fn roots_are_square_roots() {
 fn peaks_are_those_of_dense_sampling() {
     let mut seed = 1;
     // Miri takes a minute for what is a second otherwise.
-    for _ in 0..if cfg!(miri) { 1 } else { 300 } {
+    for _ in 0..if cfg!(miri) { 1 } else { 60 } {
         let [a, b] = [noise(&mut seed), noise(&mut seed)];
         let points = [
             stop(0.0, 0),

@@ -4,7 +4,6 @@
 
 pub mod accuracy;
 pub mod budgets;
-pub mod build_time;
 pub mod cores;
 pub mod costs;
 pub mod effects;
@@ -118,12 +117,6 @@ pub const STUDIES: &[Study] = &[
         files: &["docs/peers.md"],
         held: Bars("the other libraries are not installed for a test, and times are those of one machine"),
         form: Own(peers::Args::augment_args, |options, matches| peers::run(options, given(matches)?), NO_STEP),
-    },
-    Study {
-        name: "build-time", about: "Time release builds with and without one specialised function, rewrite docs/build-time.md",
-        files: &["docs/build-time.md"],
-        held: Bars("seconds are those of one machine and of what else it does"),
-        form: Whole(build_time::measure),
     },
     Study {
         name: "mutants", about: "Change the code in a few hundred places, one at a time, and rewrite docs/mutants.md: takes an hour",

@@ -6,7 +6,7 @@ use std::process::{Command, ExitCode};
 use cycle_meter::Sample;
 use serde_json::Value;
 
-use crate::kit::bars::{Bars, Compared};
+use crate::kit::bars;
 use crate::kit::callgraph::Instruction;
 use crate::kit::elf::Image;
 use crate::kit::error::{Result, check, refuse_if};
@@ -131,7 +131,12 @@ pub fn check(workspace: &Workspace, tools: &Tools, plugin: &Path) -> Result<Stri
     masked_nowhere_else(&Image::read(&elf)?)?;
     let said = verdict(&meter::read(&out)?, &alone, &full)?;
     let cycles = longest(&alone);
-    within_bar(cycles, &budgets::bars(workspace)?)?;
+    let bar = format!("{} watched tick", SCENES[0]);
+    bars::hold(
+        &budgets::bars(workspace)?,
+        &bar,
+        [("cycles", cycles as f64)],
+    )?;
     Ok(format!(
         "{said}; with detectors and record a tick takes {cycles} cycles at most"
     ))
@@ -144,16 +149,6 @@ fn longest(samples: &[Sample]) -> u64 {
         .zip(of(RECORD))
         .map(|(tick, record)| tick.cycles + record.cycles);
     sums.max().unwrap_or(u64::MAX)
-}
-
-/// Fails if a tick with its detectors and its record takes longer than promised.
-fn within_bar(cycles: u64, bars: &Bars) -> Result<()> {
-    let name = format!("{} watched tick", SCENES[0]);
-    let compared = Compared::of(bars, &name, "cycles", cycles as f64);
-    match compared.and_then(|bar| bar.complaint()) {
-        Some(complaint) => Err(check!("bar: {complaint}")),
-        None => Ok(()),
-    }
 }
 
 /// Fails if a function masks interrupts that is neither the initialisation, the interrupt, nor the log.

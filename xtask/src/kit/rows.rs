@@ -239,14 +239,7 @@ mod tests {
 
     #[test]
     fn samples_go_to_the_rows_that_announced_them() {
-        let samples: Vec<Sample> = (1..=3)
-            .map(|n| Sample {
-                region: 0,
-                instructions: n,
-                cycles: 10 * n,
-                flops: 100 * n,
-            })
-            .collect();
+        let samples = [1, 2, 3].map(|n| Sample::of(0, [n, 10 * n, 100 * n]));
         let lines = [
             "config ur5e rnea core full 1 6 1 4096 128",
             "hello",

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use crate::kit::error::{Error, Result, refuse_if};
+use crate::kit::error::{Result, refuse_if};
 use crate::kit::sources::{code, sources};
 use crate::kit::workspace::{self, Use, Workspace};
 
@@ -67,10 +67,8 @@ fn modules(root: &Path) -> Result<String> {
         modules += order.declared.len();
         uses += order.examine(root, &library, &mut wrong)?;
     }
-    if wrong.is_empty() {
-        return Ok(format!("{modules} modules, {uses} uses"));
-    }
-    Err(Error::check(wrong.join("\n")))
+    refuse_if!(!wrong.is_empty(), "{}", wrong.join("\n"));
+    Ok(format!("{modules} modules, {uses} uses"))
 }
 
 impl Order {

@@ -97,7 +97,8 @@ pub fn program(workspace: &Workspace, package: &str) -> Result<Command> {
 
 /// A bin of the firmware that sends telemetry, built.
 pub fn firmware(workspace: &Workspace, tools: &Tools, bin: &str) -> Result<PathBuf> {
-    let built = firmware::build_featured(workspace, tools.toolchain, RELEASE, "telemetry", &[bin]);
+    let (chain, features) = (tools.toolchain, "telemetry");
+    let built = firmware::build_with(workspace, chain, RELEASE, features, &[bin], None);
     Ok(built?.remove(0))
 }
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::kit::callgraph::Reach;
 use crate::kit::elf::{Image, is_panic};
-use crate::kit::error::{Error, Result, bail, check};
+use crate::kit::error::{Result, bail, check};
 use crate::kit::firmware;
 use crate::kit::meter::{self, Cost, Spread};
 use crate::kit::progress::Spinner;
@@ -182,8 +182,7 @@ fn cut(
         let numbers = numbers.iter().map(|word| word.parse());
         let numbers = numbers.collect::<std::result::Result<Vec<u64>, _>>();
         let Ok(&[trig, joints, states, address, stack_bytes]) = numbers.as_deref() else {
-            let why = format!("the firmware's line {line:?} cannot be understood");
-            return Err(Error::check(why));
+            bail!("the firmware's line {line:?} cannot be understood");
         };
         let (mine, rest) = samples
             .split_at_checked(states as usize)
@@ -217,8 +216,7 @@ fn cut(
 /// left out by their names.
 pub fn code_bytes(image: &Image, address: u64, left_out: impl Fn(&str) -> bool) -> Result<u64> {
     if !image.functions.iter().any(|f| f.address == address) {
-        let why = format!("the firmware has no function at {address:#x}");
-        return Err(Error::check(why));
+        bail!("the firmware has no function at {address:#x}");
     }
     let reach = Reach::of(image, |f| f.address == address)?;
     for (function, path) in reach.functions() {

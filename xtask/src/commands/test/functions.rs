@@ -30,7 +30,7 @@ pub fn build(context: &Context) -> Result<String> {
 
 pub fn meter(context: &Context) -> Result<String> {
     let (_, samples) = context.metered("meter_check", false)?;
-    let agreeing = cycle_meter::check_hand_counted(&samples).map_err(Error::check)?;
+    let agreeing = cycle_meter::check_hand_counted(&samples).map_err(Error::Check)?;
     Ok(format!("{agreeing} sequences"))
 }
 

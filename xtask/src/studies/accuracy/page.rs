@@ -3,12 +3,11 @@
 #[cfg(test)]
 mod tests;
 
-use super::front;
 use super::join::{Host, Line};
 use super::measure::Robot;
 use super::names::{cycles, digits, name, stated};
-use super::plot;
 use super::point::{Kind, Point, of_group};
+use super::{front, plot};
 use crate::kit::docs::Page;
 use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::meter::MODEL;

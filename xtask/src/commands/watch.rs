@@ -9,7 +9,7 @@ use serde_json::Value;
 use crate::kit::bars;
 use crate::kit::callgraph::Instruction;
 use crate::kit::elf::Image;
-use crate::kit::error::{Result, check, refuse_if};
+use crate::kit::error::{Result, bail, check, refuse_if};
 use crate::kit::qemu::Run;
 use crate::kit::setup::{self, Options, Tools};
 use crate::kit::toolchain::RELEASE;
@@ -210,9 +210,7 @@ fn verdict(heard: &[Sample], alone: &[Sample], full: &[Sample]) -> Result<String
         let differs = pairs.or((others.len() != without.len()).then_some(without.len()));
         if let Some(at) = differs {
             let tick = at / meter::REGIONS.len();
-            return Err(check!(
-                "with {what}, tick {tick} costs something else than without"
-            ));
+            bail!("with {what}, tick {tick} costs something else than without");
         }
     }
     let most = |samples, mine: fn(u8) -> bool| {

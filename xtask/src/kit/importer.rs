@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::kit::error::{Error, Result, check};
+use crate::kit::error::{Error, Result, bail, check};
 use crate::kit::firmware::{self, OWN_ROBOTS};
 use crate::kit::progress::Spinner;
 use crate::kit::rows::{self, Row};
@@ -71,9 +71,7 @@ pub fn measure(
     function: &str,
 ) -> Result<Vec<Row>> {
     if !robots.iter().all(|robot| is_measurable(robot)) {
-        return Err(check!(
-            "the firmware takes up to {MOST_JOINTS} joints of one coordinate"
-        ));
+        bail!("the firmware takes up to {MOST_JOINTS} joints of one coordinate");
     }
     let spinner = Spinner::start("building the firmware for the robot");
     let (mut modules, mut calls) = (String::new(), String::new());

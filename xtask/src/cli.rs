@@ -4,19 +4,21 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands::{demo, endurance, import, meter, pil, test, watch, weight};
 use crate::kit::error::{Result, check};
 use crate::kit::{output, processes, setup, workspace};
-use crate::studies::Chosen;
+use crate::studies;
 
 /// Set-up, demo, tests and reports of this workspace
 #[derive(Parser)]
 #[command(name = "cargo xtask", bin_name = "cargo xtask")]
+#[command(subcommand_required = true, arg_required_else_help = true)]
 pub struct Cli {
+    /// None if a study's is chosen.
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
     #[command(flatten)]
     setup: setup::Options,
     /// Write reports and their pictures into this directory instead of docs/ (budgets stay where they are)
@@ -41,8 +43,6 @@ enum Command {
     Watch(watch::Args),
     /// Compare the scene ur5e with its robot in f64 on the host, processor in the loop, and with its robot inside
     Pil(pil::Args),
-    #[command(flatten)]
-    Study(Chosen),
     /// Feed descriptions, files, dynamics, controller and encoder frames random bytes; CI does so for a moment
     Fuzz {
         /// Seconds for each target
@@ -66,18 +66,20 @@ const FIRST: [&str; 9] = [
     "demo", "test", "new", "import", "meter", "watch", "pil", "costs", "accuracy",
 ];
 
+/// The commands that lists name behind those of the studies.
+const LAST: [&str; 5] = ["fuzz", "soak", "miri", "lines", "help"];
+
 const LABORATORY: &str = "\x1b[1;4mLaboratory, which writes the pages of docs/\x1b[0m";
 
 /// All commands; those of the laboratory stand behind the help's other parts.
 fn command() -> clap::Command {
     let place = |name: &str| FIRST.iter().position(|first| *first == name);
-    let root = Cli::command().mut_subcommands(|command| match place(command.get_name()) {
+    let root = Cli::command().subcommands(studies::commands());
+    let root = root.mut_subcommands(|command| match place(command.get_name()) {
         Some(place) => command.display_order(place),
         None => command.hide(true),
     });
-    let hidden = root
-        .get_subcommands()
-        .filter(|command| command.is_hide_set());
+    let hidden = in_order(&root).filter(|command| command.is_hide_set());
     let lines = hidden.map(|command| {
         let about = command.get_about().map(ToString::to_string);
         format!(
@@ -90,9 +92,17 @@ fn command() -> clap::Command {
     root.after_help(laboratory)
 }
 
+/// The subcommands in the order of lists.
+fn in_order(root: &clap::Command) -> impl Iterator<Item = &clap::Command> {
+    let mut commands: Vec<_> = root.get_subcommands().collect();
+    commands.sort_by_key(|command| LAST.contains(&command.get_name()));
+    commands.into_iter()
+}
+
 /// The command line of this process, or what is wrong with it, or the help that was asked for.
-pub fn parse() -> std::result::Result<Cli, clap::Error> {
-    Cli::from_arg_matches(&command().try_get_matches()?)
+pub fn parse() -> std::result::Result<(Cli, ArgMatches), clap::Error> {
+    let matches = command().try_get_matches()?;
+    Ok((Cli::from_arg_matches(&matches)?, matches))
 }
 
 /// Prints help or what is wrong with the command line, with the words that could have stood there.
@@ -117,9 +127,7 @@ fn valid_words(kind: ErrorKind) -> Option<String> {
     root.build();
     let (what, words): (_, Vec<String>) = match kind {
         ErrorKind::InvalidSubcommand => {
-            let names = root
-                .get_subcommands()
-                .map(|command| command.get_name().to_owned());
+            let names = in_order(&root).map(|command| command.get_name().to_owned());
             ("commands".to_owned(), names.collect())
         }
         ErrorKind::UnknownArgument => {
@@ -139,13 +147,16 @@ fn valid_words(kind: ErrorKind) -> Option<String> {
     Some(format!("valid {what}: {}", words.join(", ")))
 }
 
-pub fn run(cli: Cli) -> Result<ExitCode> {
+pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {
     processes::end_with_us().map_err(|e| check!("cannot handle signals: {e}"))?;
     if let Some(dir) = cli.out {
         workspace::write_reports_to(dir)?;
     }
     let setup = cli.setup;
-    match cli.command {
+    if let Some((study, matches)) = studies::chosen(&matches) {
+        return study.run(setup, matches);
+    }
+    match cli.command.expect("clap requires a command") {
         Command::Demo(args) => demo::run(setup, args),
         Command::Test(args) => test::run(setup, &args),
         Command::New(args) => import::new(&args),
@@ -153,7 +164,6 @@ pub fn run(cli: Cli) -> Result<ExitCode> {
         Command::Meter(args) => meter::run(setup, &args),
         Command::Watch(args) => watch::run(setup, &args),
         Command::Pil(args) => pil::run(setup, &args),
-        Command::Study(study) => study.run(setup),
         Command::Fuzz { seconds } => endurance::fuzz(seconds),
         Command::Soak { ticks } => endurance::soak(ticks),
         Command::Miri => endurance::miri(),

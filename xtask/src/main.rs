@@ -30,7 +30,7 @@ fn main() -> ExitCode {
 
 #[cfg(test)]
 mod tests {
-    use crate::kit::docs::repository::root;
+    use crate::kit::docs::repository::{read, root};
     use crate::kit::sources::sources;
 
     #[test]
@@ -40,7 +40,7 @@ mod tests {
             ("studies", &["commands"]),
         ] {
             for path in sources(&root().join("xtask/src").join(folder)).expect("sources") {
-                let source = std::fs::read_to_string(&path).expect("a source");
+                let source = read(&path);
                 for user in users {
                     let is_used = source.contains(&format!("crate::{user}"));
                     assert!(!is_used, "{} uses {user}", path.display());

@@ -14,8 +14,10 @@
 //! about the origin of frame i − 1, and p*_i e_iᵀ takes the place of his ⁱp_{i+1} e_{i+1}ᵀ.
 
 use crate::chain::{Chain, State};
-use crate::matrix::{derivative, dot, mul, mul_transposed, mul_vec, outer, plus, sum, times};
-use crate::matrix::{trace_of_product, transposed};
+use crate::matrix::{
+    derivative, dot, mul, mul_transposed, mul_vec, outer, plus, sum, times, trace_of_product,
+    transposed,
+};
 use crate::number::Number;
 use crate::waters::Turning;
 

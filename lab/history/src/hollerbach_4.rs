@@ -10,8 +10,9 @@
 //! J_i: `pseudo_inertia`; ∂W_i/∂q_i = W_{i−1} ∂A_i/∂q_i: `dw`; m_i r_i: `first_moment_4`.
 
 use crate::chain::{Chain, State};
-use crate::matrix::transposed;
-use crate::matrix::{derivative, dot, mul, mul_transposed, mul_vec, plus, sum, trace_of_product};
+use crate::matrix::{
+    derivative, dot, mul, mul_transposed, mul_vec, plus, sum, trace_of_product, transposed,
+};
 use crate::number::Number;
 use crate::waters::Turning;
 

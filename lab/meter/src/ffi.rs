@@ -146,19 +146,19 @@ mod tests {
     use super::version_to_ask_for;
 
     #[test]
-    fn the_hosts_newest_function_decides_the_version() {
+    fn a_numeric_variable_or_the_hosts_newest_function_decides_the_version() {
         let first = [c"qemu_plugin_insn_data"].as_slice();
         let second = [c"qemu_plugin_scoreboard_new"].as_slice();
         let fourth = [second[0], c"qemu_plugin_read_memory_vaddr"];
-        for (functions, version) in [(first, 1), (second, 2), (&fourth, 4)] {
+        for (variable, functions, version) in [
+            (None, first, 1),
+            (None, second, 2),
+            (None, &fourth, 4),
+            (Some("9"), &fourth, 9),
+            (Some("nine"), first, 1),
+        ] {
             let has = |name: &std::ffi::CStr| functions.contains(&name);
-            assert_eq!(version_to_ask_for(None, has), version);
+            assert_eq!(version_to_ask_for(variable.map(OsStr::new), has), version);
         }
-    }
-
-    #[test]
-    fn a_numeric_variable_decides_the_version() {
-        let version = |text: &str| version_to_ask_for(Some(OsStr::new(text)), |_| false);
-        assert_eq!((version("9"), version("nine")), (9, 1));
     }
 }

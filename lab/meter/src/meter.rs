@@ -121,12 +121,7 @@ mod tests {
     }
 
     fn sample(region: u8, instructions: u64, cycles: u64) -> Sample {
-        Sample {
-            region,
-            instructions,
-            cycles,
-            flops: 0,
-        }
+        Sample::of(region, [instructions, cycles, 0])
     }
 
     #[test]

@@ -34,6 +34,18 @@ pub struct Sample {
     pub flops: u64,
 }
 
+impl Sample {
+    /// A passage of these instructions, cycles and floating-point operations.
+    pub const fn of(region: u8, [instructions, cycles, flops]: [u64; 3]) -> Self {
+        Self {
+            region,
+            instructions,
+            cycles,
+            flops,
+        }
+    }
+}
+
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -77,12 +89,10 @@ pub(crate) fn sample(line: &str, number: usize) -> Result<Sample, Error> {
     }
     let words = line.split(' ').map(|word| word.parse().ok());
     match words.collect::<Option<Vec<u64>>>().as_deref() {
-        Some(&[region @ 0..8, instructions, cycles, flops]) => Ok(Sample {
-            region: region as u8,
-            instructions,
-            cycles,
-            flops,
-        }),
+        Some(&[region @ 0..8, ref costs @ ..]) => {
+            let costs = costs.try_into().map_err(|_| malformed())?;
+            Ok(Sample::of(region as u8, costs))
+        }
         _ => Err(malformed()),
     }
 }
@@ -144,16 +154,10 @@ impl Summary {
 mod tests {
     use super::*;
 
-    const fn sample(region: u8, instructions: u64, cycles: u64, flops: u64) -> Sample {
-        Sample {
-            region,
-            instructions,
-            cycles,
-            flops,
-        }
-    }
-
-    const SAMPLES: [Sample; 2] = [sample(1, 390, 508, 308), sample(0, 1204, 1657, 402)];
+    const SAMPLES: [Sample; 2] = [
+        Sample::of(1, [390, 508, 308]),
+        Sample::of(0, [1204, 1657, 402]),
+    ];
 
     #[test]
     fn what_is_written_is_read() {

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use crate::kit::bracket::{Bracket, READINGS};
 use crate::kit::elf::Image;
-use crate::kit::error::{Error, Result};
+use crate::kit::error::{Error, Result, check};
 use crate::kit::progress::Spinner;
 use crate::kit::protocol::{FEEDFORWARD, PD, Recording};
 use crate::kit::qemu::Run;
@@ -233,7 +233,7 @@ pub fn brackets(
     let [least, most] = std::thread::scope(|scope| {
         let runs = READINGS.map(|reading| scope.spawn(move || longest(reading)));
         runs.map(|run| {
-            let lost = |_| Err(Error::check("a run by another reading was lost"));
+            let lost = |_| Err(check!("a run by another reading was lost"));
             run.join().unwrap_or_else(lost)
         })
     });

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use crate::kit::error::{Error, Result};
-use crate::kit::importer::{Robot, Ways, command, measure, report};
+use crate::kit::importer::{ALL, Robot, command, measure, report};
 use crate::kit::meter::MODEL;
 use crate::kit::rows::Row;
 use crate::kit::setup::{self, Options};
@@ -81,7 +81,7 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     let report = report(&workspace::read(&json_file)?)?;
     let robot = Robot { file, report };
     let measured = (!no_measure).then(|| {
-        setup::for_demo(options).and_then(|tools| measure(&workspace, &tools, &[&robot], Ways::All))
+        setup::for_demo(options).and_then(|tools| measure(&workspace, &tools, &[&robot], ALL))
     });
     if json {
         let mut report = robot.report;

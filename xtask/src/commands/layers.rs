@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use crate::kit::error::{Error, Result, refuse_if};
+use crate::kit::error::{Result, refuse_if};
 use crate::kit::sources::{code, sources};
 use crate::kit::workspace::{self, Use, Workspace};
 
@@ -67,10 +67,8 @@ fn modules(root: &Path) -> Result<String> {
         modules += order.declared.len();
         uses += order.examine(root, &library, &mut wrong)?;
     }
-    if wrong.is_empty() {
-        return Ok(format!("{modules} modules, {uses} uses"));
-    }
-    Err(Error::check(wrong.join("\n")))
+    refuse_if!(!wrong.is_empty(), "{}", wrong.join("\n"));
+    Ok(format!("{modules} modules, {uses} uses"))
 }
 
 impl Order {
@@ -324,36 +322,38 @@ mod tests {
 
     #[test]
     fn a_module_that_uses_a_later_one_is_named() {
-        let cases = [
-            ("use std::fmt;\nuse crate::control::Gate;\n", 2),
-            (
-                "use crate::{\n    scalar,\n    control::{Law, Gate},\n};\n",
-                3,
-            ),
-            ("fn f() -> u8 {\n    crate::Law::new()\n}\n", 2),
-            ("use super::super::control;\n", 1),
+        let [core, control] = [
+            "dynamics-core/src/model/tree.rs",
+            "motion-control/src/limits.rs",
         ];
-        for (text, line) in cases {
-            let file = "dynamics-core/src/model/tree.rs";
+        let braces = "use crate::{\n    scalar,\n    control::{Law, Gate},\n};\n";
+        for (file, text, what) in [
+            (
+                core,
+                "use std::fmt;\nuse crate::control::Gate;\n",
+                "2: `model` uses `control`",
+            ),
+            (core, braces, "3: `model` uses `control`"),
+            (
+                core,
+                "fn f() {\n    crate::Law::new()\n}\n",
+                "2: `model` uses `control`",
+            ),
+            (
+                core,
+                "use super::super::control;\n",
+                "1: `model` uses `control`",
+            ),
+            (
+                control,
+                "use crate::safety::Stop;\n",
+                "1: `limits` uses `safety`",
+            ),
+            (control, "use crate::Stop;\n", "1: `limits` uses `safety`"),
+        ] {
             let error = tree("bad", file, text).expect_err(text);
             let place = Path::new(file).display();
-            assert_eq!(
-                error,
-                format!("{place}:{line}: `model` uses `control`, which comes after it")
-            );
-        }
-    }
-
-    #[test]
-    fn a_room_of_motion_control_uses_no_later_one() {
-        for text in ["use crate::safety::Stop;\n", "use crate::Stop;\n"] {
-            let file = "motion-control/src/limits.rs";
-            let error = tree("rooms", file, text).expect_err(text);
-            let place = Path::new(file).display();
-            assert_eq!(
-                error,
-                format!("{place}:1: `limits` uses `safety`, which comes after it")
-            );
+            assert_eq!(error, format!("{place}:{what}, which comes after it"));
         }
     }
 

@@ -9,8 +9,7 @@ use serde::Serialize;
 
 use crate::kit::elf::Image;
 use crate::kit::error::{Error, Result, bail, check};
-use crate::kit::meter::MODEL;
-use crate::kit::meter::{self, Spread};
+use crate::kit::meter::{self, MODEL, Spread};
 use crate::kit::progress::Spinner;
 use crate::kit::qemu::{MACHINE, Run};
 use crate::kit::setup::{self, Options};
@@ -193,12 +192,7 @@ mod tests {
 
     #[test]
     fn each_region_has_its_own_line() {
-        let sample = |region, cycles| Sample {
-            region,
-            instructions: 10,
-            cycles,
-            flops: 3,
-        };
+        let sample = |region, cycles| Sample::of(region, [10, cycles, 3]);
         let regions = regions(&[sample(0, 12), sample(3, 7), sample(0, 20), sample(0, 13)]);
         assert_eq!(regions.len(), 2);
         let cycles = regions[0].cycles;

@@ -6,10 +6,10 @@ use std::process::{Command, ExitCode};
 use cycle_meter::Sample;
 use serde_json::Value;
 
-use crate::kit::bars::{Bars, Compared};
+use crate::kit::bars;
 use crate::kit::callgraph::Instruction;
 use crate::kit::elf::Image;
-use crate::kit::error::{Result, check, refuse_if};
+use crate::kit::error::{Result, bail, check, refuse_if};
 use crate::kit::qemu::Run;
 use crate::kit::setup::{self, Options, Tools};
 use crate::kit::toolchain::RELEASE;
@@ -97,7 +97,8 @@ pub fn program(workspace: &Workspace, package: &str) -> Result<Command> {
 
 /// A bin of the firmware that sends telemetry, built.
 pub fn firmware(workspace: &Workspace, tools: &Tools, bin: &str) -> Result<PathBuf> {
-    let built = firmware::build_featured(workspace, tools.toolchain, RELEASE, "telemetry", &[bin]);
+    let (chain, features) = (tools.toolchain, "telemetry");
+    let built = firmware::build_with(workspace, chain, RELEASE, features, &[bin], None);
     Ok(built?.remove(0))
 }
 
@@ -131,7 +132,12 @@ pub fn check(workspace: &Workspace, tools: &Tools, plugin: &Path) -> Result<Stri
     masked_nowhere_else(&Image::read(&elf)?)?;
     let said = verdict(&meter::read(&out)?, &alone, &full)?;
     let cycles = longest(&alone);
-    within_bar(cycles, &budgets::bars(workspace)?)?;
+    let bar = format!("{} watched tick", SCENES[0]);
+    bars::hold(
+        &budgets::bars(workspace)?,
+        &bar,
+        [("cycles", cycles as f64)],
+    )?;
     Ok(format!(
         "{said}; with detectors and record a tick takes {cycles} cycles at most"
     ))
@@ -144,16 +150,6 @@ fn longest(samples: &[Sample]) -> u64 {
         .zip(of(RECORD))
         .map(|(tick, record)| tick.cycles + record.cycles);
     sums.max().unwrap_or(u64::MAX)
-}
-
-/// Fails if a tick with its detectors and its record takes longer than promised.
-fn within_bar(cycles: u64, bars: &Bars) -> Result<()> {
-    let name = format!("{} watched tick", SCENES[0]);
-    let compared = Compared::of(bars, &name, "cycles", cycles as f64);
-    match compared.and_then(|bar| bar.complaint()) {
-        Some(complaint) => Err(check!("bar: {complaint}")),
-        None => Ok(()),
-    }
 }
 
 /// Fails if a function masks interrupts that is neither the initialisation, the interrupt, nor the log.
@@ -214,9 +210,7 @@ fn verdict(heard: &[Sample], alone: &[Sample], full: &[Sample]) -> Result<String
         let differs = pairs.or((others.len() != without.len()).then_some(without.len()));
         if let Some(at) = differs {
             let tick = at / meter::REGIONS.len();
-            return Err(check!(
-                "with {what}, tick {tick} costs something else than without"
-            ));
+            bail!("with {what}, tick {tick} costs something else than without");
         }
     }
     let most = |samples, mine: fn(u8) -> bool| {

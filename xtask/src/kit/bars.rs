@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+use crate::kit::error::{Result, refuse_if};
 use crate::kit::table::{Table, thousands};
 
 /// The page that explains the missed bars.
@@ -92,6 +93,16 @@ impl Compared {
     }
 }
 
+/// Fails if a figure of the row or pair `key` misses its bar; a figure without a bar is not compared.
+pub fn hold<const N: usize>(bars: &Bars, key: &str, figures: [(&str, f64); N]) -> Result<()> {
+    for (figure, measured) in figures {
+        let compared = Compared::of(bars, key, figure, measured);
+        let complaint = compared.and_then(|bar| bar.complaint()).unwrap_or_default();
+        refuse_if!(!complaint.is_empty(), "bar: {complaint}");
+    }
+    Ok(())
+}
+
 /// The largest of some figures: the one that is not a number, if there is one, which `f64::max` would drop; 0 of none.
 pub fn largest(figures: impl Iterator<Item = f64>) -> f64 {
     figures.fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a })
@@ -114,7 +125,7 @@ pub fn table(compared: &[Compared]) -> Table {
 
 #[cfg(test)]
 mod tests {
-    use super::{Bar, Bars, Compared, largest, table};
+    use super::{Bar, Bars, Compared, hold, largest, table};
 
     #[test]
     fn a_bar_is_met_or_recorded() {
@@ -133,6 +144,9 @@ mod tests {
         assert!(complaint("ns", 0.14).unwrap().contains("met now"));
         assert!(Compared::of(&ratios, "a / b", "code_bytes", 1.0).is_none());
         assert!(Compared::of(&ratios, "a / c", "cycles", 1.0).is_none());
+        assert!(hold(&ratios, "a / b", [("ns", 0.16), ("cycles", 0.47)]).is_ok());
+        let error = hold(&ratios, "a / b", [("cycles", f64::INFINITY)]).expect_err("no bound");
+        assert!(error.to_string().starts_with("bar: a / b: cycles inf"));
     }
 
     #[test]

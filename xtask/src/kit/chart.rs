@@ -12,9 +12,9 @@ use crate::kit::error::{Result, check};
 pub use plotters::style::RGBColor;
 pub use plotters::style::text_anchor::HPos;
 
-const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
+pub const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
 pub const INK: RGBColor = RGBColor(45, 50, 58);
-const FAINT: RGBColor = RGBColor(228, 231, 235);
+pub const FAINT: RGBColor = RGBColor(228, 231, 235);
 /// The colours of a chart's lines, in their order; colour-blind readers can distinguish them.
 pub const COLOURS: [RGBColor; 8] = [
     RGBColor(27, 80, 162),

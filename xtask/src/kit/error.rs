@@ -99,9 +99,4 @@ impl Error {
     pub fn is_closed_pipe(&self) -> bool {
         matches!(self, Self::Output(source) if source.kind() == std::io::ErrorKind::BrokenPipe)
     }
-
-    /// A check that did not hold, or data that cannot be made sense of.
-    pub fn check(what: impl Into<String>) -> Self {
-        Self::Check(what.into())
-    }
 }

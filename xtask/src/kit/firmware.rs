@@ -20,21 +20,10 @@ pub fn build_bins(
     profile: &str,
     bins: &[&str],
 ) -> Result<Vec<PathBuf>> {
-    build_featured(workspace, toolchain, profile, "", bins)
+    build_with(workspace, toolchain, profile, "", bins, None)
 }
 
-/// Builds some bins side by side in a profile that are built for a feature only, and returns their ELFs.
-pub fn build_featured(
-    workspace: &Workspace,
-    toolchain: Toolchain,
-    profile: &str,
-    feature: &str,
-    bins: &[&str],
-) -> Result<Vec<PathBuf>> {
-    build_with(workspace, toolchain, profile, feature, bins, None)
-}
-
-/// The same with a variable of the environment that names a file which the bins include.
+/// The same of bins that are built for features only, with a variable of the environment that names a file which they include.
 pub fn build_with(
     workspace: &Workspace,
     toolchain: Toolchain,

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::kit::error::{Error, Result, check};
+use crate::kit::error::{Error, Result, bail, check};
 use crate::kit::firmware::{self, OWN_ROBOTS};
 use crate::kit::progress::Spinner;
 use crate::kit::rows::{self, Row};
@@ -52,22 +52,10 @@ pub fn report(json: &str) -> Result<Value> {
     serde_json::from_str(json).map_err(|error| check!("{PACKAGE} printed no JSON: {error}"))
 }
 
-/// The inverse dynamics that is measured.
-#[derive(Clone, Copy)]
-pub enum Ways {
-    /// Full, and gravity alone.
-    All,
-    Full,
-}
-
-impl Ways {
-    fn function(self) -> &'static str {
-        match self {
-            Self::All => "robot",
-            Self::Full => "in_full",
-        }
-    }
-}
+/// The function of the firmware's bin that measures full inverse dynamics, and gravity alone too.
+pub const ALL: &str = "robot";
+/// The one that measures full inverse dynamics alone.
+pub const FULL: &str = "in_full";
 
 /// Whether the firmware takes a robot.
 pub fn is_measurable(robot: &Robot) -> bool {
@@ -80,12 +68,10 @@ pub fn measure(
     workspace: &Workspace,
     tools: &Tools,
     robots: &[&Robot],
-    ways: Ways,
+    function: &str,
 ) -> Result<Vec<Row>> {
     if !robots.iter().all(|robot| is_measurable(robot)) {
-        return Err(check!(
-            "the firmware takes up to {MOST_JOINTS} joints of one coordinate"
-        ));
+        bail!("the firmware takes up to {MOST_JOINTS} joints of one coordinate");
     }
     let spinner = Spinner::start("building the firmware for the robot");
     let (mut modules, mut calls) = (String::new(), String::new());
@@ -93,7 +79,6 @@ pub fn measure(
         let name = robot.report["type_name"].as_str().unwrap_or_default();
         let file = std::path::absolute(&robot.file).map_err(Error::file("find", &robot.file))?;
         modules += &format!("#[path = {file:?}]\nmod robot_{i};\n");
-        let function = ways.function();
         calls += &format!("    {function}::<robot_{i}::{name}, {{ robot_{i}::V }}>(\"{i}\");\n");
     }
     let folder = tempfile::tempdir().map_err(Error::file("create", &workspace.target))?;

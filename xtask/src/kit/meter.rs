@@ -96,12 +96,8 @@ mod tests {
     fn only_the_chosen_ticks_count() {
         let samples: Vec<Sample> = (0..4)
             .flat_map(|tick| {
-                (0..REGIONS.len() as u8).map(move |region| Sample {
-                    region,
-                    instructions: 10 * tick,
-                    cycles: 20 * tick,
-                    flops: 0,
-                })
+                let regions = 0..REGIONS.len() as u8;
+                regions.map(move |region| Sample::of(region, [10 * tick, 20 * tick, 0]))
             })
             .collect();
         let total = costs(&samples, 4, |tick| tick < 3).expect("complete")[0];
@@ -111,14 +107,11 @@ mod tests {
 
     #[test]
     fn what_is_in_no_phase_is_between_them() {
-        let samples: Vec<Sample> = (0..REGIONS.len() as u8)
-            .map(|region| Sample {
-                region,
-                instructions: if region == 0 { 100 } else { 19 },
-                cycles: if region == 0 { 210 } else { 39 },
-                flops: 0,
-            })
-            .collect();
+        let mut samples = [Sample::of(0, [19, 39, 0]); REGIONS.len()];
+        (0..)
+            .zip(&mut samples)
+            .for_each(|(region, one)| one.region = region);
+        samples[0] = Sample::of(0, [100, 210, 0]);
         let costs = costs(&samples, 1, |_| true).expect("complete");
         let between = costs[REGIONS.len()];
         assert_eq!((between.instructions.max, between.cycles.max), (5, 15));

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::kit::error::{Error, Result, check};
+use crate::kit::error::{Error, Result, bail};
 use crate::kit::importer;
 use crate::kit::workspace::{self, Workspace};
 
@@ -42,7 +42,7 @@ impl Args {
         let words: Vec<&str> = words.collect();
         let report = importer::import(workspace, &words, folder.path().join("robot.rs"))?.report;
         if let Some(why) = refusal(&report, most) {
-            return Err(check!("{path}: {why}"));
+            bail!("{path}: {why}");
         }
         let text = |name: &str| report[name].as_str().unwrap_or_default().to_owned();
         Ok(Some(OwnRobot {

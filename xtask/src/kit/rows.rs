@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::kit::callgraph::Reach;
 use crate::kit::elf::{Image, is_panic};
-use crate::kit::error::{Error, Result, bail, check};
+use crate::kit::error::{Result, bail, check};
 use crate::kit::firmware;
 use crate::kit::meter::{self, Cost, Spread};
 use crate::kit::progress::Spinner;
@@ -182,8 +182,7 @@ fn cut(
         let numbers = numbers.iter().map(|word| word.parse());
         let numbers = numbers.collect::<std::result::Result<Vec<u64>, _>>();
         let Ok(&[trig, joints, states, address, stack_bytes]) = numbers.as_deref() else {
-            let why = format!("the firmware's line {line:?} cannot be understood");
-            return Err(Error::check(why));
+            bail!("the firmware's line {line:?} cannot be understood");
         };
         let (mine, rest) = samples
             .split_at_checked(states as usize)
@@ -217,8 +216,7 @@ fn cut(
 /// left out by their names.
 pub fn code_bytes(image: &Image, address: u64, left_out: impl Fn(&str) -> bool) -> Result<u64> {
     if !image.functions.iter().any(|f| f.address == address) {
-        let why = format!("the firmware has no function at {address:#x}");
-        return Err(Error::check(why));
+        bail!("the firmware has no function at {address:#x}");
     }
     let reach = Reach::of(image, |f| f.address == address)?;
     for (function, path) in reach.functions() {
@@ -239,14 +237,7 @@ mod tests {
 
     #[test]
     fn samples_go_to_the_rows_that_announced_them() {
-        let samples: Vec<Sample> = (1..=3)
-            .map(|n| Sample {
-                region: 0,
-                instructions: n,
-                cycles: 10 * n,
-                flops: 100 * n,
-            })
-            .collect();
+        let samples = [1, 2, 3].map(|n| Sample::of(0, [n, 10 * n, 100 * n]));
         let lines = [
             "config ur5e rnea core full 1 6 1 4096 128",
             "hello",

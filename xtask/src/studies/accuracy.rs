@@ -18,7 +18,7 @@ use std::process::ExitCode;
 
 use clap::ArgGroup;
 
-use crate::kit::error::{Error, Result};
+use crate::kit::error::{Result, bail};
 use crate::kit::setup::{self, Options};
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, output, own_robot};
@@ -77,8 +77,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         && choice::shipped(&points, budget.group(robot)).is_empty()
     {
         let (file, robot) = (recorded::FILE, robot.name());
-        let what = format!("{file} has nothing of {robot} that is off by such an error");
-        return Err(Error::check(what));
+        bail!("{file} has nothing of {robot} that is off by such an error");
     }
     if choice.is_none() | args.measure {
         let plan = Plan {

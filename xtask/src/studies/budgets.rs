@@ -9,7 +9,7 @@ use serde::de::IgnoredAny;
 use toml_edit::{DocumentMut, InlineTable, Item, value};
 
 use crate::kit::bars::{Bars, Compared, OTHER_RUSTC};
-use crate::kit::error::{Error, Result, bail, check};
+use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::workspace::{self, Workspace};
 use crate::studies::costs::{self, TICK};
 use crate::studies::scenes::report::Report;
@@ -244,9 +244,7 @@ fn hold_costs(budgets: &Budgets, report: &costs::Report) -> Result<String> {
     })?;
     let mut wrong = budget.exceeded_by(&Rows::measured(report));
     wrong.extend(report.missed().iter().map(|bar| format!("bar: {bar}")));
-    if !wrong.is_empty() {
-        return Err(Error::check(wrong.join("\n")));
-    }
+    refuse_if!(!wrong.is_empty(), "{}", wrong.join("\n"));
     Ok(format!("{} rows", report.rows.len()))
 }
 
@@ -265,14 +263,11 @@ fn hold_scene(budgets: &Budgets, scene: &str, measured: &Budget) -> Result<Strin
     let key = format!("{scene}{TICK}");
     let bar = Compared::of(&budgets.bars, &key, "cycles", cycles as f64);
     exceeded.extend(bar.and_then(|bar| Some(format!("bar: {}", bar.complaint()?))));
-    if !exceeded.is_empty() {
-        bail!(
-            "over budget: {} (budget of {}, measured with {})",
-            exceeded.join(", "),
-            budget.rustc,
-            measured.rustc
-        );
-    }
+    let (exceeded, ours, theirs) = (exceeded.join(", "), &budget.rustc, &measured.rustc);
+    refuse_if!(
+        !exceeded.is_empty(),
+        "over budget: {exceeded} (budget of {ours}, measured with {theirs})"
+    );
     let [most, most_stack] = ["tick_cycles", "stack_bytes"].map(|what| figure(budget, what));
     let stack = figure(measured, "stack_bytes");
     Ok(format!(

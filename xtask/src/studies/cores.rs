@@ -12,8 +12,8 @@ use std::process::ExitCode;
 
 use serde::Serialize;
 
-use crate::kit::bars::{Bars, Compared};
-use crate::kit::error::{Error, Result, bail, refuse_if};
+use crate::kit::bars;
+use crate::kit::error::{Error, Result, bail, check, refuse_if};
 use crate::kit::progress::Spinner;
 use crate::kit::setup::{self, Options};
 use crate::kit::toolchain::Toolchain;
@@ -138,21 +138,6 @@ fn same_bits(core: &str, torques: &[&Torques], host: &[Torques]) -> Result<()> {
     Ok(())
 }
 
-/// Fails if the bound of a tick's stack exceeds its bar.
-fn within_bars<'a>(
-    core: &str,
-    stacks: impl Iterator<Item = (&'a str, u64)>,
-    bars: &Bars,
-) -> Result<()> {
-    for (scene, bytes) in stacks {
-        let compared = Compared::of(bars, &format!("{scene} tick"), "stack_bytes", bytes as f64);
-        if let Some(complaint) = compared.and_then(|bar| bar.complaint()) {
-            bail!("{core}, bar: {complaint}");
-        }
-    }
-    Ok(())
-}
-
 impl Report {
     fn measure(workspace: &Workspace, cores: &[&Core]) -> Result<Self> {
         let torques = run::on_host(workspace)?;
@@ -164,9 +149,11 @@ impl Report {
             let row = run::measure(workspace, core, &plugin)?;
             let mine: Vec<&Torques> = row.scenes.iter().map(|scene| &scene.torques).collect();
             same_bits(core.name, &mine, &torques)?;
-            let stacks = row.scenes.iter();
-            let stacks = stacks.map(|scene| (&*scene.torques.scene, scene.code.stack));
-            within_bars(core.name, stacks, &bars)?;
+            for scene in &row.scenes {
+                let (tick, stack) = (format!("{} tick", scene.torques.scene), scene.code.stack);
+                bars::hold(&bars, &tick, [("stack_bytes", stack as f64)])
+                    .map_err(|error| check!("{}, {error}", core.name))?;
+            }
             rows.push(row);
         }
         Ok(Self {
@@ -180,8 +167,7 @@ impl Report {
 
 #[cfg(test)]
 mod tests {
-    use super::{Torques, same_bits, within_bars};
-    use crate::kit::bars::Bar;
+    use super::{Torques, same_bits};
 
     fn torques(scene: &str, digest: &str) -> Torques {
         Torques {
@@ -205,19 +191,5 @@ mod tests {
             ..ur5e.clone()
         };
         assert!(same_bits("M33", &[small, &shorter], &host).is_err());
-    }
-
-    #[test]
-    fn a_stack_beyond_its_bar_is_refused() {
-        let bar = Bar::of([("stack_bytes", 2048.0)]);
-        let bars = [("ur5e tick".to_owned(), bar)].into();
-        let verdict =
-            |bytes| within_bars("M0", [("small", 9000), ("ur5e", bytes)].into_iter(), &bars);
-        assert!(verdict(2048).is_ok());
-        let error = verdict(2049).expect_err("too much").to_string();
-        assert!(
-            error.contains("M0, bar: ur5e tick: stack_bytes 2,049 > 2,048"),
-            "{error}"
-        );
     }
 }

@@ -65,7 +65,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
 fn prices(bench: &Bench<'_>) -> Result<Vec<Price>> {
     let (workspace, tools) = (bench.workspace, bench.tools()?);
     let building = Spinner::start(&format!("building {}", BINS.join(", ")));
-    let elves = firmware::build_featured(workspace, tools.toolchain, RELEASE, FEATURE, &BINS)?;
+    let elves = firmware::build_with(workspace, tools.toolchain, RELEASE, FEATURE, &BINS, None)?;
     drop(building);
     let (rows, lines) = rows::run_all(workspace, tools, &BINS, &elves)?;
     let sizes = lines.iter().filter_map(|line| holds(line)).collect();

@@ -51,7 +51,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     let (ancestors, differences) = counts
         .split_once("\n\n")
         .ok_or_else(|| check!("`history_counts` printed no differences"))?;
-    let elves = firmware::build_featured(workspace, tools.toolchain, RELEASE, BIN, &[BIN])?;
+    let elves = firmware::build_with(workspace, tools.toolchain, RELEASE, BIN, &[BIN], None)?;
     let meter = firmware::build_meter(workspace)?;
     let report = Report {
         rows: rows::run_for_time(tools, &meter, BIN, &elves[0], "")?,

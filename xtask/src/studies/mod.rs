@@ -4,7 +4,6 @@
 
 pub mod accuracy;
 pub mod budgets;
-pub mod build_time;
 pub mod cores;
 pub mod costs;
 pub mod effects;
@@ -20,12 +19,9 @@ pub mod scenes;
 pub mod study;
 pub mod trial;
 
-use std::process::ExitCode;
-
-use clap::{ArgMatches, Args, Command, FromArgMatches, Subcommand};
+use clap::{ArgMatches, Args, Command};
 
 use crate::kit::error::Result;
-use crate::kit::setup::Options;
 use study::Form::{Demo, Own, Part, Whole};
 use study::Held::{Bars, Step};
 use study::Lane::{Host, Target};
@@ -120,12 +116,6 @@ pub const STUDIES: &[Study] = &[
         form: Own(peers::Args::augment_args, |options, matches| peers::run(options, given(matches)?), NO_STEP),
     },
     Study {
-        name: "build-time", about: "Time release builds with and without one specialised function, rewrite docs/build-time.md",
-        files: &["docs/build-time.md"],
-        held: Bars("seconds are those of one machine and of what else it does"),
-        form: Whole(build_time::measure),
-    },
-    Study {
         name: "mutants", about: "Change the code in a few hundred places, one at a time, and rewrite docs/mutants.md: takes an hour",
         files: &["docs/mutants.md"],
         held: Bars("a run over the whole sample takes an hour"),
@@ -133,57 +123,24 @@ pub const STUDIES: &[Study] = &[
     },
 ];
 
-/// A study that was chosen on the command line.
-pub struct Chosen(&'static Study, ArgMatches);
-
-impl Chosen {
-    pub fn run(&self, options: Options) -> Result<ExitCode> {
-        self.0.run(options, &self.1)
-    }
+/// The commands of the studies.
+pub fn commands() -> impl Iterator<Item = Command> {
+    let studies = STUDIES.iter().filter(|study| study.has_command());
+    studies.map(Study::command)
 }
 
-impl FromArgMatches for Chosen {
-    fn from_arg_matches(matches: &ArgMatches) -> std::result::Result<Self, clap::Error> {
-        let chosen = matches.subcommand().and_then(|(name, matches)| {
-            let study = STUDIES.iter().find(|study| study.name == name)?;
-            Some(Self(study, matches.clone()))
-        });
-        chosen.ok_or_else(|| clap::Error::new(clap::error::ErrorKind::InvalidSubcommand))
-    }
-
-    fn update_from_arg_matches(
-        &mut self,
-        matches: &ArgMatches,
-    ) -> std::result::Result<(), clap::Error> {
-        *self = Self::from_arg_matches(matches)?;
-        Ok(())
-    }
-}
-
-impl Subcommand for Chosen {
-    fn augment_subcommands(command: Command) -> Command {
-        let studies = STUDIES.iter().filter(|study| study.has_command());
-        studies.fold(command, |command, study| {
-            command.subcommand(study.command())
-        })
-    }
-
-    fn augment_subcommands_for_update(command: Command) -> Command {
-        Self::augment_subcommands(command)
-    }
-
-    fn has_subcommand(name: &str) -> bool {
-        STUDIES
-            .iter()
-            .any(|study| study.name == name && study.has_command())
-    }
+/// The study that was chosen on the command line, with its arguments.
+pub fn chosen(matches: &ArgMatches) -> Option<(&'static Study, &ArgMatches)> {
+    let (name, matches) = matches.subcommand()?;
+    let study = STUDIES.iter().find(|study| study.name == name)?;
+    Some((study, matches))
 }
 
 #[cfg(test)]
 mod tests {
     use super::STUDIES;
     use super::study::Held;
-    use crate::kit::docs::repository::root;
+    use crate::kit::docs::repository::{read, root};
 
     /// The files that the demo writes; the step `readme` compares them.
     const OF_THE_DEMO: [&str; 3] = ["README.md", "docs/scenes.md", "docs/ur5e.svg"];
@@ -202,8 +159,7 @@ mod tests {
 
     /// Whether a command writes it: all data and pictures, and pages that say so.
     fn is_generated(name: &str) -> bool {
-        let text = || std::fs::read_to_string(root().join(name)).expect("a page");
-        !name.ends_with(".md") || text().contains("<!-- written by `")
+        !name.ends_with(".md") || read(name).contains("<!-- written by `")
     }
 
     #[test]

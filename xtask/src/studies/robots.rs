@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::kit::error::{Error, Result, check};
-use crate::kit::importer::{self, Robot, Ways};
+use crate::kit::importer::{self, FULL, Robot};
 use crate::kit::progress::Spinner;
 use crate::kit::rows::Row;
 use crate::kit::setup::{self, Options, Tools};
@@ -200,7 +200,7 @@ fn measure(workspace: &Workspace, tools: &Tools, folder: &Path, lines: &mut [Lin
     }
     for batch in robots.chunks(BATCH) {
         let robots: Vec<&Robot> = batch.iter().map(|(_, robot)| robot).collect();
-        for row in importer::measure(workspace, tools, &robots, Ways::Full)? {
+        for row in importer::measure(workspace, tools, &robots, FULL)? {
             let number: usize = row.robot.parse().map_err(|_| check!("a row of no robot"))?;
             lines[batch[number].0].rows.push(row);
         }
@@ -219,7 +219,7 @@ pub fn check(bench: &Bench<'_>) -> Result<String> {
     let path = workspace.root.join(file).to_string_lossy().into_owned();
     let words = [&*path, "--name", name];
     let robot = importer::import(workspace, &words, folder.path().join("robot.rs"))?;
-    let rows = importer::measure(workspace, tools, &[&robot], Ways::Full)?;
+    let rows = importer::measure(workspace, tools, &[&robot], FULL)?;
     let line = Line {
         name: name.to_owned(),
         source: String::new(),

@@ -5,8 +5,7 @@ pub mod render;
 pub mod report;
 
 use crate::kit::docs::Page;
-use crate::kit::meter::CLOCK_MHZ;
-use crate::kit::meter::MODEL;
+use crate::kit::meter::{CLOCK_MHZ, MODEL};
 use crate::kit::protocol::label;
 use crate::kit::table::{Table, thousands};
 use crate::studies::scenes::render::{gate, milli};

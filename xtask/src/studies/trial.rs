@@ -9,9 +9,7 @@ use crate::kit::callgraph::f32_only;
 use crate::kit::chart::{self, Axis, HPos, Line};
 use crate::kit::docs::{self, Page};
 use crate::kit::error::{Result, check, refuse_if};
-use crate::kit::meter::CLOCK_MHZ;
-use crate::kit::meter::MODEL;
-use crate::kit::meter::{self, BETWEEN, Cost, REGIONS};
+use crate::kit::meter::{self, BETWEEN, CLOCK_MHZ, Cost, MODEL, REGIONS};
 use crate::kit::qemu::Run;
 use crate::kit::scene::Trial;
 use crate::kit::setup::Tools;
@@ -93,20 +91,13 @@ impl Recorded {
         let names = said("region");
         let (phases, parts) = names.split_at(REGIONS.len().min(names.len()));
         // Further regions are of some ticks only.
-        let part = |(number, name): (usize, &&str)| {
-            let of = || {
-                samples
-                    .iter()
-                    .filter(|s| usize::from(s.region) == number + phases.len())
-            };
+        let part = |(region, name): (u8, &&str)| {
+            let of = || samples.iter().filter(|s| s.region == region);
             let cost = Cost::of(of().map(|s| s.instructions), of().map(|s| s.cycles))?;
             Ok((String::from(*name), cost))
         };
-        let parts = parts
-            .iter()
-            .enumerate()
-            .map(part)
-            .collect::<Result<Vec<_>>>()?;
+        let numbers = phases.len() as u8..;
+        let parts = numbers.zip(parts).map(part).collect::<Result<Vec<_>>>()?;
         let names = phases.iter().copied().chain([BETWEEN]).map(str::to_owned);
         let cells = |row: &str| row.split('|').map(str::to_owned).collect();
         Ok(Self {
@@ -125,23 +116,14 @@ impl Recorded {
         self.rows.iter().for_each(|row| rows.row(row.clone()));
         let head = ["phase", "insn max", "cycles median", "cycles max", "µs max"];
         let mut phases = Table::new(&head);
-        for (
-            name,
-            Cost {
-                instructions,
-                cycles,
-            },
-        ) in &self.regions
-        {
+        for (name, cost) in &self.regions {
+            let (instructions, cycles) = (cost.instructions, cost.cycles);
             let numbers = [instructions.max, cycles.median, cycles.max].map(thousands);
             let time = format!("{:.2}", cycles.max as f64 / CLOCK_MHZ);
             phases.row([name.clone()].into_iter().chain(numbers).chain([time]));
         }
-        let (rows, phases, stack) = (
-            rows.markdown(),
-            phases.markdown(),
-            thousands(self.stack_bytes),
-        );
+        let (rows, phases) = (rows.markdown(), phases.markdown());
+        let stack = thousands(self.stack_bytes);
         format!(
             "The runs of the firmware in QEMU, with the host's torques to the bit:\n\n{rows}\n\
              Cost of its ticks ({MODEL}), the simulated arm not counted:\n\n{phases}\nPeak stack {stack} B, the simulated arm included.\n"

@@ -3,6 +3,11 @@
 
 use history::counts::{ANCESTORS, Both, Polynomial};
 
+/// Fractions by their numbers of twelfths.
+const TWELFTHS: [&str; 12] = [
+    "", "1/12", "1/6", "1/4", "1/3", "5/12", "1/2", "7/12", "2/3", "3/4", "5/6", "11/12",
+];
+
 /// As the sources write it, fractions as n/d; zero if all coefficients are.
 fn text(polynomial: Polynomial) -> String {
     let mut text = String::new();
@@ -17,20 +22,7 @@ fn text(polynomial: Polynomial) -> String {
             (false, false) => " + ",
         };
         let (whole, rest) = (coefficient.abs() / 12, coefficient.abs() % 12);
-        let fraction = match rest {
-            0 => "",
-            1 => "1/12",
-            2 => "1/6",
-            3 => "1/4",
-            4 => "1/3",
-            5 => "5/12",
-            6 => "1/2",
-            7 => "7/12",
-            8 => "2/3",
-            9 => "3/4",
-            10 => "5/6",
-            _ => "11/12",
-        };
+        let fraction = TWELFTHS[rest as usize];
         let number = match (whole, rest) {
             (1, 0) if !power.is_empty() => String::new(),
             (_, 0) => whole.to_string(),

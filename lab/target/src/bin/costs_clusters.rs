@@ -4,7 +4,7 @@
 
 mod costs;
 
-use costs::row::Row;
+use costs::row::{Row, numbers};
 use costs::{STATES, done};
 use dynamics_core::algorithms::Pose;
 use dynamics_core::clusters::{Clustered, ClusteredRobot, MotorTorques, Stewart, TreeMotion};
@@ -17,11 +17,7 @@ use glam::{Mat3, Vec3};
 
 /// Independent coordinates within `reach` of `centre`, from a fixed seed.
 fn states<const Y: usize>(centre: [f32; Y], reach: [f32; Y]) -> [State<f32, Y, Y>; STATES] {
-    let mut seed = 1_u32;
-    let mut number = |bound: f32| {
-        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (seed >> 8) as f32 * (2.0 * bound / 16_777_216.0) - bound
-    };
+    let mut number = numbers();
     [(); STATES].map(|()| State {
         q: core::array::from_fn(|k| centre[k] + number(reach[k])),
         qd: [(); Y].map(|()| number(3.0)),

@@ -4,7 +4,7 @@
 
 mod costs;
 
-use costs::row::Row;
+use costs::row::{Row, numbers};
 use costs::{STATES, done};
 use dynamics_core::algorithms;
 use dynamics_core::effects::{Elasticity, RIGID_BODY};
@@ -27,11 +27,7 @@ struct Case<const M: usize> {
 
 /// Cases from a fixed seed; deflections up to 20 mm.
 fn cases<const M: usize>() -> [Case<M>; STATES] {
-    let mut seed = 1_u32;
-    let mut number = |bound: f32| {
-        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (seed >> 8) as f32 * (2.0 * bound / 16_777_216.0) - bound
-    };
+    let mut number = numbers();
     [(); STATES].map(|()| Case {
         joints: State {
             q: [(); 2].map(|()| number(3.0)),

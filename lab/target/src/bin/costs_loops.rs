@@ -4,7 +4,9 @@
 
 mod costs;
 
-use costs::row::Row;
+use core::marker::PhantomData;
+
+use costs::row::{Row, numbers};
 use costs::{STATES, done};
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::loops::{
@@ -17,9 +19,8 @@ use firmware_demo::robots::planar_loops::{FiveBar, FourBar};
 
 type Scene = (Gravity, Inertia, Coriolis);
 
-/// The torques of the motors, or none.
-#[inline(never)]
-fn inverse<
+/// What is measured of a robot.
+struct Of<
     T,
     const B: usize,
     const Q: usize,
@@ -27,131 +28,93 @@ fn inverse<
     const L: usize,
     const C: usize,
     const A: usize,
->(
-    state: &State<f32, Q, V>,
-    scene: &Scene,
-) -> Option<[f32; A]>
+>(PhantomData<T>);
+
+impl<
+    T,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const L: usize,
+    const C: usize,
+    const A: usize,
+> Of<T, B, Q, V, L, C, A>
 where
     T: LoopRobot<B, Q, V, L, C, A>,
 {
-    let found = inverse_dynamics(&Static::<T>::NEW, &T::LOOPS, state, scene);
-    found.ok().map(|LoopTorque { tau, .. }| tau)
-}
-
-/// The accelerations of all joints, or none.
-#[inline(never)]
-fn forward<
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const L: usize,
-    const C: usize,
-    const A: usize,
->(
-    state: &State<f32, Q, V>,
-    scene: &Scene,
-) -> Option<[f32; V]>
-where
-    T: LoopRobot<B, Q, V, L, C, A>,
-{
-    let by = Stabilisation::for_step(1e-3);
-    let found = forward_dynamics(&Static::<T>::NEW, &T::LOOPS, state, &[0.1; A], by, scene);
-    found.ok().map(|motion| motion.qdd)
-}
-
-/// Closed states near a configuration, by motors that are moved within `range` of theirs.
-fn states<
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const L: usize,
-    const C: usize,
-    const A: usize,
->(
-    home: [f32; Q],
-    (motors, range): ([usize; A], f32),
-) -> [State<f32, Q, V>; STATES]
-where
-    T: LoopRobot<B, Q, V, L, C, A>,
-{
-    let mut seed = 1_u32;
-    let mut number = |bound: f32| {
-        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (seed >> 8) as f32 * (2.0 * bound / 16_777_216.0) - bound
-    };
-    [(); STATES].map(|()| {
-        let mut guess = home;
-        for at in motors {
-            guess[at] += number(range);
-        }
-        let closed = assemble(&Static::<T>::NEW, &T::LOOPS, &guess, Moving::Passive);
-        State {
-            q: match closed {
-                Ok(closed) => closed.q,
-                Err(_) => defmt::panic!("a loop does not close"),
-            },
-            qd: [(); V].map(|()| number(2.0)),
-            qdd: [(); V].map(|()| number(10.0)),
-        }
-    })
-}
-
-/// Both directions, on states that are closed and have a result.
-fn rows<
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const L: usize,
-    const C: usize,
-    const A: usize,
->(
-    inputs: &'static str,
-    states: &[State<f32, Q, V>],
-) where
-    T: LoopRobot<B, Q, V, L, C, A>,
-{
-    let of = |algorithm| Row {
-        robot: T::MODEL.name,
-        algorithm,
-        form: "core",
-        inputs,
-        trig: true,
-        joints: V,
-    };
-    let scene = &RIGID_BODY;
-    let run = inverse::<T, B, Q, V, L, C, A>;
-    for state in states {
-        defmt::assert!(run(state, scene).is_some());
+    /// The torques of the motors, or none.
+    #[inline(never)]
+    fn inverse(state: &State<f32, Q, V>, scene: &Scene) -> Option<[f32; A]> {
+        let found = inverse_dynamics(&Static::<T>::NEW, &T::LOOPS, state, scene);
+        found.ok().map(|LoopTorque { tau, .. }| tau)
     }
-    of("inverse_loops").measure(run as *const () as usize, states, |state| run(state, scene));
-    let run = forward::<T, B, Q, V, L, C, A>;
-    for state in states {
-        defmt::assert!(run(state, scene).is_some());
+
+    /// The accelerations of all joints, or none.
+    #[inline(never)]
+    fn forward(state: &State<f32, Q, V>, scene: &Scene) -> Option<[f32; V]> {
+        let by = Stabilisation::for_step(1e-3);
+        let found = forward_dynamics(&Static::<T>::NEW, &T::LOOPS, state, &[0.1; A], by, scene);
+        found.ok().map(|motion| motion.qdd)
     }
-    of("forward_loops").measure(run as *const () as usize, states, |state| run(state, scene));
+
+    /// Closed states near a configuration, by motors that are moved within `range` of theirs.
+    fn states(home: [f32; Q], (motors, range): ([usize; A], f32)) -> [State<f32, Q, V>; STATES] {
+        let mut number = numbers();
+        [(); STATES].map(|()| {
+            let mut guess = home;
+            for at in motors {
+                guess[at] += number(range);
+            }
+            let closed = assemble(&Static::<T>::NEW, &T::LOOPS, &guess, Moving::Passive);
+            State {
+                q: match closed {
+                    Ok(closed) => closed.q,
+                    Err(_) => defmt::panic!("a loop does not close"),
+                },
+                qd: [(); V].map(|()| number(2.0)),
+                qdd: [(); V].map(|()| number(10.0)),
+            }
+        })
+    }
+
+    /// Both directions, on states that are closed and have a result.
+    fn rows(states: &[State<f32, Q, V>]) {
+        let of = |algorithm| Row {
+            robot: T::MODEL.name,
+            algorithm,
+            form: "core",
+            inputs: "full",
+            trig: true,
+            joints: V,
+        };
+        let scene = &RIGID_BODY;
+        let run = Self::inverse;
+        for state in states {
+            defmt::assert!(run(state, scene).is_some());
+        }
+        of("inverse_loops").measure(run as *const () as usize, states, |state| run(state, scene));
+        let run = Self::forward;
+        for state in states {
+            defmt::assert!(run(state, scene).is_some());
+        }
+        of("forward_loops").measure(run as *const () as usize, states, |state| run(state, scene));
+    }
 }
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
     let home = [-1.0, 0.5, -1.5];
-    rows::<FourBar, 3, 3, 3, 1, 5, 1>(
-        "full",
-        &states::<FourBar, 3, 3, 3, 1, 5, 1>(home, ([0], 0.6)),
-    );
+    type Four = Of<FourBar, 3, 3, 3, 1, 5, 1>;
+    Four::rows(&Four::states(home, ([0], 0.6)));
     let home = [-2.2, 1.2, -0.9, -1.2];
-    rows::<FiveBar, 4, 4, 4, 1, 5, 2>(
-        "full",
-        &states::<FiveBar, 4, 4, 4, 1, 5, 2>(home, ([0, 2], 0.4)),
-    );
+    type Five = Of<FiveBar, 4, 4, 4, 1, 5, 2>;
+    Five::rows(&Five::states(home, ([0, 2], 0.4)));
     let mut home = [0.0; 22];
     (home[3], home[6]) = (1.0, -0.33);
     for first in [7, 12, 17] {
         (home[first], home[first + 1], home[first + 3]) = (0.2, 0.7, 0.7);
     }
-    let delta = states::<Delta, 10, 22, 21, 6, 18, 3>(home, ([7, 12, 17], 0.4));
-    rows::<Delta, 10, 22, 21, 6, 18, 3>("full", &delta);
+    type Parallel = Of<Delta, 10, 22, 21, 6, 18, 3>;
+    Parallel::rows(&Parallel::states(home, ([7, 12, 17], 0.4)));
     done()
 }

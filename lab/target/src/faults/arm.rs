@@ -1,6 +1,5 @@
 //! An arm with its firmware, of which faults spoil the inputs.
 
-use core::fmt;
 use core::marker::PhantomData;
 
 use dynamics_core::state::State;
@@ -43,16 +42,18 @@ impl Setup {
 }
 
 /// A claim that did not hold in a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Violation {
     /// A joint is faster than its rated speed.
+    #[error("joint {joint}: speed {velocity} rad/s")]
     Speed {
         joint: usize,
         /// The joint's velocity, rad/s.
         velocity: f32,
     },
     /// The kinetic energy is above that at the rated speeds.
+    #[error("kinetic energy {kinetic} J of {rated} J")]
     Energy {
         /// J.
         kinetic: f32,
@@ -60,6 +61,7 @@ pub enum Violation {
         rated: f32,
     },
     /// A torque or its change in a tick is above its limit, or not finite.
+    #[error("joint {joint}: torque {torque} N·m after {before} N·m")]
     Torque {
         joint: usize,
         /// N·m.
@@ -68,32 +70,12 @@ pub enum Violation {
         before: f32,
     },
     /// The arm was not on its motion at the end.
+    #[error("no recovery: {mode:?} by {fault:?}")]
     NotRecovered { mode: Mode, fault: Option<Fault> },
     /// The motion itself exceeds the arm's limits.
+    #[error("the motion exceeds the arm's limits")]
     Motion,
 }
-
-impl fmt::Display for Violation {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Speed { joint, velocity } => write!(out, "joint {joint}: speed {velocity} rad/s"),
-            Self::Energy { kinetic, rated } => {
-                write!(out, "kinetic energy {kinetic} J of {rated} J")
-            }
-            Self::Torque {
-                joint,
-                torque,
-                before,
-            } => write!(out, "joint {joint}: torque {torque} N·m after {before} N·m"),
-            Self::NotRecovered { mode, fault } => {
-                write!(out, "no recovery: {mode:?} by {fault:?}")
-            }
-            Self::Motion => out.write_str("the motion exceeds the arm's limits"),
-        }
-    }
-}
-
-impl core::error::Error for Violation {}
 
 /// A reference that is somewhere else.
 struct Offset<'a, T>(&'a T, f32);

@@ -30,77 +30,79 @@ pub fn build(context: &Context) -> Result<String> {
 
 pub fn meter(context: &Context) -> Result<String> {
     let (_, samples) = context.metered("meter_check", false)?;
-    let agreeing = cycle_meter::check_hand_counted(&samples).map_err(Error::check)?;
+    let agreeing = cycle_meter::check_hand_counted(&samples).map_err(Error::Check)?;
     Ok(format!("{agreeing} sequences"))
 }
 
-pub fn bits(context: &Context) -> Result<String> {
-    let name = "bits";
+/// The lines of a bin of the firmware in QEMU that begin so, and those of the host's bin of its name; all must be the same.
+fn on_both(context: &Context, name: &str, begin: &str) -> Result<Vec<String>> {
     let elf = context.built(name)?;
     let mut on_target = context.tools.qemu.lines(&Run::logging(name, &elf, None))?;
-    on_target.retain(|line| line.starts_with("bits "));
-    let host = host_bin::text(&context.workspace, name)?;
-    same_bits(&on_target, &host.lines().collect::<Vec<_>>())
+    on_target.retain(|line| line.starts_with(begin));
+    same_lines(name, &on_target, &host_bin::text(&context.workspace, name)?)?;
+    Ok(on_target)
+}
+
+fn same_lines(name: &str, on_target: &[String], on_host: &str) -> Result<()> {
+    let on_host: Vec<&str> = on_host.lines().collect();
+    for (target, host) in std::iter::zip(on_target, &on_host) {
+        refuse_if!(
+            target != host,
+            "`{name}` differs:\n  QEMU: {target}\n  host: {host}"
+        );
+    }
+    let (there, here) = (on_target.len(), on_host.len());
+    refuse_if!(
+        there == 0 || there != here,
+        "`{name}` printed {there} lines in QEMU and {here} on the host"
+    );
+    Ok(())
+}
+
+pub fn bits(context: &Context) -> Result<String> {
+    of_hard_cases(&on_both(context, "bits", "bits ")?)
+}
+
+/// Fails unless the lines are of enough hard cases.
+fn of_hard_cases(lines: &[String]) -> Result<String> {
+    let hard = lines
+        .iter()
+        .filter_map(|line| line.strip_prefix("bits hard "));
+    let mut cases: Vec<_> = hard.map(|case| case.split(' ').next()).collect();
+    cases.dedup();
+    let (digests, count) = (lines.len(), cases.len());
+    refuse_if!(
+        count < HARD_CASES,
+        "`bits` ran {count} of at least {HARD_CASES} hard cases"
+    );
+    Ok(format!("{digests} digests, {count} hard cases among them"))
 }
 
 /// Runs of the firmware's bin `fault_runs`.
 const FAULT_RUNS: usize = 100;
 
 pub fn faults(context: &Context) -> Result<String> {
-    let name = "fault_runs";
-    let elf = context.built(name)?;
-    let mut on_target = context.tools.qemu.lines(&Run::logging(name, &elf, None))?;
-    on_target.retain(|line| line.starts_with("run "));
-    let host = host_bin::text(&context.workspace, name)?;
-    same_runs(&on_target, &host.lines().collect::<Vec<_>>())
+    within_limits(&on_both(context, "fault_runs", "run ")?)
 }
 
-/// Fails unless every run kept its limits on both, with the same torques.
-fn same_runs(on_target: &[String], on_host: &[&str]) -> Result<String> {
+/// Fails unless every run kept its limits.
+fn within_limits(runs: &[String]) -> Result<String> {
     let mut faults = 0;
-    for (target, host) in std::iter::zip(on_target, on_host) {
-        refuse_if!(
-            target != host,
-            "a run differs:\n  QEMU: {target}\n  host: {host}"
-        );
-        let injected = target
+    for run in runs {
+        let injected = run
             .split_once(" faults ")
             .and_then(|(run, _)| run.rsplit(' ').next()?.parse::<usize>().ok());
         let Some(injected) = injected else {
-            bail!("a limit did not hold: {target}");
+            bail!("a limit did not hold: {run}");
         };
         faults += injected;
     }
-    let (there, here) = (on_target.len(), on_host.len());
+    let count = runs.len();
     refuse_if!(
-        there != FAULT_RUNS || here != FAULT_RUNS,
-        "`fault_runs` made {there} runs in QEMU and {here} on the host, not {FAULT_RUNS}"
+        count != FAULT_RUNS,
+        "`fault_runs` made {count} runs, not {FAULT_RUNS}"
     );
-    Ok(format!("{there} runs with {faults} faults"))
-}
-
-/// Fails unless the lines are the same and of enough hard cases.
-fn same_bits(on_target: &[String], on_host: &[&str]) -> Result<String> {
-    if let Some((target, host)) = std::iter::zip(on_target, on_host).find(|(a, b)| a != b) {
-        let both = format!("  QEMU: {target}\n  host: {host}");
-        bail!("the same states give other bits:\n{both}");
-    }
-    let (there, here) = (on_target.len(), on_host.len());
-    refuse_if!(
-        there == 0 || there != here,
-        "`bits` printed {there} digests in QEMU and {here} on the host"
-    );
-    let hard = on_host
-        .iter()
-        .filter_map(|line| line.strip_prefix("bits hard "));
-    let mut cases: Vec<_> = hard.map(|case| case.split(' ').next()).collect();
-    cases.dedup();
-    let count = cases.len();
-    refuse_if!(
-        count < HARD_CASES,
-        "`bits` ran {count} of at least {HARD_CASES} hard cases"
-    );
-    Ok(format!("{there} digests, {count} hard cases among them"))
+    Ok(format!("{count} runs with {faults} faults"))
 }
 
 pub fn no_f64(context: &Context) -> Result<String> {
@@ -200,44 +202,34 @@ mod tests {
     }
 
     #[test]
-    fn a_differing_failing_or_missing_run_fails_the_step() {
+    fn a_differing_or_missing_line_is_named() {
+        let lines: Vec<String> = (0..25).map(|k| format!("bits hard {k} a 0{k:x}")).collect();
+        let host = lines.join("\n");
+        let same = |there: &[String], here: &str| super::same_lines("bits", there, here);
+        assert!(same(&lines, &host).is_ok());
+        assert!(same(&lines[..24], &host).is_err() && same(&[], "").is_err());
+        let other = host.replace("7 a 07", "7 a 06");
+        let error = same(&lines, &other).expect_err("another bit").to_string();
+        assert!(error.contains("host: bits hard 7 a 06"), "{error}");
+        assert!(super::of_hard_cases(&lines).is_ok());
+        assert!(super::of_hard_cases(&lines[..24]).is_err());
+    }
+
+    #[test]
+    fn a_failing_or_missing_run_fails_the_step() {
         let line = |k| format!("run {k} pendulum 7 faults 0{k:x}");
-        let lines: Vec<String> = (0..100).map(line).collect();
-        let mut host: Vec<&str> = lines.iter().map(String::as_str).collect();
-        let said = super::same_runs(&lines, &host).unwrap();
+        let mut runs: Vec<String> = (0..100).map(line).collect();
+        let said = super::within_limits(&runs).unwrap();
         assert_eq!(said, "100 runs with 700 faults");
-        assert!(super::same_runs(&lines[..99], &host[..99]).is_err());
-        assert!(super::same_runs(&lines[..99], &host).is_err());
-        host[3] = "run 3 pendulum 7 faults 04";
-        let error = super::same_runs(&lines, &host).expect_err("another torque");
-        assert!(error.to_string().contains("run 3"), "{error}");
-        host[3] = "run 3 pendulum joint 0: speed 4 rad/s";
-        let mut both = lines.clone();
-        host[3].clone_into(&mut both[3]);
-        let error = super::same_runs(&both, &host).expect_err("too fast");
+        assert!(super::within_limits(&runs[..99]).is_err());
+        runs[3] = "run 3 pendulum joint 0: speed 4 rad/s".into();
+        let error = super::within_limits(&runs).expect_err("too fast");
         assert!(error.to_string().contains("limit"), "{error}");
     }
 
     #[test]
-    fn a_differing_bit_and_a_missing_digest_are_named() {
-        let lines: Vec<String> = (0..25).map(|k| format!("bits hard {k} a 0{k:x}")).collect();
-        let mut host: Vec<&str> = lines.iter().map(String::as_str).collect();
-        assert!(super::same_bits(&lines, &host).is_ok());
-        assert!(super::same_bits(&lines[..24], &host[..24]).is_err());
-        assert!(super::same_bits(&lines[..24], &host).is_err());
-        host[7] = "bits hard 7 a 06";
-        let error = super::same_bits(&lines, &host).expect_err("another bit");
-        assert!(error.to_string().contains(host[7]), "{error}");
-    }
-
-    #[test]
     fn work_that_varies_is_named() {
-        let samples = [5, 5, 7, 8].map(|instructions| Sample {
-            region: 0,
-            instructions,
-            cycles: 10,
-            flops: 0,
-        });
+        let samples = [5, 5, 7, 8].map(|instructions| Sample::of(0, [instructions, 10, 0]));
         let kind = |name: &str, constant| Kind {
             name: name.into(),
             states: 2,

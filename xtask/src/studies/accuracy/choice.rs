@@ -6,7 +6,7 @@ use super::measure::Robot;
 use super::names::{cycles, digits, lines, name, stated};
 use super::point::{Kind, Point, of_group};
 use super::{code, front};
-use crate::kit::error::{Error, Result};
+use crate::kit::error::{Result, bail, check};
 use crate::kit::table::thousands;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +74,7 @@ impl Budget {
     pub fn choose<'a>(self, points: &[&'a Point]) -> Result<&'a Point> {
         let front = front::front(points, 0);
         let (&[cheapest, ..], &[.., best]) = (&front[..], &front[..]) else {
-            return Err(Error::check("nothing was measured of this robot"));
+            bail!("nothing was measured of this robot");
         };
         let unit = &best.unit;
         let mut within = front.iter().copied().filter(|point| match self {
@@ -95,9 +95,9 @@ impl Budget {
         chosen.ok_or_else(|| {
             let (cycles, error) = (thousands(end.cycles), digits(end.error()));
             let (name, front) = (name(end), "nothing on the front is");
-            Error::check(format!(
+            check!(
                 "{front} {what} takes {cycles} cycles ({name}) and is off by up to {error} {unit}"
-            ))
+            )
         })
     }
 

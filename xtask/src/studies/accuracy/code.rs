@@ -3,7 +3,7 @@
 use super::measure::Robot;
 use super::names;
 use super::point::{Kind, Point};
-use crate::kit::error::{Error, Result};
+use crate::kit::error::{Result, check};
 
 /// The paths of the items of dynamics-core in generated code.
 const DYNAMICS: &str = "Core Engine effects::Gravity effects::Inertia effects::RIGID_BODY model::Pruned robots::A1Leg \
@@ -38,8 +38,9 @@ fn shipped<const K: usize>(point: &Point, axes: [&str; K]) -> Result<[&'static s
         let value = point.on(axis);
         let lacks = || {
             let robot = &point.robot;
-            let what = format!("there is no Rust to paste of {robot} with {axis}={value}");
-            Error::check(what + ": see lab/target/src/accuracy")
+            check!(
+                "there is no Rust to paste of {robot} with {axis}={value}: see lab/target/src/accuracy"
+            )
         };
         *rust = names::rust(axis, value).ok_or_else(lacks)?;
     }
@@ -67,7 +68,7 @@ fn torques(point: &Point) -> Result<String> {
     };
     let arm = point.own.as_ref();
     let arm = arm.map(|own| own.each_ref().map(String::as_str));
-    let lacks = || Error::check(format!("no torques of {} are computed", point.robot));
+    let lacks = || check!("no torques of {} are computed", point.robot);
     let [arm, joints] = arm.or_else(known).ok_or_else(lacks)?;
     let robot = match point.on("model").strip_prefix("pruned") {
         Some(millionths) => format!("Pruned<{arm}, {millionths}>"),
@@ -160,11 +161,10 @@ mod tests {
     use super::super::point::{Kind, Point};
     use super::super::recorded;
     use super::rust;
-    use crate::kit::docs::repository::root;
+    use crate::kit::docs::repository::read;
 
     fn recorded() -> Vec<Point> {
-        let text = std::fs::read_to_string(root().join(recorded::FILE)).expect("a record");
-        serde_json::from_str(&text).expect("points")
+        serde_json::from_str(&read(recorded::FILE)).expect("points")
     }
 
     /// The code of a recorded point of the UR5e.

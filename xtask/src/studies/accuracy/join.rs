@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::front;
 use super::point::{Kind, Point};
-use crate::kit::error::{Error, Result};
+use crate::kit::error::{Result, bail, check};
 use crate::kit::rows::Row;
 
 /// The accuracy of the reference as a share of full scale: smaller errors count as that.
@@ -46,10 +46,9 @@ impl Host {
             })
         };
         let line = |text| {
-            let bad = |e: serde_json::Error| {
-                format!("the host's line {text:?} cannot be understood: {e}")
-            };
-            read(text).map_err(|e| Error::check(bad(e)))
+            read(text).map_err(|e: serde_json::Error| {
+                check!("the host's line {text:?} cannot be understood: {e}")
+            })
         };
         lines.lines().map(line).collect::<Result<_>>().map(Self)
     }
@@ -80,8 +79,7 @@ pub fn join(host: &Host, measured: &[Bin]) -> Result<Vec<Point>> {
         let ways = host.0.iter().filter(of);
         points.extend(ways.map(|way| way.costing(row, opt)));
         if points.len() == before {
-            let what = format!("the host knows no error of {robot} {kind} {key}");
-            return Err(Error::check(what));
+            bail!("the host knows no error of {robot} {kind} {key}");
         }
     }
     front::mark(&mut points);

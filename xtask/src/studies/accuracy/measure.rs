@@ -6,7 +6,7 @@ use super::join::{self, Bin, Host};
 use super::point::{Kind, Point};
 use super::printed::{self, PRINTED};
 use crate::kit::bracket::{self, READINGS};
-use crate::kit::error::{Error, Result};
+use crate::kit::error::{Result, check};
 use crate::kit::progress::Spinner;
 use crate::kit::rows::{self, Row};
 use crate::kit::setup::Tools;
@@ -124,7 +124,7 @@ impl Plan {
         let (rows, lines) = std::thread::scope(|scope| {
             let host = scope.spawn(|| self.errors(workspace, &printed));
             let rows = self.costs(workspace, tools, &printed);
-            let lost = |_| Err(Error::check("the host's errors were not computed"));
+            let lost = |_| Err(check!("the host's errors were not computed"));
             (rows, host.join().unwrap_or_else(lost))
         });
         let ((mut rows, shares), host) = (rows?, Host::read(&lines?)?);

@@ -7,7 +7,7 @@ use super::join::{Host, join};
 use super::measure::ACCURACY;
 use super::page;
 use super::point::{Kind, Point};
-use crate::kit::error::{Result, check};
+use crate::kit::error::{Result, bail};
 use crate::kit::firmware::{OWN_ROBOTS, build_own, variable};
 use crate::kit::meter::MODEL;
 use crate::kit::own_robot::OwnRobot;
@@ -31,9 +31,7 @@ pub fn run(
     if let Some(Budget::Error(allowed)) = budget
         && allowed.kind != Kind::Inverse
     {
-        return Err(check!(
-            "of a robot from a file only torques are measured: --error 0.05Nm"
-        ));
+        bail!("of a robot from a file only torques are measured: --error 0.05Nm");
     }
     let workspace = Workspace::find()?;
     let points = measure(&workspace, &setup::for_demo(options)?, robot)?;

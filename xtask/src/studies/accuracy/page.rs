@@ -3,14 +3,13 @@
 #[cfg(test)]
 mod tests;
 
-use super::front;
 use super::join::{Host, Line};
 use super::measure::Robot;
 use super::names::{cycles, digits, name, stated};
-use super::plot;
 use super::point::{Kind, Point, of_group};
+use super::{front, plot};
 use crate::kit::docs::Page;
-use crate::kit::error::{Error, Result};
+use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::meter::MODEL;
 use crate::kit::table::{Table, thousands};
 
@@ -268,14 +267,13 @@ fn cheapest<'a>(points: &[&'a Point]) -> Option<[(&'a Point, f64); 2]> {
 
 /// Fails unless a negligible error saves as much as was promised; returns the saving.
 pub fn check_bars(points: &[&Point]) -> Result<String> {
-    let none = || Error::check("nothing on the front is within the bar's error");
+    let none = || check!("nothing on the front is within the bar's error");
     let [worst, mean] = cheapest(points).ok_or_else(none)?.map(|(_, share)| share);
     let saved = format!("{worst:.3} of the worst tick, {mean:.3} of the mean");
-    if worst > MOST[0] || mean > MOST[1] {
-        return Err(Error::check(format!(
-            "bar: within {ERROR} of full scale, the cheapest takes {saved} of the default's; at most {MOST:?}"
-        )));
-    }
+    refuse_if!(
+        worst > MOST[0] || mean > MOST[1],
+        "bar: within {ERROR} of full scale, the cheapest takes {saved} of the default's; at most {MOST:?}"
+    );
     Ok(saved)
 }
 

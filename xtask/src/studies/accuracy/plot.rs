@@ -10,11 +10,9 @@ use super::measure::Robot;
 use super::names::{cycles, name, stated};
 use super::page::{SCENES, steps};
 use super::point::{Kind, Point, of_group};
-use crate::kit::chart::{Area, INK, Outcome, svg};
+use crate::kit::chart::{Area, FAINT, FONT, INK, Outcome, svg};
 use crate::kit::error::Result;
 
-const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
-const FAINT: RGBColor = RGBColor(228, 231, 235);
 const DOT: RGBColor = RGBColor(165, 174, 185);
 const WORST: RGBColor = RGBColor(27, 80, 162);
 const MEAN: RGBColor = RGBColor(214, 110, 0);

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use super::measure::{Measured, Robot};
 use super::point::Point;
 use super::{code, page, recorded};
-use crate::kit::error::{Error, Result};
+use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::workspace::{self, Workspace};
 
 /// The variable that says to the bins `accuracy_quick` where the file is.
@@ -83,7 +83,7 @@ pub fn check(measured: &Measured) -> Result<usize> {
     for generated in &measured.generated {
         let what = name(generated);
         let chosen = measured.single.iter().find(|point| name(point) == what);
-        let lacks = || Error::check(format!("{what} is generated, but not measured otherwise"));
+        let lacks = || check!("{what} is generated, but not measured otherwise");
         let chosen = chosen.ok_or_else(lacks)?;
         let [found, promised] = [generated, chosen].map(figures);
         let mut ratios = std::iter::zip(found, promised).map(|(found, promised)| found / promised);
@@ -96,9 +96,8 @@ pub fn check(measured: &Measured) -> Result<usize> {
             ));
         }
     }
-    match (measured.generated.len(), different.is_empty()) {
-        (0, _) => Err(Error::check("no generated code was measured")),
-        (count, true) => Ok(count),
-        _ => Err(Error::check(different.join("\n"))),
-    }
+    refuse_if!(!different.is_empty(), "{}", different.join("\n"));
+    let count = measured.generated.len();
+    refuse_if!(count == 0, "no generated code was measured");
+    Ok(count)
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::front;
 use super::page::COMMAND;
 use super::point::Point;
-use crate::kit::error::{Error, Result};
+use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::workspace::{self, Workspace};
 
 /// The points, one a line.
@@ -17,7 +17,7 @@ const CLOSE: f64 = 0.05;
 pub fn read(workspace: &Workspace) -> Result<Vec<Point>> {
     let text = workspace::read(&workspace.root.join(FILE))?;
     let mut points: Vec<Point> = serde_json::from_str(&text)
-        .map_err(|e| Error::check(format!("{FILE}: {e}; `{COMMAND}` writes it anew")))?;
+        .map_err(|e| check!("{FILE}: {e}; `{COMMAND}` writes it anew"))?;
     front::mark(&mut points);
     Ok(points)
 }
@@ -28,14 +28,10 @@ pub fn replaced(workspace: &Workspace, measured: &[Point]) -> Result<(PathBuf, S
     points.retain(|old| !measured.iter().any(|new| new.group() == old.group()));
     points.extend_from_slice(measured);
     points.sort_by(|a, b| a.group().cmp(&b.group()));
-    let lines = points.iter().map(serde_json::to_string);
-    let lines: Vec<String> = lines
-        .collect::<std::result::Result<_, _>>()
-        .map_err(|e| Error::check(format!("cannot write {FILE}: {e}")))?;
-    Ok((
-        workspace.report(FILE),
-        format!("[\n{}\n]\n", lines.join(",\n")),
-    ))
+    let line = |point| serde_json::to_string(point).map_err(|e| check!("cannot write {FILE}: {e}"));
+    let lines = points.iter().map(line).collect::<Result<Vec<_>>>()?;
+    let text = format!("[\n{}\n]\n", lines.join(",\n"));
+    Ok((workspace.report(FILE), text))
 }
 
 /// Fails unless these, measured now, are recorded as they are: errors to the bit, costs closely.
@@ -48,12 +44,11 @@ pub fn check(recorded: &[Point], now: &[Point]) -> Result<()> {
                 std::iter::zip(old.costs(), point.costs()).map(|(a, b)| (a / b - 1.0).abs());
             old.error_max == point.error_max && apart.into_iter().all(|apart| apart <= CLOSE)
         };
-        if !old.is_some_and(close) {
-            return Err(Error::check(format!(
-                "{FILE} is out of date in {} {}: `{COMMAND}` rewrites it",
-                point.robot, point.key
-            )));
-        }
+        let (robot, key) = (&point.robot, &point.key);
+        refuse_if!(
+            !old.is_some_and(close),
+            "{FILE} is out of date in {robot} {key}: `{COMMAND}` rewrites it"
+        );
     }
     Ok(())
 }

@@ -141,8 +141,7 @@ fn rows(rustc: &str, key: &str, cycles: u64) -> Rows {
 
 #[test]
 fn the_same_costs_leave_the_file_as_it_is() {
-    let path = crate::kit::docs::repository::root().join("budgets.toml");
-    let text = std::fs::read_to_string(path).expect("budgets");
+    let text = crate::kit::docs::repository::read("budgets.toml");
     let budgets: Budgets = toml_edit::de::from_str(&text).expect("budgets");
     let mut file: DocumentMut = text.parse().expect("TOML");
     budgets.costs.expect("costs").put(&mut file);

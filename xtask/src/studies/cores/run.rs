@@ -158,7 +158,7 @@ pub fn measure(workspace: &Workspace, core: &Core, plugin: &Path) -> Result<Row>
             .ok_or_else(few)?;
         rest = others;
         let code = Walk::of(&image, core.isa == Isa::RiscV, at)
-            .map_err(|e| Error::check(format!("{}, {}: {e}", core.name, torques.scene)))?;
+            .map_err(|e| check!("{}, {}: {e}", core.name, torques.scene))?;
         refuse_if!(
             code.stack < stack,
             "{}, {}: a tick wrote to {stack} B of stack, more than the bound of its code, {} B",

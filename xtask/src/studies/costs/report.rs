@@ -1,8 +1,7 @@
 //! The rows in print.
 
 use crate::kit::bars::{self, Bars, Compared, is_ratio};
-use crate::kit::meter::CLOCK_MHZ;
-use crate::kit::meter::MODEL;
+use crate::kit::meter::{CLOCK_MHZ, MODEL};
 use crate::kit::rows::Row;
 use crate::kit::table::{Table, thousands};
 

@@ -1,5 +1,5 @@
 use super::{MOST, NO_REASON, Outcome, PAGE, REASONS, Reason, Reasons, Results, Verdict};
-use crate::kit::docs::repository::{root, rows_of};
+use crate::kit::docs::repository::{read, rows_of};
 
 fn outcome(room: &str, change: &str, verdict: Verdict) -> Outcome {
     Outcome {
@@ -107,18 +107,16 @@ fn a_result_that_does_not_hold_is_refused() {
 
 #[test]
 fn the_page_has_a_result_that_holds() {
-    let page = std::fs::read_to_string(root().join(PAGE.file)).expect("a page");
+    let page = read(PAGE.file);
     assert_eq!(complaint(PAGE.written(&page).expect("markers")), None);
 }
 
 #[test]
 fn every_reason_says_of_which_change_it_is() {
-    let text = std::fs::read_to_string(root().join(REASONS)).expect("reasons");
-    let reasons: Reasons = toml_edit::de::from_str(&text).expect("TOML");
+    let reasons: Reasons = toml_edit::de::from_str(&read(REASONS)).expect("TOML");
     for reason in reasons.reason {
         let (file, function) = (&reason.file, &reason.function);
-        let source = std::fs::read_to_string(root().join(file)).expect("a source");
-        let is_there = source.contains(&format!("fn {function}"));
+        let is_there = read(file).contains(&format!("fn {function}"));
         assert!(is_there, "{file} has no `{function}`");
         assert!(
             !reason.change.is_empty() && reason.because.ends_with('.'),

@@ -109,18 +109,11 @@ impl<'a> Workshop<'a> {
         self.robots.join("robots.txt")
     }
 
-    /// Pinocchio by a compiler, as a shared library.
-    pub fn pinocchio(&self, compiler: &str) -> Result<PathBuf> {
-        let _spinner = Spinner::start(&format!("building Pinocchio by {compiler}"));
-        let name = format!("pinocchio_{compiler}.so");
-        self.cpp(&name, compiler, &words(HOST), "pinocchio_peer.cpp")
-    }
-
-    /// Pinocchio's dynamics of robots with loops, likewise.
-    pub fn pinocchio_loops(&self, compiler: &str) -> Result<PathBuf> {
-        let _spinner = Spinner::start(&format!("building Pinocchio's loops by {compiler}"));
-        let name = format!("pinocchio_loops_{compiler}.so");
-        self.cpp(&name, compiler, &words(HOST), "pinocchio_loops.cpp")
+    /// Pinocchio's dynamics, or those of robots with loops, by a compiler: the source `NAME.cpp` as a shared library.
+    pub fn pinocchio(&self, name: &str, compiler: &str) -> Result<PathBuf> {
+        let _spinner = Spinner::start(&format!("building {name} by {compiler}"));
+        let library = format!("{}_{compiler}.so", name.trim_end_matches("_peer"));
+        self.cpp(&library, compiler, &words(HOST), &format!("{name}.cpp"))
     }
 
     /// MuJoCo behind our interface.

@@ -39,7 +39,7 @@ fn compared(robot: &Robot) -> (&'static [&'static str], &'static [&'static str])
 /// Builds the peers and the benchmark, and runs it; without robots those with loops alone.
 pub fn measure(workspace: &Workspace, shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Row>> {
     let loops = CPP_COMPILERS.map(|compiler| {
-        let library = shop.pinocchio_loops(compiler)?;
+        let library = shop.pinocchio("pinocchio_loops", compiler)?;
         Ok((format!("pinocchio {compiler}"), library))
     });
     let loops: Vec<_> = loops.into_iter().collect::<Result<_>>()?;
@@ -55,7 +55,7 @@ pub fn measure(workspace: &Workspace, shop: &Workshop<'_>, robots: &[Robot]) -> 
 fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
     let mut all = Vec::new();
     for compiler in CPP_COMPILERS {
-        let library = shop.pinocchio(compiler)?;
+        let library = shop.pinocchio("pinocchio_peer", compiler)?;
         for wanted in wanted(robots) {
             let (_, algorithm, precision) = wanted;
             let open = (format!("pinocchio_{precision}_open"), shop.robots_file());

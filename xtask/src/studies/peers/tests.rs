@@ -4,19 +4,16 @@ use super::bars::compared;
 use super::report::{HOST, M4F, Report, Row};
 use super::{ALGORITHMS, PRECISIONS};
 use crate::kit::bars::{self, Bars, Compared};
-use crate::kit::docs::repository::{root, rows_of};
+use crate::kit::docs::repository::{read, rows_of};
 
 /// The rounding error of a ratio of figures that are printed with at least three digits.
 const ROUNDING: f64 = 0.005;
 
-fn page() -> String {
-    std::fs::read_to_string(root().join("docs/peers.md")).expect("a page")
-}
+const PAGE: &str = "docs/peers.md";
 
 /// The ratios that `budgets.toml` promises of peers.
 fn promised() -> Bars {
-    let text = std::fs::read_to_string(root().join("budgets.toml")).expect("budgets");
-    let budgets: serde_json::Value = toml_edit::de::from_str(&text).expect("TOML");
+    let budgets: serde_json::Value = toml_edit::de::from_str(&read("budgets.toml")).expect("TOML");
     let mut ratios: Bars = serde_json::from_value(budgets["ratios"].clone()).expect("ratios");
     ratios.retain(|key, _| key.contains(", m4f, ") || key.contains(", host "));
     ratios
@@ -124,7 +121,7 @@ fn check(page: &str, promised: &Bars) -> Result<(), String> {
 
 #[test]
 fn the_page_agrees_with_itself_and_with_what_is_promised() {
-    let (page, promised) = (page(), promised());
+    let (page, promised) = (read(PAGE), promised());
     check(&page, &promised).expect("docs/peers.md: `cargo xtask peers` rewrites it");
     let figures: usize = promised.values().map(|bar| bar.most.len()).sum();
     assert_eq!(
@@ -136,7 +133,7 @@ fn the_page_agrees_with_itself_and_with_what_is_promised() {
 
 #[test]
 fn a_page_that_disagrees_is_refused() {
-    let (page, promised) = (page(), promised());
+    let (page, promised) = (read(PAGE), promised());
     let line = |begin: &str| {
         page.lines()
             .find(|line| line.starts_with(begin))
@@ -164,8 +161,7 @@ fn a_page_that_disagrees_is_refused() {
 
 /// The figures of a row of the decision's table by robot, and in how many digits.
 fn decided(name: &str) -> Vec<(String, f64, usize)> {
-    let path = root().join("docs/decisions/0002-bars.md");
-    let text = std::fs::read_to_string(path).expect("a decision");
+    let text = read("docs/decisions/0002-bars.md");
     let rows = rows_of(&text);
     let row = rows.iter().find(|cells| cells[0] == name).expect("a row");
     let figures = row[2].split([';', ',']).map(str::trim);
@@ -180,7 +176,7 @@ fn decided(name: &str) -> Vec<(String, f64, usize)> {
 
 #[test]
 fn the_decision_on_missed_bars_quotes_the_page() {
-    let page = page();
+    let page = read(PAGE);
     let bars = rows_of(under(&page, "Against the bars"));
     let missed = |of: &str| -> usize {
         let all = bars.iter().filter(|cells| cells[0].ends_with(of));

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 use super::{Line, PAGE};
-use crate::kit::error::{Result, check};
+use crate::kit::error::{Result, bail, check};
 use crate::kit::meter::MODEL;
 use crate::kit::rows::Row;
 use crate::kit::table::{Table, thousands};
@@ -14,9 +14,7 @@ use crate::kit::table::{Table, thousands};
 pub fn compare(written: &str, fresh: &str, name: &str, same_compiler: bool) -> Result<()> {
     let [old, new] = [written, fresh].map(|page| cells(page, name));
     let (Some(old), Some(new)) = (old, new) else {
-        return Err(check!(
-            "{PAGE} has no line of {name}: `cargo xtask robots` rewrites it"
-        ));
+        bail!("{PAGE} has no line of {name}: `cargo xtask robots` rewrites it");
     };
     let measured = if same_compiler { old.len() } else { PEER };
     let differs = |i: &usize| *i != PEER && old.get(*i) != new.get(*i);

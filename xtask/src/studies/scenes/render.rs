@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use crate::kit::bracket::Bracket;
-use crate::kit::meter::MODEL;
-use crate::kit::meter::{CLOCK_MHZ, Cost};
+use crate::kit::meter::{CLOCK_MHZ, Cost, MODEL};
 use crate::kit::protocol::label;
 use crate::kit::table::{Column, Table, thousands};
 use crate::studies::scenes::report::{Errors, JointError, Report, Tracking};

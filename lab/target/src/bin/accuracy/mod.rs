@@ -17,7 +17,7 @@ use lab_target::accuracy::robots::{Compared, Swung, momentary};
 use lab_target::accuracy::simulation::{self, PassiveMotion, Simulation};
 use lab_target::accuracy::{Inverse, Visitor, list};
 use motion_control::Reference;
-use row::Row;
+use row::{Row, numbers};
 
 /// Ticks of each way: two periods of the lowest rate.
 const TICKS: usize = 40;
@@ -116,11 +116,7 @@ pub fn arm<T: Compared<N, N, W> + Swung<N>, const N: usize, const W: usize>() ->
 
 /// The states of the robot T, for its ways to be measured.
 pub fn states<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usize>() -> Priced<N> {
-    let mut seed = 1_u32;
-    let mut number = |bound: f32| {
-        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (seed >> 8) as f32 * (2.0 * bound / 16_777_216.0) - bound
-    };
+    let mut number = numbers();
     let spread = [(); TICKS].map(|()| {
         let [q, qd, qdd] = [3.0, 3.0, 10.0].map(|bound| [(); N].map(|()| number(bound)));
         momentary(State { q, qd, qdd })

@@ -22,6 +22,7 @@ use dynamics_core::Core;
 use dynamics_core::model::Robot;
 use dynamics_core::state::{JointTrig, State};
 use firmware_demo::target;
+use row::numbers;
 
 /// Number of states on which each function is called.
 pub const STATES: usize = 32;
@@ -34,11 +35,7 @@ pub struct Ask<const N: usize> {
 
 /// Some states within the joints' usual ranges, from a fixed seed.
 pub fn asks<T: Robot<B, N, N>, const B: usize, const N: usize, const S: usize>() -> [Ask<N>; S] {
-    let mut seed = 1_u32;
-    let mut number = |bound: f32| {
-        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (seed >> 8) as f32 * (2.0 * bound / 16_777_216.0) - bound
-    };
+    let mut number = numbers();
     [(); S].map(|()| {
         let state = State {
             q: [(); N].map(|()| number(3.0)),

@@ -75,6 +75,19 @@ impl<'a> Row<'a> {
     }
 }
 
+/// Numbers within a bound, from a fixed seed.
+#[allow(
+    dead_code,
+    reason = "not every bin that measures rows draws its states"
+)]
+pub fn numbers() -> impl FnMut(f32) -> f32 {
+    let mut seed = 1_u32;
+    move |bound| {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (seed >> 8) as f32 * (2.0 * bound / 16_777_216.0) - bound
+    }
+}
+
 /// Bytes of stack that a call writes to.
 #[inline(always)]
 fn stack_of<T>(run: impl FnOnce() -> T) -> usize {

@@ -1,5 +1,5 @@
 use super::{COMMAND, FILE, Host, NAMES, Robot, check_bars, page_of, text};
-use crate::kit::docs::{self, repository::root};
+use crate::kit::docs::{self, repository::read};
 use crate::studies::accuracy::front::{mark, tests::point};
 use crate::studies::accuracy::names::glossary;
 use crate::studies::accuracy::point::Point;
@@ -50,7 +50,6 @@ fn lacking(page: &str, points: &[Point]) -> Vec<String> {
 
 #[test]
 fn the_page_has_every_line_that_is_recorded() {
-    let read = |file: &str| std::fs::read_to_string(root().join(file)).expect("it is there");
     let page = read(FILE);
     let mut points: Vec<Point> = serde_json::from_str(&read(recorded::FILE)).expect("points");
     mark(&mut points);
@@ -73,7 +72,7 @@ fn the_page_has_every_line_that_is_recorded() {
 
 #[test]
 fn the_page_says_what_each_name_means() {
-    let page = std::fs::read_to_string(root().join(FILE)).expect("a page");
+    let page = read(FILE);
     let written = NAMES.written(&page).expect("markers").trim_start();
     assert_eq!(written, NAMES.generated(&glossary()));
 }

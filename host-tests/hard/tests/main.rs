@@ -25,13 +25,9 @@ fn demand(number: u32) {
     hard_cases::demand(number).unwrap_or_else(|wrong| panic!("{wrong}"));
 }
 
-/// Demands a part of a case that takes long, and with the feature `full` the whole case.
+/// Demands a part of a case that takes long; `cargo xtask test hard-cases` demands the whole case.
 fn demand_part(number: u32, part: fn() -> Vec<Row>) {
-    if cfg!(feature = "full") {
-        demand(number);
-    } else {
-        demand_rows(number, &part()).unwrap_or_else(|wrong| panic!("{wrong}"));
-    }
+    demand_rows(number, &part()).unwrap_or_else(|wrong| panic!("{wrong}"));
 }
 
 #[test]

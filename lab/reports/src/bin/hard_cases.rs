@@ -1,7 +1,7 @@
 //! Prints the hard cases and all that they measure as JSON: `cargo xtask hard-cases` makes a page of it.
 
 use hard_cases::CASES;
-use host_tests::hard::{Case, Row};
+use host_tests::hard::{Case, Row, demand_rows};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -10,6 +10,8 @@ struct Suite {
     /// The numbers of those that the firmware's bin `bits` has too.
     in_qemu: Vec<u32>,
     rows: Vec<Row>,
+    /// What is not as demanded, for each case that has something of the kind.
+    wrong: Vec<String>,
 }
 
 fn main() {
@@ -23,11 +25,17 @@ fn main() {
         .windows(2)
         .all(|pair| pair[0].number + 1 == pair[1].number);
     assert!(without_gap, "a number of a case is missing, or given twice");
-    let rows = cases.iter().flat_map(Case::rows).collect();
+    let (mut rows, mut wrong) = (Vec::new(), Vec::new());
+    for case in &cases {
+        let of_case = case.rows();
+        wrong.extend(demand_rows(case.number, &of_case).err());
+        rows.extend(of_case);
+    }
     let suite = Suite {
         cases,
         in_qemu: lab_target::hard::cases().collect(),
         rows,
+        wrong,
     };
     println!(
         "{}",

@@ -14,8 +14,7 @@ use crate::kit::workspace;
 /// The tests that take the compiler or a simulation long: further robots, scalars and hours of claims that are tested without, of
 /// the packages that simulate and of the others.
 const FULL_SIMULATED: &str = "--features simulation-tests/full,trial-tests/full";
-const FULL: &str =
-    "--features hard-cases/full,host-tests/full,robot-import/full,specialised-tests/full";
+const FULL: &str = "--features host-tests/full,robot-import/full,specialised-tests/full";
 /// All packages but the firmware and its listeners, which the steps `telemetry` and `pil` build and test.
 const HOST: &str = "--workspace --exclude firmware-demo --exclude lab-target --exclude telemetry-watch --exclude telemetry-pil";
 /// The part of the firmware that runs anywhere.

@@ -19,7 +19,7 @@ use super::pivot_noise::noise;
 use super::rnea::inertia;
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::NotPositiveDefinite;
-use crate::effects::Effect;
+use crate::effects::{Effect, add_inertia};
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::{Real, Vector};
 use crate::state::{Configuration, JointTrig, RobotState, State};
@@ -175,7 +175,7 @@ where
         (n, f)
     };
     let mut d = Wrench { f, n }.along(joint.prismatic, length_inv).get();
-    task.effects.add_inertia(I, &mut d);
+    add_inertia(task.effects, I, &mut d);
     let d_inv = R::ONE / d;
     let rest = Folded::runtime(task.x[I]) - push.along(joint.prismatic, length_inv);
     let ([nx, ny, nz], [fx, fy, fz]) = (n.0, f.0);

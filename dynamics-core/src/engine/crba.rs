@@ -15,7 +15,7 @@ use super::gate::EngineScene;
 use super::rnea::inertia;
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::MassMatrix;
-use crate::effects::Effect;
+use crate::effects::{Effect, add_inertia};
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::Real;
 use crate::state::Configuration;
@@ -154,7 +154,7 @@ fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usiz
         }
     };
     let mut diagonal = wrench.along(joint.prismatic, length_inv).get();
-    task.effects.add_inertia(I, &mut diagonal);
+    add_inertia(task.effects, I, &mut diagonal);
     task.m.rows[I][I] = diagonal;
     // From joint I to the base: parents come before their children.
     for_each_joint_reversed!(K, {

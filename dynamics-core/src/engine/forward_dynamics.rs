@@ -14,7 +14,7 @@ use super::pivot_noise::noise;
 use super::{Engine, Index, Specialised};
 use crate::algorithms::MassMatrix;
 use crate::algorithms::NotPositiveDefinite;
-use crate::effects::{Bias, Effect, JointState, transmitted};
+use crate::effects::{Bias, Declared, Effect, JointState, transmitted};
 use crate::model::Robot;
 use crate::scalar::Real;
 use crate::state::{Configuration, JointTrig, RobotState, State};

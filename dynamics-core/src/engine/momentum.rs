@@ -17,7 +17,7 @@ use super::gate::EngineScene;
 use super::rnea::{environment, inertia};
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::{MomentumAndCoriolis, MomentumAndDrift};
-use crate::effects::{Effect, JointState};
+use crate::effects::{Declared, Effect, JointState};
 use crate::model::{JointCoordinate, Robot};
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};

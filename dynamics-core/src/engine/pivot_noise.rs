@@ -5,7 +5,7 @@
 
 use super::compile::{CompiledJoint, CompiledRobot, JointPair};
 use super::{Index, only_if};
-use crate::effects::{Effect, RegroupedInertia};
+use crate::effects::{Declared, Effect, RegroupedInertia, call_hook};
 use crate::model::{BASE, JointCoordinate, JointKind, Model, Robot};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
@@ -160,7 +160,7 @@ where
     let [mut mass, mut moment, mut second] = [own.mass, own.moment, own.second].map(R::from_f64);
     if const { E::BASE_PARAMETERS > 0 } {
         let mut body = RegroupedInertia::default();
-        effects.regrouped(I, &mut body);
+        call_hook!(E::REGROUPED.load, effects, I, &mut body);
         [mass, moment, second] = body.size;
     }
     let prismatic = CompiledJoint::<T, B, Q, V, I>::PRISMATIC;
@@ -211,7 +211,7 @@ where
         let body = const { load::<T, B, Q, V>(I, K, &E::PAYLOAD) };
         if body < B {
             let mut payload = SpatialInertia::ZERO;
-            effects.payload(body, &mut payload);
+            call_hook!(E::ADDED_INERTIA.add, effects, body, &mut payload);
             size += if CompiledJoint::<T, B, Q, V, I>::PRISMATIC {
                 payload.mass
             } else {

@@ -8,7 +8,9 @@ use super::folding::{Mat3, Sym3, Vec3};
 use super::gate::EngineScene;
 use super::only_if;
 use super::subtree::visit_child;
-use crate::effects::{BodyState, Effect, JointState, RegroupedInertia, load_friction};
+use crate::effects::{
+    BodyState, Declared, Effect, JointState, RegroupedInertia, call_hook, hook, load_friction,
+};
 use crate::model::{JointCoordinate, Robot};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
@@ -146,7 +148,7 @@ where
     if const { E::BASE_PARAMETERS > 0 } {
         const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
         let mut body = RegroupedInertia::default();
-        effects.regrouped(I, &mut body);
+        call_hook!(E::REGROUPED.load, effects, I, &mut body);
         Inertia::loaded(&body, joint, base_moves)
     } else if base_moves {
         Inertia::second_moment_only(joint)
@@ -202,7 +204,7 @@ where
     let (rot, d) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
     let length = Folded::constant(length);
     let mut load = SpatialInertia::ZERO;
-    effects.payload(of, &mut load);
+    call_hook!(E::ADDED_INERTIA.add, effects, of, &mut load);
     let mass = Folded::runtime(load.mass) * length * length;
     let h = rot.mul(Vec3::runtime(load.first_moment)).scale(length);
     // Σ = ½ tr(Ī) 1 − Ī, turned and moved to the joint's frame.
@@ -287,7 +289,7 @@ where
     };
     if E::BASE_MOTION && E::BODY_VELOCITY {
         let (mut base, mut acceleration) = (Motion::ZERO, Motion::ZERO);
-        effects.base(&mut base, &mut acceleration);
+        call_hook!(E::BASE.add, effects, &mut base, &mut acceleration);
         at.base = Some(base);
     }
     if E::BODY_VELOCITY {
@@ -301,7 +303,7 @@ where
         at.pose = field.pose.of(place, length);
     }
     let mut fx = Force::ZERO;
-    effects.wrench(body, &at, &mut fx);
+    hook::add_wrench(effects, body, &at, &mut fx);
     let f = rot.mul(Vec3::runtime(fx.lin)).scale(length);
     let n = rot.mul(Vec3::runtime(fx.ang)) + pos.cross(f);
     Wrench { f, n }

@@ -11,7 +11,7 @@ use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::pose::Pose;
 use super::rnea::{Task, visit};
-use crate::effects::Effect;
+use crate::effects::{Declared, Effect};
 use crate::model::Robot;
 use crate::scalar::{Real, Vector};
 

@@ -16,7 +16,8 @@ use super::rotors::with_rotor;
 use super::tree_pass::per_body;
 use super::{JointResult, NotPositiveDefinite, Prescribed};
 use crate::effects::{
-    Effect, Scene, base_motion, body_inertia, gyroscopic, joint_state, joint_torque, transmitted,
+    Declared, Effect, Scene, add_inertia, base_motion, body_inertia, gyroscopic, joint_state,
+    joint_torque, transmitted,
 };
 use crate::model::{JointKind, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
@@ -226,7 +227,7 @@ where
             let factor = match given(joint) {
                 Prescribed::Torque(tau) => {
                     let mut d = s.dot(u_a);
-                    effects.add_inertia(joint, &mut d);
+                    add_inertia(effects, joint, &mut d);
                     pivots.check((&body.link, k), turns, (u_a, d), joint)?;
                     let d_inv = R::ONE / d;
                     let at = joint_state(&body.link, state, joint);
@@ -322,7 +323,7 @@ where
     matches!(link.kind(), JointKind::Free)
         && link.coordinates().all(|joint| {
             let mut inertia = R::ZERO;
-            effects.add_inertia(joint, &mut inertia);
+            add_inertia(effects, joint, &mut inertia);
             matches!(given(joint), Prescribed::Torque(_)) & (inertia == R::ZERO)
         })
 }

@@ -5,7 +5,7 @@ use heapless::Vec;
 use super::NotPositiveDefinite;
 use super::pivot_check::{Magnitude, PivotCheck};
 use super::tree_pass::inward;
-use crate::effects::{Effect, body_inertia};
+use crate::effects::{Declared, Effect, add_inertia, body_inertia};
 use crate::model::{JointCoordinate, RobotModel};
 use crate::scalar::Real;
 use crate::spatial::inertia::ArticulatedInertia;
@@ -62,7 +62,7 @@ where
             let u_a = ia.along(&s);
             let bodies = s.dot(u_a);
             let mut d = bodies;
-            effects.add_inertia(joint, &mut d);
+            add_inertia(effects, joint, &mut d);
             pivots.check((&link, k), turns, (u_a, d), joint)?;
             let d_inv = R::ONE / d;
             let armature_share = (d - bodies) * d_inv;

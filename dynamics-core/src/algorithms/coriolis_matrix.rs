@@ -9,7 +9,7 @@ use core::borrow::Borrow;
 use heapless::Vec;
 
 use super::tree_pass::{inward, per_body};
-use crate::effects::{Effect, base_given, body_inertia, rotor_force};
+use crate::effects::{Declared, Effect, base_given, body_inertia, rotor_force};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::inertia::CompositeInertia;

@@ -10,7 +10,7 @@ use heapless::Vec;
 
 use super::tree_pass::inward;
 use crate::algorithms::MassMatrix;
-use crate::effects::{Effect, Scene, body_inertia, rotor_force};
+use crate::effects::{Declared, Effect, Scene, add_inertia, body_inertia, rotor_force};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
 use crate::spatial::Xform;
@@ -108,7 +108,7 @@ where
                 m.set(joint, earlier, body.link.subspace(turns, l).dot(f));
             }
             if let Some(diagonal) = m.diagonal_mut(joint) {
-                effects.add_inertia(joint, diagonal);
+                add_inertia(effects, joint, diagonal);
             }
             if E::GYROSCOPIC_ROTORS {
                 f += rotor_force(effects, &body.link);

@@ -12,7 +12,7 @@ use heapless::Vec;
 use super::mass_matrix::parent;
 use super::tree_pass::{inward, per_body};
 use crate::algorithms::MassMatrix;
-use crate::effects::{Effect, body_inertia, rotor_force};
+use crate::effects::{Declared, Effect, add_inertia, body_inertia, rotor_force};
 use crate::model::{BASE, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::inertia::CompositeInertia;
@@ -105,7 +105,7 @@ where
                 ancestor = parent(lambda, ancestor);
             }
             if let Some(diagonal) = m.diagonal_mut(joint) {
-                effects.add_inertia(joint, diagonal);
+                add_inertia(effects, joint, diagonal);
             }
             last = joint;
         }

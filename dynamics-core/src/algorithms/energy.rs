@@ -6,7 +6,7 @@ use core::borrow::Borrow;
 
 use super::momentum::mass_and_first_moment;
 use super::tree_pass::per_body;
-use crate::effects::{Effect, base_given, body_inertia, field, rotor_force};
+use crate::effects::{Declared, Effect, add_inertia, base_given, body_inertia, field, rotor_force};
 use crate::model::RobotModel;
 use crate::scalar::{Real, Vector};
 use crate::state::{Configuration, RobotState, entry};
@@ -61,7 +61,7 @@ where
         twice += v_i.dot(body_inertia(effects, i, &link) * v_i);
         for k in link.coordinates() {
             let (mut rotor, qd) = (R::ZERO, entry(&state.qd, k));
-            effects.add_inertia(k, &mut rotor);
+            add_inertia(effects, k, &mut rotor);
             twice += rotor * qd * qd;
         }
         v.push(v_i);

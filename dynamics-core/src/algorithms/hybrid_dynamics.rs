@@ -8,7 +8,9 @@ use core::borrow::Borrow;
 use super::aba::{JointFactor, sweep};
 use super::rotors::with_rotor;
 use super::{JointResult, NotPositiveDefinite, Prescribed};
-use crate::effects::{Effect, Scene, joint_state, joint_torque, load_friction, rotor_force};
+use crate::effects::{
+    Declared, Effect, Scene, add_inertia, joint_state, joint_torque, load_friction, rotor_force,
+};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
 use crate::spatial::{Force, MotionSubspace};
@@ -96,7 +98,7 @@ where
     if E::GYROSCOPIC_ROTORS {
         tau -= s.dot(rotor_force(effects, link)) * qdd;
     }
-    effects.add_inertia(joint, &mut armature);
+    add_inertia(effects, joint, &mut armature);
     tau += armature * qdd + joint_torque(effects, link, state, joint);
     load_friction(effects, joint, joint_state(link, state, joint), &mut tau);
     tau

@@ -10,7 +10,7 @@ use heapless::Vec;
 use super::rotors::rotor;
 use super::tree_pass::{PerBody, Topology, inward, per_body};
 use crate::effects::{
-    Effect, Scene, base_motion, body_inertia, body_wrench, joint_torques, load_frictions,
+    Declared, Effect, Scene, base_motion, body_inertia, body_wrench, joint_torques, load_frictions,
 };
 use crate::model::{JointCoordinate, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};

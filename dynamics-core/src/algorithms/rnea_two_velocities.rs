@@ -11,7 +11,7 @@ use heapless::Vec;
 use super::rnea::external_force;
 use super::tree_pass::{inward, per_body};
 use crate::effects::{
-    Effect, Scene, base_motion, body_inertia, joint_torques, load_frictions, rotor_force,
+    Declared, Effect, Scene, base_motion, body_inertia, joint_torques, load_frictions, rotor_force,
 };
 use crate::model::RobotModel;
 use crate::scalar::{Matrix, Real, Vector};

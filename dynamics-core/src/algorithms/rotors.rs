@@ -3,7 +3,7 @@
 //! A rotor of ratio ρ is mounted on the parent's side of its joint and spins by ρ q̇ about the joint's axis z. Its
 //! angular momentum exceeds that which the parent's inertia includes by ρ I q̇ z.
 
-use crate::effects::{Effect, gyroscopic, rotor_force};
+use crate::effects::{Declared, Effect, gyroscopic, rotor_force};
 use crate::model::LinkView;
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion};

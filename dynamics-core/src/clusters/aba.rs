@@ -11,7 +11,7 @@ use super::passes::Passes;
 use super::{ClusterError, Clustered, ClusteredRobot, TreeAlgorithms, TreeMotion};
 use crate::Core;
 use crate::algorithms::NotPositiveDefinite;
-use crate::effects::Effect;
+use crate::effects::{Declared, Effect};
 use crate::model::{RobotModel, Static};
 use crate::scalar::Real;
 use crate::state::State;

@@ -8,7 +8,7 @@ use super::set::{TreeState, sealed::Set};
 use super::{ClusterError, ClusteredRobot, TreeMotion};
 use crate::algorithms::rnea;
 use crate::effects::{Effect, JointState, OfBodies, no_load_friction};
-use crate::engine::{CompiledJoint, Index, for_each_joint, has_subtree_functions};
+use crate::engine::{CompiledJoint, CompiledRobot, Index, for_each_joint, has_subtree_functions};
 use crate::model::{JointCoordinate, Robot, RobotModel, Static};
 use crate::scalar::Real;
 use crate::state::{JointTrig, State, entry};
@@ -147,7 +147,7 @@ where
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
                 let of = &trig.coordinates[J];
-                turns.coordinates[J] = if CompiledJoint::<T, B, Q, V, J>::PRISMATIC {
+                turns.coordinates[J] = if CompiledJoint::<CompiledRobot<T, B, Q, V>, J>::PRISMATIC {
                     *of
                 } else {
                     JointCoordinate { q: R::ZERO, ..*of }

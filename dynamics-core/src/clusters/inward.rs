@@ -12,7 +12,7 @@ use super::passes::Passes;
 use super::set::sealed::Set;
 use super::{ClusterError, ClusterProblem, ClusteredRobot};
 use crate::algorithms::NotPositiveDefinite;
-use crate::effects::{Effect, joint_torque};
+use crate::effects::{Effect, add_inertia, joint_torque};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, MotionSubspace};
 use crate::state::entry;
@@ -48,7 +48,7 @@ where
                     torque += joint_torque(effects, &body.link, &motion.tree, v);
                     if E::VELOCITY_PRODUCTS {
                         let mut rotor = R::ZERO;
-                        effects.add_inertia(v, &mut rotor);
+                        add_inertia(effects, v, &mut rotor);
                         torque += rotor * bias;
                     }
                     let places = u.iter_mut().skip(first.wrapping_sub(group.first));
@@ -80,7 +80,7 @@ where
                     for (k, v) in body.link.coordinates().enumerate() {
                         let (first, g, _) = motion.row(v);
                         let mut rotor = R::ZERO;
-                        effects.add_inertia(v, &mut rotor);
+                        add_inertia(effects, v, &mut rotor);
                         let s = body.link.subspace(turns, k);
                         let torque = s.dot(body.force) + rotor * of(first, g);
                         let sums = d.iter_mut().skip(first.wrapping_sub(group.first));

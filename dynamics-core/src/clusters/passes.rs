@@ -8,7 +8,7 @@ use super::articulated::{Body, Factor, Group};
 use super::layout::NONE;
 use super::{ClusteredRobot, TreeMotion};
 use crate::algorithms::Magnitude;
-use crate::effects::{Effect, base_motion, body_inertia, body_wrench, no_load_friction};
+use crate::effects::{Declared, Effect, base_motion, body_inertia, body_wrench, no_load_friction};
 use crate::model::{BASE, LinkView, RobotModel};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, Xform};

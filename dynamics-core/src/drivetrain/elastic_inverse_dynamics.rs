@@ -15,7 +15,8 @@ use heapless::Vec;
 use super::ElasticJoints;
 use crate::algorithms::inward;
 use crate::effects::{
-    Effect, TorqueDerivatives, base_motion, body_inertia, joint_state, no_load_friction,
+    Declared, Effect, TorqueDerivatives, add_inertia, base_motion, body_inertia, joint_state,
+    no_load_friction,
 };
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
@@ -211,7 +212,7 @@ where
             let (mut own, mut inertia, mut derivatives) =
                 (R::ZERO, R::ZERO, TorqueDerivatives::default());
             effects.torque(k, at, &mut own);
-            effects.add_inertia(k, &mut inertia);
+            add_inertia(effects, k, &mut inertia);
             effects.derivatives(k, at, &mut derivatives);
             let (jerk, snap) = (entry(&reference.jerk, k), entry(&reference.snap, k));
             let added = [

@@ -4,6 +4,17 @@ use super::{BodyState, JointState, LoadFactors, RegroupedInertia};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 
+/// Calls the function of a hook, if it has one, directly: the `const` block names it while compiling.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! call_hook {
+    ($function:expr, $($argument:expr),*) => {
+        if let Some(function) = const { $function } {
+            function($($argument),*);
+        }
+    };
+}
+
 /// The functions of a forwarder's hooks. `delegate_effect!` implements it. It has no default bodies, so that no hook is
 /// omitted.
 #[doc(hidden)]
@@ -16,43 +27,6 @@ pub trait Forwarder<R: Real, const B: usize, const V: usize> {
     fn forward_load(&self, joint: usize, at: JointState<R>, factors: &mut LoadFactors<R>);
     fn forward_load_slopes(&self, joint: usize, at: JointState<R>, slopes: &mut LoadFactors<R>);
     fn forward_regrouped(&self, joint: usize, body: &mut RegroupedInertia<R>);
-}
-
-/// Which bodies any of N effects marks.
-#[doc(hidden)]
-pub const fn any_of<const B: usize, const N: usize>(effects: &[[bool; B]; N]) -> [bool; B] {
-    let (mut any, mut i) = ([false; B], 0);
-    while i < N * B {
-        any[i % B] |= effects[i / B][i % B];
-        i += 1;
-    }
-    any
-}
-
-/// The first number that is there.
-#[doc(hidden)]
-pub const fn first_some(numbers: &[Option<usize>]) -> Option<usize> {
-    let mut i = 0;
-    while i < numbers.len() {
-        if numbers[i].is_some() {
-            return numbers[i];
-        }
-        i += 1;
-    }
-    None
-}
-
-/// The first name that is not empty.
-#[doc(hidden)]
-pub const fn first_name(names: &[&'static str]) -> &'static str {
-    let mut i = 0;
-    while i < names.len() {
-        if !names[i].is_empty() {
-            return names[i];
-        }
-        i += 1;
-    }
-    ""
 }
 
 /// The sum of the values that are present.
@@ -124,62 +98,32 @@ macro_rules! delegate_effect {
         impl<$($generics)*> $crate::effects::Effect<$R, $B, $V> for $type
         $(where $($bounds)*)?
         {
-            const GRAVITY_FIELD: $crate::effects::hook::Field<Self, $R> =
-                $crate::effects::hook::Field::forwarded(
-                    ($on) & (false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::FIELD)*),
-                    [
-                        false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::FIELD_AXES[0])*,
-                        false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::FIELD_AXES[1])*,
-                        false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::FIELD_AXES[2])*,
-                    ],
-                    0 $(+ <$inner as $crate::effects::Declared<$R, $B, $V>>::GRAVITIES)*,
-                    <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_field,
-                );
-            const BASE: $crate::effects::hook::Base<Self, $R> =
-                $crate::effects::hook::Base::forwarded(
-                    ($on) & (false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::BASE_MOTION)*),
-                    <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_base,
-                );
-            const EXTERNAL_WRENCH: $crate::effects::hook::Wrench<Self, $R> =
-                $crate::effects::hook::Wrench::forwarded(
-                    ($on) & (false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::WRENCH)*),
-                    false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::BODY_POSE)*,
-                    false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::BODY_VELOCITY)*,
-                    <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_wrench,
-                );
-            const ADDED_INERTIA: $crate::effects::hook::Inertia<Self, $R, $B> =
-                $crate::effects::hook::Inertia::forwarded(
-                    $on,
-                    $crate::effects::any_of(&[
-                        $(<$inner as $crate::effects::Declared<$R, $B, $V>>::PAYLOAD),*
-                    ]),
-                    $crate::effects::first_some(&[
-                        $(<$inner as $crate::effects::Declared<$R, $B, $V>>::PAYLOAD_ON_NO_BODY),*
-                    ]),
-                    <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_payload,
-                );
-            const ROTOR: $crate::effects::hook::Rotor<Self, $R> =
-                $crate::effects::hook::Rotor::forwarded(
-                    ($on) & (false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::GYROSCOPIC_ROTORS)*),
-                    <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_spin,
-                );
-            const LOAD_FRICTION: $crate::effects::hook::LoadFriction<Self, $R> =
-                $crate::effects::hook::LoadFriction::forwarded(
+            const GRAVITY_FIELD: $crate::effects::hook::Field<Self, $R> = $crate::effects::hook::Field::NONE
+                $(.with(&<$inner as $crate::effects::Effect<$R, $B, $V>>::GRAVITY_FIELD))*
+                .through($on, <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_field);
+            const BASE: $crate::effects::hook::Base<Self, $R> = $crate::effects::hook::Base::NONE
+                $(.with(&<$inner as $crate::effects::Effect<$R, $B, $V>>::BASE))*
+                .through($on, <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_base);
+            const EXTERNAL_WRENCH: $crate::effects::hook::Wrench<Self, $R> = $crate::effects::hook::Wrench::NONE
+                $(.with(&<$inner as $crate::effects::Effect<$R, $B, $V>>::EXTERNAL_WRENCH))*
+                .through($on, <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_wrench);
+            const ADDED_INERTIA: $crate::effects::hook::Inertia<Self, $R, $B> = $crate::effects::hook::Inertia::NONE
+                $(.with(&<$inner as $crate::effects::Effect<$R, $B, $V>>::ADDED_INERTIA))*
+                .through($on, <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_payload);
+            const ROTOR: $crate::effects::hook::Rotor<Self, $R> = $crate::effects::hook::Rotor::NONE
+                $(.with(&<$inner as $crate::effects::Effect<$R, $B, $V>>::ROTOR))*
+                .through($on, <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_spin);
+            const LOAD_FRICTION: $crate::effects::hook::LoadFriction<Self, $R> = $crate::effects::hook::LoadFriction::NONE
+                $(.with(&<$inner as $crate::effects::Effect<$R, $B, $V>>::LOAD_FRICTION))*
+                .through(
                     // Of a bias it is no part: forward dynamics solves for it.
-                    ($on) & ($accelerations) & ($joints)
-                        & (false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::LOAD_DEPENDENT)*),
+                    ($on) & ($accelerations) & ($joints),
                     <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_load,
                     <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_load_slopes,
                 );
-            const REGROUPED: $crate::effects::hook::Regrouped<Self, $R> =
-                $crate::effects::hook::Regrouped::forwarded(
-                    $on,
-                    0 $(+ <$inner as $crate::effects::Declared<$R, $B, $V>>::BASE_PARAMETERS)*,
-                    $crate::effects::first_name(&[
-                        $(<$inner as $crate::effects::Declared<$R, $B, $V>>::BASE_PARAMETERS_OF),*
-                    ]),
-                    <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_regrouped,
-                );
+            const REGROUPED: $crate::effects::hook::Regrouped<Self, $R> = $crate::effects::hook::Regrouped::NONE
+                $(.with(&<$inner as $crate::effects::Effect<$R, $B, $V>>::REGROUPED))*
+                .through($on, <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_regrouped);
             const ACCELERATIONS: bool = ($on) & ($accelerations)
                 & (false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::ACCELERATIONS)*);
             const VELOCITY_PRODUCTS: bool = ($on)
@@ -235,7 +179,7 @@ macro_rules! delegate_effect {
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn forward_field(&self, g: &mut <$R as $crate::scalar::Real>::Vec3) {
                 let $this = self;
-                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::field(&$to, g);)*
+                $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::GRAVITY_FIELD.add, &$to, g);)*
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
@@ -245,7 +189,7 @@ macro_rules! delegate_effect {
                 acceleration: &mut $crate::spatial::Motion<$R>,
             ) {
                 let $this = self;
-                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::base(&$to, velocity, acceleration);)*
+                $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::BASE.add, &$to, velocity, acceleration);)*
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
@@ -256,19 +200,23 @@ macro_rules! delegate_effect {
                 fx: &mut $crate::spatial::Force<$R>,
             ) {
                 let $this = self;
-                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::wrench(&$to, body, at, fx);)*
+                $($crate::effects::hook::add_wrench::<$R, $inner, $B, $V>(&$to, body, at, fx);)*
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
-            fn forward_payload(&self, body: usize, inertia: &mut $crate::spatial::SpatialInertia<$R>) {
+            fn forward_payload(
+                &self,
+                body: usize,
+                inertia: &mut $crate::spatial::SpatialInertia<$R>,
+            ) {
                 let $this = self;
-                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::payload(&$to, body, inertia);)*
+                $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::ADDED_INERTIA.add, &$to, body, inertia);)*
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn forward_spin(&self, joint: usize, coupling: &mut $R) {
                 let $this = self;
-                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::rotor_coupling(&$to, joint, coupling);)*
+                $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::ROTOR.add, &$to, joint, coupling);)*
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
@@ -279,7 +227,7 @@ macro_rules! delegate_effect {
                 factors: &mut $crate::effects::LoadFactors<$R>,
             ) {
                 let $this = self;
-                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::load_factors(&$to, joint, at, factors);)*
+                $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::LOAD_FRICTION.factors, &$to, joint, at, factors);)*
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
@@ -290,13 +238,17 @@ macro_rules! delegate_effect {
                 slopes: &mut $crate::effects::LoadFactors<$R>,
             ) {
                 let $this = self;
-                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::load_slopes(&$to, joint, at, slopes);)*
+                $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::LOAD_FRICTION.slopes, &$to, joint, at, slopes);)*
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
-            fn forward_regrouped(&self, joint: usize, body: &mut $crate::effects::RegroupedInertia<$R>) {
+            fn forward_regrouped(
+                &self,
+                joint: usize,
+                body: &mut $crate::effects::RegroupedInertia<$R>,
+            ) {
                 let $this = self;
-                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::regrouped(&$to, joint, body);)*
+                $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::REGROUPED.load, &$to, joint, body);)*
             }
         }
     };
@@ -312,4 +264,4 @@ macro_rules! delegate_effect {
     };
 }
 
-pub(crate) use delegate_effect;
+pub(crate) use {call_hook, delegate_effect};

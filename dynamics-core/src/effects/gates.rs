@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::Effect;
+use super::{Declared, Effect};
 use crate::model::{BASE, Text};
 use crate::scalar::Real;
 
@@ -80,7 +80,7 @@ where
         E::FIELD
             | E::BASE_MOTION
             | E::WRENCH
-            | E::ADDED_INERTIA.add.is_some()
+            | E::ADDED_INERTIA.is_some
             | E::GYROSCOPIC_ROTORS
             | E::LOAD_DEPENDENT
             | (E::BASE_PARAMETERS > 0)

@@ -104,12 +104,17 @@
 //!
 //! Machine code: a hook is a constant, so that its call is a direct one; a function with `#[cfg_attr(not(debug_assertions), inline(always))]` in place
 //! of a closure is inlined at every level of optimisation.
+//!
+//! A forwarder has the hooks of its effects: none, `with` each of theirs, `through` a function that calls them
+//! ([`delegate_effect!`](crate::delegate_effect)). `call_hook!` calls the function of a hook.
 
 pub use load_friction::LoadFriction;
 pub use regrouped::Regrouped;
 #[doc(hidden)]
 pub use regrouped::RegroupedInertia;
 pub use wrench::Wrench;
+#[doc(hidden)]
+pub use wrench::add_wrench;
 
 use crate::scalar::Real;
 use crate::spatial::{Motion, SpatialInertia};
@@ -124,7 +129,9 @@ type AddMotion<E, R> = fn(&E, &mut Motion<R>, &mut Motion<R>);
 /// A field that accelerates every body.
 #[derive(Debug)]
 pub struct Field<E, R: Real> {
-    pub(super) add: Option<fn(&E, &mut R::Vec3)>,
+    #[doc(hidden)]
+    pub add: Option<fn(&E, &mut R::Vec3)>,
+    pub(super) is_some: bool,
     pub(super) axes: [bool; 3],
     pub(super) gravities: usize,
 }
@@ -133,6 +140,7 @@ impl<E, R: Real> Field<E, R> {
     /// No field.
     pub const NONE: Self = Self {
         add: None,
+        is_some: false,
         axes: [false; 3],
         gravities: 0,
     };
@@ -142,6 +150,7 @@ impl<E, R: Real> Field<E, R> {
     pub const fn gravity(add: fn(&E, &mut R::Vec3)) -> Self {
         Self {
             add: Some(add),
+            is_some: true,
             axes: [true; 3],
             gravities: 1,
         }
@@ -160,25 +169,27 @@ impl<E, R: Real> Field<E, R> {
     pub const fn along(self, axes: [bool; 3]) -> Self {
         let [x, y, z] = self.axes;
         Self {
-            add: self.add,
             axes: [x & axes[0], y & axes[1], z & axes[2]],
-            gravities: self.gravities,
+            ..self
         }
     }
 
-    /// That of a forwarder.
     #[doc(hidden)]
-    pub const fn forwarded(
-        any: bool,
-        axes: [bool; 3],
-        gravities: usize,
-        add: fn(&E, &mut R::Vec3),
-    ) -> Self {
-        if any {
+    pub const fn with<F>(self, inner: &Field<F, R>) -> Self {
+        Self {
+            add: self.add,
+            is_some: self.is_some | inner.is_some,
+            axes: either(self.axes, inner.axes),
+            gravities: self.gravities + inner.gravities,
+        }
+    }
+
+    #[doc(hidden)]
+    pub const fn through(self, on: bool, add: fn(&E, &mut R::Vec3)) -> Self {
+        if on & self.is_some {
             Self {
                 add: Some(add),
-                axes,
-                gravities,
+                ..self
             }
         } else {
             Self::NONE
@@ -189,23 +200,40 @@ impl<E, R: Real> Field<E, R> {
 /// A prescribed motion of the base.
 #[derive(Debug)]
 pub struct Base<E, R: Real> {
-    pub(super) add: Option<AddMotion<E, R>>,
+    #[doc(hidden)]
+    pub add: Option<AddMotion<E, R>>,
+    pub(super) is_some: bool,
 }
 
 impl<E, R: Real> Base<E, R> {
     /// A base that no effect moves.
-    pub const NONE: Self = Self { add: None };
+    pub const NONE: Self = Self {
+        add: None,
+        is_some: false,
+    };
 
     /// Adds to the spatial velocity v₀ and acceleration a₀ of the base, at its origin and in its coordinates.
     pub const fn moving(add: fn(&E, &mut Motion<R>, &mut Motion<R>)) -> Self {
-        Self { add: Some(add) }
+        Self {
+            add: Some(add),
+            is_some: true,
+        }
     }
 
-    /// That of a forwarder.
     #[doc(hidden)]
-    pub const fn forwarded(any: bool, add: fn(&E, &mut Motion<R>, &mut Motion<R>)) -> Self {
+    pub const fn with<F>(self, inner: &Base<F, R>) -> Self {
         Self {
-            add: if any { Some(add) } else { None },
+            is_some: self.is_some | inner.is_some,
+            ..self
+        }
+    }
+
+    #[doc(hidden)]
+    pub const fn through(self, on: bool, add: fn(&E, &mut Motion<R>, &mut Motion<R>)) -> Self {
+        if on & self.is_some {
+            Self::moving(add)
+        } else {
+            Self::NONE
         }
     }
 }
@@ -213,7 +241,9 @@ impl<E, R: Real> Base<E, R> {
 /// Inertia that is fixed to bodies.
 #[derive(Debug)]
 pub struct Inertia<E, R: Real, const B: usize> {
-    pub(super) add: Option<fn(&E, usize, &mut SpatialInertia<R>)>,
+    #[doc(hidden)]
+    pub add: Option<fn(&E, usize, &mut SpatialInertia<R>)>,
+    pub(super) is_some: bool,
     pub(super) bodies: [bool; B],
     /// A number of a body that the robot does not have.
     pub(super) no_body: Option<usize>,
@@ -223,6 +253,7 @@ impl<E, R: Real, const B: usize> Inertia<E, R, B> {
     /// None.
     pub const NONE: Self = Self {
         add: None,
+        is_some: false,
         bodies: [false; B],
         no_body: None,
     };
@@ -232,6 +263,7 @@ impl<E, R: Real, const B: usize> Inertia<E, R, B> {
     pub const fn on(bodies: [bool; B], add: fn(&E, usize, &mut SpatialInertia<R>)) -> Self {
         Self {
             add: Some(add),
+            is_some: true,
             bodies,
             no_body: None,
         }
@@ -251,18 +283,25 @@ impl<E, R: Real, const B: usize> Inertia<E, R, B> {
         hook
     }
 
-    /// That of a forwarder.
     #[doc(hidden)]
-    pub const fn forwarded(
-        on: bool,
-        bodies: [bool; B],
-        no_body: Option<usize>,
-        add: fn(&E, usize, &mut SpatialInertia<R>),
-    ) -> Self {
-        if on {
+    pub const fn with<F>(self, inner: &Inertia<F, R, B>) -> Self {
+        Self {
+            add: self.add,
+            is_some: self.is_some | inner.is_some,
+            bodies: either(self.bodies, inner.bodies),
+            no_body: match self.no_body {
+                Some(body) => Some(body),
+                None => inner.no_body,
+            },
+        }
+    }
+
+    #[doc(hidden)]
+    pub const fn through(self, on: bool, add: fn(&E, usize, &mut SpatialInertia<R>)) -> Self {
+        if on & self.is_some {
             Self {
-                no_body,
-                ..Self::on(bodies, add)
+                add: Some(add),
+                ..self
             }
         } else {
             Self::NONE
@@ -273,24 +312,51 @@ impl<E, R: Real, const B: usize> Inertia<E, R, B> {
 /// The coupling of rotors that spin on parent links.
 #[derive(Debug)]
 pub struct Rotor<E, R> {
-    pub(super) add: Option<fn(&E, usize, &mut R)>,
+    #[doc(hidden)]
+    pub add: Option<fn(&E, usize, &mut R)>,
+    pub(super) is_some: bool,
 }
 
 impl<E, R> Rotor<E, R> {
     /// No rotor that spins as a body.
-    pub const NONE: Self = Self { add: None };
+    pub const NONE: Self = Self {
+        add: None,
+        is_some: false,
+    };
 
     /// Adds to ρ I, the coupling of the rotor that spins on the parent link of a joint with what carries it, kg·m² or kg·m;
     /// [`inertia`](super::Effect::inertia) has its ρ² I. See [`GyroscopicRotors`](super::GyroscopicRotors).
     pub const fn coupling(add: fn(&E, usize, &mut R)) -> Self {
-        Self { add: Some(add) }
-    }
-
-    /// That of a forwarder.
-    #[doc(hidden)]
-    pub const fn forwarded(any: bool, add: fn(&E, usize, &mut R)) -> Self {
         Self {
-            add: if any { Some(add) } else { None },
+            add: Some(add),
+            is_some: true,
         }
     }
+
+    #[doc(hidden)]
+    pub const fn with<F>(self, inner: &Rotor<F, R>) -> Self {
+        Self {
+            is_some: self.is_some | inner.is_some,
+            ..self
+        }
+    }
+
+    #[doc(hidden)]
+    pub const fn through(self, on: bool, add: fn(&E, usize, &mut R)) -> Self {
+        if on & self.is_some {
+            Self::coupling(add)
+        } else {
+            Self::NONE
+        }
+    }
+}
+
+/// a ∨ b, one by one.
+const fn either<const N: usize>(mut a: [bool; N], b: [bool; N]) -> [bool; N] {
+    let mut i = 0;
+    while i < N {
+        a[i] |= b[i];
+        i += 1;
+    }
+    a
 }

@@ -1,7 +1,7 @@
 //! Stiff effects evaluated at the end of a time step instead of at its beginning.
 
 use super::query::joint_state;
-use super::{Effect, JointState, TorqueDerivatives, add_load_slope};
+use super::{Declared, Effect, JointState, TorqueDerivatives, add_load_slope};
 use crate::effects::delegate::delegate_effect;
 use crate::model::RobotModel;
 use crate::scalar::Real;

@@ -3,7 +3,7 @@
 //! The motor supplies x = τ + a |τ| + b τ, where τ is the torque for all else at the joint. With |a| < 1 + b, τ has the sign
 //! of x, and τ = x / (1 + b + a sgn x).
 
-use super::{Effect, JointState, LoadFactors, TorqueDerivatives, joint_state};
+use super::{Declared, Effect, JointState, LoadFactors, TorqueDerivatives, call_hook, joint_state};
 use crate::model::LinkView;
 use crate::scalar::{Real, positive_part};
 use crate::state::{State, entry};
@@ -78,7 +78,7 @@ pub(crate) fn add_load_slope<R: Real, E, const B: usize, const V: usize>(
         // x = τ (1 + b + a sgn τ) at a given x: (1 + b + a sgn τ) ∂τ/∂q̇ = −(a′ |τ| + b′ τ), and its factor is x/τ.
         let load = transmitted(effects, joint, at, tau);
         let mut slopes = LoadFactors::default();
-        effects.load_slopes(joint, at, &mut slopes);
+        call_hook!(E::LOAD_FRICTION.slopes, effects, joint, at, &mut slopes);
         let rise = slopes.magnitude * load.abs() + slopes.torque * load;
         let share = (load.abs() + R::MIN_POSITIVE) / (tau.abs() + R::MIN_POSITIVE);
         // Where friction falls with speed an implicit step would not be the stabler one.
@@ -102,7 +102,7 @@ where
         magnitude: none,
         torque: none,
     };
-    effects.load_factors(joint, at, &mut factors);
+    call_hook!(E::LOAD_FRICTION.factors, effects, joint, at, &mut factors);
     factors
 }
 

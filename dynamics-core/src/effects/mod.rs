@@ -103,7 +103,7 @@ pub use body::{
     BaseParameters, BodyWrench, Contact, ContactPoint, InvalidPayload, Payload, WorldWrench,
 };
 #[doc(hidden)]
-pub use delegate::{Forwarder, any_of, first_name, first_some, sum};
+pub use delegate::{Forwarder, sum};
 pub use friction::{
     AsymmetricCoulomb, Coulomb, LoadFriction, Lugre, Stribeck, Viscous, smooth_sign,
     smooth_sign_slope,
@@ -119,6 +119,8 @@ pub use rigid_body::{
 };
 pub use width::Width;
 
+pub(crate) use declared::Declared;
+pub(crate) use delegate::call_hook;
 pub(crate) use gates::{
     Scene, are_of, field_axes, loads, meaning, no_gyroscopic_rotors, of_core, only_load,
 };
@@ -126,13 +128,12 @@ pub(crate) use load::{
     add_load_slope, all_transmitted, load_friction, load_frictions, no_load_friction, transmitted,
 };
 pub(crate) use query::{
-    base_given, base_motion, body_inertia, body_wrench, field, gyroscopic, joint_state,
-    joint_torque, joint_torques, rotor_force,
+    add_inertia, base_given, base_motion, body_inertia, body_wrench, field, gyroscopic,
+    joint_state, joint_torque, joint_torques, rotor_force,
 };
 pub(crate) use rigid_body::{Bias, OfBodies, Resting};
 
 use crate::scalar::Real;
-use crate::spatial::{Force, Motion, SpatialInertia};
 
 /// A physical effect, or a tuple of them, on a robot of B bodies and V velocity coordinates.
 ///
@@ -167,7 +168,7 @@ use crate::spatial::{Force, Motion, SpatialInertia};
             Cogging {{ .. }}, Armature([R; V]), GyroscopicRotors {{ .. }}, Payload::<_, BODY>, BaseParameters, BodyWrench, WorldWrench, Contact, \
             MovingBase, tuples of up to 12 of them, and your own through `impl Effect`"
 )]
-pub trait Effect<R: Real, const B: usize, const V: usize>: Declared<R, B, V> {
+pub trait Effect<R: Real, const B: usize, const V: usize>: Sized {
     /// A field that accelerates every body.
     const GRAVITY_FIELD: hook::Field<Self, R> = hook::Field::NONE;
     /// A prescribed motion of the base.
@@ -218,56 +219,4 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Declared<R, B, V> {
     fn advance(&mut self, joint: usize, at: JointState<R>, h: R) {
         let _ = (joint, at, h);
     }
-}
-
-/// Which hooks an effect has and what they read, and their calls. Every [`Effect`] has it, from its hooks; nobody implements it.
-///
-/// A hook that an effect does not have adds nothing.
-#[doc(hidden)]
-pub trait Declared<R: Real, const B: usize, const V: usize>: Sized {
-    /// A field accelerates every body.
-    const FIELD: bool;
-    /// Which base components of the field may differ from zero.
-    const FIELD_AXES: [bool; 3];
-    /// How many fields of gravity there are.
-    const GRAVITIES: usize;
-    /// The environment exerts a wrench on some body.
-    const WRENCH: bool;
-    /// A wrench reads the body's velocity.
-    const BODY_VELOCITY: bool;
-    /// A wrench reads the body's pose.
-    const BODY_POSE: bool;
-    /// The base moves.
-    const BASE_MOTION: bool;
-    /// The bodies to whose inertia something is added.
-    const PAYLOAD: [bool; B];
-    /// A number to whose body something is added, but which no body of the robot has.
-    const PAYLOAD_ON_NO_BODY: Option<usize>;
-    /// Rotors spin as bodies.
-    const GYROSCOPIC_ROTORS: bool;
-    /// Friction depends on the transmitted torque.
-    const LOAD_DEPENDENT: bool;
-    /// How many sets of base parameters are loaded.
-    const BASE_PARAMETERS: usize;
-    /// The name of the robot that they belong to; empty if there are none.
-    const BASE_PARAMETERS_OF: &'static str;
-
-    /// Adds to the acceleration g of free fall, in base coordinates, m/s², along [`Self::FIELD_AXES`] only.
-    fn field(&self, g: &mut R::Vec3);
-    /// Adds to the spatial velocity v₀ and acceleration a₀ of the base.
-    fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>);
-    /// Adds to the wrench fˣ on `body`.
-    fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>);
-    /// Adds to the inertia of `body`.
-    fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>);
-    /// Adds to ρ I of the rotor of `joint`.
-    fn rotor_coupling(&self, joint: usize, coupling: &mut R);
-    /// Adds to the factors a and b of the friction a |τ| + b τ of `joint`.
-    fn load_factors(&self, joint: usize, at: JointState<R>, factors: &mut LoadFactors<R>);
-    /// Adds to their derivatives with respect to q̇.
-    fn load_slopes(&self, joint: usize, at: JointState<R>, slopes: &mut LoadFactors<R>);
-    /// Writes what regrouping leaves to the body behind `joint`.
-    fn regrouped(&self, joint: usize, body: &mut RegroupedInertia<R>);
-    /// Adds what stands at `joint` to an entry of M's diagonal.
-    fn add_inertia(&self, joint: usize, diagonal: &mut R);
 }

@@ -1,6 +1,8 @@
 //! Evaluates the hooks of effects for the textbook algorithms, in the frames in which hooks are defined.
 
-use super::{BodyState, Effect, JointState, Scene, field_axes, loads, only_load};
+use super::{
+    BodyState, Declared, Effect, JointState, Scene, call_hook, field_axes, hook, loads, only_load,
+};
 use crate::model::LinkView;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
@@ -18,7 +20,7 @@ where
         return R::Vec3::ZERO;
     }
     let mut g = R::Vec3::ZERO;
-    effects.field(&mut g);
+    call_hook!(E::GRAVITY_FIELD.add, effects, &mut g);
     let g = g.array();
     let only_if = |declared, g| if declared { g } else { R::ZERO };
     R::Vec3::new(only_if(x, g[0]), only_if(y, g[1]), only_if(z, g[2]))
@@ -51,7 +53,7 @@ where
 {
     let (mut v, mut a) = (Motion::ZERO, Motion::ZERO);
     if E::BASE_MOTION {
-        effects.base(&mut v, &mut a);
+        call_hook!(E::BASE.add, effects, &mut v, &mut a);
     }
     (v, a)
 }
@@ -78,7 +80,7 @@ where
         return link.inertia;
     }
     let mut load = SpatialInertia::ZERO;
-    effects.payload(body, &mut load);
+    call_hook!(E::ADDED_INERTIA.add, effects, body, &mut load);
     link.inertia
         + SpatialInertia {
             mass: load.mass,
@@ -126,7 +128,7 @@ where
     if E::BODY_VELOCITY {
         at.velocity = Motion::new(frame.transpose_mul(v.ang), frame.transpose_mul(v.lin));
     }
-    effects.wrench(i, &at, &mut fx);
+    hook::add_wrench(effects, i, &at, &mut fx);
     Force::new(*frame * fx.ang, *frame * fx.lin)
 }
 
@@ -179,6 +181,20 @@ where
     loss
 }
 
+/// Adds what stands at `joint` to an entry of M's diagonal.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn add_inertia<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+    joint: usize,
+    diagonal: &mut R,
+) where
+    E: Effect<R, B, V>,
+{
+    if let Some(inertia) = effects.inertia(joint) {
+        *diagonal += inertia;
+    }
+}
+
 /// ρ I z of the rotor that spins about the axis of this joint's only coordinate.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn rotor_force<R: Real, E, const B: usize, const V: usize>(
@@ -190,7 +206,7 @@ where
 {
     let (mut coupling, coordinates) = (R::ZERO, link.coordinates());
     if coordinates.len() == 1 {
-        effects.rotor_coupling(coordinates.start, &mut coupling);
+        call_hook!(E::ROTOR.add, effects, coordinates.start, &mut coupling);
     }
     Force::new(R::Vec3::new(R::ZERO, R::ZERO, coupling), R::Vec3::ZERO)
 }

@@ -10,16 +10,17 @@ use core::marker::PhantomData;
 
 use super::acceleration_field::{Wrench, enter};
 use super::articulated_inertia::Articulated;
-use super::compile::{CompiledJoint, CompiledRobot, JointPair};
+use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointPair};
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
+use super::forward_dynamics::remaining;
 use super::gate::EngineScene;
 use super::ltdl::positive;
 use super::pivot_noise::noise;
 use super::rnea::inertia;
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::NotPositiveDefinite;
-use crate::effects::Effect;
+use crate::effects::{Effect, add_inertia};
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::{Real, Vector};
 use crate::state::{Configuration, JointTrig, RobotState, State};
@@ -56,7 +57,12 @@ impl<T, K> Engine<T, K> {
         let trig = state
             .configuration()
             .trig_or(Specialised::<T, K, B, V>(PhantomData));
-        accelerate::<R, T, E, B, Q, V>(trig.borrow(), state.state(), tau, effects)
+        accelerate::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(
+            trig.borrow(),
+            state.state(),
+            tau,
+            effects,
+        )
     }
 }
 
@@ -72,7 +78,7 @@ struct Task<'a, R, E, const Q: usize, const V: usize> {
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn accelerate<R, T, E, const B: usize, const Q: usize, const V: usize>(
+fn accelerate<R, C, E, const B: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     tau: &[R; V],
@@ -80,11 +86,11 @@ fn accelerate<R, T, E, const B: usize, const Q: usize, const V: usize>(
 ) -> Result<[R; V], NotPositiveDefinite>
 where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
     // One phase after the other: as one block they would need more registers than there are.
-    let mut x = Engine::<T>::remaining(trig, state, tau, effects);
+    let mut x = remaining::<R, C, E, B, Q, V>(trig, state, tau, effects);
     black_box(&mut x);
     let (mut u, mut d_inv) = ([[R::ZERO; 6]; V], [R::ZERO; V]);
     let mut task = Task {
@@ -95,11 +101,11 @@ where
         x: &mut x,
     };
     for_each_joint!(J, {
-        if CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE
+        if CompiledJoint::<C, J>::IS_ON_BASE
             && let Some(inward) = const {
                 only_if(
-                    CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
-                    inward::<R, T, E, B, Q, V, J> as Inward<R, E, Q, V>,
+                    CompiledJoint::<C, J>::IS_ON_BASE,
+                    inward::<R, C, E, B, Q, V, J> as Inward<R, E, Q, V>,
                 )
             }
         {
@@ -108,14 +114,14 @@ where
     });
     positive(
         task.d_inv,
-        &noise::<R, T, E, B, Q, V>(&trig.coordinates, effects),
+        &noise::<R, C, E, B, Q, V>(&trig.coordinates, effects),
     )?;
     for_each_joint!(J, {
-        if CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE
+        if CompiledJoint::<C, J>::IS_ON_BASE
             && let Some(outward) = const {
                 only_if(
-                    CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
-                    outward::<R, T, E, B, Q, V, J> as Outward<R, E, Q, V>,
+                    CompiledJoint::<C, J>::IS_ON_BASE,
+                    outward::<R, C, E, B, Q, V, J> as Outward<R, E, Q, V>,
                 )
             }
         {
@@ -132,28 +138,28 @@ type Outward<R, E, const Q: usize, const V: usize> =
 
 /// The inward pass: the articulated inertia of joint I and its bias force, in the parent's frame.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn inward<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+fn inward<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
 ) -> (Articulated<R>, Wrench<R>)
 where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
-    let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
-    let length_inv = Folded::constant(CompiledRobot::<T, B, Q, V>::LENGTH_INV);
-    let body = inertia::<R, T, E, B, Q, V, I>(task.effects, false);
+    let joint = CompiledJoint::<C, I>::JOINT;
+    let length_inv = Folded::constant(C::LENGTH_INV);
+    let body = inertia::<R, C, E, B, Q, V, I>(task.effects, false);
     let mut ia = Articulated::of(&body);
     let mut push = Wrench {
         f: Vec3::ZERO,
         n: Vec3::ZERO,
     };
     for_each_joint!(J, {
-        if JointPair::<T, B, Q, V, I, J>::IS_PARENT
+        if JointPair::<C, I, J>::IS_PARENT
             && let Some(inward) = const {
                 only_if(
-                    JointPair::<T, B, Q, V, I, J>::IS_PARENT,
-                    inward::<R, T, E, B, Q, V, J> as Inward<R, E, Q, V>,
+                    JointPair::<C, I, J>::IS_PARENT,
+                    inward::<R, C, E, B, Q, V, J> as Inward<R, E, Q, V>,
                 )
             }
         {
@@ -175,7 +181,7 @@ where
         (n, f)
     };
     let mut d = Wrench { f, n }.along(joint.prismatic, length_inv).get();
-    task.effects.add_inertia(I, &mut d);
+    add_inertia(task.effects, I, &mut d);
     let d_inv = R::ONE / d;
     let rest = Folded::runtime(task.x[I]) - push.along(joint.prismatic, length_inv);
     let ([nx, ny, nz], [fx, fy, fz]) = (n.0, f.0);
@@ -192,23 +198,23 @@ where
     let slide = Folded::runtime(turn.q) * length_inv;
     (
         ia.minus_joint(n, f, Folded::runtime(d_inv))
-            .to_parent::<T, B, Q, V, I>(turn, slide),
-        push.to_parent::<T, B, Q, V, I>(turn, slide),
+            .to_parent::<C, I>(turn, slide),
+        push.to_parent::<C, I>(turn, slide),
     )
 }
 
 /// The outward pass: the acceleration of joint I, from its parent's α and a.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn outward<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+fn outward<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     [alpha, a]: [R::Vec3; 2],
 ) where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
-    let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
-    let length_inv = Folded::constant(CompiledRobot::<T, B, Q, V>::LENGTH_INV);
+    let joint = CompiledJoint::<C, I>::JOINT;
+    let length_inv = Folded::constant(C::LENGTH_INV);
     let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
     let turn = task.turns[I];
     // Plain numbers: what is known of them ends with the first joints, which are at rest.
@@ -239,11 +245,11 @@ fn outward<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usi
         alpha.0[2] = alpha.0[2] + qdd;
     }
     for_each_joint!(J, {
-        if JointPair::<T, B, Q, V, I, J>::IS_PARENT
+        if JointPair::<C, I, J>::IS_PARENT
             && let Some(outward) = const {
                 only_if(
-                    JointPair::<T, B, Q, V, I, J>::IS_PARENT,
-                    outward::<R, T, E, B, Q, V, J> as Outward<R, E, Q, V>,
+                    JointPair::<C, I, J>::IS_PARENT,
+                    outward::<R, C, E, B, Q, V, J> as Outward<R, E, Q, V>,
                 )
             }
         {

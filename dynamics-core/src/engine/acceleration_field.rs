@@ -14,13 +14,13 @@
 
 use core::ops::Add;
 
-use super::compile::{CompiledJoint, Joint};
+use super::compile::{Compiled, CompiledJoint, Joint};
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
 use super::folding::{offset_cross, rotate_symmetric_to_parent, rotate_to_parent};
 use super::pose::Pose;
 use crate::effects::RegroupedInertia;
-use crate::model::{BASE, JointCoordinate, Robot};
+use crate::model::{BASE, JointCoordinate};
 use crate::scalar::Real;
 
 /// The acceleration field of a body, in its frame.
@@ -84,23 +84,23 @@ impl<R: Real> Wrench<R> {
 
     /// The same in the frame of joint I's parent and about its origin.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn to_parent<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    pub(crate) fn to_parent<C, const I: usize>(
         self,
         turn: JointCoordinate<R>,
         slide: Folded<R>,
     ) -> Self
     where
-        T: Robot<B, Q, V>,
+        C: Compiled,
     {
         let (mut f, mut n) = (self.f, self.n);
-        if !CompiledJoint::<T, B, Q, V, I>::PRISMATIC {
+        if !CompiledJoint::<C, I>::PRISMATIC {
             let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
             (f, n) = (f.turn(sin, cos), n.turn(sin, cos));
         }
-        let f = rotate_to_parent::<R, T, B, Q, V, I>(f);
+        let f = rotate_to_parent::<R, C, I>(f);
         Self {
             f,
-            n: rotate_to_parent::<R, T, B, Q, V, I>(n) + offset_cross::<R, T, B, Q, V, I>(f, slide),
+            n: rotate_to_parent::<R, C, I>(n) + offset_cross::<R, C, I>(f, slide),
         }
     }
 }
@@ -167,25 +167,25 @@ impl<R: Real> Inertia<R> {
 
     /// The same in the frame of joint I's parent and about its origin.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn to_parent<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    pub(crate) fn to_parent<C, const I: usize>(
         self,
         turn: JointCoordinate<R>,
         slide: Folded<R>,
     ) -> Self
     where
-        T: Robot<B, Q, V>,
+        C: Compiled,
     {
-        let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
+        let joint = CompiledJoint::<C, I>::JOINT;
         let mut p = Vec3::constant(joint.pos);
         let (mut h, mut second) = (self.moment, self.second);
-        if CompiledJoint::<T, B, Q, V, I>::PRISMATIC {
+        if CompiledJoint::<C, I>::PRISMATIC {
             p = p + Vec3::constant(joint.rot.z_axis).scale(slide);
         } else {
             let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
             (h, second) = (h.turn(sin, cos), second.turn(sin, cos));
         }
-        let h = rotate_to_parent::<R, T, B, Q, V, I>(h);
-        let second = rotate_symmetric_to_parent::<R, T, B, Q, V, I>(second);
+        let h = rotate_to_parent::<R, C, I>(h);
+        let second = rotate_symmetric_to_parent::<R, C, I>(second);
         Self {
             mass: self.mass,
             moment: h + p.scale(self.mass),

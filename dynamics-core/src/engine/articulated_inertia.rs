@@ -9,11 +9,11 @@
 use core::ops::Add;
 
 use super::acceleration_field::Inertia;
-use super::compile::CompiledJoint;
+use super::compile::{Compiled, CompiledJoint};
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
 use super::folding::{cross_offset, rotate_matrix_to_parent, rotate_symmetric_to_parent};
-use crate::model::{JointCoordinate, Robot};
+use crate::model::JointCoordinate;
 use crate::scalar::Real;
 
 /// The three blocks.
@@ -67,16 +67,16 @@ impl<R: Real> Articulated<R> {
 
     /// The same in the frame of joint I's parent and about its origin; RBDA (2.66).
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn to_parent<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    pub(crate) fn to_parent<C, const I: usize>(
         self,
         turn: JointCoordinate<R>,
         slide: Folded<R>,
     ) -> Self
     where
-        T: Robot<B, Q, V>,
+        C: Compiled,
     {
         let mut at = self;
-        if !CompiledJoint::<T, B, Q, V, I>::PRISMATIC {
+        if !CompiledJoint::<C, I>::PRISMATIC {
             let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
             at = Self {
                 ang: at.ang.turn(sin, cos),
@@ -84,12 +84,12 @@ impl<R: Real> Articulated<R> {
                 lin: at.lin.turn(sin, cos),
             };
         }
-        let lin = rotate_symmetric_to_parent::<R, T, B, Q, V, I>(at.lin);
-        let here = rotate_matrix_to_parent::<R, T, B, Q, V, I>(&at.coupling);
+        let lin = rotate_symmetric_to_parent::<R, C, I>(at.lin);
+        let here = rotate_matrix_to_parent::<R, C, I>(&at.coupling);
         // H′ = H + [p]× A; I′ = I + [p]× Hᵀ + ([p]× H′ᵀ)ᵀ.
-        let coupling = here + cross_offset::<R, T, B, Q, V, I>(Mat3(lin.columns()), slide);
-        let Mat3([lx, ly, lz]) = cross_offset::<R, T, B, Q, V, I>(Mat3(here.rows()), slide);
-        let Mat3([rx, ry, rz]) = cross_offset::<R, T, B, Q, V, I>(Mat3(coupling.rows()), slide);
+        let coupling = here + cross_offset::<R, C, I>(Mat3(lin.columns()), slide);
+        let Mat3([lx, ly, lz]) = cross_offset::<R, C, I>(Mat3(here.rows()), slide);
+        let Mat3([rx, ry, rz]) = cross_offset::<R, C, I>(Mat3(coupling.rows()), slide);
         let shift = Sym3 {
             xx: lx.0[0] + rx.0[0],
             xy: ly.0[0] + rx.0[1],
@@ -99,7 +99,7 @@ impl<R: Real> Articulated<R> {
             zz: lz.0[2] + rz.0[2],
         };
         Self {
-            ang: rotate_symmetric_to_parent::<R, T, B, Q, V, I>(at.ang) + shift,
+            ang: rotate_symmetric_to_parent::<R, C, I>(at.ang) + shift,
             coupling,
             lin,
         }

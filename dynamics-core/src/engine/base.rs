@@ -4,7 +4,7 @@ use super::acceleration_field::AccelerationField;
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::pose::Pose;
-use crate::effects::{Effect, Scene, field_axes};
+use crate::effects::{Declared, Effect, Scene, call_hook, field_axes};
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
 
@@ -35,7 +35,7 @@ where
     no_gyroscopic_rotors::<R, E, B, V>();
     const { Scene::<R, E, B, V>::MEANING };
     let mut g = R::Vec3::ZERO;
-    effects.field(&mut g);
+    call_hook!(E::GRAVITY_FIELD.add, effects, &mut g);
     let (g, [x, y, z]) = (g.array(), const { field_axes::<R, E, B, V>() });
     let up = Folded::constant(-1.0 / length);
     let weight = Vec3([
@@ -57,7 +57,7 @@ where
     }
     if E::BASE_MOTION {
         let (mut velocity, mut acceleration) = (Motion::ZERO, Motion::ZERO);
-        effects.base(&mut velocity, &mut acceleration);
+        call_hook!(E::BASE.add, effects, &mut velocity, &mut acceleration);
         field.omega = Vec3::runtime(velocity.ang);
         field.v = Vec3::runtime(velocity.lin).scale(Folded::constant(1.0 / length));
     }
@@ -77,7 +77,7 @@ where
     let mut field = unaccelerated::<R, E, B, V>(effects, length);
     if E::BASE_MOTION {
         let (mut v, mut a) = (Motion::ZERO, Motion::ZERO);
-        effects.base(&mut v, &mut a);
+        call_hook!(E::BASE.add, effects, &mut v, &mut a);
         let (omega, velocity, alpha) = (field.omega, field.v, Vec3::runtime(a.ang));
         let ([ax, ay, az], zero) = (alpha.0, Folded::ZERO);
         field.alpha = alpha;

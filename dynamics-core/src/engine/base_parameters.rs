@@ -5,7 +5,7 @@
 use core::marker::PhantomData;
 
 use super::Engine;
-use super::compile::CompiledRobot;
+use super::compile::{Compiled, CompiledRobot};
 use crate::effects::{BaseParameters, Effect, RegroupedInertia, body_inertia};
 use crate::model::{
     BASE, Calibrated, JointKind, LinkView, ModelError, Problem, Robot, RobotModel, model,

@@ -8,14 +8,14 @@ use core::marker::PhantomData;
 
 use super::acceleration_field::{Inertia, Wrench, along_z};
 use super::base::no_gyroscopic_rotors;
-use super::compile::{CompiledJoint, CompiledRobot, JointPair};
+use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointPair};
 use super::folding::Folded;
 use super::folding::Vec3;
 use super::gate::EngineScene;
 use super::rnea::inertia;
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::MassMatrix;
-use crate::effects::Effect;
+use crate::effects::{Effect, add_inertia};
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::Real;
 use crate::state::Configuration;
@@ -58,7 +58,11 @@ impl<T, K> Engine<T, K> {
         const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
         let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
         let mut m = MassMatrix::ZERO;
-        mass_matrix::<R, T, E, B, Q, V>(&trig.borrow().coordinates, effects, &mut m);
+        mass_matrix::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(
+            &trig.borrow().coordinates,
+            effects,
+            &mut m,
+        );
         m
     }
 }
@@ -72,23 +76,23 @@ struct Task<'a, R, E, const Q: usize, const V: usize> {
 
 /// Writes M(q), both triangles; what is zero by the tree's branches stays as it is.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn mass_matrix<R, T, E, const B: usize, const Q: usize, const V: usize>(
+pub(crate) fn mass_matrix<R, C, E, const B: usize, const Q: usize, const V: usize>(
     turns: &[JointCoordinate<R>; Q],
     effects: &E,
     m: &mut MassMatrix<R, V>,
 ) where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
     no_gyroscopic_rotors::<R, E, B, V>();
     let mut task = Task { turns, effects, m };
     for_each_joint!(J, {
-        if CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE
+        if CompiledJoint::<C, J>::IS_ON_BASE
             && let Some(composite) = const {
                 only_if(
-                    CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
-                    composite::<R, T, E, B, Q, V, J> as Composite<R, E, Q, V>,
+                    CompiledJoint::<C, J>::IS_ON_BASE,
+                    composite::<R, C, E, B, Q, V, J> as Composite<R, E, Q, V>,
                 )
             }
         {
@@ -102,45 +106,45 @@ type Composite<R, E, const Q: usize, const V: usize> = fn(&mut Task<'_, R, E, Q,
 /// Writes the columns of joint I and of its descendants; returns their inertia in the parent's
 /// frame.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn composite<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+fn composite<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
 ) -> Inertia<R>
 where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
-    let mut body = inertia::<R, T, E, B, Q, V, I>(task.effects, false);
+    let mut body = inertia::<R, C, E, B, Q, V, I>(task.effects, false);
     for_each_joint!(J, {
-        if JointPair::<T, B, Q, V, I, J>::IS_PARENT
+        if JointPair::<C, I, J>::IS_PARENT
             && let Some(composite) = const {
                 only_if(
-                    JointPair::<T, B, Q, V, I, J>::IS_PARENT,
-                    composite::<R, T, E, B, Q, V, J> as Composite<R, E, Q, V>,
+                    JointPair::<C, I, J>::IS_PARENT,
+                    composite::<R, C, E, B, Q, V, J> as Composite<R, E, Q, V>,
                 )
             }
         {
             body = body + composite(task);
         }
     });
-    column::<R, T, E, B, Q, V, I>(task, &body);
-    let length_inv = Folded::constant(CompiledRobot::<T, B, Q, V>::LENGTH_INV);
+    column::<R, C, E, B, Q, V, I>(task, &body);
+    let length_inv = Folded::constant(C::LENGTH_INV);
     let turn = task.turns[I];
-    body.to_parent::<T, B, Q, V, I>(turn, Folded::runtime(turn.q) * length_inv)
+    body.to_parent::<C, I>(turn, Folded::runtime(turn.q) * length_inv)
 }
 
 /// Column I of M: the wrench of joint I's unit acceleration, projected on each ancestor.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     body: &Inertia<R>,
 ) where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
-    let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
-    let length_inv = Folded::constant(CompiledRobot::<T, B, Q, V>::LENGTH_INV);
+    let joint = CompiledJoint::<C, I>::JOINT;
+    let length_inv = Folded::constant(C::LENGTH_INV);
     let ([hx, hy, _], s) = (body.moment.0, &body.second);
     let mut wrench = if joint.prismatic {
         Wrench {
@@ -154,17 +158,16 @@ fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usiz
         }
     };
     let mut diagonal = wrench.along(joint.prismatic, length_inv).get();
-    task.effects.add_inertia(I, &mut diagonal);
+    add_inertia(task.effects, I, &mut diagonal);
     task.m.rows[I][I] = diagonal;
     // From joint I to the base: parents come before their children.
     for_each_joint_reversed!(K, {
-        if JointPair::<T, B, Q, V, K, I>::SUPPORTS {
-            let joint = CompiledJoint::<T, B, Q, V, K>::JOINT;
+        if JointPair::<C, K, I>::SUPPORTS {
+            let joint = CompiledJoint::<C, K>::JOINT;
             if joint.parent != BASE {
                 let turn = task.turns[K];
-                wrench =
-                    wrench.to_parent::<T, B, Q, V, K>(turn, Folded::runtime(turn.q) * length_inv);
-                let parent = CompiledJoint::<T, B, Q, V, K>::PARENT;
+                wrench = wrench.to_parent::<C, K>(turn, Folded::runtime(turn.q) * length_inv);
+                let parent = CompiledJoint::<C, K>::PARENT;
                 let entry = wrench.along(parent.prismatic, length_inv).get();
                 task.m.rows[I][joint.parent] = entry;
                 task.m.rows[joint.parent][I] = entry;

@@ -7,14 +7,16 @@ use core::borrow::Borrow;
 use core::hint::black_box;
 use core::marker::PhantomData;
 
+use super::compile::{Compiled, CompiledRobot};
 use super::crba::mass_matrix;
 use super::gate::EngineScene;
 use super::ltdl::{decompose, positive, substitute};
 use super::pivot_noise::noise;
+use super::rnea::torques;
 use super::{Engine, Index, Specialised};
 use crate::algorithms::MassMatrix;
 use crate::algorithms::NotPositiveDefinite;
-use crate::effects::{Bias, Effect, JointState, transmitted};
+use crate::effects::{Bias, Declared, Effect, JointState, transmitted};
 use crate::model::Robot;
 use crate::scalar::Real;
 use crate::state::{Configuration, JointTrig, RobotState, State};
@@ -53,7 +55,12 @@ impl<T, K> Engine<T, K> {
         let trig = state
             .configuration()
             .trig_or(Specialised::<T, K, B, V>(PhantomData));
-        accelerate::<R, T, E, B, Q, V>(trig.borrow(), state.state(), tau, effects)
+        accelerate::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(
+            trig.borrow(),
+            state.state(),
+            tau,
+            effects,
+        )
     }
 
     /// The torques that the gears transmit while their motors supply `tau`, N·m or N, as
@@ -77,51 +84,62 @@ impl<T, K> Engine<T, K> {
         T: Robot<B, Q, V>,
         E: Effect<R, B, V>,
     {
-        let mut rest = *tau;
-        if const { E::LOAD_DEPENDENT } {
-            for_each_joint!(J, {
-                if Index::<J, V>::IS_BELOW {
-                    let at = JointState::new(state.q[J], state.qd[J]);
-                    rest[J] = transmitted(effects, J, at, rest[J]);
-                }
-            });
-        }
-        rest
+        behind_gears(state, tau, effects)
     }
 }
 
-impl<T> Engine<T> {
-    /// τ − C(q, q̇), the torque that is left to accelerate.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn remaining<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        trig: &JointTrig<R, Q>,
-        state: &State<R, Q, V>,
-        tau: &[R; V],
-        effects: &E,
-    ) -> [R; V]
-    where
-        T: Robot<B, Q, V>,
-        E: Effect<R, B, V>,
-    {
-        const {
-            assert!(
-                E::ACCELERATIONS,
-                "forward dynamics needs `Inertia` in the scene"
-            )
-        };
-        let bias = Self::run(trig, trig, state, &Bias(effects));
-        let mut rest = Self::transmitted_torque(state, tau, effects);
+/// The torques behind the gears while their motors supply `tau`.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn behind_gears<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    state: &State<R, Q, V>,
+    tau: &[R; V],
+    effects: &E,
+) -> [R; V]
+where
+    E: Effect<R, B, V>,
+{
+    let mut rest = *tau;
+    if const { E::LOAD_DEPENDENT } {
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
-                rest[J] -= bias[J];
+                let at = JointState::new(state.q[J], state.qd[J]);
+                rest[J] = transmitted(effects, J, at, rest[J]);
             }
         });
-        rest
     }
+    rest
+}
+
+/// τ − C(q, q̇), the torque that is left to accelerate.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn remaining<R: Real, C, E, const B: usize, const Q: usize, const V: usize>(
+    trig: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    tau: &[R; V],
+    effects: &E,
+) -> [R; V]
+where
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    const {
+        assert!(
+            E::ACCELERATIONS,
+            "forward dynamics needs `Inertia` in the scene"
+        )
+    };
+    let bias = torques::<R, C, _, B, Q, V>(trig, trig, state, &Bias(effects));
+    let mut rest = behind_gears(state, tau, effects);
+    for_each_joint!(J, {
+        if Index::<J, V>::IS_BELOW {
+            rest[J] -= bias[J];
+        }
+    });
+    rest
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn accelerate<R, T, E, const B: usize, const Q: usize, const V: usize>(
+fn accelerate<R, C, E, const B: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     tau: &[R; V],
@@ -129,20 +147,20 @@ fn accelerate<R, T, E, const B: usize, const Q: usize, const V: usize>(
 ) -> Result<[R; V], NotPositiveDefinite>
 where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
     // One phase after the other: as one block they would need more registers than there are.
-    let mut x = Engine::<T>::remaining(trig, state, tau, effects);
+    let mut x = remaining::<R, C, E, B, Q, V>(trig, state, tau, effects);
     black_box(&mut x);
     let mut m = MassMatrix::ZERO;
-    mass_matrix::<R, T, E, B, Q, V>(&trig.coordinates, effects, &mut m);
+    mass_matrix::<R, C, E, B, Q, V>(&trig.coordinates, effects, &mut m);
     black_box(&mut m);
-    let d_inv = decompose::<R, T, B, Q, V>(&mut m.rows);
+    let d_inv = decompose::<R, C, V>(&mut m.rows);
     positive(
         &d_inv,
-        &noise::<R, T, E, B, Q, V>(&trig.coordinates, effects),
+        &noise::<R, C, E, B, Q, V>(&trig.coordinates, effects),
     )?;
-    substitute::<R, T, B, Q, V>(&m.rows, &d_inv, &mut x);
+    substitute::<R, C, V>(&m.rows, &d_inv, &mut x);
     Ok(x)
 }

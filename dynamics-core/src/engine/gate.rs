@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use super::Engine;
-use crate::effects::{Effect, Scene, are_of, meaning};
+use crate::effects::{Declared, Effect, Scene, are_of, meaning};
 use crate::model::{JointKind, Robot};
 use crate::scalar::Real;
 

@@ -5,7 +5,7 @@
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 
-use super::compile::{CompiledJoint, CompiledRobot, JointAndBody, JointPair};
+use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair};
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::{Engine, Specialised, only_if};
@@ -54,17 +54,17 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
     {
         let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        columns::<R, T, B, Q, V, BODY>(&trig.borrow().coordinates)
+        columns::<R, CompiledRobot<T, B, Q, V>, B, Q, V, BODY>(&trig.borrow().coordinates)
     }
 }
 
 /// The columns of the joints that move the body; zero for others.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn columns<R: Real, T, const B: usize, const Q: usize, const V: usize, const BODY: usize>(
+fn columns<R: Real, C, const B: usize, const Q: usize, const V: usize, const BODY: usize>(
     turns: &[JointCoordinate<R>; Q],
 ) -> [Motion<R>; V]
 where
-    T: Robot<B, Q, V>,
+    C: Compiled,
 {
     const {
         assert!(
@@ -74,16 +74,14 @@ where
     }
     let mut columns = [Motion::ZERO; V];
     for_each_joint!(J, {
-        if const {
-            CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE
-                && JointAndBody::<T, B, Q, V, J, BODY>::SUPPORTS
-        } && let Some(reach) = const {
-            only_if(
-                CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE
-                    && JointAndBody::<T, B, Q, V, J, BODY>::SUPPORTS,
-                reach::<R, T, B, Q, V, BODY, J> as Reach<R, Q, V>,
-            )
-        } {
+        if const { CompiledJoint::<C, J>::IS_ON_BASE && JointAndBody::<C, J, BODY>::SUPPORTS }
+            && let Some(reach) = const {
+                only_if(
+                    CompiledJoint::<C, J>::IS_ON_BASE && JointAndBody::<C, J, BODY>::SUPPORTS,
+                    reach::<R, C, Q, V, BODY, J> as Reach<R, Q, V>,
+                )
+            }
+        {
             let base = Mat3::constant(&glam::DMat3::IDENTITY);
             let _ = reach(turns, &base, &mut columns);
         }
@@ -97,24 +95,16 @@ type Reach<R, const Q: usize, const V: usize> =
 /// Writes the columns of joint I and of its descendants; returns the offset of the body's origin from the
 /// parent's, in base coordinates, m. `parent` holds the axes of the parent's frame.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn reach<
-    R: Real,
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const BODY: usize,
-    const I: usize,
->(
+fn reach<R: Real, C, const Q: usize, const V: usize, const BODY: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],
     parent: &Mat3<R>,
     columns: &mut [Motion<R>; V],
 ) -> Vec3<R>
 where
-    T: Robot<B, Q, V>,
+    C: Compiled,
 {
-    let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
-    let length = CompiledRobot::<T, B, Q, V>::LENGTH;
+    let joint = CompiledJoint::<C, I>::JOINT;
+    let length = C::LENGTH;
     let rot = Mat3::constant(&joint.rot);
     let [x, y, z] = rot.0;
     let (x, y, z) = (parent.mul(x), parent.mul(y), parent.mul(z));
@@ -127,21 +117,19 @@ where
         axes = Mat3([x.scale(cos) + y.scale(sin), y.scale(cos) - x.scale(sin), z]);
     }
     let mut beyond = Vec3::<R>::ZERO;
-    if JointAndBody::<T, B, Q, V, I, BODY>::IS_ON_JOINT {
-        let place = JointAndBody::<T, B, Q, V, I, BODY>::PLACE;
+    if JointAndBody::<C, I, BODY>::IS_ON_JOINT {
+        let place = JointAndBody::<C, I, BODY>::PLACE;
         beyond = axes.mul(Vec3::constant(place.pos * length));
     }
     for_each_joint!(J, {
-        if const {
-            JointPair::<T, B, Q, V, I, J>::IS_PARENT
-                && JointAndBody::<T, B, Q, V, J, BODY>::SUPPORTS
-        } && let Some(reach) = const {
-            only_if(
-                JointPair::<T, B, Q, V, I, J>::IS_PARENT
-                    && JointAndBody::<T, B, Q, V, J, BODY>::SUPPORTS,
-                reach::<R, T, B, Q, V, BODY, J> as Reach<R, Q, V>,
-            )
-        } {
+        if const { JointPair::<C, I, J>::IS_PARENT && JointAndBody::<C, J, BODY>::SUPPORTS }
+            && let Some(reach) = const {
+                only_if(
+                    JointPair::<C, I, J>::IS_PARENT && JointAndBody::<C, J, BODY>::SUPPORTS,
+                    reach::<R, C, Q, V, BODY, J> as Reach<R, Q, V>,
+                )
+            }
+        {
             beyond = reach(turns, &axes, columns);
         }
     });

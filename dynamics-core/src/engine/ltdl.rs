@@ -3,7 +3,7 @@
 //! Featherstone, RBDA (2008), section 6.5, tables 6.3 and 6.4: from the tips to the base, so that no zero is filled.
 //! All sums run over the ancestors of a joint, λ(i), λ(λ(i)) …
 
-use super::compile::JointPair;
+use super::compile::{Compiled, CompiledRobot, JointPair};
 use super::{Engine, Index, only_if};
 use crate::algorithms::{Ltdl, MassMatrix};
 use crate::algorithms::{MATRIX_ROUNDINGS, NotPositiveDefinite};
@@ -41,7 +41,7 @@ impl<T, K> Engine<T, K> {
         T: Robot<B, Q, V>,
     {
         let mut rows = m.rows;
-        let d_inv = decompose::<R, T, B, Q, V>(&mut rows);
+        let d_inv = decompose::<R, CompiledRobot<T, B, Q, V>, V>(&mut rows);
         let mut noise = [R::ZERO; V];
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
@@ -69,28 +69,22 @@ impl<T, K> Engine<T, K> {
         T: Robot<B, Q, V>,
     {
         let mut x = *tau;
-        substitute::<R, T, B, Q, V>(&factor.rows, &factor.d_inv, &mut x);
+        substitute::<R, CompiledRobot<T, B, Q, V>, V>(&factor.rows, &factor.d_inv, &mut x);
         x
     }
 }
 
 /// M's lower triangle becomes L; returns the reciprocals of D.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn decompose<R: Real, T, const B: usize, const Q: usize, const V: usize>(
-    m: &mut [[R; V]; V],
-) -> [R; V]
+pub(crate) fn decompose<R: Real, C, const V: usize>(m: &mut [[R; V]; V]) -> [R; V]
 where
-    T: Robot<B, Q, V>,
+    C: Compiled,
 {
     let mut d_inv = [R::ZERO; V];
     for_each_joint_reversed!(K, {
         if Index::<K, V>::IS_BELOW
-            && let Some(eliminate) = const {
-                only_if(
-                    K < V,
-                    eliminate::<R, T, B, Q, V, K> as fn(&mut [[R; V]; V], R),
-                )
-            }
+            && let Some(eliminate) =
+                const { only_if(K < V, eliminate::<R, C, V, K> as fn(&mut [[R; V]; V], R)) }
         {
             d_inv[K] = R::ONE / m[K][K];
             eliminate(m, d_inv[K]);
@@ -101,18 +95,16 @@ where
 
 /// Row K of L, and its share of the rows of its ancestors.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn eliminate<R: Real, T, const B: usize, const Q: usize, const V: usize, const K: usize>(
-    m: &mut [[R; V]; V],
-    d_inv: R,
-) where
-    T: Robot<B, Q, V>,
+fn eliminate<R: Real, C, const V: usize, const K: usize>(m: &mut [[R; V]; V], d_inv: R)
+where
+    C: Compiled,
 {
     for_each_joint_reversed!(I, {
-        if JointPair::<T, B, Q, V, I, K>::IS_ANCESTOR
+        if JointPair::<C, I, K>::IS_ANCESTOR
             && let Some(subtract) = const {
                 only_if(
-                    JointPair::<T, B, Q, V, I, K>::IS_ANCESTOR,
-                    subtract::<R, T, B, Q, V, K, I> as fn(&mut [[R; V]; V], R),
+                    JointPair::<C, I, K>::IS_ANCESTOR,
+                    subtract::<R, C, V, K, I> as fn(&mut [[R; V]; V], R),
                 )
             }
         {
@@ -125,22 +117,12 @@ fn eliminate<R: Real, T, const B: usize, const Q: usize, const V: usize, const K
 
 /// Row I less `l` times row K.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn subtract<
-    R: Real,
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const K: usize,
-    const I: usize,
->(
-    m: &mut [[R; V]; V],
-    l: R,
-) where
-    T: Robot<B, Q, V>,
+fn subtract<R: Real, C, const V: usize, const K: usize, const I: usize>(m: &mut [[R; V]; V], l: R)
+where
+    C: Compiled,
 {
     for_each_joint!(J, {
-        if JointPair::<T, B, Q, V, J, I>::SUPPORTS {
+        if JointPair::<C, J, I>::SUPPORTS {
             m[I][J] -= l * m[K][J];
         }
     });
@@ -151,24 +133,23 @@ type Row<R, const V: usize> = fn(&[[R; V]; V], &mut [R; V]);
 
 /// Lᵀ y = τ, D z = y, L x = z, in place.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn substitute<R: Real, T, const B: usize, const Q: usize, const V: usize>(
+pub(crate) fn substitute<R: Real, C, const V: usize>(
     l: &[[R; V]; V],
     d_inv: &[R; V],
     x: &mut [R; V],
 ) where
-    T: Robot<B, Q, V>,
+    C: Compiled,
 {
     for_each_joint_reversed!(I, {
         if Index::<I, V>::IS_BELOW
-            && let Some(scatter) =
-                const { only_if(I < V, scatter::<R, T, B, Q, V, I> as Row<R, V>) }
+            && let Some(scatter) = const { only_if(I < V, scatter::<R, C, V, I> as Row<R, V>) }
         {
             scatter(l, x);
         }
     });
     for_each_joint!(I, {
         if Index::<I, V>::IS_BELOW
-            && let Some(gather) = const { only_if(I < V, gather::<R, T, B, Q, V, I> as Row<R, V>) }
+            && let Some(gather) = const { only_if(I < V, gather::<R, C, V, I> as Row<R, V>) }
         {
             x[I] *= d_inv[I];
             gather(l, x);
@@ -178,14 +159,12 @@ pub(crate) fn substitute<R: Real, T, const B: usize, const Q: usize, const V: us
 
 /// Subtracts from x_I the products with the entries of its ancestors.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn scatter<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    l: &[[R; V]; V],
-    x: &mut [R; V],
-) where
-    T: Robot<B, Q, V>,
+fn scatter<R: Real, C, const V: usize, const I: usize>(l: &[[R; V]; V], x: &mut [R; V])
+where
+    C: Compiled,
 {
     for_each_joint!(J, {
-        if JointPair::<T, B, Q, V, J, I>::IS_ANCESTOR {
+        if JointPair::<C, J, I>::IS_ANCESTOR {
             x[J] -= l[I][J] * x[I];
         }
     });
@@ -193,14 +172,12 @@ fn scatter<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: 
 
 /// Subtracts the products with x_I from the entries of its ancestors.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn gather<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    l: &[[R; V]; V],
-    x: &mut [R; V],
-) where
-    T: Robot<B, Q, V>,
+fn gather<R: Real, C, const V: usize, const I: usize>(l: &[[R; V]; V], x: &mut [R; V])
+where
+    C: Compiled,
 {
     for_each_joint!(J, {
-        if JointPair::<T, B, Q, V, J, I>::IS_ANCESTOR {
+        if JointPair::<C, J, I>::IS_ANCESTOR {
             x[I] -= l[I][J] * x[J];
         }
     });

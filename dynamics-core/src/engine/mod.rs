@@ -77,13 +77,10 @@ use crate::model::{JointCoordinate, Robot};
 use crate::scalar::{Native, Real};
 use crate::state::{Configuration, JointTrig, RobotState, State, TrigSource};
 use crate::trig::Kernel;
-use base::base;
-pub(crate) use compile::CompiledJoint;
-use compile::CompiledRobot;
+pub(crate) use compile::{CompiledJoint, CompiledRobot};
 use gate::EngineScene;
-use rnea::{Task, Visit, visit};
+use rnea::torques;
 pub(crate) use subtree::has_subtree_functions;
-use subtree::root_subtree;
 
 /// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel `K`.
 ///
@@ -135,7 +132,7 @@ impl<T, K> Engine<T, K> {
         let mut turns = [JointCoordinate::default(); Q];
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
-                let joint = CompiledJoint::<T, B, Q, V, J>::JOINT;
+                let joint = CompiledJoint::<CompiledRobot<T, B, Q, V>, J>::JOINT;
                 turns[J] = match (joint.prismatic, joint.near) {
                     (true, _) => JointCoordinate::linear(q[J]),
                     (false, true) => JointCoordinate::revolute_bounded::<K>(q[J]),
@@ -223,38 +220,7 @@ impl<T> Engine<T> {
         T: Robot<B, Q, V>,
         E: Effect<R, B, V>,
     {
-        let length = CompiledRobot::<T, B, Q, V>::LENGTH;
-        let base = base::<R, E, B, V>(effects, length);
-        let mut tau = [R::ZERO; V];
-        let mut task = Task {
-            turns: &trig.coordinates,
-            back: &back.coordinates,
-            state,
-            effects,
-            tau: &mut tau,
-        };
-        for_each_joint!(J, {
-            if const { CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE && !has_subtree_functions(V) }
-                && let Some(visit) = const {
-                    only_if(
-                        CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE && !has_subtree_functions(V),
-                        visit::<R, T, E, B, Q, V, J> as Visit<R, E, Q, V>,
-                    )
-                }
-            {
-                visit(&mut task, &base);
-            }
-            if const { CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE && has_subtree_functions(V) }
-                && let Some(visit) = const {
-                    only_if(
-                        CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE && has_subtree_functions(V),
-                        root_subtree::<R, T, E, B, Q, V, J> as fn(&mut Task<'_, R, E, Q, V>),
-                    )
-                }
-            {
-                visit(&mut task);
-            }
-        });
-        tau
+        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        torques::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(trig, back, state, effects)
     }
 }

@@ -11,16 +11,16 @@ use core::marker::PhantomData;
 
 use super::acceleration_field::{AccelerationField, Inertia, JointRates, Wrench};
 use super::base::{no_gyroscopic_rotors, unaccelerated};
-use super::compile::{CompiledJoint, CompiledRobot, JointPair};
+use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointPair};
 use super::folding::{Folded, Vec3};
 use super::gate::EngineScene;
 use super::rnea::{environment, inertia};
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::{MomentumAndCoriolis, MomentumAndDrift};
-use crate::effects::{Effect, JointState};
+use crate::effects::{Declared, Effect, JointState};
 use crate::model::{JointCoordinate, Robot};
 use crate::scalar::Real;
-use crate::state::{Configuration, RobotState, State};
+use crate::state::{Configuration, JointTrig, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
@@ -117,43 +117,63 @@ impl<T, K> Engine<T, K> {
             .configuration()
             .trig_or(Specialised::<T, K, B, V>(PhantomData));
         let trig = trig.borrow();
-        no_gyroscopic_rotors::<R, E, B, V>();
-        let mut result = MomentumAndDrift {
-            p: [R::ZERO; V],
-            beta: [R::ZERO; V],
-        };
         // As in `rnea`.
         let back = if const { S::Configuration::PRECOMPUTED } {
             black_box(trig)
         } else {
             trig
         };
-        let length = CompiledRobot::<T, B, Q, V>::LENGTH;
-        let mut base = unaccelerated::<R, E, B, V>(effects, length);
-        if !DRIFT {
-            base.a = Vec3::ZERO;
-        }
-        let mut task = Task {
-            turns: &trig.coordinates,
-            back: &back.coordinates,
-            state: state.state(),
+        momenta::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V, DRIFT>(
+            trig,
+            back,
+            state.state(),
             effects,
-            result: &mut result,
-        };
-        for_each_joint!(J, {
-            if CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE
-                && let Some(visit) = const {
-                    only_if(
-                        CompiledJoint::<T, B, Q, V, J>::IS_ON_BASE,
-                        visit::<R, T, E, B, Q, V, DRIFT, J> as Visit<R, E, Q, V>,
-                    )
-                }
-            {
-                visit(&mut task, &base);
-            }
-        });
-        result
+        )
     }
+}
+
+/// The recursion of p and β; `back` is `trig` as it is loaded on returning.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn momenta<R, C, E, const B: usize, const Q: usize, const V: usize, const DRIFT: bool>(
+    trig: &JointTrig<R, Q>,
+    back: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    effects: &E,
+) -> MomentumAndDrift<R, V>
+where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    no_gyroscopic_rotors::<R, E, B, V>();
+    let mut result = MomentumAndDrift {
+        p: [R::ZERO; V],
+        beta: [R::ZERO; V],
+    };
+    let mut base = unaccelerated::<R, E, B, V>(effects, C::LENGTH);
+    if !DRIFT {
+        base.a = Vec3::ZERO;
+    }
+    let mut task = Task {
+        turns: &trig.coordinates,
+        back: &back.coordinates,
+        state,
+        effects,
+        result: &mut result,
+    };
+    for_each_joint!(J, {
+        if CompiledJoint::<C, J>::IS_ON_BASE
+            && let Some(visit) = const {
+                only_if(
+                    CompiledJoint::<C, J>::IS_ON_BASE,
+                    visit::<R, C, E, B, Q, V, DRIFT, J> as Visit<R, E, Q, V>,
+                )
+            }
+        {
+            visit(&mut task, &base);
+        }
+    });
+    result
 }
 
 /// The data that all bodies share.
@@ -180,7 +200,7 @@ type Visit<R, E, const Q: usize, const V: usize> =
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn visit<
     R,
-    T,
+    C,
     E,
     const B: usize,
     const Q: usize,
@@ -193,11 +213,11 @@ fn visit<
 ) -> Carried<R>
 where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
-    let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
-    let length_inv = Folded::constant(CompiledRobot::<T, B, Q, V>::LENGTH_INV);
+    let joint = CompiledJoint::<C, I>::JOINT;
+    let length_inv = Folded::constant(C::LENGTH_INV);
     let (turn, at) = (
         task.turns[I],
         JointState::new(task.state.q[I], task.state.qd[I]),
@@ -223,11 +243,11 @@ where
         load: Wrench::ZERO,
     };
     for_each_joint!(J, {
-        if JointPair::<T, B, Q, V, I, J>::IS_PARENT
+        if JointPair::<C, I, J>::IS_PARENT
             && let Some(visit) = const {
                 only_if(
-                    JointPair::<T, B, Q, V, I, J>::IS_PARENT,
-                    visit::<R, T, E, B, Q, V, DRIFT, J> as Visit<R, E, Q, V>,
+                    JointPair::<C, I, J>::IS_PARENT,
+                    visit::<R, C, E, B, Q, V, DRIFT, J> as Visit<R, E, Q, V>,
                 )
             }
         {
@@ -240,7 +260,7 @@ where
     });
 
     // After the children: until then the velocity takes fewer registers than the momentum beside it.
-    let own = inertia::<R, T, E, B, Q, V, I>(task.effects, E::BASE_MOTION);
+    let own = inertia::<R, C, E, B, Q, V, I>(task.effects, E::BASE_MOTION);
     let h = momentum(&body, &own) + inner.h;
     let mut p = h.along(joint.prismatic, length_inv).get();
     if let Some(armature) = task.effects.inertia(I) {
@@ -252,7 +272,7 @@ where
     if DRIFT {
         load = body.wrench(&own);
         if E::WRENCH {
-            load = environment::<R, T, E, B, Q, V, I>(task.effects, &body, load);
+            load = environment::<R, C, E, B, Q, V, I>(task.effects, &body, load);
         }
         load = load + inner.load;
         let mut held = load.along(joint.prismatic, length_inv).get();
@@ -262,8 +282,8 @@ where
     task.result.beta[I] = beta;
     let turn = task.back[I];
     Carried {
-        h: h.to_parent::<T, B, Q, V, I>(turn, slide),
-        load: load.to_parent::<T, B, Q, V, I>(turn, slide),
+        h: h.to_parent::<C, I>(turn, slide),
+        load: load.to_parent::<C, I>(turn, slide),
     }
 }
 

@@ -3,10 +3,10 @@
 //! As in [`crate::algorithms`], m, |h| and ∫ r² dm of a joint and its descendants, as if they lay in one line away from
 //! it. Turns do not change them, so that they are constants of the robot; slides and a payload add to them.
 
-use super::compile::{CompiledJoint, CompiledRobot, JointPair};
+use super::compile::{Compiled, CompiledJoint, JointPair, is_ancestor, joint, place, supports};
 use super::{Index, only_if};
-use crate::effects::{Effect, RegroupedInertia};
-use crate::model::{BASE, JointCoordinate, JointKind, Model, Robot};
+use crate::effects::{Declared, Effect, RegroupedInertia, call_hook};
+use crate::model::{BASE, JointCoordinate, JointKind, Link};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
 use glam::DVec3;
@@ -30,10 +30,10 @@ const NOTHING: Size = Size {
 };
 
 /// Carries the constants of a robot.
-struct Sizes<T, const B: usize, const Q: usize, const V: usize>(core::marker::PhantomData<T>);
+struct Sizes<C, const B: usize, const V: usize>(core::marker::PhantomData<C>);
 
-impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Sizes<T, B, Q, V> {
-    const ALL: [Size; V] = sizes(&T::MODEL);
+impl<C: Compiled, const B: usize, const V: usize> Sizes<C, B, V> {
+    const ALL: [Size; V] = sizes::<B, V>(C::LINKS);
 
     /// That of joint `i`; beyond the last one, zero.
     const fn of(i: usize) -> Size {
@@ -41,14 +41,12 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Sizes<T,
     }
 }
 
-const fn sizes<const B: usize, const Q: usize, const V: usize>(
-    model: &Model<f64, B, Q, V>,
-) -> [Size; V] {
+const fn sizes<const B: usize, const V: usize>(links: &[Link<f64>]) -> [Size; V] {
     let (mut bodies, mut joints) = ([NOTHING; B], [NOTHING; V]);
     let mut i = B;
     while i > 0 {
         i -= 1;
-        let link = &model.links[i];
+        let link = &links[i];
         let own = &link.inertia;
         let mut size = bodies[i];
         size.mass += own.mass;
@@ -70,14 +68,10 @@ const fn sizes<const B: usize, const Q: usize, const V: usize>(
 }
 
 /// The longest distance of the origin of `body` from that of the body on joint `i`, an ancestor, m.
-const fn reach<const B: usize, const Q: usize, const V: usize>(
-    model: &Model<f64, B, Q, V>,
-    i: usize,
-    mut body: usize,
-) -> f64 {
+const fn reach(links: &[Link<f64>], i: usize, mut body: usize) -> f64 {
     let mut sum = 0.0;
-    while body < B {
-        let link = &model.links[body];
+    while body < links.len() {
+        let link = &links[body];
         if link.idx_v == i && !matches!(link.joint.kind, JointKind::Fixed) {
             break;
         }
@@ -87,23 +81,11 @@ const fn reach<const B: usize, const Q: usize, const V: usize>(
     sum
 }
 
-/// The `k`-th of the bodies with a payload that joint `i` or a descendant moves, or B.
-const fn load<T, const B: usize, const Q: usize, const V: usize>(
-    i: usize,
-    k: usize,
-    loaded: &[bool; B],
-) -> usize
-where
-    T: Robot<B, Q, V>,
-{
+/// The `k`-th of the bodies with a payload that joint `i` or a descendant moves, or the number of all bodies.
+const fn load<C: Compiled>(i: usize, k: usize, loaded: &[bool]) -> usize {
     let (mut count, mut body) = (0, 0);
-    while body < B {
-        if loaded[body]
-            && CompiledRobot::<T, B, Q, V>::supports(
-                i,
-                CompiledRobot::<T, B, Q, V>::place(body).joint,
-            )
-        {
+    while body < loaded.len() {
+        if loaded[body] && supports::<C>(i, place::<C>(body).joint) {
             if count == k {
                 return body;
             }
@@ -111,7 +93,7 @@ where
         }
         body += 1;
     }
-    B
+    loaded.len()
 }
 
 const fn length(v: DVec3) -> f64 {
@@ -120,13 +102,13 @@ const fn length(v: DVec3) -> f64 {
 
 /// The pivots that rounding may leave of a singular M: of each joint, kg·m² or kg.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn noise<R, T, E, const B: usize, const Q: usize, const V: usize>(
+pub(crate) fn noise<R, C, E, const B: usize, const Q: usize, const V: usize>(
     turns: &[JointCoordinate<R>; Q],
     effects: &E,
 ) -> [R; V]
 where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
     let mut noise = [R::ZERO; V];
@@ -135,7 +117,7 @@ where
             && let Some(of_joint) = const {
                 only_if(
                     J < V,
-                    of_joint::<R, T, E, B, Q, V, J> as fn(&[JointCoordinate<R>; Q], &E) -> R,
+                    of_joint::<R, C, E, B, Q, V, J> as fn(&[JointCoordinate<R>; Q], &E) -> R,
                 )
             }
         {
@@ -147,40 +129,40 @@ where
 
 /// The largest inertia that joint I could move: a constant of robots without slides and payload.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn of_joint<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+fn of_joint<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],
     effects: &E,
 ) -> R
 where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
-    let own = const { Sizes::<T, B, Q, V>::of(I) };
+    let own = const { Sizes::<C, B, V>::of(I) };
     let [mut mass, mut moment, mut second] = [own.mass, own.moment, own.second].map(R::from_f64);
     if const { E::BASE_PARAMETERS > 0 } {
         let mut body = RegroupedInertia::default();
-        effects.regrouped(I, &mut body);
+        call_hook!(E::REGROUPED.load, effects, I, &mut body);
         [mass, moment, second] = body.size;
     }
-    let prismatic = CompiledJoint::<T, B, Q, V, I>::PRISMATIC;
+    let prismatic = CompiledJoint::<C, I>::PRISMATIC;
     let mut size = if prismatic { mass } else { second };
     let mut slides = R::ZERO;
     if !prismatic {
         for_each_joint!(K, {
-            if JointPair::<T, B, Q, V, I, K>::IS_SLIDE_BEYOND {
+            if JointPair::<C, I, K>::IS_SLIDE_BEYOND {
                 slides += turns[K].q.abs();
             }
         });
-        if const { slides_beyond::<T, B, Q, V>(I) } {
+        if const { slides_beyond::<C>(I) } {
             size += slides * (moment + moment + slides * mass);
         }
     }
-    if const { load::<T, B, Q, V>(I, 0, &E::PAYLOAD) < B }
+    if const { load::<C>(I, 0, &E::PAYLOAD) < B }
         && let Some(loaded) = const {
             only_if(
-                load::<T, B, Q, V>(I, 0, &E::PAYLOAD) < B,
-                loaded::<R, T, E, B, Q, V, I> as fn(&E, R, R) -> R,
+                load::<C>(I, 0, &E::PAYLOAD) < B,
+                loaded::<R, C, E, B, Q, V, I> as fn(&E, R, R) -> R,
             )
         }
     {
@@ -191,31 +173,31 @@ where
 
 /// Adds the payloads that joint I moves to the inertia that it could move.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn loaded<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+fn loaded<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     mut size: R,
     slides: R,
 ) -> R
 where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
     const {
         assert!(
-            load::<T, B, Q, V>(I, 32, &E::PAYLOAD) == B,
+            load::<C>(I, 32, &E::PAYLOAD) == B,
             "the engine takes up to 32 bodies with payloads; use `Core`"
         )
     };
     for_each_joint!(K, {
-        let body = const { load::<T, B, Q, V>(I, K, &E::PAYLOAD) };
+        let body = const { load::<C>(I, K, &E::PAYLOAD) };
         if body < B {
             let mut payload = SpatialInertia::ZERO;
-            effects.payload(body, &mut payload);
-            size += if CompiledJoint::<T, B, Q, V, I>::PRISMATIC {
+            call_hook!(E::ADDED_INERTIA.add, effects, body, &mut payload);
+            size += if CompiledJoint::<C, I>::PRISMATIC {
                 payload.mass
             } else {
-                let reach = const { reach(&T::MODEL, I, load::<T, B, Q, V>(I, K, &E::PAYLOAD)) };
+                let reach = const { reach(C::LINKS, I, load::<C>(I, K, &E::PAYLOAD)) };
                 of_load(&payload, slides + R::from_f64(reach))
             };
         }
@@ -233,14 +215,10 @@ fn of_load<R: Real>(load: &SpatialInertia<R>, reach: R) -> R {
 }
 
 /// Whether joint `i` has a prismatic descendant.
-const fn slides_beyond<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
-    i: usize,
-) -> bool {
+const fn slides_beyond<C: Compiled>(i: usize) -> bool {
     let mut k = 0;
-    while k < V {
-        if CompiledRobot::<T, B, Q, V>::is_ancestor(i, k)
-            && CompiledRobot::<T, B, Q, V>::joint(k).prismatic
-        {
+    while k < C::JOINTS.len() {
+        if is_ancestor::<C>(i, k) && joint::<C>(k).prismatic {
             return true;
         }
         k += 1;

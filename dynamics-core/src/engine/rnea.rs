@@ -2,17 +2,21 @@
 //! its children, so that intermediate values stay in registers.
 
 use super::acceleration_field::{AccelerationField, Inertia, JointRates, Wrench};
-use super::compile::{BodyPlacement, CompiledJoint, CompiledRobot, CompiledTree, Joint, JointPair};
+use super::base::base;
+use super::compile::{
+    BodyPlacement, Compiled, CompiledJoint, Joint, JointPair, load, loads, place,
+};
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
-use super::gate::EngineScene;
 use super::only_if;
-use super::subtree::visit_child;
-use crate::effects::{BodyState, Effect, JointState, RegroupedInertia, load_friction};
-use crate::model::{JointCoordinate, Robot};
+use super::subtree::{has_subtree_functions, root_subtree, visit_child};
+use crate::effects::{
+    BodyState, Declared, Effect, JointState, RegroupedInertia, call_hook, hook, load_friction,
+};
+use crate::model::JointCoordinate;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
-use crate::state::State;
+use crate::state::{JointTrig, State};
 
 /// The data that all bodies share.
 pub(crate) struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
@@ -24,29 +28,75 @@ pub(crate) struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
     pub(crate) tau: &'a mut [R; V],
 }
 
+/// The recursion of inverse dynamics; `back` is `trig` as the inward pass loads it.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn torques<R, C, E, const B: usize, const Q: usize, const V: usize>(
+    trig: &JointTrig<R, Q>,
+    back: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    effects: &E,
+) -> [R; V]
+where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    let base = base::<R, E, B, V>(effects, C::LENGTH);
+    let mut tau = [R::ZERO; V];
+    let mut task = Task {
+        turns: &trig.coordinates,
+        back: &back.coordinates,
+        state,
+        effects,
+        tau: &mut tau,
+    };
+    for_each_joint!(J, {
+        if const { CompiledJoint::<C, J>::IS_ON_BASE && !has_subtree_functions(V) }
+            && let Some(visit) = const {
+                only_if(
+                    CompiledJoint::<C, J>::IS_ON_BASE && !has_subtree_functions(V),
+                    visit::<R, C, E, B, Q, V, J> as Visit<R, E, Q, V>,
+                )
+            }
+        {
+            visit(&mut task, &base);
+        }
+        if const { CompiledJoint::<C, J>::IS_ON_BASE && has_subtree_functions(V) }
+            && let Some(visit) = const {
+                only_if(
+                    CompiledJoint::<C, J>::IS_ON_BASE && has_subtree_functions(V),
+                    root_subtree::<R, C, E, B, Q, V, J> as fn(&mut Task<'_, R, E, Q, V>),
+                )
+            }
+        {
+            visit(&mut task);
+        }
+    });
+    tau
+}
+
 /// A function that visits a joint.
 pub(crate) type Visit<R, E, const Q: usize, const V: usize> =
     fn(&mut Task<'_, R, E, Q, V>, &AccelerationField<R>) -> Wrench<R>;
 
 /// Visits joint I and its descendants; returns the wrench that they need from the parent, in its frame.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn visit<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+pub(crate) fn visit<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     parent: &AccelerationField<R>,
 ) -> Wrench<R>
 where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
-    let tree: &'static CompiledTree<B, V> = CompiledRobot::<T, B, Q, V>::TREE;
-    let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
+    let joint = CompiledJoint::<C, I>::JOINT;
     let (at, qdd) = (
         JointState::new(task.state.q[I], task.state.qd[I]),
         task.state.qdd[I],
     );
     let turn = task.turns[I];
-    let length_inv = Folded::constant(1.0 / tree.length);
+    let length_inv = Folded::constant(C::LENGTH_INV);
     let slide = Folded::runtime(turn.q) * length_inv;
     let unit = if joint.prismatic {
         length_inv
@@ -67,20 +117,20 @@ where
     if E::BODY_POSE {
         field.pose = parent.pose.transformed_by(joint, turn, slide);
     }
-    let mut total = field.wrench(&inertia::<R, T, E, B, Q, V, I>(
+    let mut total = field.wrench(&inertia::<R, C, E, B, Q, V, I>(
         task.effects,
         E::BASE_MOTION,
     ));
     if E::WRENCH {
-        total = environment::<R, T, E, B, Q, V, I>(task.effects, &field, total);
+        total = environment::<R, C, E, B, Q, V, I>(task.effects, &field, total);
     }
 
     for_each_joint!(J, {
-        if JointPair::<T, B, Q, V, I, J>::IS_PARENT
+        if JointPair::<C, I, J>::IS_PARENT
             && let Some(visit) = const {
                 only_if(
-                    JointPair::<T, B, Q, V, I, J>::IS_PARENT,
-                    visit_child::<R, T, E, B, Q, V, I, J> as Visit<R, E, Q, V>,
+                    JointPair::<C, I, J>::IS_PARENT,
+                    visit_child::<R, C, E, B, Q, V, I, J> as Visit<R, E, Q, V>,
                 )
             }
         {
@@ -100,31 +150,31 @@ where
     load_friction(task.effects, I, at, &mut tau);
     task.tau[I] = tau;
 
-    let turn = if CompiledRobot::<T, B, Q, V>::LOADS_SINES_AGAIN {
+    let turn = if C::LOADS_SINES_AGAIN {
         task.back[I]
     } else {
         turn
     };
-    total.to_parent::<T, B, Q, V, I>(turn, slide)
+    total.to_parent::<C, I>(turn, slide)
 }
 
 /// The inertia of the body behind joint I, with its payloads; all of Σ if the base moves.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn inertia<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+pub(crate) fn inertia<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     base_moves: bool,
 ) -> Inertia<R>
 where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
-    let joint = CompiledJoint::<T, B, Q, V, I>::JOINT;
-    let body = own_inertia::<R, T, E, B, Q, V, I>(effects, joint, base_moves);
+    let joint = CompiledJoint::<C, I>::JOINT;
+    let body = own_inertia::<R, C, E, B, Q, V, I>(effects, joint, base_moves);
     match const {
         only_if(
-            CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0,
-            loaded::<R, T, E, B, Q, V, I> as fn(&E, Inertia<R>) -> Inertia<R>,
+            loads::<C>(I, &E::PAYLOAD) > 0,
+            loaded::<R, C, E, B, Q, V, I> as fn(&E, Inertia<R>) -> Inertia<R>,
         )
     } {
         Some(loaded) => loaded(effects, body),
@@ -134,19 +184,18 @@ where
 
 /// The same without payloads: the description's, or that of the loaded base parameters.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn own_inertia<R: Real, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+fn own_inertia<R: Real, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     joint: &'static Joint,
     base_moves: bool,
 ) -> Inertia<R>
 where
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
     if const { E::BASE_PARAMETERS > 0 } {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
         let mut body = RegroupedInertia::default();
-        effects.regrouped(I, &mut body);
+        call_hook!(E::REGROUPED.load, effects, I, &mut body);
         Inertia::loaded(&body, joint, base_moves)
     } else if base_moves {
         Inertia::second_moment_only(joint)
@@ -157,29 +206,29 @@ where
 
 /// Adds the payloads of the bodies on joint I, which are given in those bodies' own frames, to its inertia.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn loaded<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+fn loaded<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     mut body: Inertia<R>,
 ) -> Inertia<R>
 where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
     const {
         assert!(
-            CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) <= 32,
+            loads::<C>(I, &E::PAYLOAD) <= 32,
             "the engine takes up to 32 bodies with payloads on one joint; use `Core`"
         )
     };
     for_each_joint!(K, {
-        if const { K < CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) } {
-            let of = const { CompiledRobot::<T, B, Q, V>::load(I, K, &E::PAYLOAD) };
+        if const { K < loads::<C>(I, &E::PAYLOAD) } {
+            let of = const { load::<C>(I, K, &E::PAYLOAD) };
             let place = const {
-                let of = CompiledRobot::<T, B, Q, V>::load(I, K, &E::PAYLOAD);
-                &CompiledRobot::<T, B, Q, V>::place(of)
+                let of = load::<C>(I, K, &E::PAYLOAD);
+                &place::<C>(of)
             };
-            let length = CompiledRobot::<T, B, Q, V>::LENGTH;
+            let length = C::LENGTH;
             body = with_load(effects, of, place, length, body);
         }
     });
@@ -202,7 +251,7 @@ where
     let (rot, d) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
     let length = Folded::constant(length);
     let mut load = SpatialInertia::ZERO;
-    effects.payload(of, &mut load);
+    call_hook!(E::ADDED_INERTIA.add, effects, of, &mut load);
     let mass = Folded::runtime(load.mass) * length * length;
     let h = rot.mul(Vec3::runtime(load.first_moment)).scale(length);
     // Σ = ½ tr(Ī) 1 − Ī, turned and moved to the joint's frame.
@@ -233,28 +282,28 @@ where
 
 /// Subtracts the wrenches fˣ of the bodies on joint I.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn environment<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+pub(crate) fn environment<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     field: &AccelerationField<R>,
     mut total: Wrench<R>,
 ) -> Wrench<R>
 where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
     // Evaluated in scenes without wrenches, too, where their number does not matter.
     const {
         assert!(
-            !E::WRENCH || CompiledJoint::<T, B, Q, V, I>::BODIES <= 32,
+            !E::WRENCH || CompiledJoint::<C, I>::BODIES <= 32,
             "the engine takes wrenches on up to 32 bodies that move with one joint; use `Core`"
         )
     };
     // Body by body: in a loop their places would be no constants, and nothing would fold.
     for_each_joint!(K, {
-        if JointPair::<T, B, Q, V, I, K>::HAS_BODY {
-            let (body, place) = JointPair::<T, B, Q, V, I, K>::BODY;
-            let length = CompiledRobot::<T, B, Q, V>::LENGTH;
+        if JointPair::<C, I, K>::HAS_BODY {
+            let (body, place) = JointPair::<C, I, K>::BODY;
+            let length = C::LENGTH;
             let fx = exerted(effects, *body, place, length, field);
             total = Wrench {
                 f: total.f - fx.f,
@@ -287,7 +336,7 @@ where
     };
     if E::BASE_MOTION && E::BODY_VELOCITY {
         let (mut base, mut acceleration) = (Motion::ZERO, Motion::ZERO);
-        effects.base(&mut base, &mut acceleration);
+        call_hook!(E::BASE.add, effects, &mut base, &mut acceleration);
         at.base = Some(base);
     }
     if E::BODY_VELOCITY {
@@ -301,7 +350,7 @@ where
         at.pose = field.pose.of(place, length);
     }
     let mut fx = Force::ZERO;
-    effects.wrench(body, &at, &mut fx);
+    hook::add_wrench(effects, body, &at, &mut fx);
     let f = rot.mul(Vec3::runtime(fx.lin)).scale(length);
     let n = rot.mul(Vec3::runtime(fx.ang)) + pos.cross(f);
     Wrench { f, n }

@@ -6,13 +6,12 @@
 
 use super::acceleration_field::{AccelerationField, Wrench};
 use super::base::base;
-use super::compile::CompiledRobot;
+use super::compile::{Compiled, is_parent};
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::pose::Pose;
 use super::rnea::{Task, visit};
-use crate::effects::Effect;
-use crate::model::Robot;
+use crate::effects::{Declared, Effect};
 use crate::scalar::{Real, Vector};
 
 /// Robots of up to this number of joints are one function.
@@ -24,25 +23,22 @@ pub(crate) const fn has_subtree_functions(joints: usize) -> bool {
 }
 
 /// Whether joint `i` of a large robot is the parent of several others.
-const fn is_subtree_root<T, const B: usize, const Q: usize, const V: usize>(i: usize) -> bool
-where
-    T: Robot<B, Q, V>,
-{
+const fn is_subtree_root<C: Compiled>(i: usize) -> bool {
     let (mut children, mut j) = (0, 0);
-    while j < V {
-        if CompiledRobot::<T, B, Q, V>::is_parent(i, j) {
+    while j < C::JOINTS.len() {
+        if is_parent::<C>(i, j) {
             children += 1;
         }
         j += 1;
     }
-    has_subtree_functions(V) && children > 1
+    has_subtree_functions(C::JOINTS.len()) && children > 1
 }
 
 /// Joint I on the base and its descendants.
 #[inline(never)]
 pub(crate) fn root_subtree<
     R,
-    T,
+    C,
     E,
     const B: usize,
     const Q: usize,
@@ -52,19 +48,19 @@ pub(crate) fn root_subtree<
     task: &mut Task<'_, R, E, Q, V>,
 ) where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
-    let length = CompiledRobot::<T, B, Q, V>::LENGTH;
+    let length = C::LENGTH;
     let base = base::<R, E, B, V>(task.effects, length);
-    visit::<R, T, E, B, Q, V, I>(task, &base);
+    visit::<R, C, E, B, Q, V, I>(task, &base);
 }
 
 /// Visits joint J on joint I, whose field is `parent`.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn visit_child<
     R,
-    T,
+    C,
     E,
     const B: usize,
     const Q: usize,
@@ -77,11 +73,11 @@ pub(crate) fn visit_child<
 ) -> Wrench<R>
 where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
-    if const { !is_subtree_root::<T, B, Q, V>(I) } {
-        return visit::<R, T, E, B, Q, V, J>(task, parent);
+    if const { !is_subtree_root::<C>(I) } {
+        return visit::<R, C, E, B, Q, V, J>(task, parent);
     }
     let ([ux, uy, uz], [x, y, z]) = (parent.u.0, parent.pose.axes.0);
     let field = SpilledField {
@@ -90,7 +86,7 @@ where
         origin: [parent.a, parent.v].map(Vec3::get),
         pose: [x, y, z, parent.pose.origin].map(Vec3::get),
     };
-    let [f, n] = child_subtree::<R, T, E, B, Q, V, J>(task, &field);
+    let [f, n] = child_subtree::<R, C, E, B, Q, V, J>(task, &field);
     Wrench {
         f: Vec3::runtime(f),
         n: Vec3::runtime(n),
@@ -106,13 +102,13 @@ struct SpilledField<R: Real> {
 }
 
 #[inline(never)]
-fn child_subtree<R, T, E, const B: usize, const Q: usize, const V: usize, const J: usize>(
+fn child_subtree<R, C, E, const B: usize, const Q: usize, const V: usize, const J: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     parent: &SpilledField<R>,
 ) -> [R::Vec3; 2]
 where
     R: Real,
-    T: Robot<B, Q, V>,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
     let ([omega, omega_products, alpha], [ux, uy, uz]) = (parent.rates, parent.u);
@@ -135,7 +131,7 @@ where
             origin,
         },
     };
-    let wrench = visit::<R, T, E, B, Q, V, J>(task, &field);
+    let wrench = visit::<R, C, E, B, Q, V, J>(task, &field);
     [wrench.f.get(), wrench.n.get()]
 }
 

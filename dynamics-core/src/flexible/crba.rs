@@ -11,7 +11,7 @@ use heapless::Vec;
 use super::Modes;
 use super::deformation::{End, axial, deform};
 use crate::algorithms::{MassMatrix, inward};
-use crate::effects::{Effect, body_inertia, no_gyroscopic_rotors};
+use crate::effects::{Effect, add_inertia, body_inertia, no_gyroscopic_rotors};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::{Real, Vector};
 use crate::spatial::inertia::CompositeInertia;
@@ -214,7 +214,7 @@ where
             let of = Joint(joint);
             climb::<R, V, M, JOINTS>(modes, turns, body, inner, of, f, &mut m);
             if let Some(diagonal) = m.joints.diagonal_mut(joint) {
-                effects.add_inertia(joint, diagonal);
+                add_inertia(effects, joint, diagonal);
             }
         }
     }

@@ -7,7 +7,7 @@ use core::ops::Range;
 
 use super::Modes;
 use super::modes::Integrals;
-use crate::effects::Effect;
+use crate::effects::{Declared, Effect};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::entry;

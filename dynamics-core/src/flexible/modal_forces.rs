@@ -5,7 +5,7 @@ use core::ops::Range;
 use super::Modes;
 use super::deformation::{axial, deform, trace};
 use super::modes::Integrals;
-use crate::effects::{Effect, base_motion};
+use crate::effects::{Declared, Effect, base_motion};
 use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::{State, entry};

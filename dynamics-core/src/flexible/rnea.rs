@@ -13,7 +13,8 @@ use super::modal_forces::{Outer, net_force};
 use super::{JointsAndModes, Modes};
 use crate::algorithms::{inward, per_body};
 use crate::effects::{
-    Effect, body_inertia, body_wrench, joint_torques, load_frictions, no_gyroscopic_rotors,
+    Declared, Effect, body_inertia, body_wrench, joint_torques, load_frictions,
+    no_gyroscopic_rotors,
 };
 use crate::model::RobotModel;
 use crate::scalar::Real;

@@ -11,7 +11,7 @@ use heapless::Vec;
 
 use crate::algorithms::NotPositiveDefinite;
 use crate::algorithms::tree_pass::{inward, per_body};
-use crate::effects::{Effect, base_given, body_inertia, rotor_force};
+use crate::effects::{Declared, Effect, base_given, body_inertia, rotor_force};
 use crate::model::{JointKind, RobotModel};
 use crate::scalar::{Real, Vector};
 use crate::spatial::inertia::CompositeInertia;

@@ -11,7 +11,7 @@ use heapless::Vec;
 use crate::algorithms::kinematics::frame::Pose;
 use crate::algorithms::momentum::{mass_and_first_moment, momentum, reciprocal};
 use crate::algorithms::tree_pass::{inward, per_body};
-use crate::effects::{Effect, body_inertia};
+use crate::effects::{Declared, Effect, body_inertia};
 use crate::model::RobotModel;
 use crate::scalar::{Real, Vector};
 use crate::spatial::inertia::CompositeInertia;

@@ -10,7 +10,7 @@ use core::borrow::Borrow;
 use heapless::Vec;
 
 use crate::algorithms::tree_pass::{inward, per_body};
-use crate::effects::{Effect, base_given, body_inertia, rotor_force};
+use crate::effects::{Declared, Effect, base_given, body_inertia, rotor_force};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, Xform};

@@ -11,8 +11,11 @@ type AddFactors<E, R> = fn(&E, usize, JointState<R>, &mut LoadFactors<R>);
 /// for all else at the joint. As F is of first degree in τ, forward dynamics solves τ + F for τ in closed form.
 #[derive(Debug)]
 pub struct LoadFriction<E, R> {
-    pub(in crate::effects) factors: Option<AddFactors<E, R>>,
-    pub(in crate::effects) slopes: Option<AddFactors<E, R>>,
+    #[doc(hidden)]
+    pub factors: Option<AddFactors<E, R>>,
+    #[doc(hidden)]
+    pub slopes: Option<AddFactors<E, R>>,
+    pub(in crate::effects) is_some: bool,
 }
 
 impl<E, R> LoadFriction<E, R> {
@@ -20,6 +23,7 @@ impl<E, R> LoadFriction<E, R> {
     pub const NONE: Self = Self {
         factors: None,
         slopes: None,
+        is_some: false,
     };
 
     /// Friction of the factors that `factors` adds; `slopes` adds their derivatives with respect to q̇, for
@@ -28,13 +32,26 @@ impl<E, R> LoadFriction<E, R> {
         Self {
             factors: Some(factors),
             slopes: Some(slopes),
+            is_some: true,
         }
     }
 
-    /// That of a forwarder.
     #[doc(hidden)]
-    pub const fn forwarded(any: bool, factors: AddFactors<E, R>, slopes: AddFactors<E, R>) -> Self {
-        if any {
+    pub const fn with<F>(self, inner: &LoadFriction<F, R>) -> Self {
+        Self {
+            is_some: self.is_some | inner.is_some,
+            ..self
+        }
+    }
+
+    #[doc(hidden)]
+    pub const fn through(
+        self,
+        on: bool,
+        factors: AddFactors<E, R>,
+        slopes: AddFactors<E, R>,
+    ) -> Self {
+        if on & self.is_some {
             Self::new(factors, slopes)
         } else {
             Self::NONE

@@ -22,7 +22,8 @@ type Load<E, R> = fn(&E, usize, &mut RegroupedInertia<R>);
 #[derive(Debug)]
 #[doc(hidden)]
 pub struct Regrouped<E, R> {
-    pub(in crate::effects) load: Option<Load<E, R>>,
+    #[doc(hidden)]
+    pub load: Option<Load<E, R>>,
     pub(in crate::effects) sets: usize,
     /// The name of the robot that they belong to.
     pub(in crate::effects) robot: &'static str,
@@ -37,7 +38,7 @@ impl<E, R> Regrouped<E, R> {
     };
 
     /// Those of the robot of this name that `load` writes.
-    pub(in crate::effects) const fn loaded(robot: &'static str, load: Load<E, R>) -> Self {
+    pub const fn loaded(robot: &'static str, load: Load<E, R>) -> Self {
         Self {
             load: Some(load),
             sets: 1,
@@ -45,14 +46,23 @@ impl<E, R> Regrouped<E, R> {
         }
     }
 
-    /// That of a forwarder.
-    #[doc(hidden)]
-    pub const fn forwarded(on: bool, sets: usize, robot: &'static str, load: Load<E, R>) -> Self {
-        if on && sets > 0 {
+    pub const fn with<F>(self, inner: &Regrouped<F, R>) -> Self {
+        Self {
+            load: self.load,
+            sets: self.sets + inner.sets,
+            robot: if self.sets > 0 {
+                self.robot
+            } else {
+                inner.robot
+            },
+        }
+    }
+
+    pub const fn through(self, on: bool, load: Load<E, R>) -> Self {
+        if on && self.sets > 0 {
             Self {
                 load: Some(load),
-                sets,
-                robot,
+                ..self
             }
         } else {
             Self::NONE

@@ -1,5 +1,6 @@
 //! External wrenches, and the part of a body's state that they read.
 
+use crate::effects::Effect;
 use crate::effects::hook_args::{BodyState, BodyVelocity};
 use crate::scalar::Real;
 use crate::spatial::{Force, Xform};
@@ -13,10 +14,11 @@ type AddWrench<E, R, Read> = fn(&E, usize, &Read, &mut Force<R>);
 /// frame and in its coordinates, N·m and N.
 #[derive(Debug)]
 pub struct Wrench<E, R: Real> {
-    pub(in crate::effects) constant: Option<fn(&E, usize, &mut Force<R>)>,
-    pub(in crate::effects) of_pose: Option<AddWrench<E, R, Xform<R>>>,
-    pub(in crate::effects) of_velocity: Option<AddWrench<E, R, BodyVelocity<R>>>,
-    pub(in crate::effects) of_state: Option<AddWrench<E, R, BodyState<R>>>,
+    constant: Option<fn(&E, usize, &mut Force<R>)>,
+    of_pose: Option<AddWrench<E, R, Xform<R>>>,
+    of_velocity: Option<AddWrench<E, R, BodyVelocity<R>>>,
+    of_state: Option<AddWrench<E, R, BodyState<R>>>,
+    pub(in crate::effects) is_some: bool,
     pub(in crate::effects) reads_pose: bool,
     pub(in crate::effects) reads_velocity: bool,
 }
@@ -28,6 +30,7 @@ impl<E, R: Real> Wrench<E, R> {
         of_pose: None,
         of_velocity: None,
         of_state: None,
+        is_some: false,
         reads_pose: false,
         reads_velocity: false,
     };
@@ -36,6 +39,7 @@ impl<E, R: Real> Wrench<E, R> {
     pub const fn constant(add: fn(&E, usize, &mut Force<R>)) -> Self {
         Self {
             constant: Some(add),
+            is_some: true,
             ..Self::NONE
         }
     }
@@ -45,6 +49,7 @@ impl<E, R: Real> Wrench<E, R> {
     pub const fn of_pose(add: fn(&E, usize, &Xform<R>, &mut Force<R>)) -> Self {
         Self {
             of_pose: Some(add),
+            is_some: true,
             reads_pose: true,
             ..Self::NONE
         }
@@ -54,6 +59,7 @@ impl<E, R: Real> Wrench<E, R> {
     pub const fn of_velocity(add: fn(&E, usize, &BodyVelocity<R>, &mut Force<R>)) -> Self {
         Self {
             of_velocity: Some(add),
+            is_some: true,
             reads_velocity: true,
             ..Self::NONE
         }
@@ -63,37 +69,58 @@ impl<E, R: Real> Wrench<E, R> {
     pub const fn of_state(add: fn(&E, usize, &BodyState<R>, &mut Force<R>)) -> Self {
         Self {
             of_state: Some(add),
+            is_some: true,
             reads_pose: true,
             reads_velocity: true,
             ..Self::NONE
         }
     }
 
-    /// That of a forwarder.
     #[doc(hidden)]
-    pub const fn forwarded(
-        any: bool,
-        reads_pose: bool,
-        reads_velocity: bool,
-        add: fn(&E, usize, &BodyState<R>, &mut Force<R>),
-    ) -> Self {
-        if any {
+    pub const fn with<F>(self, inner: &Wrench<F, R>) -> Self {
+        Self {
+            is_some: self.is_some | inner.is_some,
+            reads_pose: self.reads_pose | inner.reads_pose,
+            reads_velocity: self.reads_velocity | inner.reads_velocity,
+            ..self
+        }
+    }
+
+    #[doc(hidden)]
+    pub const fn through(self, on: bool, add: fn(&E, usize, &BodyState<R>, &mut Force<R>)) -> Self {
+        if on & self.is_some {
             Self {
                 of_state: Some(add),
-                reads_pose,
-                reads_velocity,
-                ..Self::NONE
+                ..self
             }
         } else {
             Self::NONE
         }
     }
+}
 
-    /// Whether there is any.
-    pub(in crate::effects) const fn is_some(&self) -> bool {
-        self.constant.is_some()
-            | self.of_pose.is_some()
-            | self.of_velocity.is_some()
-            | self.of_state.is_some()
+/// Adds the wrench of an effect on `body`: that of its hook, by what this reads.
+#[doc(hidden)]
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub fn add_wrench<R: Real, E, const B: usize, const V: usize>(
+    effect: &E,
+    body: usize,
+    at: &BodyState<R>,
+    fx: &mut Force<R>,
+) where
+    E: Effect<R, B, V>,
+{
+    if let Some(add) = const { E::EXTERNAL_WRENCH.constant } {
+        add(effect, body, fx);
+    }
+    if let Some(add) = const { E::EXTERNAL_WRENCH.of_pose } {
+        add(effect, body, &at.pose, fx);
+    }
+    if let Some(add) = const { E::EXTERNAL_WRENCH.of_velocity } {
+        let &BodyState { velocity, base, .. } = at;
+        add(effect, body, &BodyVelocity { velocity, base }, fx);
+    }
+    if let Some(add) = const { E::EXTERNAL_WRENCH.of_state } {
+        add(effect, body, at, fx);
     }
 }

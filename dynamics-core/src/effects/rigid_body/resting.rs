@@ -1,6 +1,6 @@
 //! A scene whose bodies are not accelerated, by which the rate of the momentum is computed.
 
-use crate::effects::{Effect, JointState, Once, hook};
+use crate::effects::{Effect, JointState, Once, call_hook, hook};
 use crate::scalar::Real;
 use crate::spatial::Motion;
 
@@ -13,28 +13,28 @@ where
     E: Effect<R, B, V>,
 {
     const GRAVITY_FIELD: hook::Field<Self, R> =
-        hook::Field::forwarded(E::FIELD, E::FIELD_AXES, E::GRAVITIES, |scene, g| {
-            scene.0.field(g)
-        });
+        hook::Field::NONE
+            .with(&E::GRAVITY_FIELD)
+            .through(true, |scene, g| {
+                call_hook!(E::GRAVITY_FIELD.add, scene.0, g);
+            });
     const BASE: hook::Base<Self, R> =
-        hook::Base::forwarded(E::BASE_MOTION, |scene, velocity, _| {
-            let mut acceleration = Motion::ZERO;
-            scene.0.base(velocity, &mut acceleration);
+        hook::Base::NONE
+            .with(&E::BASE)
+            .through(true, |scene, velocity, _| {
+                let mut acceleration = Motion::ZERO;
+                call_hook!(E::BASE.add, scene.0, velocity, &mut acceleration);
+            });
+    const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::NONE
+        .with(&E::EXTERNAL_WRENCH)
+        .through(true, |scene, body, at, fx| {
+            hook::add_wrench(scene.0, body, at, fx);
         });
-    const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::forwarded(
-        E::WRENCH,
-        E::BODY_POSE,
-        E::BODY_VELOCITY,
-        |scene, body, at, fx| scene.0.wrench(body, at, fx),
-    );
-    const ADDED_INERTIA: hook::Inertia<Self, R, B> = hook::Inertia::forwarded(
-        true,
-        E::PAYLOAD,
-        E::PAYLOAD_ON_NO_BODY,
-        |scene, body, inertia| {
-            scene.0.payload(body, inertia);
-        },
-    );
+    const ADDED_INERTIA: hook::Inertia<Self, R, B> = hook::Inertia::NONE
+        .with(&E::ADDED_INERTIA)
+        .through(true, |scene, body, inertia| {
+            call_hook!(E::ADDED_INERTIA.add, scene.0, body, inertia);
+        });
     const ONCE: Once = E::ONCE;
 
     #[cfg_attr(not(debug_assertions), inline(always))]

@@ -15,7 +15,10 @@ mod snap;
 mod topology;
 mod tree;
 
-pub(crate) use topology::{CompiledJoint, CompiledRobot, JointAndBody, JointPair};
+pub(crate) use topology::{
+    Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair, is_ancestor, is_parent, joint,
+    load, loads, place, supports,
+};
 pub(crate) use tree::{BodyPlacement, CompiledTree, Joint};
 
 use glam::{DMat3, DVec3};

@@ -1,58 +1,30 @@
 //! Which joint supports which, and which bodies move with a joint: evaluated while compiling.
 
+use core::marker::PhantomData;
+
 use super::compile;
 use super::tree::{AT_BASE, BodyPlacement, CompiledTree, Joint, PADDING_JOINT};
-use crate::model::{BASE, Robot};
+use crate::model::{BASE, Link, Robot};
 
-/// The compiled robot `T`: its constants, and which joint supports which.
-pub(crate) struct CompiledRobot<T, const B: usize, const Q: usize, const V: usize>(
-    core::marker::PhantomData<T>,
-);
-
-impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> CompiledRobot<T, B, Q, V> {
-    pub(crate) const TREE: &'static CompiledTree<B, V> = &{
-        assert!(
-            V <= 32,
-            "the engine takes up to 32 moving bodies; use `Core`"
-        );
-        compile(&T::MODEL, T::NEGLIGIBLE)
-    };
-
+/// A robot as the engine computes with it: one type in place of the robot, the number of its bodies, and those of its coordinates.
+pub(crate) trait Compiled {
+    /// The bodies of the description.
+    const LINKS: &'static [Link<f64>];
+    /// The moving joints, parents first.
+    const JOINTS: &'static [Joint];
+    /// Where each body of the description is.
+    const PLACES: &'static [BodyPlacement];
     /// The unit of length, m.
-    pub(crate) const LENGTH: f64 = Self::TREE.length;
-
+    const LENGTH: f64;
     /// Its reciprocal, 1/m.
-    pub(crate) const LENGTH_INV: f64 = 1.0 / Self::TREE.length;
-
-    /// λ of each joint, or [`BASE`].
-    pub(crate) const PARENTS: [usize; V] = {
-        let (mut parents, mut i) = ([BASE; V], 0);
-        while i < V {
-            parents[i] = Self::TREE.joints[i].parent;
-            i += 1;
-        }
-        parents
-    };
-
+    const LENGTH_INV: f64 = 1.0 / Self::LENGTH;
     /// The joints that support each joint, itself among them, as bits.
-    const SUPPORT: [u32; V] = {
-        let (mut support, mut i) = ([0; V], 0);
-        while i < V {
-            let parent = Self::PARENTS[i];
-            support[i] = 1 << i;
-            if parent != BASE {
-                support[i] |= support[parent];
-            }
-            i += 1;
-        }
-        support
-    };
-
+    const SUPPORT: &'static [u32];
     /// Whether some chain of joints is too long for its sines and cosines to stay in registers: measured on chains of 3 (slower
     /// by 1 % if they are loaded again), 6 and 7 (faster by 1 %).
-    pub(crate) const LOADS_SINES_AGAIN: bool = {
+    const LOADS_SINES_AGAIN: bool = {
         let (mut longest, mut j) = (0, 0);
-        while j < V {
+        while j < Self::SUPPORT.len() {
             let depth = Self::SUPPORT[j].count_ones();
             if depth > longest {
                 longest = depth;
@@ -61,174 +33,173 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
         }
         longest > 4
     };
+}
 
-    /// Whether joint `i`, or the base, is the parent of joint `j`.
-    pub(crate) const fn is_parent(i: usize, j: usize) -> bool {
-        j < V && Self::PARENTS[j] == i
-    }
+/// The robot `T`, compiled.
+pub(crate) struct CompiledRobot<T, const B: usize, const Q: usize, const V: usize>(PhantomData<T>);
 
-    /// Whether joint `k` is joint `i` or supports it.
-    pub(crate) const fn supports(k: usize, i: usize) -> bool {
-        k < V && i < V && Self::SUPPORT[i] & (1 << k) != 0
-    }
+impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> CompiledRobot<T, B, Q, V> {
+    const TREE: &'static CompiledTree<B, V> = &{
+        assert!(
+            V <= 32,
+            "the engine takes up to 32 moving bodies; use `Core`"
+        );
+        compile(&T::MODEL, T::NEGLIGIBLE)
+    };
+}
 
-    /// Whether joint `k` supports joint `i`.
-    pub(crate) const fn is_ancestor(k: usize, i: usize) -> bool {
-        k != i && Self::supports(k, i)
-    }
-
-    /// The placement of a body of the description; beyond the last one, the base.
-    pub(crate) const fn place(body: usize) -> BodyPlacement {
-        if body < B {
-            Self::TREE.places[body]
-        } else {
-            AT_BASE
-        }
-    }
-
-    /// How many of the bodies that are `loaded` move with joint `i`.
-    pub(crate) const fn loads(i: usize, loaded: &[bool; B]) -> usize {
-        let (mut count, mut body) = (0, 0);
-        while body < B {
-            if loaded[body] && Self::place(body).joint == i {
-                count += 1;
+impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
+    for CompiledRobot<T, B, Q, V>
+{
+    const LINKS: &'static [Link<f64>] = &T::MODEL.links;
+    const JOINTS: &'static [Joint] = &Self::TREE.joints;
+    const PLACES: &'static [BodyPlacement] = &Self::TREE.places;
+    const LENGTH: f64 = Self::TREE.length;
+    const SUPPORT: &'static [u32] = &{
+        let (mut support, mut i) = ([0; V], 0);
+        while i < V {
+            let parent = Self::TREE.joints[i].parent;
+            support[i] = 1 << i;
+            if parent != BASE {
+                support[i] |= support[parent];
             }
-            body += 1;
+            i += 1;
         }
-        count
-    }
+        support
+    };
+}
 
-    /// The `k`-th of them, or B.
-    pub(crate) const fn load(i: usize, k: usize, loaded: &[bool; B]) -> usize {
-        let (mut count, mut body) = (0, 0);
-        while body < B {
-            if loaded[body] && Self::place(body).joint == i {
-                if count == k {
-                    return body;
-                }
-                count += 1;
-            }
-            body += 1;
-        }
-        B
-    }
+/// Whether joint `i`, or the base, is the parent of joint `j`.
+pub(crate) const fn is_parent<C: Compiled>(i: usize, j: usize) -> bool {
+    j < C::JOINTS.len() && C::JOINTS[j].parent == i
+}
 
-    /// How many bodies move with joint `i` as one.
-    pub(crate) const fn bodies_on(i: usize) -> usize {
-        let places = &Self::TREE.places;
-        let (mut count, mut body) = (0, 0);
-        while body < B {
-            if places[body].joint == i {
-                count += 1;
-            }
-            body += 1;
-        }
-        count
-    }
+/// Whether joint `k` is joint `i` or supports it.
+pub(crate) const fn supports<C: Compiled>(k: usize, i: usize) -> bool {
+    let n = C::SUPPORT.len();
+    k < n && i < n && C::SUPPORT[i] & (1 << k) != 0
+}
 
-    /// The `k`-th body that moves with joint `i`, and its placement; beyond the last one, the base.
-    pub(crate) const fn body_on(i: usize, k: usize) -> (usize, BodyPlacement) {
-        let places = &Self::TREE.places;
-        let (mut count, mut body) = (0, 0);
-        while body < B {
-            if places[body].joint == i {
-                if count == k {
-                    return (body, places[body]);
-                }
-                count += 1;
-            }
-            body += 1;
-        }
-        (B, AT_BASE)
-    }
+/// Whether joint `k` supports joint `i`.
+pub(crate) const fn is_ancestor<C: Compiled>(k: usize, i: usize) -> bool {
+    k != i && supports::<C>(k, i)
+}
 
-    /// Joint `i`; beyond the last one, the padding joint.
-    pub(crate) const fn joint(i: usize) -> Joint {
-        if i < V {
-            Self::TREE.joints[i]
-        } else {
-            PADDING_JOINT
-        }
-    }
-
-    /// The parent of joint `i`, or the padding joint.
-    pub(crate) const fn parent_of(i: usize) -> Joint {
-        Self::joint(Self::joint(i).parent)
+/// The placement of a body of the description; beyond the last one, the base.
+pub(crate) const fn place<C: Compiled>(body: usize) -> BodyPlacement {
+    if body < C::PLACES.len() {
+        C::PLACES[body]
+    } else {
+        AT_BASE
     }
 }
 
-/// Joint I of the compiled robot `T`, by constants with names: the compiler evaluates them once, and an inline `const` block
-/// in each instance of the function around it, of which there is one for each scalar, set of effects and joint.
-pub(crate) struct CompiledJoint<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    core::marker::PhantomData<T>,
-);
+/// How many of the bodies that are `loaded` move with joint `i`.
+pub(crate) const fn loads<C: Compiled>(i: usize, loaded: &[bool]) -> usize {
+    let (mut count, mut body) = (0, 0);
+    while body < loaded.len() {
+        if loaded[body] && C::PLACES[body].joint == i {
+            count += 1;
+        }
+        body += 1;
+    }
+    count
+}
 
-impl<T, const B: usize, const Q: usize, const V: usize, const I: usize> CompiledJoint<T, B, Q, V, I>
-where
-    T: Robot<B, Q, V>,
-{
+/// The `k`-th of them, or the number of all bodies.
+pub(crate) const fn load<C: Compiled>(i: usize, k: usize, loaded: &[bool]) -> usize {
+    let (mut count, mut body) = (0, 0);
+    while body < loaded.len() {
+        if loaded[body] && C::PLACES[body].joint == i {
+            if count == k {
+                return body;
+            }
+            count += 1;
+        }
+        body += 1;
+    }
+    loaded.len()
+}
+
+/// How many bodies move with joint `i` as one.
+const fn bodies_on<C: Compiled>(i: usize) -> usize {
+    let (mut count, mut body) = (0, 0);
+    while body < C::PLACES.len() {
+        if C::PLACES[body].joint == i {
+            count += 1;
+        }
+        body += 1;
+    }
+    count
+}
+
+/// The `k`-th body that moves with joint `i`, and its placement; beyond the last one, the base.
+const fn body_on<C: Compiled>(i: usize, k: usize) -> (usize, BodyPlacement) {
+    let (mut count, mut body) = (0, 0);
+    while body < C::PLACES.len() {
+        if C::PLACES[body].joint == i {
+            if count == k {
+                return (body, C::PLACES[body]);
+            }
+            count += 1;
+        }
+        body += 1;
+    }
+    (body, AT_BASE)
+}
+
+/// Joint `i`; beyond the last one, the padding joint.
+pub(crate) const fn joint<C: Compiled>(i: usize) -> Joint {
+    if i < C::JOINTS.len() {
+        C::JOINTS[i]
+    } else {
+        PADDING_JOINT
+    }
+}
+
+/// Joint I of a compiled robot, by constants with names: the compiler evaluates them once, and an inline `const` block
+/// in each instance of the function around it, of which there is one for each scalar, set of effects and joint.
+pub(crate) struct CompiledJoint<C, const I: usize>(PhantomData<C>);
+
+impl<C: Compiled, const I: usize> CompiledJoint<C, I> {
     /// The joint; beyond the last one, the padding joint.
-    pub(crate) const JOINT: &'static Joint = &CompiledRobot::<T, B, Q, V>::joint(I);
+    pub(crate) const JOINT: &'static Joint = &joint::<C>(I);
     /// Whether it is prismatic.
     pub(crate) const PRISMATIC: bool = Self::JOINT.prismatic;
     /// Its parent, or the padding joint.
-    pub(crate) const PARENT: &'static Joint = &CompiledRobot::<T, B, Q, V>::parent_of(I);
+    pub(crate) const PARENT: &'static Joint = &joint::<C>(Self::JOINT.parent);
     /// Whether its parent is the base.
-    pub(crate) const IS_ON_BASE: bool = CompiledRobot::<T, B, Q, V>::is_parent(BASE, I);
+    pub(crate) const IS_ON_BASE: bool = is_parent::<C>(BASE, I);
     /// How many bodies move with it as one.
-    pub(crate) const BODIES: usize = CompiledRobot::<T, B, Q, V>::bodies_on(I);
+    pub(crate) const BODIES: usize = bodies_on::<C>(I);
 }
 
-/// Joints I and J of the compiled robot `T`.
-pub(crate) struct JointPair<
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const I: usize,
-    const J: usize,
->(core::marker::PhantomData<T>);
+/// Joints I and J of a compiled robot.
+pub(crate) struct JointPair<C, const I: usize, const J: usize>(PhantomData<C>);
 
-impl<T, const B: usize, const Q: usize, const V: usize, const I: usize, const J: usize>
-    JointPair<T, B, Q, V, I, J>
-where
-    T: Robot<B, Q, V>,
-{
+impl<C: Compiled, const I: usize, const J: usize> JointPair<C, I, J> {
     /// Whether I is the parent of J.
-    pub(crate) const IS_PARENT: bool = CompiledRobot::<T, B, Q, V>::is_parent(I, J);
+    pub(crate) const IS_PARENT: bool = is_parent::<C>(I, J);
     /// Whether I is J or supports it.
-    pub(crate) const SUPPORTS: bool = CompiledRobot::<T, B, Q, V>::supports(I, J);
+    pub(crate) const SUPPORTS: bool = supports::<C>(I, J);
     /// Whether I supports J.
-    pub(crate) const IS_ANCESTOR: bool = CompiledRobot::<T, B, Q, V>::is_ancestor(I, J);
+    pub(crate) const IS_ANCESTOR: bool = is_ancestor::<C>(I, J);
     /// Whether I supports J, which is prismatic.
-    pub(crate) const IS_SLIDE_BEYOND: bool =
-        Self::IS_ANCESTOR && CompiledJoint::<T, B, Q, V, J>::PRISMATIC;
+    pub(crate) const IS_SLIDE_BEYOND: bool = Self::IS_ANCESTOR && CompiledJoint::<C, J>::PRISMATIC;
     /// Whether more than J bodies move with joint I.
-    pub(crate) const HAS_BODY: bool = Self::BODY.0 < B;
+    pub(crate) const HAS_BODY: bool = Self::BODY.0 < C::PLACES.len();
     /// The J-th body that moves with joint I, and its placement; beyond the last one, the base.
-    pub(crate) const BODY: &'static (usize, BodyPlacement) =
-        &CompiledRobot::<T, B, Q, V>::body_on(I, J);
+    pub(crate) const BODY: &'static (usize, BodyPlacement) = &body_on::<C>(I, J);
 }
 
-/// Joint I of the compiled robot `T`, and a body of the description.
-pub(crate) struct JointAndBody<
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const I: usize,
-    const BODY: usize,
->(core::marker::PhantomData<T>);
+/// Joint I of a compiled robot, and a body of the description.
+pub(crate) struct JointAndBody<C, const I: usize, const BODY: usize>(PhantomData<C>);
 
-impl<T, const B: usize, const Q: usize, const V: usize, const I: usize, const BODY: usize>
-    JointAndBody<T, B, Q, V, I, BODY>
-where
-    T: Robot<B, Q, V>,
-{
+impl<C: Compiled, const I: usize, const BODY: usize> JointAndBody<C, I, BODY> {
     /// The placement of the body.
-    pub(crate) const PLACE: &'static BodyPlacement = &CompiledRobot::<T, B, Q, V>::place(BODY);
+    pub(crate) const PLACE: &'static BodyPlacement = &place::<C>(BODY);
     /// Whether the body moves with the joint as one.
     pub(crate) const IS_ON_JOINT: bool = Self::PLACE.joint == I;
     /// Whether the joint moves the body.
-    pub(crate) const SUPPORTS: bool = CompiledRobot::<T, B, Q, V>::supports(I, Self::PLACE.joint);
+    pub(crate) const SUPPORTS: bool = supports::<C>(I, Self::PLACE.joint);
 }

@@ -1,10 +1,9 @@
 //! Products with a joint's constants, selected before LLVM: only terms that are not zero are generated. LLVM would
 //! remove the others as well, but in ten times the time.
 
-use crate::engine::compile::{CompiledJoint, Joint};
+use crate::engine::compile::{Compiled, CompiledJoint, Joint};
 use crate::engine::folding::Folded;
 use crate::engine::folding::{Mat3, Sym3, Vec3};
-use crate::model::Robot;
 use crate::scalar::Real;
 
 /// The rotation of a joint's frame.
@@ -14,41 +13,22 @@ const CROSS: usize = 1;
 
 /// R v of joint I.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn rotate_to_parent<
-    R: Real,
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const I: usize,
->(
-    v: Vec3<R>,
-) -> Vec3<R>
+pub(crate) fn rotate_to_parent<R: Real, C, const I: usize>(v: Vec3<R>) -> Vec3<R>
 where
-    T: Robot<B, Q, V>,
+    C: Compiled,
 {
-    product::<R, T, B, Q, V, ROT, I>(v)
+    product::<R, C, ROT, I>(v)
 }
 
 /// p × v, p the offset from the origin of joint I's parent to its own.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn offset_cross<
-    R: Real,
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const I: usize,
->(
-    v: Vec3<R>,
-    slide: Folded<R>,
-) -> Vec3<R>
+pub(crate) fn offset_cross<R: Real, C, const I: usize>(v: Vec3<R>, slide: Folded<R>) -> Vec3<R>
 where
-    T: Robot<B, Q, V>,
+    C: Compiled,
 {
-    let mut sum = product::<R, T, B, Q, V, CROSS, I>(v);
-    if CompiledJoint::<T, B, Q, V, I>::PRISMATIC {
-        let axis = Vec3::constant(CompiledJoint::<T, B, Q, V, I>::JOINT.rot.z_axis);
+    let mut sum = product::<R, C, CROSS, I>(v);
+    if CompiledJoint::<C, I>::PRISMATIC {
+        let axis = Vec3::constant(CompiledJoint::<C, I>::JOINT.rot.z_axis);
         sum = sum + axis.scale(slide).cross(v);
     }
     sum
@@ -56,158 +36,94 @@ where
 
 /// p × each column.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn cross_offset<
-    R: Real,
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const I: usize,
->(
+pub(crate) fn cross_offset<R: Real, C, const I: usize>(
     Mat3([x, y, z]): Mat3<R>,
     slide: Folded<R>,
 ) -> Mat3<R>
 where
-    T: Robot<B, Q, V>,
+    C: Compiled,
 {
     Mat3([
-        offset_cross::<R, T, B, Q, V, I>(x, slide),
-        offset_cross::<R, T, B, Q, V, I>(y, slide),
-        offset_cross::<R, T, B, Q, V, I>(z, slide),
+        offset_cross::<R, C, I>(x, slide),
+        offset_cross::<R, C, I>(y, slide),
+        offset_cross::<R, C, I>(z, slide),
     ])
 }
 
 /// R M Rᵀ of joint I.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn rotate_matrix_to_parent<
-    R: Real,
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const I: usize,
->(
-    m: &Mat3<R>,
-) -> Mat3<R>
+pub(crate) fn rotate_matrix_to_parent<R: Real, C, const I: usize>(m: &Mat3<R>) -> Mat3<R>
 where
-    T: Robot<B, Q, V>,
+    C: Compiled,
 {
-    let half = columns_rotated::<R, T, B, Q, V, I>(*m);
-    let rows = columns_rotated::<R, T, B, Q, V, I>(Mat3(half.rows()));
+    let half = columns_rotated::<R, C, I>(*m);
+    let rows = columns_rotated::<R, C, I>(Mat3(half.rows()));
     Mat3(rows.rows())
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn columns_rotated<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    Mat3([x, y, z]): Mat3<R>,
-) -> Mat3<R>
+fn columns_rotated<R: Real, C, const I: usize>(Mat3([x, y, z]): Mat3<R>) -> Mat3<R>
 where
-    T: Robot<B, Q, V>,
+    C: Compiled,
 {
     Mat3([
-        rotate_to_parent::<R, T, B, Q, V, I>(x),
-        rotate_to_parent::<R, T, B, Q, V, I>(y),
-        rotate_to_parent::<R, T, B, Q, V, I>(z),
+        rotate_to_parent::<R, C, I>(x),
+        rotate_to_parent::<R, C, I>(y),
+        rotate_to_parent::<R, C, I>(z),
     ])
 }
 
 /// R S Rᵀ of joint I.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn rotate_symmetric_to_parent<
-    R: Real,
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const I: usize,
->(
-    s: Sym3<R>,
-) -> Sym3<R>
+pub(crate) fn rotate_symmetric_to_parent<R: Real, C, const I: usize>(s: Sym3<R>) -> Sym3<R>
 where
-    T: Robot<B, Q, V>,
+    C: Compiled,
 {
-    Sym3::of(&rotate_matrix_to_parent::<R, T, B, Q, V, I>(&Mat3(
-        s.columns(),
-    )))
+    Sym3::of(&rotate_matrix_to_parent::<R, C, I>(&Mat3(s.columns())))
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn product<
-    R: Real,
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const M: usize,
-    const I: usize,
->(
-    v: Vec3<R>,
-) -> Vec3<R>
+fn product<R: Real, C, const M: usize, const I: usize>(v: Vec3<R>) -> Vec3<R>
 where
-    T: Robot<B, Q, V>,
+    C: Compiled,
 {
     Vec3([
-        row::<R, T, B, Q, V, M, I, 0>(v),
-        row::<R, T, B, Q, V, M, I, 1>(v),
-        row::<R, T, B, Q, V, M, I, 2>(v),
+        row::<R, C, M, I, 0>(v),
+        row::<R, C, M, I, 1>(v),
+        row::<R, C, M, I, 2>(v),
     ])
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn row<
-    R: Real,
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const M: usize,
-    const I: usize,
-    const K: usize,
->(
+fn row<R: Real, C, const M: usize, const I: usize, const K: usize>(
     Vec3([x, y, z]): Vec3<R>,
 ) -> Folded<R>
 where
-    T: Robot<B, Q, V>,
+    C: Compiled,
 {
     let mut sum = Folded::ZERO;
-    if Entry::<T, B, Q, V, M, I, K, 0>::IS_NONZERO {
-        sum = Folded::constant(Entry::<T, B, Q, V, M, I, K, 0>::VALUE) * x;
+    if Entry::<C, M, I, K, 0>::IS_NONZERO {
+        sum = Folded::constant(Entry::<C, M, I, K, 0>::VALUE) * x;
     }
-    if Entry::<T, B, Q, V, M, I, K, 1>::IS_NONZERO {
-        sum = sum + Folded::constant(Entry::<T, B, Q, V, M, I, K, 1>::VALUE) * y;
+    if Entry::<C, M, I, K, 1>::IS_NONZERO {
+        sum = sum + Folded::constant(Entry::<C, M, I, K, 1>::VALUE) * y;
     }
-    if Entry::<T, B, Q, V, M, I, K, 2>::IS_NONZERO {
-        sum = sum + Folded::constant(Entry::<T, B, Q, V, M, I, K, 2>::VALUE) * z;
+    if Entry::<C, M, I, K, 2>::IS_NONZERO {
+        sum = sum + Folded::constant(Entry::<C, M, I, K, 2>::VALUE) * z;
     }
     sum
 }
 
-/// Row K, column C of matrix M of joint I.
-struct Entry<
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const M: usize,
-    const I: usize,
-    const K: usize,
-    const C: usize,
->(core::marker::PhantomData<T>);
+/// Row K, column L of matrix M of joint I.
+struct Entry<C, const M: usize, const I: usize, const K: usize, const L: usize>(
+    core::marker::PhantomData<C>,
+);
 
-impl<
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const M: usize,
-    const I: usize,
-    const K: usize,
-    const C: usize,
-> Entry<T, B, Q, V, M, I, K, C>
+impl<C, const M: usize, const I: usize, const K: usize, const L: usize> Entry<C, M, I, K, L>
 where
-    T: Robot<B, Q, V>,
+    C: Compiled,
 {
-    const VALUE: f64 = entry(CompiledJoint::<T, B, Q, V, I>::JOINT, M, K, C);
+    const VALUE: f64 = entry(CompiledJoint::<C, I>::JOINT, M, K, L);
     const IS_NONZERO: bool = Self::VALUE != 0.0;
 }
 

@@ -2,7 +2,6 @@
 
 use super::*;
 use dynamics_core::algorithms::{kinematics, kinetic_energy, momentum, potential_energy};
-use dynamics_core::delegate_effect;
 use dynamics_core::effects::{
     BodyState, Effect, Implicit, JointState, LoadFactors, Once, RegroupedInertia,
     TorqueDerivatives, Viscous, hook,
@@ -11,8 +10,10 @@ use dynamics_core::model::Static;
 use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::{Force, Motion, SpatialInertia};
 use dynamics_core::{Core, Engine};
+use dynamics_core::{call_hook, delegate_effect};
 use firmware_demo::scene::Without;
 use std::cell::Cell;
+use std::fmt::Debug;
 
 const FIELD: u32 = 1;
 const ACCELERATIONS: u32 = 2;
@@ -33,7 +34,7 @@ const BASE_PARAMETERS: u32 = 4096;
 const ONCE: u32 = 8192;
 
 /// Has every hook at joints, and of the others those whose bits are set.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct All<const FLAGS: u32>;
 
 const fn has(flags: u32, flag: u32) -> bool {
@@ -110,8 +111,11 @@ impl<R: Real, const FLAGS: u32, const B: usize, const V: usize> Effect<R, B, V> 
         hook::LoadFriction::NONE
     };
 
-    const REGROUPED: hook::Regrouped<Self, R> =
-        hook::Regrouped::forwarded(has(FLAGS, BASE_PARAMETERS), 1, "another", regrouped);
+    const REGROUPED: hook::Regrouped<Self, R> = if has(FLAGS, BASE_PARAMETERS) {
+        hook::Regrouped::loaded("another", regrouped)
+    } else {
+        hook::Regrouped::NONE
+    };
 
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         *tau += of::<R>(2.0 + joint as f64) * at.q + of::<R>(0.3) * at.qd;
@@ -267,42 +271,59 @@ fn each_hook_counts_among_all_others() {
     assert!((spinning[0] - all[0]).abs() > 0.01);
 }
 
+/// What hooks declare, in numbers, from their text: flags, counts and the lengths of names, without the addresses of functions.
+fn declarations(hooks: &str) -> Vec<f64> {
+    hooks
+        .split(|c: char| " ,()[]{}".contains(c))
+        .filter_map(|word| match word {
+            "true" => Some(1.0),
+            "false" => Some(0.0),
+            name if name.starts_with('"') => Some(name.len() as f64),
+            number => number.parse().ok(),
+        })
+        .collect()
+}
+
 /// The constants of a scene and the contributions of its hooks, in numbers.
-fn observed<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
+fn observed<R: Real, E: Effect<R, 6, 3> + Debug>(scene: &E) -> Vec<f64> {
     let flags = [
-        E::FIELD,
         E::ACCELERATIONS,
         E::VELOCITY_PRODUCTS,
-        E::WRENCH,
-        E::BODY_VELOCITY,
-        E::BODY_POSE,
-        E::BASE_MOTION,
-        E::GYROSCOPIC_ROTORS,
         E::ELASTICITY,
-        E::LOAD_DEPENDENT,
         E::ONCE != Once::NONE,
     ];
-    let mut numbers = vec![of::<R>(E::GRAVITIES as f64)];
-    let flags = [&flags[..], &E::FIELD_AXES, &E::PAYLOAD].concat();
-    numbers.extend(
-        flags
-            .into_iter()
-            .map(|flag| of::<R>(f64::from(u8::from(flag)))),
-    );
+    let mut numbers = flags.map(|flag| f64::from(u8::from(flag))).to_vec();
+    let hooks = [
+        format!("{:?}", E::GRAVITY_FIELD),
+        format!("{:?}", E::BASE),
+        format!("{:?}", E::EXTERNAL_WRENCH),
+        format!("{:?}", E::ADDED_INERTIA),
+        format!("{:?}", E::ROTOR),
+        format!("{:?}", E::LOAD_FRICTION),
+        format!("{:?}", E::REGROUPED),
+    ];
+    numbers.extend(declarations(&hooks.join(" ")));
+    numbers.extend(added::<R, E>(scene).into_iter().map(R::to_f64));
+    numbers
+}
+
+/// What the hooks of a scene add.
+fn added<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<R> {
+    let mut numbers = Vec::new();
     let mut load = SpatialInertia::ZERO;
-    scene.payload(2, &mut load);
+    call_hook!(E::ADDED_INERTIA.add, scene, 2, &mut load);
     numbers.push(load.mass);
     numbers.extend(load.first_moment.array());
     numbers.extend(load.rotational.cols().map(Vector::array).as_flattened());
     let mut g = R::Vec3::ZERO;
-    scene.field(&mut g);
+    call_hook!(E::GRAVITY_FIELD.add, scene, &mut g);
     numbers.extend(g.array());
     let (mut v, mut a, mut fx) = (Motion::ZERO, Motion::ZERO, Force::ZERO);
-    scene.base(&mut v, &mut a);
+    call_hook!(E::BASE.add, scene, &mut v, &mut a);
     let mut at = BodyState::REST;
     at.pose.pos = vec3::<R>(0.3, 0.4, 0.5);
     at.velocity = Motion::new(vec3::<R>(0.1, 0.2, 0.3), vec3::<R>(0.4, 0.5, 0.6));
-    scene.wrench(2, &at, &mut fx);
+    hook::add_wrench(scene, 2, &at, &mut fx);
     numbers.extend(
         [v.ang, v.lin, a.ang, a.lin, fx.ang, fx.lin]
             .map(Vector::array)
@@ -310,27 +331,27 @@ fn observed<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
     );
     let at = JointState::new(of(0.3), of(-0.7));
     let (mut tau, mut derivatives) = (R::ZERO, TorqueDerivatives::default());
-    let (mut diagonal, mut coupling) = (R::ZERO, R::ZERO);
+    let mut coupling = R::ZERO;
     scene.torque(1, at, &mut tau);
     scene.derivatives(1, at, &mut derivatives);
-    scene.add_inertia(1, &mut diagonal);
-    scene.rotor_coupling(1, &mut coupling);
+    call_hook!(E::ROTOR.add, scene, 1, &mut coupling);
     let [mut factors, mut slopes] = [LoadFactors::default(); 2];
-    scene.load_factors(1, at, &mut factors);
-    scene.load_slopes(1, at, &mut slopes);
+    call_hook!(E::LOAD_FRICTION.factors, scene, 1, at, &mut factors);
+    call_hook!(E::LOAD_FRICTION.slopes, scene, 1, at, &mut slopes);
     for LoadFactors { magnitude, torque } in [factors, slopes] {
         numbers.extend([magnitude, torque]);
     }
     LOADED.set(0);
-    scene.regrouped(1, &mut RegroupedInertia::default());
-    let loaded = [
-        E::BASE_PARAMETERS,
-        E::BASE_PARAMETERS_OF.len(),
-        LOADED.get(),
-    ];
-    numbers.extend(loaded.map(|x| of::<R>(x as f64)));
-    numbers.extend([tau, derivatives.dq, derivatives.dqd, diagonal, coupling]);
-    numbers.into_iter().map(R::to_f64).collect()
+    call_hook!(
+        E::REGROUPED.load,
+        scene,
+        1,
+        &mut RegroupedInertia::default()
+    );
+    numbers.push(of(LOADED.get() as f64));
+    let inertia = scene.inertia(1).unwrap_or(R::ZERO);
+    numbers.extend([tau, derivatives.dq, derivatives.dqd, inertia, coupling]);
+    numbers
 }
 
 /// The sum of all calls of a scene's `advance`.
@@ -344,6 +365,7 @@ type Every = All<{ ENGINE | GYROSCOPIC_ROTORS | ELASTICITY | BASE_PARAMETERS | O
 const EVERY: Every = All;
 
 /// A wrapper of a user's own.
+#[derive(Debug)]
 struct Wrapper(Every);
 
 delegate_effect! {
@@ -351,6 +373,7 @@ delegate_effect! {
 }
 
 /// A wrapper that is there or not.
+#[derive(Debug)]
 struct Toggle<const ON: bool>(Every);
 
 delegate_effect! {

@@ -15,8 +15,8 @@ pub mod tolerances;
 pub mod trees;
 pub mod widen;
 
-/// A number of states, runs or ticks: of tests whose claim is the same for fewer of them, the second one is for the feature `full`.
-pub const fn everyday_or_full(everyday: u32, full: u32) -> u32 {
+/// Numbers of states, runs or ticks, or bounds of them: those of an everyday run, or with the feature `full` the second ones.
+pub const fn everyday_or_full<T: Copy>(everyday: T, full: T) -> T {
     if cfg!(feature = "full") {
         full
     } else {

@@ -26,7 +26,7 @@ fn no_state_breaks_the_dynamics() {
 
 #[test]
 fn no_inputs_drive_the_controller_beyond_its_limits() {
-    run(controller, everyday_or_full(100, 300) as usize);
+    run(controller, everyday_or_full(100, 300));
 }
 
 #[test]

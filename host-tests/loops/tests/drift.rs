@@ -77,9 +77,11 @@ fn a_stabilised_loop_stays_closed() {
     let (error, energy) = opened(Stabilisation::for_step(1e-3_f64));
     let (drift, _) = opened(Stabilisation::<f64>::NONE);
     let (single, single_energy) = opened(Stabilisation::for_step(1e-3_f32));
+    // What grows with time, in ten seconds and in a minute.
+    let [energy_bound, drift_bound] = everyday_or_full([8e-7, 8e-7], [8e-6, 4e-5]);
     within("opening in f64, stabilised, m", error, 1e-8);
-    within("energy in f64, stabilised, J", energy, 8e-6);
-    within("opening in f64, not stabilised, m", drift, 4e-5);
+    within("energy in f64, stabilised, J", energy, energy_bound);
+    within("opening in f64, not stabilised, m", drift, drift_bound);
     within("opening in f32, stabilised, m", single, 6e-6);
     within("energy in f32, stabilised, J", single_energy, 6e-5);
 }

@@ -23,8 +23,3 @@ pub const fn everyday_or_full<T: Copy>(everyday: T, full: T) -> T {
         everyday
     }
 }
-
-/// The README's examples compile: here, since a packaged crate does not contain the repository's files.
-#[cfg(doctest)]
-#[doc = include_str!("../../README.md")]
-struct Readme;

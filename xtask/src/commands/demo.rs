@@ -18,11 +18,11 @@ use crate::kit::setup::{self, Options, Tools};
 use crate::kit::toolchain::RELEASE;
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, firmware, meter, output};
-use crate::studies::scenes::plot;
+use crate::studies::scenes::{first_screen, plot};
 use crate::studies::scenes::report::{Report, feedforward_costs};
 use crate::studies::{budgets, scenes, trial};
 
-/// The README's picture, of the default scene.
+/// The picture of the default scene.
 pub const PICTURE: &str = "docs/ur5e.svg";
 
 /// A run of a scene, in full.
@@ -101,7 +101,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The README's tables and picture, which are those of the default scene.
+/// The README's first lines, and the tables and the picture of the default scene.
 fn write_docs(
     workspace: &Workspace,
     tools: &Tools,
@@ -111,10 +111,25 @@ fn write_docs(
     let shown = Scene::default().name();
     for one in measured.iter().filter(|one| one.report.scene == shown) {
         let brackets = brackets(workspace, tools, plugin, one)?;
-        docs::README.write(workspace, &one.report.markdown(&brackets))?;
+        docs::TICK.write(workspace, &one.report.markdown(&brackets))?;
+        for (page, text) in first_screen(workspace, &one.report)? {
+            page.write(workspace, &text)?;
+        }
         plot::write(&one.recording, &workspace.report(PICTURE))?;
     }
     Ok(())
+}
+
+/// The parts of the README's first screen that this run has the figures of.
+pub fn first_screen(
+    workspace: &Workspace,
+    report: &Report,
+) -> Result<[(docs::Page<'static>, String); 2]> {
+    let peers = workspace::read(&workspace.root.join(first_screen::PEERS))?;
+    Ok([
+        (first_screen::WHY, first_screen::why(&peers, report)?),
+        (first_screen::WORTH, first_screen::worth(report)),
+    ])
 }
 
 /// Scenes and the meter, built.

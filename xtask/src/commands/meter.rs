@@ -108,7 +108,7 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
         None => Ok(ExitCode::SUCCESS),
         Some(Foreign { function, address }) => Err(check!(
             "{number} instructions are none of a Cortex-M4F, the first at {address} in `{function}`: build with \
-             --target thumbv7em-none-eabihf and the flags that README.md gives"
+             --target thumbv7em-none-eabihf and the flags of docs/guide/src/firmware.md"
         )),
     }
 }

@@ -25,8 +25,9 @@ pub struct Page<'a> {
     pub command: &'a str,
 }
 
-pub const README: Page<'_> = Page {
-    file: "README.md",
+/// What a tick of the default scene costs.
+pub const TICK: Page<'_> = Page {
+    file: "docs/scenes.md",
     name: "demo",
     command: "cargo xtask demo --write-docs",
 };

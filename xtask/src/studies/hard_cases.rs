@@ -51,6 +51,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     Ok(Found {
         wrong: suite.wrong.clone(),
         summary: summary(&suite),
+        brief: Some(brief(&suite)),
         ..Found::new(page(&suite), &suite.rows)?
     })
 }
@@ -59,6 +60,19 @@ fn summary(suite: &Suite) -> String {
     let count = |verdict: &str| suite.rows.iter().filter(|r| r.verdict == verdict).count();
     format!(
         "{} cases: {} figures within their bounds, {} beyond; {} failures of naive alternatives shown",
+        suite.cases.len(),
+        count("pass"),
+        count("fail"),
+        count("shown")
+    )
+}
+
+/// The README's lines.
+fn brief(suite: &Suite) -> String {
+    let count = |verdict: &str| suite.rows.iter().filter(|r| r.verdict == verdict).count();
+    format!(
+        "{} cases in f32 and f64, against computations in 50 digits and closed forms: {} figures are within their bounds, {} beyond,\n\
+         and {} naive methods are shown to fail ([each case](docs/hard-cases.md)).",
         suite.cases.len(),
         count("pass"),
         count("fail"),

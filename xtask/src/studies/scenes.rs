@@ -1,5 +1,6 @@
 //! All scenes in one table: what a tick costs and how well it tracks, and what each effect is worth.
 
+pub mod first_screen;
 pub mod plot;
 pub mod render;
 pub mod report;

@@ -116,6 +116,8 @@ impl<'a> Bench<'a> {
 pub struct Found {
     /// The page, or its part.
     pub text: String,
+    /// The lines of the README between the markers of the study's name, if it has any.
+    pub brief: Option<String>,
     pub picture: Option<String>,
     pub json: String,
     /// The compiler that the figures depend on, if they do on one.
@@ -193,6 +195,9 @@ impl Study {
 
     fn write(&self, workspace: &Workspace, found: &Found) -> Result<()> {
         self.page(&self.words()).write(workspace, &found.text)?;
+        if let Some(brief) = &found.brief {
+            self.readme(&self.words()).write(workspace, brief)?;
+        }
         for (file, picture) in self.files[1..].iter().zip(&found.picture) {
             workspace::write(&workspace.report(file), picture)?;
         }
@@ -204,6 +209,9 @@ impl Study {
         let (words, rustc) = (self.words(), found.rustc.as_deref());
         let page = self.page(&words);
         page.check(workspace, &found.text, rustc)?;
+        if let Some(brief) = &found.brief {
+            self.readme(&words).check(workspace, brief, rustc)?;
+        }
         let written = workspace::read(&workspace.root.join(page.file))?;
         let same = rustc.is_none() || docs::rustc_of(page.written(&written)?) == rustc;
         for (file, picture) in self.files[1..].iter().zip(&found.picture) {
@@ -214,6 +222,14 @@ impl Study {
 
     fn words(&self) -> String {
         format!("cargo xtask {}", self.name)
+    }
+
+    fn readme<'a>(&self, command: &'a str) -> Page<'a> {
+        Page {
+            file: "README.md",
+            name: self.name,
+            command,
+        }
     }
 
     fn page<'a>(&self, command: &'a str) -> Page<'a> {

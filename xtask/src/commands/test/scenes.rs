@@ -142,9 +142,12 @@ pub fn readme(context: &Context) -> Result<String> {
         if measured.report.scene == Scene::default().name() {
             let brackets = demo::brackets(workspace, &context.tools, context.meter()?, measured)?;
             let (text, rustc) = (measured.report.markdown(&brackets), &measured.report.rustc);
-            docs::README.check(workspace, &text, Some(rustc))?;
+            docs::TICK.check(workspace, &text, Some(rustc))?;
+            for (page, text) in demo::first_screen(workspace, &measured.report)? {
+                page.check(workspace, &text, Some(rustc))?;
+            }
             // The scene's result is the same to the bit with every compiler.
-            let (picture, command) = (plot::svg(&measured.recording)?, docs::README.command);
+            let (picture, command) = (plot::svg(&measured.recording)?, docs::TICK.command);
             docs::compare_picture(workspace, demo::PICTURE, command, &picture, true)?;
         }
     }

@@ -1,6 +1,6 @@
 use expect_test::expect;
 
-use super::{README, compare, compare_picture, rustc_of};
+use super::{TICK, compare, compare_picture, rustc_of};
 use crate::kit::workspace::Workspace;
 
 const NOW: &str = "rustc 2";
@@ -234,10 +234,10 @@ fn the_readme_is_written_between_its_markers() {
     let folder = tempfile::tempdir().expect("a folder");
     let workspace = Workspace::at(folder.path());
     let empty = "<!-- demo:begin -->\n<!-- demo:end -->\n";
-    std::fs::write(folder.path().join(README.file), empty).expect("written");
-    let check = |text| README.check(&workspace, text, None).is_ok();
+    std::fs::write(folder.path().join(TICK.file), empty).expect("written");
+    let check = |text| TICK.check(&workspace, text, None).is_ok();
     assert!(!check("The text."));
-    README.write(&workspace, "The text.").expect("written");
+    TICK.write(&workspace, "The text.").expect("written");
     assert!(check("The text.") && !check("The texts."));
-    assert!(README.split("no markers").is_err());
+    assert!(TICK.split("no markers").is_err());
 }

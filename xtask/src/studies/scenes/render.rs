@@ -42,7 +42,7 @@ impl Report {
         )
     }
 
-    /// For the README, with the brackets of the cycles by the parts of a tick.
+    /// For the page, with the brackets of the cycles by the parts of a tick.
     pub fn markdown(&self, brackets: &[Bracket]) -> String {
         let percent = |errors: &Errors, tracking: &Tracking| {
             let share = 100.0 * errors.rms_rad / tracking.pd.rms_rad;

@@ -1,0 +1,86 @@
+//! The README's first lines: why one would use the library, and what each effect is worth.
+
+use crate::kit::docs::Page;
+use crate::kit::error::{Result, check};
+use crate::kit::meter::CLOCK_MHZ;
+use crate::kit::table::{Column, Table, thousands};
+use crate::studies::scenes::render::signed;
+use crate::studies::scenes::report::{Ablation, Report};
+
+/// The page that has the figures of other libraries, which no test measures anew.
+pub const PEERS: &str = "docs/peers.md";
+
+const fn part(name: &'static str) -> Page<'static> {
+    Page {
+        file: "README.md",
+        name,
+        command: "cargo xtask demo --write-docs",
+    }
+}
+
+pub const WHY: Page<'_> = part("why");
+pub const WORTH: Page<'_> = part("worth");
+
+/// From the bars of the peers' page, as it was recorded, and from the default scene.
+pub fn why(peers: &str, report: &Report) -> Result<String> {
+    let range = |bar: &str| range(peers, bar);
+    let inverse = range(" rnea, m4f, engine / casadi: cycles")?;
+    let forward = range(" aba, m4f, engine / casadi: cycles")?;
+    let host = range(", engine / pinocchio: ns")?;
+    let longest = report.tick["total"].cycles.max as f64 / CLOCK_MHZ;
+    let share = 100.0 * longest / f64::from(report.period_us);
+    let ratio = 100.0 * report.tracking.ratio();
+    Ok(format!(
+        "- Inverse dynamics takes **{inverse} of the cycles of the best C** that CasADi generates for the same robot (UR5e, Panda, iiwa 14,\n  \
+         A1; modelled Cortex-M4F), forward dynamics of the first three {forward} ([peers]({PEERS})).\n\
+         - On the host, inverse dynamics of a UR5e and a Panda take **{host} of the time of Pinocchio's C++**.\n\
+         - A whole tick of a UR5e, from six encoders to six drives, takes {longest:.1} µs at {CLOCK_MHZ} MHz: **{share:.1} % of a millisecond**. The arm\n  \
+         then follows its reference with {ratio:.1} % of the error of PD control alone."
+    ))
+}
+
+/// The least and the greatest figure of the bars whose names contain these words.
+fn range(page: &str, bar: &str) -> Result<String> {
+    let figures = page.lines().filter(|line| line.contains(bar));
+    let figures = figures.filter_map(|line| line.split('|').nth(3)?.trim().strip_suffix('×'));
+    let figures: Vec<f64> = figures.filter_map(|figure| figure.parse().ok()).collect();
+    let ends = [f64::min, f64::max].map(|pick| figures.iter().copied().reduce(pick));
+    match ends {
+        [Some(least), Some(most)] => Ok(format!("{least:.2} to {most:.2}")),
+        _ => Err(check!("{PEERS} has no bar `{bar}`")),
+    }
+}
+
+/// A row for each effect, the one that is worth most first.
+pub fn worth(report: &Report) -> String {
+    let full = report.tracking.feedforward.rms_rad;
+    let mut effects: Vec<&Ablation> = report.effects.iter().collect();
+    effects.sort_by(|a, b| b.without.rms_rad.total_cmp(&a.without.rms_rad));
+    let columns: [Column<'_, Ablation>; 3] = [
+        ("left out of the feed-forward", &|one| one.effect.clone()),
+        ("tracking error", &|one| {
+            format!("{:.0} ×", one.without.rms_rad / full)
+        }),
+        ("cycles of the tick", &|one| signed(-one.cycles, "−")),
+    ];
+    let longest = thousands(report.tick["total"].cycles.max);
+    let table = Table::of(effects, &columns).markdown();
+    format!("{table}\nA UR5e's pick and place; its tick takes {longest} cycles with all of them.")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::range;
+
+    const PAGE: &str = "| ur5e rnea, engine / x: cycles | 0.470× | 0.448× | met |\n\
+                        | a1 rnea, engine / x: cycles | 0.470× | 0.426× | met |\n\
+                        | a1 aba, engine / x: cycles | 0.470× | – | |\n";
+
+    #[test]
+    fn a_range_is_that_of_the_bars_of_a_name() {
+        let words = range(PAGE, " rnea, engine / x: cycles").expect("two figures");
+        assert_eq!(words, "0.43 to 0.45");
+        range(PAGE, " aba, engine / x: cycles").expect_err("no figure");
+        range(PAGE, " crba,").expect_err("no bar");
+    }
+}

@@ -33,4 +33,6 @@ pages! {
     identification "identification.md",
     porting "porting.md",
     engine "engine.md",
+    faq "faq.md",
+    glossary "glossary.md",
 }

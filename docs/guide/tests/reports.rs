@@ -1,0 +1,69 @@
+//! The pages of docs/ open with a question, its answer and a picture.
+
+use std::fs::{read_dir, read_to_string};
+use std::path::Path;
+
+/// Pages whose reference part is long: the words before it have a bound.
+const LONG: [&str; 3] = ["accuracy.md", "costs.md", "hard-cases.md"];
+/// Pages that are about text or about numbers of one kind, which a picture would not show better.
+const WITHOUT_PICTURE: [&str; 0] = [];
+
+/// What a page lacks.
+fn lacks(name: &str, page: &str) -> Vec<String> {
+    let plain = page.lines().filter(|line| !line.starts_with("<!--"));
+    let plain: Vec<&str> = plain.collect();
+    let page = plain.join("\n");
+    let paragraphs = page.split("\n\n").map(str::trim);
+    let first = paragraphs
+        .filter(|text| !text.is_empty())
+        .nth(1)
+        .unwrap_or_default();
+    let before_tables = page.split("\n|").next().unwrap_or_default();
+    let overview = page.split("\n## Reference").next().unwrap_or_default();
+    let words = |text: &str| {
+        let prose = text.lines().filter(|line| !line.starts_with('|'));
+        prose.flat_map(str::split_whitespace).count()
+    };
+    let is_long = LONG.contains(&name);
+    let checks = [
+        (
+            first.starts_with("**") && first.contains("?**"),
+            "no question in its first paragraph",
+        ),
+        (
+            WITHOUT_PICTURE.contains(&name) || before_tables.contains("!["),
+            "no picture before its tables",
+        ),
+        (
+            !is_long || overview.len() < page.len(),
+            "no part `Reference`",
+        ),
+        (
+            !is_long || words(overview) <= 600,
+            "more than 600 words before its reference",
+        ),
+    ];
+    let wrong = checks.into_iter().filter(|(holds, _)| !holds);
+    wrong.map(|(_, what)| format!("{name}: {what}")).collect()
+}
+
+#[test]
+fn every_page_opens_with_question_answer_and_picture() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let pages = read_dir(docs).expect("the folder").flatten();
+    let pages = pages.filter(|page| page.path().extension().is_some_and(|end| end == "md"));
+    let wrong = pages.flat_map(|page| {
+        let text = read_to_string(page.path()).expect("a page");
+        lacks(&page.file_name().to_string_lossy(), &text)
+    });
+    assert_eq!(wrong.collect::<Vec<_>>(), Vec::<String>::new());
+}
+
+#[test]
+fn a_page_without_them_is_found() {
+    let good = "# T\n\n**Why?** So.\n\n![A](a.svg)\n\n## Reference\n\n| 1 |\n";
+    assert!(lacks("costs.md", good).is_empty());
+    assert_eq!(lacks("costs.md", "# T\n\nWhy.\n\n| 1 |\n").len(), 3);
+    let wordy = good.replace("So.", &"So ".repeat(700));
+    assert_eq!(lacks("costs.md", &wordy).len(), 1);
+}

@@ -18,8 +18,8 @@ use crate::kit::setup::{self, Options, Tools};
 use crate::kit::toolchain::RELEASE;
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, firmware, meter, output};
-use crate::studies::scenes::{first_screen, plot};
 use crate::studies::scenes::report::{Report, feedforward_costs};
+use crate::studies::scenes::{first_screen, plot};
 use crate::studies::{budgets, scenes, trial};
 
 /// The picture of the default scene.

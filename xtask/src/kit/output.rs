@@ -13,9 +13,12 @@ use crate::kit::progress;
 /// # Errors
 /// It cannot be written, all of it.
 pub fn print(text: &str) -> Result<()> {
-    let mut stdout = std::io::stdout().lock();
-    let written = stdout.write_all(text.as_bytes());
-    written.and_then(|()| stdout.flush()).map_err(Error::Output)
+    // Between two frames of a spinner, which stderr may show on the same terminal.
+    progress::above(|| {
+        let mut stdout = std::io::stdout().lock();
+        let written = stdout.write_all(text.as_bytes());
+        written.and_then(|()| stdout.flush()).map_err(Error::Output)
+    })
 }
 
 /// Writes a line to stdout.

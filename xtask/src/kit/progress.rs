@@ -22,9 +22,9 @@ pub fn target() -> ProgressDrawTarget {
     }
 }
 
-/// Writes to stderr while no spinner does.
-pub fn above(write: impl FnOnce()) {
-    SPINNERS.suspend(write);
+/// Writes while no spinner does.
+pub fn above<T>(write: impl FnOnce() -> T) -> T {
+    SPINNERS.suspend(write)
 }
 
 /// A line about the current action, shown until it is dropped.

@@ -1,5 +1,7 @@
 //! One table, as Markdown for the docs and as text for a terminal.
 
+use console::Term;
+
 /// Rows of cells; the first column is left-aligned, the others are right-aligned.
 pub struct Table {
     head: Vec<String>,
@@ -59,21 +61,62 @@ impl Table {
 /// The heading of a column, and its cell in a row.
 pub type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> String);
 
-/// Markdown for a terminal: tables without bars, and neither comments nor pictures.
+/// Markdown for a terminal: tables without bars and no wider than it is, and neither comments nor pictures.
 pub fn plain(markdown: &str) -> String {
-    let mut text = String::new();
+    let (stdout, mut text) = (Term::stdout(), String::new());
+    let room = match stdout.size_checked() {
+        Some((_, columns)) if stdout.is_term() => columns.into(),
+        _ => usize::MAX,
+    };
+    let mut table: Vec<Vec<&str>> = Vec::new();
     for line in markdown.lines() {
+        if let Some(cells) = line.strip_prefix("| ").and_then(|l| l.strip_suffix(" |")) {
+            table.push(cells.split(" | ").collect());
+            continue;
+        }
+        text += &folded(&std::mem::take(&mut table), room);
         if line.starts_with("<!--") || line.starts_with("![") {
             continue;
         }
-        let cells = line.strip_prefix("| ").and_then(|l| l.strip_suffix(" |"));
-        let line = match cells.map(|cells| cells.replace(" | ", "  ")) {
-            Some(rule) if rule.starts_with("---") => format!("  {}", rule.replace(['-', ':'], "─")),
-            Some(cells) => format!("  {}", cells.trim_end()),
-            None => line.trim_start_matches('#').trim_start().to_owned(),
-        };
         if !(line.is_empty() && text.ends_with("\n\n")) {
-            text += &line;
+            text += line.trim_start_matches('#').trim_start();
+            text.push('\n');
+        }
+    }
+    text + &folded(&table, room)
+}
+
+/// The rows of a table, all of equal widths: columns beyond the room follow below, behind the first one again.
+fn folded(rows: &[Vec<&str>], room: usize) -> String {
+    let widths = rows.first().map_or_else(Vec::new, |head| {
+        head.iter()
+            .map(|cell| cell.chars().count() + 2)
+            .collect::<Vec<_>>()
+    });
+    let (mut text, mut from) = (String::new(), 1);
+    while from < widths.len() || text.is_empty() && !rows.is_empty() {
+        let mut width = widths[0];
+        let fits = widths[from.min(widths.len())..].iter().take_while(|more| {
+            width += **more;
+            width <= room
+        });
+        let to = from + fits.count().max(1);
+        for row in rows {
+            let cells = row[..1]
+                .iter()
+                .chain(row.get(from..to.min(row.len())).unwrap_or_default());
+            let line: Vec<&str> = cells.copied().collect();
+            let line = line.join("  ");
+            let is_rule = line.starts_with("---");
+            let line = if is_rule {
+                line.replace(['-', ':'], "─")
+            } else {
+                line
+            };
+            text += &format!("  {}\n", line.trim_end());
+        }
+        from = to;
+        if from < widths.len() {
             text.push('\n');
         }
     }
@@ -95,7 +138,24 @@ pub fn thousands(number: u64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Table, thousands};
+    use super::{Table, folded, thousands};
+
+    #[test]
+    fn a_wide_table_continues_below() {
+        let rows = [
+            vec!["mrad", "one", "two"],
+            vec!["----", "--:", "--:"],
+            vec!["RMS ", "  1", "  2"],
+        ];
+        let whole = "  mrad  one  two\n  ────  ───  ───\n  RMS     1    2\n";
+        assert_eq!(folded(&rows, 16), whole);
+        let parts =
+            "  mrad  one\n  ────  ───\n  RMS     1\n\n  mrad  two\n  ────  ───\n  RMS     2\n";
+        assert_eq!(folded(&rows, 15), parts);
+        assert_eq!(folded(&rows, 1), parts);
+        assert_eq!(folded(&[vec!["a"]], 1), "  a\n");
+        assert_eq!(folded(&[], 9), "");
+    }
 
     #[test]
     fn a_table_lines_up() {

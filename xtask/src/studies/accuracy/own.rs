@@ -1,5 +1,6 @@
 //! The robot of a file: a dozen ways to compute its torques, measured anew each time.
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use super::choice::{Budget, shipped};
@@ -7,11 +8,12 @@ use super::join::{Host, join};
 use super::measure::ACCURACY;
 use super::page;
 use super::point::{Kind, Point};
-use crate::kit::error::{Result, bail};
+use crate::kit::error::{Result, bail, check};
 use crate::kit::firmware::{OWN_ROBOTS, build_own, variable};
 use crate::kit::meter::MODEL;
 use crate::kit::own_robot::OwnRobot;
 use crate::kit::progress::Spinner;
+use crate::kit::rows::Row;
 use crate::kit::setup::{self, Options, Tools};
 use crate::kit::workspace::Workspace;
 use crate::kit::{docs, firmware, output, rows, shell};
@@ -57,29 +59,45 @@ pub fn run(
 const REFERENCE: &str = "No oracle has recorded this robot: errors are those from the core in f64, along a way within \
                          60 % of the limits of the file; full scale is the largest torque at 2000 random states";
 
-/// Costs from the target and errors from the host.
+/// Costs from the target and errors from the host, which are built and run side by side.
 fn measure(workspace: &Workspace, tools: &Tools, robot: &OwnRobot) -> Result<Vec<Point>> {
-    let spinner = Spinner::start(&format!("building {BIN}"));
+    output::note("14 configurations are built and measured: this takes one to two minutes.");
     let included = robot.included()?;
+    let (rows, lines) = std::thread::scope(|scope| {
+        let host = scope.spawn(|| errors(workspace, &included));
+        let rows = costs(workspace, tools, &included);
+        let lost = |_| Err(check!("the host's errors were not computed"));
+        (rows, host.join().unwrap_or_else(lost))
+    });
+    let mut points = join(&Host::read(&lines?)?, &rows?)?;
+    for point in &mut points {
+        point.robot.clone_from(&robot.name);
+        point.own = Some([robot.type_name.clone(), robot.joints.to_string()]);
+    }
+    Ok(points)
+}
+
+fn costs(
+    workspace: &Workspace,
+    tools: &Tools,
+    included: &Path,
+) -> Result<Vec<(&'static str, &'static str, Row)>> {
+    let spinner = Spinner::start(&format!("building {BIN} for the target"));
     let features = format!("{OWN_ROBOTS},{ACCURACY}");
-    let elves = build_own(workspace, tools.toolchain, &included, &features, &[BIN])?;
+    let elves = build_own(workspace, tools.toolchain, included, &features, &[BIN])?;
     let meter = firmware::build_meter(workspace)?;
     spinner.say(format!("running {BIN} in QEMU"));
     let rows = elves
         .iter()
         .map(|elf| rows::run_for_time(tools, &meter, BIN, elf, ""));
     let rows = rows.collect::<Result<Vec<_>>>()?.into_iter().flatten();
-    let rows: Vec<_> = rows.map(|row| (BIN, "3", row)).collect();
-    spinner.say(format!("building and running {BIN} on the host"));
+    Ok(rows.map(|row| (BIN, "3", row)).collect())
+}
+
+fn errors(workspace: &Workspace, included: &Path) -> Result<String> {
+    let _spinner = Spinner::start(&format!("building and running {BIN} on the host"));
     let mut command = workspace.cargo("run");
-    command.envs([variable(&included)]);
+    command.envs([variable(included)]);
     command.args(["--quiet", "--package", "host-reports", "--bin", BIN]);
-    let lines = shell::capture(command.args(["--features", OWN_ROBOTS]))?;
-    drop(spinner);
-    let mut points = join(&Host::read(&lines)?, &rows)?;
-    for point in &mut points {
-        point.robot.clone_from(&robot.name);
-        point.own = Some([robot.type_name.clone(), robot.joints.to_string()]);
-    }
-    Ok(points)
+    shell::capture(command.args(["--features", OWN_ROBOTS]))
 }

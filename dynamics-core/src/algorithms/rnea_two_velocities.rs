@@ -32,7 +32,7 @@ struct Body<R: Real> {
 /// remain: under [`Coriolis`](crate::effects::Coriolis) alone the result is C(q, q̇) q̇_r. Friction, springs and external
 /// wrenches are those at q and q̇. With q̇_r = q̇ the result is that of [`rnea`](crate::algorithms::rnea()).
 ///
-/// Both velocities v (of q̇) and w (of q̇_r) follow from the base to the tips, as do the accelerations, with $a_0 = -g$:
+/// Both velocities v (of q̇) and w (of q̇_r) follow from the base to the tips, as do the accelerations, with a₀ = −g:
 ///
 /// $$
 /// \begin{aligned}
@@ -41,8 +41,9 @@ struct Body<R: Real> {
 /// B(I, v) &= \tfrac 1 2 \left[ (v \times^\ast) I + (I v) \mathbin{\bar\times^\ast} - I (v \times) \right]
 /// \end{aligned}
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/rnea_two_velocities.html"))]
 ///
-/// where $(f \mathbin{\bar\times^\ast}) w = w \times^\ast f$. C is that of
+/// where (f ×̄*) w = w ×* f. C is that of
 /// [`coriolis_matrix`](crate::algorithms::coriolis_matrix()), which states its laws: Ṁ = C + Cᵀ for joints of every kind,
 /// and C(q, x) y = C(q, y) x where q̇ is the derivative of q. Both make it the C of a passive law: see
 /// `motion_control::passivity_based_torque`. On a base of given motion both velocities include

@@ -9,6 +9,7 @@
 //! f &= m a + U h, & n &= h \times a + \mathrm{axial}(U \Sigma - \Sigma U^T)
 //! \end{aligned}
 //! $$
+#![cfg_attr(doc, doc = include_str!("../../equations/acceleration_field.html"))]
 //!
 //! Balafoutis & Patel, *Dynamic Analysis of Robot Manipulators* (1991), also use U.
 

@@ -17,6 +17,7 @@ use crate::state::{Configuration, JointTrig, State, entry};
 /// \Bigl(M + \tfrac h 2 D + \tfrac {h^2} 4 K\Bigr) \ddot\eta + \dots =
 /// -K (\eta + \tfrac h 2 \dot\eta) - D \dot\eta - \dots
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/flexible_step.html"))]
 ///
 /// # Cost
 /// That of [`forward_dynamics`](super::forward_dynamics()).

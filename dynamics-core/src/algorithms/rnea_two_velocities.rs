@@ -38,7 +38,7 @@ struct Body<R: Real> {
 /// \begin{aligned}
 /// a_i &= {}^iX_{\lambda(i)} a_{\lambda(i)} + S_i \ddot q_{r,i} + (\mathring S_i + v_i \times S_i) \dot q_{r,i} \cr
 /// f_i &= I_i a_i + B(I_i, v_i) w_i - f^x_i + \sum_{\lambda(j) = i} {}^jX_i^T f_j, \qquad \tau_i = S_i^T f_i \cr
-/// B(I, v) &= \tfrac 1 2 \left[ (v \times^\ast) I + (I v) \mathbin{\bar\times^\ast} - I (v \times) \right]
+/// B(I, v) &= \tfrac 1 2 \left[ (v \times^\ast) I + (I v) \mathbin{\bar\times^\ast} - I (v \mathord\times) \right]
 /// \end{aligned}
 /// $$
 #[cfg_attr(doc, doc = include_str!("../../equations/rnea_two_velocities.html"))]

@@ -5,7 +5,7 @@
 //!
 //! $$
 //! \begin{aligned}
-//! a(r) &= a + U r, & U &= \alpha\times + \omega\times \omega\times, & \Sigma &= \int r r^T dm, \cr
+//! a(r) &= a + U r, & U &= \alpha\mathord\times + \omega\mathord\times \omega\mathord\times, & \Sigma &= \int r r^T \thinspace dm, \cr
 //! f &= m a + U h, & n &= h \times a + \mathrm{axial}(U \Sigma - \Sigma U^T)
 //! \end{aligned}
 //! $$

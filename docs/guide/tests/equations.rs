@@ -1,6 +1,7 @@
 //! The MathML of the equations in the documentation, which browsers typeset: `EQUATIONS_WRITE=1` writes it.
 //!
-//! An equation is TeX in a comment, between two lines of `$$`. The attribute below it includes its MathML, which hides the TeX.
+//! An equation is TeX in a comment, between two lines of `$$`. The attribute below it includes its MathML, which hides the TeX; it
+//! does so for rustdoc alone, and what an editor shows of an item has the TeX.
 
 use std::collections::BTreeSet;
 use std::convert::Infallible;
@@ -39,8 +40,15 @@ fn comment(line: &str) -> Option<&str> {
     Some(text.trim())
 }
 
-/// The equations of a source: the line of each, its TeX, and the file of its MathML.
-fn equations(source: &str) -> Result<Vec<(usize, String, &str)>, (usize, &str)> {
+struct Equation<'a> {
+    line: usize,
+    tex: String,
+    /// Of its MathML, as the attribute names it.
+    file: &'a str,
+}
+
+/// The equations of a source, or the line that is wrong, and why.
+fn equations(source: &str) -> Result<Vec<Equation<'_>>, (usize, &str)> {
     let mut found = Vec::new();
     let mut lines = (1..).zip(source.lines().map(str::trim_start));
     while let Some((number, line)) = lines.next() {
@@ -55,7 +63,11 @@ fn equations(source: &str) -> Result<Vec<(usize, String, &str)>, (usize, &str)> 
             let file = file
                 .next()
                 .ok_or((number, "no attribute below includes its MathML"))?;
-            found.push((number, tex.join("\n"), file));
+            found.push(Equation {
+                line: number,
+                tex: tex.join("\n"),
+                file,
+            });
         } else if text.split('`').step_by(2).any(|prose| prose.contains('$')) {
             return Err((
                 number,
@@ -85,15 +97,16 @@ fn mathml(tex: &str) -> Result<String, String> {
 fn typeset(path: &Path, source: &str) -> Result<Vec<(PathBuf, String)>, String> {
     let wrong = |line: usize, what: &str| format!("{}:{line}: {what}", path.display());
     let equations = equations(source).map_err(|(line, what)| wrong(line, what))?;
-    let file = |(line, tex, name): (usize, String, &str)| {
+    let file = |equation: Equation<'_>| {
         let mut file = path.parent().expect("a folder").to_owned();
-        for part in name.split('/') {
+        for part in equation.file.split('/') {
             match part {
                 ".." => drop(file.pop()),
                 part => file.push(part),
             }
         }
-        Ok((file, mathml(&tex).map_err(|error| wrong(line, &error))?))
+        let html = mathml(&equation.tex).map_err(|error| wrong(equation.line, &error))?;
+        Ok((file, html))
     };
     equations.into_iter().map(file).collect()
 }

@@ -11,6 +11,7 @@ use motion_control::Reference;
 /// $$
 /// q_j(t) = c_j + \sum_{h=1}^{H} a_{jh} \sin(h \omega t) + b_{jh} \cos(h \omega t), \qquad \omega = 2\pi / T
 /// $$
+#[cfg_attr(doc, doc = include_str!("../equations/fourier.html"))]
 ///
 /// Its velocity and acceleration are derivatives of the same coefficients, so that a series that is fitted to measured positions
 /// gives both without a difference of measurements.

@@ -1,5 +1,6 @@
-//! The links of the documents, and the programs on the guide's pages.
+//! The equations and links of the documents, and the programs on the guide's pages.
 
+mod equations;
 mod links;
 mod pages;
 mod reports;

@@ -30,7 +30,7 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 /// `state.qdd` is not read.
 ///
 /// Velocities as in [`rnea`](super::rnea()), then the articulated bodies from the tips to the base, then the
-/// accelerations from the base, with $a_0 = -g$, to the tips:
+/// accelerations from the base, with a₀ = −g, to the tips:
 ///
 /// $$
 /// \begin{aligned}
@@ -43,8 +43,9 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 /// \ddot q_i &= D_i^{-1} (u_i - U_i^T a^\prime_i) & a_i &= a^\prime_i + S_i \ddot q_i
 /// \end{aligned}
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/aba.html"))]
 ///
-/// The effects of joints add their inertia (armatures) to $D_i$ and subtract their torque from $u_i$.
+/// The effects of joints add their inertia (armatures) to D_i and subtract their torque from u_i.
 ///
 /// # Shape
 /// V.

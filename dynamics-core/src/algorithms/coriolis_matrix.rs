@@ -28,12 +28,13 @@ struct Body<'a, R: Real> {
 /// The Coriolis matrix C(q, q̇), by rows: N·m·s/rad between revolute joints, N·s/m between prismatic ones.
 ///
 /// With the composite inertias Iᶜ, their Coriolis matrices Bᶜ (see
-/// [`rnea_two_velocities`](crate::algorithms::rnea_two_velocities())) and $\dot S_i = \mathring S_i + v_i \times S_i$:
+/// [`rnea_two_velocities`](crate::algorithms::rnea_two_velocities())) and Ṡ_i = S̊_i + v_i × S_i:
 ///
 /// $$
 /// C_{ij} = S_i^T \thinspace {}^jX_i^T (I^c_j \dot S_j + B^c_j S_j), \qquad
 /// C_{ji} = S_j^T (I^c_j \thinspace {}^jX_i \dot S_i + B^c_j \thinspace {}^jX_i S_i)
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/coriolis_matrix.html"))]
 ///
 /// where joint i is joint j or one of its ancestors. For joints of every kind
 ///
@@ -45,7 +46,7 @@ struct Body<'a, R: Real> {
 ///   is not a derivative of q. There b is the vector with S b = S x × S y: x × y at a spherical joint.
 ///
 /// Where q̇ is the derivative of q, C is thus the matrix of the Christoffel symbols:
-/// $C_{ij} = \tfrac 1 2 \sum_k (\partial_k M_{ij} + \partial_j M_{ik} - \partial_i M_{jk}) \dot q_k$.
+/// C_ij = ½ Σ_k (∂_k M_ij + ∂_j M_ik − ∂_i M_jk) q̇_k.
 ///
 /// M is that of [`crba`](crate::algorithms::crba()) under the same effects; of these, payloads, rotors and a base of
 /// given motion are part of C. A non-finite input gives a non-finite output. For the product with one vector,

@@ -25,6 +25,7 @@ use crate::state::{Configuration, JointTrig};
 /// I^c_i = I_i + \sum_{\lambda(j) = i} {}^jX_i^T I^c_j \thinspace {}^jX_i, \qquad
 /// M_{ij} = M_{ji} = S_i^T \thinspace {}^jX_i^T I^c_j S_j
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/crba.html"))]
 ///
 /// where joint i is joint j or one of its ancestors.
 ///

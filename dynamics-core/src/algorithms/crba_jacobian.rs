@@ -33,6 +33,7 @@ struct Body<'a, R: Real> {
 /// $$
 /// J_k = {}^bX_k S_k, \qquad M_{jk} = ({}^jX_k S_k)^T I^c_j S_j
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/crba_jacobian.html"))]
 ///
 /// # Shape
 /// V × V and 6 × V. The Jacobian of the base is zero, that of a body that the robot does not have NaN.

@@ -16,6 +16,7 @@ use crate::state::{Configuration, RobotState, entry};
 /// $$
 /// T = \tfrac 1 2 \sum_i v_i^T I_i v_i
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/kinetic_energy.html"))]
 ///
 /// It includes the bodies, a payload of the scene, and rotors by their inertia at the joints: on a base at rest it is ½
 /// q̇ᵀ M q̇, with M under the same effects. On a base with a given motion it is that of the moving bodies.
@@ -74,6 +75,7 @@ where
 /// $$
 /// U = -\sum_i m_i g^T c_i
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/potential_energy.html"))]
 ///
 /// It includes the bodies and a payload, but not springs at the joints.
 ///

@@ -20,6 +20,7 @@ use crate::state::{Configuration, RobotState};
 /// $$
 /// M(q) \ddot q = \tau - C(q, \dot q), \qquad C(q, \dot q) = \mathrm{ID}(q, \dot q, 0)
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/forward_dynamics.html"))]
 ///
 /// # Shape
 /// V.

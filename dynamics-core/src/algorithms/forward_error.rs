@@ -58,6 +58,7 @@ impl<R: Real, const V: usize> EstimatedAcceleration<R, V> {
 /// $$
 /// |\delta \ddot q| \le 2 \varepsilon \, |M^{-1}| \, (|M| \, |\ddot q| + |\tau| + |C|)
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/forward_error.html"))]
 ///
 /// f32 loses digits where M is ill-conditioned: long straight chains, heavy loads on light links, humanoids. Of the
 /// library's robots and of chains of 16 and 64 rods the error of f32 against f64 is at most the estimate, and the largest

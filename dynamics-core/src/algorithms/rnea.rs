@@ -21,7 +21,7 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 ///
 /// A non-finite input gives a non-finite output, which the safety gate of `motion-control` rejects.
 ///
-/// The velocities and accelerations follow from the base to the tips, with $a_0 = -g$, the forces from the tips to the
+/// The velocities and accelerations follow from the base to the tips, with a₀ = −g, the forces from the tips to the
 /// base:
 ///
 /// $$
@@ -33,8 +33,9 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 /// \tau_i &= S_i^T f_i && (8)
 /// \end{aligned}
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/rnea.html"))]
 ///
-/// The effects of joints (friction, armatures, springs) add their torque to $\tau_i$.
+/// The effects of joints (friction, armatures, springs) add their torque to τ_i.
 ///
 /// # Shape
 /// V.

@@ -32,17 +32,18 @@ struct Body<R: Real> {
 /// remain: under [`Coriolis`](crate::effects::Coriolis) alone the result is C(q, q̇) q̇_r. Friction, springs and external
 /// wrenches are those at q and q̇. With q̇_r = q̇ the result is that of [`rnea`](crate::algorithms::rnea()).
 ///
-/// Both velocities v (of q̇) and w (of q̇_r) follow from the base to the tips, as do the accelerations, with $a_0 = -g$:
+/// Both velocities v (of q̇) and w (of q̇_r) follow from the base to the tips, as do the accelerations, with a₀ = −g:
 ///
 /// $$
 /// \begin{aligned}
 /// a_i &= {}^iX_{\lambda(i)} a_{\lambda(i)} + S_i \ddot q_{r,i} + (\mathring S_i + v_i \times S_i) \dot q_{r,i} \cr
 /// f_i &= I_i a_i + B(I_i, v_i) w_i - f^x_i + \sum_{\lambda(j) = i} {}^jX_i^T f_j, \qquad \tau_i = S_i^T f_i \cr
-/// B(I, v) &= \tfrac 1 2 \left[ (v \times^\ast) I + (I v) \mathbin{\bar\times^\ast} - I (v \times) \right]
+/// B(I, v) &= \tfrac 1 2 \left[ (v \times^\ast) I + (I v) \mathbin{\bar\times^\ast} - I (v \mathord\times) \right]
 /// \end{aligned}
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/rnea_two_velocities.html"))]
 ///
-/// where $(f \mathbin{\bar\times^\ast}) w = w \times^\ast f$. C is that of
+/// where (f ×̄*) w = w ×* f. C is that of
 /// [`coriolis_matrix`](crate::algorithms::coriolis_matrix()), which states its laws: Ṁ = C + Cᵀ for joints of every kind,
 /// and C(q, x) y = C(q, y) x where q̇ is the derivative of q. Both make it the C of a passive law: see
 /// `motion_control::passivity_based_torque`. On a base of given motion both velocities include

@@ -44,6 +44,7 @@ where
     /// \tau_a = A^T (A A^T + \lambda^2 1)^{-1} \tau, \qquad \lambda^2 = 1 - \varsigma^2 \text{ where }
     /// \varsigma^2 = 1 / \mathrm{tr} (A A^T)^{-1} < 1
     /// $$
+    #[cfg_attr(doc, doc = include_str!("../../equations/motor_torques.html"))]
     ///
     /// ς, at most the least singular value of A, is the distance from the dead point; from one on there is no damping.
     /// Everywhere |τ_a| ≤ |τ| of these rows, and there is no jump where the damping ends.

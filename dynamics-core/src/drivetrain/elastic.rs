@@ -12,6 +12,7 @@
 /// J \ddot\theta + b \dot\theta + k (\theta - q) &= \tau_m
 /// \end{aligned}
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/elastic.html"))]
 ///
 /// with the motors' angles θ reflected to the joints: Spong (1987), equations (12), (13).
 ///

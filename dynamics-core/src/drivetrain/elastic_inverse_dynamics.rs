@@ -2,11 +2,12 @@
 //!
 //! De Luca & Lucibello, "A general algorithm for dynamic feedback linearization of robots with elastic joints" (1998);
 //! Buondonno & De Luca, "A recursive Newton-Euler algorithm for robots with elastic joints" (2015). The derivatives τ̇
-//! and τ̈ are computed by components in link coordinates, with $W_j = S q^{(j+1)}$, the rule of Leibniz and
+//! and τ̈ are computed by components in link coordinates, with W_j = S q⁽ʲ⁺¹⁾, the rule of Leibniz and
 //!
 //! $$
 //! \frac{d}{dt} (X m) = X \dot m - W_0 \times X m, \qquad \frac{d}{dt} (X^T f) = X^T (\dot f + W_0 \times^\ast f)
 //! $$
+#![cfg_attr(doc, doc = include_str!("../../equations/elastic_rules.html"))]
 
 use core::fmt;
 
@@ -72,6 +73,7 @@ impl core::error::Error for MultiDofJoint {}
 /// \tau = \mathrm{ID}(q, \dot q, \ddot q), \qquad \theta = q + \tau / k, \qquad
 /// \tau_m = J \ddot\theta + b \dot\theta + \tau
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/elastic_inverse_dynamics.html"))]
 ///
 /// Effects act on the links. The torques of joint effects are differentiated with derivatives that are assumed
 /// constant: this is exact for springs and viscous friction, and for Coulomb friction at speeds above its width.
@@ -237,11 +239,12 @@ where
 
 /// X m and its derivatives, from those of m in the parent's coordinates.
 ///
-/// The n-th derivative $y_{k,n}$ of $X m^{(k)}$ is
+/// The n-th derivative y_k,n of X m⁽ᵏ⁾ is
 ///
 /// $$
 /// y_{k,n} = y_{k+1,n-1} - \sum_{j=0}^{n-1} \binom{n-1}{j} W_j \times y_{k,n-1-j}
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/elastic_derivative.html"))]
 fn transformed<R: Real>(
     x: &Xform<R>,
     w: &[Motion<R>; 4],

@@ -7,6 +7,7 @@
 //! \tau_+ = \frac{(J + h b) (e - h k \dot q_+) + h k (J \dot\theta + h \tau_m)}{D}, \qquad
 //! D = J + h (b + h k), \quad e = k (\theta - q)
 //! $$
+#![cfg_attr(doc, doc = include_str!("../../equations/elastic_plant.html"))]
 //!
 //! It is linear in the links' q̇₊ = q̇ + h q̈: a torque, and h² k (J + h b) / D on the diagonal of M, which for k → ∞
 //! becomes the rotor's J + h b.

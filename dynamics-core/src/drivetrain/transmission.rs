@@ -9,6 +9,7 @@ use crate::state::State;
 /// $$
 /// q = G u + q_0, \qquad \tau_u = G^T \tau, \qquad M_u = G^T M G
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/transmission.html"))]
 ///
 /// A mimic joint (a gripper's second finger) is a row that repeats another; a differential wrist is a block of sums and
 /// differences. The power of the motors is that of the joints (Featherstone, RBDA, section 3.5: G is the null space of

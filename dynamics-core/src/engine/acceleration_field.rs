@@ -5,10 +5,11 @@
 //!
 //! $$
 //! \begin{aligned}
-//! a(r) &= a + U r, & U &= \alpha\times + \omega\times \omega\times, & \Sigma &= \int r r^T dm, \cr
+//! a(r) &= a + U r, & U &= \alpha\mathord\times + \omega\mathord\times \omega\mathord\times, & \Sigma &= \int r r^T \thinspace dm, \cr
 //! f &= m a + U h, & n &= h \times a + \mathrm{axial}(U \Sigma - \Sigma U^T)
 //! \end{aligned}
 //! $$
+#![cfg_attr(doc, doc = include_str!("../../equations/acceleration_field.html"))]
 //!
 //! Balafoutis & Patel, *Dynamic Analysis of Robot Manipulators* (1991), also use U.
 

@@ -5,6 +5,7 @@
 //! $$
 //! n = I \alpha + H a, \qquad f = H^T \alpha + A a
 //! $$
+#![cfg_attr(doc, doc = include_str!("../../equations/articulated_inertia.html"))]
 
 use core::ops::Add;
 

@@ -105,9 +105,10 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     /// there, η̈ changes by
     ///
     /// $$
-    /// \delta = -\bigl(2 M + \tfrac 3 2 h D + h^2 K\bigr)^{-1} r, \qquad \dot\eta \mathrel{+}= \tfrac 3 2 h \delta,
-    /// \quad \eta \mathrel{+}= h^2 \delta
+    /// \delta = -\left(2 M + \tfrac 3 2 h D + h^2 K\right)^{-1} r, \qquad \dot\eta \leftarrow \dot\eta + \tfrac 3 2 h \delta,
+    /// \quad \eta \leftarrow \eta + h^2 \delta
     /// $$
+    #[cfg_attr(doc, doc = include_str!("../../equations/flexible_correction.html"))]
     ///
     /// # Cost
     /// Two calls of [`rnea()`], one of [`crba`](super::crba()) for the modes alone, and M³ / 3 flops.

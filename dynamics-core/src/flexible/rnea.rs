@@ -34,8 +34,9 @@ use crate::state::{Configuration, RobotState, State};
 /// Q_k &= \int \varphi_k \cdot a(r) \thinspace dm + J_k^T f_e + K \eta + D \dot\eta
 /// \end{aligned}
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/flexible_rnea.html"))]
 ///
-/// where $f_e$ is the force of the bodies on the end, and $J_k$ the end's motion per rate of mode k. Terms of any order
+/// where f_e is the force of the bodies on the end, and J_k the end's motion per rate of mode k. Terms of any order
 /// of η that a displacement linear in η has are included; a beam's shortening when it bends is not.
 ///
 /// # Frames

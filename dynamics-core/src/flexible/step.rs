@@ -14,9 +14,10 @@ use crate::state::{Configuration, JointTrig, State, entry};
 /// and keeps its energy; what else acts is taken at the step's begin. For joints of one coordinate each.
 ///
 /// $$
-/// \Bigl(M + \tfrac h 2 D + \tfrac {h^2} 4 K\Bigr) \ddot\eta + \dots =
+/// \left(M + \tfrac h 2 D + \tfrac {h^2} 4 K\right) \ddot\eta + \dots =
 /// -K (\eta + \tfrac h 2 \dot\eta) - D \dot\eta - \dots
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/flexible_step.html"))]
 ///
 /// # Cost
 /// That of [`forward_dynamics`](super::forward_dynamics()).

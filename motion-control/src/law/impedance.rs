@@ -184,6 +184,7 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
     /// $$
     /// \tau = \tau_b + J^T (K \tilde x + D \dot{\tilde x}) + (1 - J^T \bar J^T) \tau_n
     /// $$
+    #[cfg_attr(doc, doc = include_str!("../../equations/impedance.html"))]
     ///
     /// A constant force F on the body displaces it by K⁻¹ F. `bias` is τ_b: gravity and friction, with which the arm is
     /// passive at a goal at rest, the posture apart, if rotational stiffnesses are equal; for a goal that moves,

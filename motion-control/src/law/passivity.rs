@@ -82,8 +82,9 @@ impl<R: Real, const V: usize> PassivityGains<R, V> {
 /// \tau = M \ddot q_r + C(q, \dot q) \dot q_r + g + F - K_D s, \qquad
 /// \dot q_r = \dot q_d + \Lambda (q_d - q), \quad s = \dot q - \dot q_r
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../equations/passivity.html"))]
 ///
-/// As Ṁ = C + Cᵀ, with an exact model $\tfrac{d}{dt} \tfrac 1 2 s^T M s = -s^T K_D s$: s and with it the error of tracking
+/// As Ṁ = C + Cᵀ, with an exact model d/dt (½ sᵀ M s) = −sᵀ K_D s: s and with it the error of tracking
 /// decay at any speed, without the inverse or the measured acceleration that computed torque needs to be exact. A model
 /// that is off leaves an error: at rest Λ⁻¹ K_D⁻¹ times the error of g + F.
 ///

@@ -23,6 +23,7 @@ use crate::state::{Configuration, RobotState};
 /// 0 & \text{otherwise}
 /// \end{cases}, \qquad \tau = J^T f
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/jacobian.html"))]
 ///
 /// # Shape
 /// 6 × V; zero for the base, NaN for a body that the robot does not have.
@@ -95,6 +96,7 @@ where
 /// $$
 /// \dot v_b = J \ddot q + \dot J \dot q
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/jacobian_rate.html"))]
 ///
 /// # Shape
 /// 6; zero for the base, NaN for a body that the robot does not have.

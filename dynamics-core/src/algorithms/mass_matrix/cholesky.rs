@@ -23,6 +23,7 @@ pub struct Cholesky<R, const V: usize> {
 /// $$
 /// M = L^T L, \qquad M^{-1} = L^{-1} L^{-T}
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/cholesky.html"))]
 ///
 /// # Shape
 /// V × V and V.

@@ -22,6 +22,7 @@ pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 /// $$
 /// D_k = M_{kk}, \qquad L_{ki} = M_{ki} / D_k, \qquad M_{ij} \leftarrow M_{ij} - L_{ki} D_k L_{kj}
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/ltdl.html"))]
 ///
 /// # Shape
 /// V × V and V.
@@ -96,6 +97,7 @@ where
 /// $$
 /// L^T y = \tau, \qquad D z = y, \qquad L x = z
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/ltdl_solve.html"))]
 ///
 /// # Shape
 /// V.

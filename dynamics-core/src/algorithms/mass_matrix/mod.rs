@@ -20,6 +20,7 @@ use crate::scalar::Real;
 /// $$
 /// M(q) \ddot q + C(q, \dot q) = \tau, \qquad T = \tfrac 1 2 \dot q^T M(q) \dot q
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/mass_matrix.html"))]
 ///
 /// ```
 /// use dynamics_core::{Engine, effects::RIGID_BODY, robots::Ur5e};

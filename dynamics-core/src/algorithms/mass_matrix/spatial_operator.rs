@@ -5,6 +5,7 @@
 //! $$
 //! M = (1 + H \Phi K) D (1 + H \Phi K)^T, \qquad M^{-1} = (1 - H \Psi K)^T D^{-1} (1 - H \Psi K)
 //! $$
+#![cfg_attr(doc, doc = include_str!("../../../equations/spatial_operator.html"))]
 //!
 //! H projects on the joints; K = U/D of a joint, at its parent; Φ transmits forces inward as through rigid bodies, Ψ as
 //! through joints that move freely. The first factor is Lᵀ of RBDA's section 6.5.
@@ -25,6 +26,7 @@ use crate::state::{Configuration, entry};
 /// $$
 /// M = L^T D L = (1 + H \Phi K) D (1 + H \Phi K)^T
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/innovations_factor.html"))]
 ///
 /// H projects on the joints; K = U/D of a joint, at its parent; Φ transmits forces inward as through rigid bodies.
 ///
@@ -69,6 +71,7 @@ where
 /// $$
 /// M^{-1} = (1 - H \Psi K)^T D^{-1} (1 - H \Psi K)
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/inverse_factor.html"))]
 ///
 /// H and K are those of [`spatial_operator_ltdl`]; Ψ transmits forces inward as through joints that move freely.
 ///

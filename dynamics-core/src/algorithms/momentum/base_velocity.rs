@@ -35,6 +35,7 @@ struct Body<R: Real> {
 /// $$
 /// M_b v_b + M_{bj} \dot q_j = h
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/base_velocity.html"))]
 ///
 /// # Shape
 /// V.

@@ -23,6 +23,7 @@ use crate::state::{Configuration, RobotState};
 /// $$
 /// h_G = {}^0X_G^T h = \sum_i {}^iX_G^T I_i v_i
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/centroidal_momentum.html"))]
 ///
 /// # Shape
 /// 6.
@@ -64,6 +65,7 @@ where
 /// $$
 /// h_G = A_G \dot q, \qquad A_{G,j} = {}^jX_G^T I^c_j S_j
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/centroidal_matrix.html"))]
 ///
 /// # Shape
 /// 6 × V.

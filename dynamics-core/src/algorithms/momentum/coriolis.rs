@@ -44,11 +44,12 @@ struct Body<R: Real> {
 /// c_i = (v_i \times S_i + \mathring S_i)^T h^c_i, \qquad
 /// h^c_i = I_i v_i + \sum_{\lambda(j) = i} {}^jX_i^T h^c_j
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/momentum_rate.html"))]
 ///
 /// with c = Cᵀ q̇.
 ///
-/// C is any matrix with $\dot M = C + C^T$ whose product with q̇ is the vector of velocity products, such as that of the
-/// Christoffel symbols: $C^T \dot q = \dot M \dot q - C \dot q$ is the same for all of them. Where q̇ is the derivative of q,
+/// C is any matrix with Ṁ = C + Cᵀ whose product with q̇ is the vector of velocity products, such as that of the
+/// Christoffel symbols: Cᵀ q̇ = Ṁ q̇ − C q̇ is the same for all of them. Where q̇ is the derivative of q,
 /// it is ∂T/∂q, the derivative of the kinetic energy. At spherical, planar and free joints q̇ is the velocity in the body's
 /// frame, not a derivative of q, and Cᵀ q̇ is what the first equation states: with it, the equation holds for every joint.
 ///

@@ -84,6 +84,7 @@ pub(in crate::algorithms) fn reciprocal<R: Real>(mass: R) -> R {
 /// $$
 /// m = \sum_i m_i, \qquad c = \frac 1 m \sum_i m_i c_i, \qquad \dot c = \frac 1 m \sum_i m_i \dot c_i
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/centre_of_mass.html"))]
 ///
 /// # Cost
 /// O(B): some 250 flops for each revolute joint.
@@ -130,6 +131,7 @@ where
 /// $$
 /// h = \sum_i {}^iX_0^T I_i v_i
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/momentum.html"))]
 ///
 /// # Shape
 /// 6.

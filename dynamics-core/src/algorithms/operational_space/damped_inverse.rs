@@ -7,6 +7,7 @@
 //! \frac 1 \lambda \quad \text{becomes} \quad \frac{\lambda}{\lambda^2 + (\varepsilon - \lambda)^2}
 //! \quad \text{for } \lambda \lt \varepsilon
 //! $$
+#![cfg_attr(doc, doc = include_str!("../../../equations/damped_eigenvalue.html"))]
 //!
 //! The threshold is proportional to the sum of the eigenvalues, which, unlike the largest one, is smooth. Whether an
 //! eigenvalue is below the threshold is decided without eigenvalues: A − ε 1 then has a negative pivot (Sylvester's law
@@ -71,6 +72,7 @@ pub enum Conditioning<R> {
 /// \lambda / \left(\lambda^2 + (\varepsilon - \lambda)^2\right) & \lambda \lt \varepsilon
 /// \end{cases}
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/damped_inverse.html"))]
 ///
 /// with the eigenvectors w of A.
 ///

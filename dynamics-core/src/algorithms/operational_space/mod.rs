@@ -6,6 +6,7 @@
 //! $$
 //! \Lambda = (J M^{-1} J^T)^{-1}, \qquad \bar J = M^{-1} J^T \Lambda, \qquad \tau = J^T F + (1 - J^T \bar J^T) \tau_0
 //! $$
+#![cfg_attr(doc, doc = include_str!("../../../equations/operational_space.html"))]
 
 mod damped_inverse;
 mod eigen;
@@ -66,6 +67,7 @@ pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
 /// $$
 /// \Lambda = (J M^{-1} J^T)^{-1}, \qquad \bar J = M^{-1} J^T \Lambda, \qquad \tau = J^T F + (1 - J^T \bar J^T) \tau_0
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/operational_space.html"))]
 ///
 /// # Cost
 /// That of [`super::crba()`], [`super::ltdl()`] and [`super::jacobian`], M solutions of 2 V² flops, 2 M² V flops and

@@ -8,10 +8,12 @@
 //! $$
 //! U = I^A s, \qquad D = s^T U, \qquad P = 1 - s D^{-1} U^T
 //! $$
+#![cfg_attr(doc, doc = include_str!("../../../equations/osim_joint.html"))]
 //!
 //! $$
 //! \Lambda_i^{-1} = P_i {}^iX_{\lambda(i)} \Lambda_{\lambda(i)}^{-1} {}^iX_{\lambda(i)}^T P_i^T + s_i D_i^{-1} s_i^T
 //! $$
+#![cfg_attr(doc, doc = include_str!("../../../equations/osim_body.html"))]
 
 use core::borrow::Borrow;
 
@@ -175,6 +177,7 @@ fn with_row_z<R: Real>(m: &R::Mat3, row: R::Vec3) -> R::Mat3 {
 /// $$
 /// \Lambda^{-1} = J M^{-1} J^T
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/osim_inverse.html"))]
 ///
 /// # Shape
 /// 6 × 6; zero for a body that the robot does not have.

@@ -12,6 +12,7 @@ use crate::scalar::Real;
 /// $$
 /// \tau_j = b_j \dot q_j + F_j \, s(\dot q_j / w)
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/friction_regressor.html"))]
 ///
 /// # Shape
 /// V × 2.

@@ -32,6 +32,7 @@ use crate::state::{Configuration, JointTrig, RobotState, State};
 /// $$
 /// \tau_j = \sum_i Y_{ji} \varphi_i, \qquad Y_{ji} = ({}^iX_j S_j)^T A_i(v_i, a_i)
 /// $$
+#[cfg_attr(doc, doc = include_str!("../../../equations/regressor.html"))]
 ///
 /// if body i is on a branch that joint j carries, zero elsewhere. The effects are those of [`rnea`](crate::algorithms::rnea()):
 /// gravity, accelerations, velocity products and the motion of the base are in Y as far as the scene has them. What does not

@@ -12,7 +12,7 @@ use dynamics_core::Engine;
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia};
 use dynamics_core::model::Robot;
 use dynamics_core::state::State;
-use robot_import::project::{FileEffects, Library, Project, RobotFile, create};
+use robot_import::project::{FileEffects, Kind, Library, Project, RobotFile, create};
 
 #[allow(dead_code, reason = "a robot's file has more than the test compares")]
 mod chain;
@@ -76,7 +76,7 @@ impl Trial {
             name: name.into(),
             robot,
             library: Library::Path(Path::new(env!("CARGO_MANIFEST_DIR")).join("../dynamics-core")),
-            c,
+            kind: if c { Kind::C } else { Kind::Simulation },
         };
         let created = create(&folder, &project).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(created.robot_only, None);

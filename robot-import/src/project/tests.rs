@@ -25,7 +25,7 @@ fn project(c: bool) -> Project {
         name: "my-arm".into(),
         robot: pendulum(),
         library: Library::Path("/a \"b\"\\c".into()),
-        c,
+        kind: if c { Kind::C } else { Kind::Simulation },
     }
 }
 
@@ -57,7 +57,7 @@ fn no_placeholder_is_left_in_a_project() {
         let created = create(&folder.0, &project(c)).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(
             created.files.len(),
-            1 + if c { C.len() } else { RUST.len() }
+            2 + if c { C.len() } else { RUST.len() }
         );
         for file in &created.files {
             let text = read(file);

@@ -3,7 +3,7 @@
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
-use firmware_demo::scene::{Devices, Full, Scene, SceneLoop, Start};
+use firmware_demo::scene::{self, Full, Scene, SceneLoop, Start};
 use firmware_demo::scenes::ur5e::PickAndPlace;
 use joint_drivers::h_bridge::DriveError;
 use motion_control::{Detect, Detectors, Gains};
@@ -14,6 +14,7 @@ pub use firmware_demo::scenes::ur5e::plan;
 pub const N: usize = 6;
 pub type Motion = <PickAndPlace as Scene<N, N, N, N>>::Reference;
 pub type Law = Full<PickAndPlace, N, N, N>;
+pub type Devices<Spi, Pwm, Brake> = scene::Devices<Spi, Pwm, Brake, N>;
 pub type Control<Spi, Pwm, Brake, D> = SceneLoop<Spi, Pwm, Brake, N, D>;
 
 #[inline(always)]
@@ -30,17 +31,10 @@ pub fn detectors(_: &Motion) -> Detectors<f32, N> {
 /// As [`Scene::control_loop`].
 #[inline(always)]
 pub fn on_brake<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f32, N>>(
-    encoders: [Spi; N],
-    drives: [Pwm; N],
-    brake: Brake,
+    devices: Devices<Spi, Pwm, Brake>,
     gains: Gains<f32, N>,
     detectors: D,
     _: &Motion,
 ) -> Result<Control<Spi, Pwm, Brake, D>, DriveError> {
-    let devices = Devices {
-        encoders,
-        drives,
-        brake,
-    };
     PickAndPlace::control_loop(devices, gains, detectors, Start::OnBrake)
 }

@@ -33,8 +33,16 @@ pub type Encoder<Spi> = As5047p<Spi>;
 /// A current-controlled drive: a duty of 50 % is zero torque.
 pub type Drive<Pwm> = LockedAntiphase<Pwm>;
 /// The control loop of the robot.
-pub type Control<Spi, Pwm, Brake, D> =
-    ControlLoop<[Encoder<Spi>; N], [Drive<Pwm>; N], Brake, N, D>;
+pub type Control<Spi, Pwm, Brake, D> = ControlLoop<[Encoder<Spi>; N], [Drive<Pwm>; N], Brake, N, D>;
+
+/// What the board connects: a part of the bus for each encoder, a PWM channel for each drive.
+#[derive(Debug)]
+pub struct Devices<Spi, Pwm, Brake> {
+    pub encoders: [Spi; N],
+    pub drives: [Pwm; N],
+    /// High holds the joints.
+    pub brake: Brake,
+}
 
 /// Plans the motion in its place.
 ///
@@ -45,14 +53,12 @@ pub fn plan(place: &mut Motion) -> Result<(), TrajectoryError> {
     Ok(())
 }
 
-/// The loop of a robot that stands on its brake until `reset`. High at the brake holds the joints.
+/// The loop of a robot that stands on its brake until `reset`.
 ///
 /// # Errors
 /// [`SetupError`].
 pub fn on_brake<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f32, N>>(
-    encoders: [Spi; N],
-    drives: [Pwm; N],
-    brake: Brake,
+    devices: Devices<Spi, Pwm, Brake>,
     gains: Gains<f32, N>,
     detectors: D,
     motion: &Motion,
@@ -62,21 +68,26 @@ pub fn on_brake<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f
     let mut mappings = [JointMapping::IDENTITY; N];
     for (joint, mapping) in mappings.iter_mut().enumerate() {
         let turns = 1.0 / encoder_ratios()[joint];
-        *mapping = JointMapping::new(ZERO[joint], ENCODERS[joint], turns)
-            .map_err(SetupError::Encoder)?;
+        *mapping =
+            JointMapping::new(ZERO[joint], ENCODERS[joint], turns).map_err(SetupError::Encoder)?;
     }
     // Each device in its turn.
     let mut joint = 0..N;
-    let encoders = encoders.map(|spi| {
+    let encoders = devices.encoders.map(|spi| {
         let joint = joint.next().unwrap_or_default();
         Encoder::new(spi, mappings[joint])
     });
     let mut joint = 0..N;
-    let drives = drives.map(|pwm| {
+    let drives = devices.drives.map(|pwm| {
         let joint = joint.next().unwrap_or_default();
         Drive::new(pwm, scales[joint], DRIVES[joint])
     });
     Ok(ControlLoop::new(
-        encoders, drives, brake, gains, controller, detectors,
+        encoders,
+        drives,
+        devices.brake,
+        gains,
+        controller,
+        detectors,
     ))
 }

@@ -17,7 +17,7 @@ use stm32f4xx_hal::rcc::{Config, Rcc};
 use stm32f4xx_hal::spi::Spi;
 use stm32f4xx_hal::timer::pwm::ErasedChannel;
 
-use crate::board::N;
+use crate::board::{Devices, N};
 
 /// The bus of the encoders.
 pub type Bus = Spi<SPI2>;
@@ -42,9 +42,7 @@ pub fn clocks() -> Config {
 
 /// The board and what is connected to it.
 pub struct Connected {
-    pub encoders: [Encoder; N],
-    pub drives: [Channel; N],
-    pub brake: Brake,
+    pub devices: Devices<Encoder, Channel, Brake>,
     pub button: Button,
     pub light: Light,
     pub timer: TIM2,
@@ -93,9 +91,11 @@ pub fn connect(device: Peripherals, bus: &'static mut Option<AtomicCell<Bus>>) -
     ];
 
     Connected {
-        encoders: encoders(bus, selects),
-        drives: drives(channels),
-        brake,
+        devices: Devices {
+            encoders: encoders(bus, selects),
+            drives: drives(channels),
+            brake,
+        },
         button: b.pb11.into_pull_down_input(),
         light: a.pa10.into_push_pull_output(),
         timer: device.TIM2,

@@ -17,7 +17,7 @@ use stm32f4xx_hal::rcc::{Config, Rcc};
 use stm32f4xx_hal::spi::Spi;
 use stm32f4xx_hal::timer::pwm::ErasedChannel;
 
-use crate::board::N;
+use crate::board::{Devices, N};
 
 /// The bus of the encoders.
 pub type Bus = Spi<SPI1>;
@@ -44,9 +44,7 @@ pub fn clocks() -> Config {
 
 /// The board and what is connected to it.
 pub struct Connected {
-    pub encoders: [Encoder; N],
-    pub drives: [Channel; N],
-    pub brake: Brake,
+    pub devices: Devices<Encoder, Channel, Brake>,
     pub button: Button,
     pub light: Light,
     pub timer: TIM2,
@@ -94,9 +92,11 @@ pub fn connect(device: Peripherals, bus: &'static mut Option<AtomicCell<Bus>>) -
     ];
 
     Connected {
-        encoders: encoders(bus, selects),
-        drives: drives(channels),
-        brake,
+        devices: Devices {
+            encoders: encoders(bus, selects),
+            drives: drives(channels),
+            brake,
+        },
         button: c.pc13.into_floating_input(),
         light: a.pa5.into_push_pull_output(),
         timer: device.TIM2,

@@ -23,7 +23,7 @@ use embedded_hal::digital::OutputPin;
 use embedded_hal_bus::spi::AtomicDevice;
 use motion_control::{self as control, CompletedTick, Detectors, Mode};
 
-use crate::board::{self, Law, Motion, N};
+use crate::board::{self, Devices, Law, Motion, N};
 use crate::devices::{Button, Channel, Line};
 use crate::periods::{Moment, PERIOD, Periods};
 use crate::pins::{Connected, Encoder, MHZ, Spin, connect};
@@ -100,7 +100,12 @@ async fn follow(chip: Peripherals) {
     let mut motion = Motion::REST;
     let planned = board::plan(&mut motion);
     let (gains, detectors) = (board::gains(), board::detectors(&motion));
-    let control = board::on_brake(encoders, drives, brake, gains, detectors, &motion);
+    let devices = Devices {
+        encoders,
+        drives,
+        brake,
+    };
+    let control = board::on_brake(devices, gains, detectors, &motion);
     let (Ok(()), Ok(control)) = (planned, control) else {
         // The brake is set, the drives have no torque, and the light stays off.
         return;

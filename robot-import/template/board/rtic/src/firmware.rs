@@ -12,7 +12,7 @@ mod app {
     use stm32f4xx_hal::timer::{CounterHz, Event, Flag};
     use stm32f4xx_hal::watchdog::IndependentWatchdog;
 
-    use crate::board::{self, Law, Motion, N};
+    use crate::board::{self, Devices, Law, Motion, N};
     use crate::pins::{
         Brake, Bus, Button, Channel, Connected, Encoder, Light, connect, is_pressed,
     };
@@ -52,12 +52,12 @@ mod app {
     #[inline(never)]
     fn place_control(
         place: &'static mut Option<Control>,
-        (encoders, drives, brake): ([Encoder; N], [Channel; N], Brake),
+        devices: Devices<Encoder, Channel, Brake>,
         gains: Gains<f32, N>,
         detectors: Detect,
         motion: &Motion,
     ) -> Option<&'static mut Control> {
-        let control = board::on_brake(encoders, drives, brake, gains, detectors, motion);
+        let control = board::on_brake(devices, gains, detectors, motion);
         Some(place.insert(control.ok()?))
     }
 
@@ -74,9 +74,7 @@ mod app {
     ])]
     fn init(cx: init::Context) -> (Shared, Local) {
         let Connected {
-            encoders,
-            drives,
-            brake,
+            devices,
             button,
             light,
             timer,
@@ -86,7 +84,6 @@ mod app {
         let motion = cx.local.path;
         let planned = board::plan(motion);
         let detectors = place_detectors(cx.local.memory, motion);
-        let devices = (encoders, drives, brake);
         let control = place_control(cx.local.place, devices, gains(), detectors, motion);
         let (Ok(()), Some(control)) = (planned, control) else {
             // The brake is set, the drives have no torque, and the light stays off.

@@ -174,3 +174,44 @@ fn today() -> String {
         today.day()
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write as _;
+
+    use clap::CommandFactory;
+    use expect_test::expect_file;
+
+    use super::Cli;
+
+    /// `cargo xtask` declares the options of its `import` and `new` from this list.
+    #[test]
+    fn the_list_of_options_is_that_of_the_program() {
+        let mut list = String::new();
+        for command in Cli::command().get_subcommands() {
+            for arg in command
+                .get_arguments()
+                .filter(|arg| arg.get_long().is_some())
+            {
+                let long = arg.get_long().unwrap_or_default();
+                let value = match arg.get_action().takes_values() {
+                    true => arg.get_value_names().unwrap_or_default().concat(),
+                    false => "-".to_owned(),
+                };
+                let required = if arg.is_required_set() { "!" } else { "" };
+                let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
+                let default: Vec<_> = (arg.get_default_values().iter())
+                    .filter(|_| arg.get_action().takes_values())
+                    .map(|value| format!(" [default: {}]", value.to_string_lossy()))
+                    .collect();
+                let name = command.get_name();
+                let _ = writeln!(
+                    list,
+                    "{name} --{long} {value}{required} {help}{}",
+                    default.concat()
+                );
+            }
+        }
+        expect_file!["../options.txt"].assert_eq(&list);
+    }
+}

@@ -22,8 +22,11 @@ pub struct Cli {
     #[command(flatten)]
     setup: setup::Options,
     /// Write reports and their pictures into this directory instead of docs/ (budgets stay where they are)
-    #[arg(long, global = true, value_name = "DIR")]
-    out: Option<PathBuf>,
+    #[arg(long, global = true, display_order = 903, value_name = "DIR")]
+    reports: Option<PathBuf>,
+    /// Name the program behind an error of `new` and `import`, too
+    #[arg(long, global = true, display_order = 904)]
+    verbose: bool,
 }
 
 #[derive(Subcommand)]
@@ -32,7 +35,7 @@ enum Command {
     Demo(demo::Args),
     /// Test all that guards correctness, each claim by its cheapest witness
     Test(test::Args),
-    /// Write a firmware project, or with --c a static library for C, for a robot from URDF or MJCF
+    /// Write a project for a robot from URDF or MJCF: firmware, simulated or with --board for a board, or with --c a library for C
     New(import::New),
     /// Write the Rust file of a robot from URDF or MJCF, with advice, a check, and what its inverse dynamics costs
     Import(import::Args),
@@ -149,7 +152,10 @@ fn valid_words(kind: ErrorKind) -> Option<String> {
 
 pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {
     processes::end_with_us().map_err(|e| check!("cannot handle signals: {e}"))?;
-    if let Some(dir) = cli.out {
+    if cli.verbose {
+        output::be_verbose();
+    }
+    if let Some(dir) = cli.reports {
         workspace::write_reports_to(dir)?;
     }
     let setup = cli.setup;
@@ -160,7 +166,7 @@ pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {
         Command::Demo(args) => demo::run(setup, args),
         Command::Test(args) => test::run(setup, &args),
         Command::New(args) => import::new(&args),
-        Command::Import(args) => import::run(setup, &args),
+        Command::Import(args) => import::run(setup, args),
         Command::Meter(args) => meter::run(setup, &args),
         Command::Watch(args) => watch::run(setup, &args),
         Command::Pil(args) => pil::run(setup, &args),

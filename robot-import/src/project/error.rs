@@ -25,11 +25,11 @@ pub enum ProjectError {
     #[error("the library's address `{0}` has a control character or is no Unicode")]
     Library(String),
     /// No board has this name.
-    #[error("there is no board `{}`: there are {}", visible(.0), board::all(None))]
+    #[error("there is no firmware for a board `{}`; there is: {}", visible(.0), board::all(None))]
     Board(String),
     /// A board has no firmware with this framework.
     #[error(
-        "there is no firmware for {board} with {framework}: there are {}",
+        "there is no firmware for {board} with {framework}; there is: {}",
         board::all(Some(board))
     )]
     Framework {

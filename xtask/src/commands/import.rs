@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use clap::{Arg, ArgAction, ArgMatches};
+
 use crate::kit::error::{Error, Result};
 use crate::kit::importer::{ALL, Robot, command, measure, report};
 use crate::kit::meter::MODEL;
@@ -12,75 +14,125 @@ use crate::kit::table::{Table, thousands};
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, output};
 
-/// A file, and options of `robot-import import`.
+/// A file, and the options of `robot-import import`.
 #[derive(clap::Args)]
 pub struct Args {
-    /// The description, URDF or MJCF, and the options of `robot-import import`: --base, --tip, --joints, --lock,
-    /// --free-base, --motors, --name, --out, --check, --repair, --keep-roundings, --python, --python-environment, --peer-time
-    #[arg(value_name = "FILE", required = true, num_args = 1.., trailing_var_arg = true, allow_hyphen_values = true)]
-    arguments: Vec<String>,
+    /// The description, URDF or MJCF
+    #[arg(value_name = "FILE")]
+    file: String,
+    #[command(flatten)]
+    passed: Passed<false>,
     /// Do not measure in QEMU what inverse dynamics costs
     #[arg(long)]
     no_measure: bool,
-    /// The report as JSON on stdout; progress stays on stderr
-    #[arg(long)]
-    json: bool,
 }
 
-/// A folder, and options of `robot-import new`.
+/// A folder, and the options of `robot-import new`.
 #[derive(clap::Args)]
 pub struct New {
-    /// The folder, --robot FILE, and the other options of `robot-import new`: --c, --git, and those of `import`
-    #[arg(value_name = "FOLDER", required = true, num_args = 1.., trailing_var_arg = true, allow_hyphen_values = true)]
-    arguments: Vec<String>,
+    /// The folder; its name is the project's
+    #[arg(value_name = "FOLDER")]
+    folder: String,
+    #[command(flatten)]
+    passed: Passed<true>,
 }
 
-/// Writes a project that uses this checkout's library, unless an option names another.
-pub fn new(args: &New) -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
-    let library = workspace
-        .root
-        .join("dynamics-core")
-        .to_string_lossy()
-        .into_owned();
-    let mut words: Vec<&str> = args.arguments.iter().map(String::as_str).collect();
-    if !words
-        .iter()
-        .any(|word| *word == "--git" || *word == "--library")
-    {
-        words.extend(["--library", &library]);
+/// The options of `robot-import import`, or of its `new`, passed on as they are. It lists them itself, which a test there
+/// compares: the subcommand, the option, its value (`-`: none; `!`: required) and its help.
+const OPTIONS: &str = include_str!("../../../robot-import/options.txt");
+
+struct Passed<const NEW: bool>(Vec<(&'static str, Option<String>)>);
+
+impl<const NEW: bool> Passed<NEW> {
+    fn listed() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
+        let own = if NEW { "new --" } else { "import --" };
+        OPTIONS.lines().filter_map(move |line| {
+            let mut words = line.strip_prefix(own)?.splitn(3, ' ');
+            Some((words.next()?, words.next()?, words.next()?))
+        })
     }
-    output::print(&command(&workspace, "new", &words)?)?;
+
+    /// The last value of an option, which is not passed on.
+    fn take(&mut self, name: &str) -> Option<Option<String>> {
+        let place = self.0.iter().rposition(|(own, _)| *own == name)?;
+        Some(self.0.remove(place).1)
+    }
+
+    fn words(&self) -> impl Iterator<Item = String> {
+        self.0.iter().map(|(name, value)| match value {
+            Some(value) => format!("--{name}={value}"),
+            None => format!("--{name}"),
+        })
+    }
+}
+
+impl<const NEW: bool> clap::FromArgMatches for Passed<NEW> {
+    fn from_arg_matches(matches: &ArgMatches) -> std::result::Result<Self, clap::Error> {
+        let given = |(name, value, _)| -> Vec<_> {
+            match value {
+                "-" => vec![(name, None); usize::from(matches.get_flag(name))],
+                _ => {
+                    let values = matches.get_many::<String>(name).into_iter().flatten();
+                    values.map(|value| (name, Some(value.clone()))).collect()
+                }
+            }
+        };
+        Ok(Self(Self::listed().flat_map(given).collect()))
+    }
+
+    fn update_from_arg_matches(
+        &mut self,
+        matches: &ArgMatches,
+    ) -> std::result::Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl<const NEW: bool> clap::Args for Passed<NEW> {
+    fn augment_args(command: clap::Command) -> clap::Command {
+        command.args(Self::listed().map(|(name, value, help)| {
+            let arg = Arg::new(name).long(name).help(help);
+            match value.trim_end_matches('!') {
+                "-" => arg.action(ArgAction::SetTrue),
+                name => arg
+                    .value_name(name)
+                    .action(ArgAction::Append)
+                    .required(value.ends_with('!')),
+            }
+        }))
+    }
+
+    fn augment_args_for_update(command: clap::Command) -> clap::Command {
+        Self::augment_args(command)
+    }
+}
+
+/// Writes a project.
+pub fn new(args: &New) -> Result<ExitCode> {
+    let words: Vec<String> = args.passed.words().chain([args.folder.clone()]).collect();
+    output::print(&command(&Workspace::find()?, "new", &words)?)?;
     Ok(ExitCode::SUCCESS)
 }
 
-pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
+pub fn run(options: Options, mut args: Args) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    // Options after the file are among its arguments.
-    let mut words: Vec<&str> = args.arguments.iter().map(String::as_str).collect();
-    let mut flag = |name: &str| {
-        let before = words.len();
-        words.retain(|word| *word != name);
-        words.len() < before
-    };
-    let no_measure = flag("--no-measure") || args.no_measure;
-    let json = flag("--json") || args.json;
-    let out = words.iter().position(|word| *word == "--out");
-    let kept = out.and_then(|i| words.get(i + 1));
+    let json = args.passed.take("json").is_some();
+    let kept = args.passed.take("out").flatten();
+    let report_file = args.passed.take("report").flatten();
     let scratch = tempfile::tempdir().map_err(Error::file("create", &workspace.target))?;
-    let file = kept.map_or(scratch.path().join("robot.rs"), PathBuf::from);
-    let mut words = words.clone();
-    let path = file.to_string_lossy().into_owned();
-    if kept.is_none() {
-        words.extend(["--out", &path]);
-    }
-    let json_file = scratch.path().join("report.json");
-    let json_path = json_file.to_string_lossy().into_owned();
-    words.extend(["--report", &json_path]);
+    let in_scratch = |name| scratch.path().join(name);
+    let file = (kept.as_ref()).map_or_else(|| in_scratch("robot.rs"), PathBuf::from);
+    let json_file = report_file.map_or_else(|| in_scratch("report.json"), PathBuf::from);
+    let named = [("--out", &file), ("--report", &json_file)]
+        .map(|(option, path)| format!("{option}={}", path.display()));
+    let words: Vec<String> = (args.passed.words().chain(named))
+        .chain([args.file.clone()])
+        .collect();
     let text = command(&workspace, "import", &words)?;
     let report = report(&workspace::read(&json_file)?)?;
     let robot = Robot { file, report };
-    let measured = (!no_measure).then(|| {
+    let measured = (!args.no_measure).then(|| {
         setup::for_demo(options).and_then(|tools| measure(&workspace, &tools, &[&robot], ALL))
     });
     if json {

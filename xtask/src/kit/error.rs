@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::{Command, ExitStatus};
 
-use crate::kit::shell;
+use crate::kit::{output, shell};
 
 /// The result of anything here that touches the outside.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -78,6 +78,20 @@ impl Error {
             command,
             status,
             output,
+        }
+    }
+
+    /// The error of a program of ours in its own words; the command is of interest to those who ask for it.
+    pub fn reason(self) -> Self {
+        let Self::Failed { output, .. } = &self else {
+            return self;
+        };
+        let Some((_, said)) = output.split_once("\nerror: ") else {
+            return self;
+        };
+        match output::is_verbose() {
+            true => check!("{said}\n\n{self}"),
+            false => check!("{said}"),
         }
     }
 

@@ -47,13 +47,13 @@ pub fn msrv(context: &Context) -> Result<String> {
     Ok(format!("rustc {MSRV}"))
 }
 
-/// The projects that `robot-import new` writes, of a pendulum and of an arm, and two libraries for C in one program.
+/// The projects that `robot-import new` writes, of a pendulum and of an arm, two libraries for C in one program, and firmware for
+/// each board.
 pub fn projects(context: &Context) -> Result<String> {
     if setup::for_projects(context.options).is_err() {
         return skip("there is no arm-none-eabi-gcc, make, cmake or cc");
     }
-    let tests =
-        "--ignored --test-threads 1 project::a_pendulum project::an_arm project::two_robots_in_c";
+    let tests = "--ignored --test-threads 1 project::a_pendulum project::an_arm project::two_robots_in_c project::the_boards";
     context.cargo(&[&format!(
         "test --package robot-import --test import -- {tests}"
     )])?;

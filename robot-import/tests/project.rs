@@ -146,7 +146,7 @@ impl Trial {
         for package in registry {
             let version: String = package.lines().take(2).collect();
             let is_it = |one: &&str| one.lines().take(2).collect::<String>() == version;
-            assert!(known.iter().any(|one| is_it(one)), "{package}");
+            assert!(known.iter().any(is_it), "{package}");
         }
     }
 

@@ -87,7 +87,15 @@ fn dependencies(manifest: &str) -> Vec<[String; 3]> {
         let name = line.split(' ').next().unwrap_or_default().to_owned();
         let (version, features) = strings.split_first().expect("a version");
         let features: Vec<String> = features.iter().map(|one| format!("`{one}`")).collect();
-        [name, (*version).to_owned(), features.join(", ")]
+        let alone = match line.contains("default-features = false") {
+            true => "without its default ones: ",
+            false => "",
+        };
+        [
+            name,
+            (*version).to_owned(),
+            format!("{alone}{}", features.join(", ")),
+        ]
     });
     parts.collect()
 }

@@ -189,11 +189,10 @@ mod tests {
     fn the_list_of_options_is_that_of_the_program() {
         let mut list = String::new();
         for command in Cli::command().get_subcommands() {
-            for arg in command
-                .get_arguments()
-                .filter(|arg| arg.get_long().is_some())
-            {
-                let long = arg.get_long().unwrap_or_default();
+            for arg in command.get_arguments() {
+                let long = arg
+                    .get_long()
+                    .map_or("-".to_owned(), |long| format!("--{long}"));
                 let value = match arg.get_action().takes_values() {
                     true => arg.get_value_names().unwrap_or_default().concat(),
                     false => "-".to_owned(),
@@ -207,7 +206,7 @@ mod tests {
                 let name = command.get_name();
                 let _ = writeln!(
                     list,
-                    "{name} --{long} {value}{required} {help}{}",
+                    "{name} {long} {value}{required} {help}{}",
                     default.concat()
                 );
             }

@@ -118,8 +118,8 @@ impl Library {
         Ok(match self {
             Self::Copy => format!(
                 "`{FOLDER}/` has the crates of dynamics-core {} that this project uses, so that it stands alone. To take them from \
-                 their repository instead, replace each `path = \"{FOLDER}/…\"` in `Cargo.toml` by `git = \"ADDRESS\"`, and delete \
-                 the folder.",
+                 their repository\ninstead, replace each `path = \"{FOLDER}/…\"` in `Cargo.toml` by `git = \"ADDRESS\"`, and \
+                 delete the folder.",
                 version.trim_matches('"')
             ),
             Self::Path(_) | Self::Git(_) => format!(

@@ -1,6 +1,6 @@
 //! `cargo xtask import`: a robot from a file, by the crate `robot-import`, and what its inverse dynamics costs.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Arg, ArgAction, ArgMatches};
@@ -17,9 +17,6 @@ use crate::kit::{docs, output};
 /// A file, and the options of `robot-import import`.
 #[derive(clap::Args)]
 pub struct Args {
-    /// The description, URDF or MJCF
-    #[arg(value_name = "FILE")]
-    file: String,
     #[command(flatten)]
     passed: Passed<false>,
     /// Do not measure in QEMU what inverse dynamics costs
@@ -27,55 +24,43 @@ pub struct Args {
     no_measure: bool,
 }
 
-/// A folder, and the options of `robot-import new`.
-#[derive(clap::Args)]
-pub struct New {
-    /// The folder; its name is the project's
-    #[arg(value_name = "FOLDER")]
-    folder: String,
-    #[command(flatten)]
-    passed: Passed<true>,
-}
-
-/// The options of `robot-import import`, or of its `new`, passed on as they are. It lists them itself, which a test there
-/// compares: the subcommand, the option, its value (`-`: none; `!`: required) and its help.
+/// The arguments of `robot-import`: subcommand, option (`-`: none), value (`-`: none; `!`: required), help. A test there compares
+/// this list with what it takes.
 const OPTIONS: &str = include_str!("../../../robot-import/options.txt");
 
-struct Passed<const NEW: bool>(Vec<(&'static str, Option<String>)>);
+/// The arguments of its `import` or `new`, passed on as they are.
+pub struct Passed<const NEW: bool>(Vec<String>);
 
 impl<const NEW: bool> Passed<NEW> {
     fn listed() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
-        let own = if NEW { "new --" } else { "import --" };
-        OPTIONS.lines().filter_map(move |line| {
-            let mut words = line.strip_prefix(own)?.splitn(3, ' ');
-            Some((words.next()?, words.next()?, words.next()?))
+        OPTIONS.lines().filter_map(|line| {
+            let rest = line.strip_prefix(if NEW { "new " } else { "import " })?;
+            let (name, rest) = rest.split_once(' ')?;
+            let (value, help) = rest.split_once(' ')?;
+            Some((name, value, help))
         })
     }
 
-    /// The last value of an option, which is not passed on.
-    fn take(&mut self, name: &str) -> Option<Option<String>> {
-        let place = self.0.iter().rposition(|(own, _)| *own == name)?;
-        Some(self.0.remove(place).1)
-    }
-
-    fn words(&self) -> impl Iterator<Item = String> {
-        self.0.iter().map(|(name, value)| match value {
-            Some(value) => format!("--{name}={value}"),
-            None => format!("--{name}"),
-        })
+    /// The value of an option that is not passed on.
+    fn take(&mut self, option: &str) -> Option<String> {
+        let place = self.0.iter().rposition(|word| word.starts_with(option))?;
+        Some(self.0.remove(place).split_off(option.len()))
     }
 }
 
 impl<const NEW: bool> clap::FromArgMatches for Passed<NEW> {
     fn from_arg_matches(matches: &ArgMatches) -> std::result::Result<Self, clap::Error> {
-        let given = |(name, value, _)| -> Vec<_> {
-            match value {
-                "-" => vec![(name, None); usize::from(matches.get_flag(name))],
-                _ => {
-                    let values = matches.get_many::<String>(name).into_iter().flatten();
-                    values.map(|value| (name, Some(value.clone()))).collect()
-                }
+        let given = |(name, value, _)| {
+            if value == "-" {
+                return vec![String::from(name); usize::from(matches.get_flag(name))];
             }
+            let values = matches.get_many::<String>(name).into_iter().flatten();
+            let option = if name == "-" {
+                String::new()
+            } else {
+                format!("{name}=")
+            };
+            values.map(|value| format!("{option}{value}")).collect()
         };
         Ok(Self(Self::listed().flat_map(given).collect()))
     }
@@ -92,14 +77,15 @@ impl<const NEW: bool> clap::FromArgMatches for Passed<NEW> {
 impl<const NEW: bool> clap::Args for Passed<NEW> {
     fn augment_args(command: clap::Command) -> clap::Command {
         command.args(Self::listed().map(|(name, value, help)| {
-            let arg = Arg::new(name).long(name).help(help);
-            match value.trim_end_matches('!') {
-                "-" => arg.action(ArgAction::SetTrue),
-                name => arg
-                    .value_name(name)
-                    .action(ArgAction::Append)
-                    .required(value.ends_with('!')),
-            }
+            let required = value.ends_with('!');
+            let action = match value {
+                "-" => ArgAction::SetTrue,
+                _ if required => ArgAction::Set,
+                _ => ArgAction::Append,
+            };
+            let arg = Arg::new(name).help(help).action(action).required(required);
+            let arg = arg.value_name(value.trim_end_matches('!'));
+            name.strip_prefix("--").into_iter().fold(arg, Arg::long)
         }))
     }
 
@@ -109,28 +95,25 @@ impl<const NEW: bool> clap::Args for Passed<NEW> {
 }
 
 /// Writes a project.
-pub fn new(args: &New) -> Result<ExitCode> {
-    let words: Vec<String> = args.passed.words().chain([args.folder.clone()]).collect();
-    output::print(&command(&Workspace::find()?, "new", &words)?)?;
+pub fn new(args: &Passed<true>) -> Result<ExitCode> {
+    output::print(&command(&Workspace::find()?, "new", &args.0)?)?;
     Ok(ExitCode::SUCCESS)
 }
 
-pub fn run(options: Options, mut args: Args) -> Result<ExitCode> {
+pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let json = args.passed.take("json").is_some();
-    let kept = args.passed.take("out").flatten();
-    let report_file = args.passed.take("report").flatten();
     let scratch = tempfile::tempdir().map_err(Error::file("create", &workspace.target))?;
-    let in_scratch = |name| scratch.path().join(name);
-    let file = (kept.as_ref()).map_or_else(|| in_scratch("robot.rs"), PathBuf::from);
-    let json_file = report_file.map_or_else(|| in_scratch("report.json"), PathBuf::from);
-    let named = [("--out", &file), ("--report", &json_file)]
-        .map(|(option, path)| format!("{option}={}", path.display()));
-    let words: Vec<String> = (args.passed.words().chain(named))
-        .chain([args.file.clone()])
-        .collect();
-    let text = command(&workspace, "import", &words)?;
-    let report = report(&workspace::read(&json_file)?)?;
+    let mut passed = args.passed;
+    let json = passed.take("--json").is_some();
+    let [kept, reported] = ["--out=", "--report="].map(|option| passed.take(option));
+    let scratch = |name| scratch.path().join(name).display().to_string();
+    let file = kept.clone().unwrap_or_else(|| scratch("robot.rs"));
+    let json_file = reported.unwrap_or_else(|| scratch("report.json"));
+    let written = [format!("--out={file}"), format!("--report={json_file}")];
+    passed.0.extend(written);
+    let text = command(&workspace, "import", &passed.0)?;
+    let report = report(&workspace::read(json_file.as_ref())?)?;
+    let file = file.into();
     let robot = Robot { file, report };
     let measured = (!args.no_measure).then(|| {
         setup::for_demo(options).and_then(|tools| measure(&workspace, &tools, &[&robot], ALL))

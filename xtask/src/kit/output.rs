@@ -3,22 +3,10 @@
 
 use std::collections::BTreeSet;
 use std::io::Write;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use crate::kit::error::{Error, Result};
 use crate::kit::progress;
-
-static VERBOSE: AtomicBool = AtomicBool::new(false);
-
-/// Errors name the commands of which they are from now on, where they do not anyway.
-pub fn be_verbose() {
-    VERBOSE.store(true, Ordering::Relaxed);
-}
-
-pub fn is_verbose() -> bool {
-    VERBOSE.load(Ordering::Relaxed)
-}
 
 /// Writes a text to stdout.
 ///

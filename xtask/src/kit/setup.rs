@@ -26,15 +26,10 @@ const C_TOOLS: [(&str, &str); 4] = [
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub struct Options {
     /// Install nothing: print the commands that would, and stop
-    #[arg(long, global = true, display_order = 901)]
+    #[arg(long, global = true)]
     pub no_install: bool,
     /// Install what is missing without asking, through sudo if need be (CI=true agrees too)
-    #[arg(
-        long,
-        global = true,
-        display_order = 902,
-        conflicts_with = "no_install"
-    )]
+    #[arg(long, global = true, conflicts_with = "no_install")]
     pub yes: bool,
 }
 

@@ -79,7 +79,7 @@ pub(super) const C: &[File] = files!["c":
     "tests/c/fuzz.rs" ".liquid",
 ];
 
-/// What the projects for boards have in common. The other templates' files that serve as they are have their own copies nowhere.
+/// What the projects for boards have in common, files of the simulated project among it.
 pub(super) const COMMON: &[File] = &[
     file!("rust" / "build.rs"),
     file!("rust" / ".gitignore"),

@@ -5,11 +5,14 @@ use std::{env, error::Error, fs, path::PathBuf};
 #[path = "../page.rs"]
 mod page;
 
+/// That of the projects for this board.
+const MEMORY: &str = "../../robot-import/template/board/nucleo-f446re/memory.x";
+
 fn main() -> Result<(), Box<dyn Error>> {
     let out = PathBuf::from(env::var("OUT_DIR")?);
-    fs::copy("memory.x", out.join("board.x"))?;
+    fs::copy(MEMORY, out.join("board.x"))?;
     println!("cargo:rustc-link-search={}", out.display());
-    println!("cargo:rerun-if-changed=memory.x");
+    println!("cargo:rerun-if-changed={MEMORY}");
     let page = page::torques()?;
     // "| Cortex-M4F | machine | target | flags | instructions | instructions | cycles | flash |"
     let row =

@@ -2,7 +2,8 @@
 
 use std::{env, error::Error, fs, path::PathBuf};
 
-const MEMORY: &str = "../pico2/arm.x";
+/// That of the projects for this board.
+const MEMORY: &str = "../../robot-import/template/board/pico2/memory.x";
 
 fn main() -> Result<(), Box<dyn Error>> {
     if env::var("CARGO_CFG_TARGET_ARCH")? != "arm" {

@@ -13,7 +13,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         &*env::var("CARGO_CFG_TARGET_OS")?,
         &*env::var("CARGO_CFG_TARGET_ARCH")?,
     ) {
-        ("none", "arm") => ("arm.x", &["link.x", "defmt.x"][..]),
+        ("none", "arm") => (
+            "../../robot-import/template/board/pico2/memory.x",
+            &["link.x", "defmt.x"][..],
+        ),
         ("none", "riscv32") => ("riscv.x", &["board.x", "device.x", "link.x", "defmt.x"][..]),
         _ => return Ok(()),
     };

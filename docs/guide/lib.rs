@@ -20,6 +20,7 @@ pages! {
     flexible "flexible.md",
     firmware "firmware.md",
     board "board.md",
+    second_sensor "second-sensor.md",
     c "c.md",
     telemetry "telemetry.md",
     tuning "tuning.md",

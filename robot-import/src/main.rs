@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use robot_import::import;
-use robot_import::project::{self, Library, Project};
+use robot_import::project::{self, Board, Framework, Kind, Library, Project};
 use robot_import::text::visible;
 
 /// Robots from URDF or MJCF as constants of dynamics-core
@@ -32,20 +32,24 @@ struct New {
     /// The description: URDF or MJCF
     #[arg(long, value_name = "FILE")]
     robot: PathBuf,
+    /// Firmware for this board: nucleo-f446re, pico2 or netduinoplus2; without it the firmware drives a simulation
+    #[arg(long, value_name = "BOARD")]
+    board: Option<String>,
+    /// The board's firmware under Embassy
+    #[arg(long, requires = "board", conflicts_with = "rtic")]
+    embassy: bool,
+    /// The board's firmware under RTIC
+    #[arg(long, requires = "board")]
+    rtic: bool,
     /// A static library with a header for C in place of firmware in Rust
-    #[arg(long)]
+    #[arg(long, conflicts_with = "board")]
     c: bool,
-    /// The folder of the crate dynamics-core
-    #[arg(
-        long,
-        value_name = "FOLDER",
-        required_unless_present = "git",
-        conflicts_with = "git"
-    )]
-    library: Option<PathBuf>,
-    /// The address of the repository of dynamics-core
-    #[arg(long, value_name = "ADDRESS")]
+    /// Depend on the crates of this repository of dynamics-core in place of a copy of them in the project
+    #[arg(long, value_name = "ADDRESS", conflicts_with = "library")]
     git: Option<String>,
+    /// Depend on the crates beside this folder of the crate dynamics-core in place of a copy of them
+    #[arg(long, value_name = "FOLDER")]
+    library: Option<PathBuf>,
     #[command(flatten)]
     options: import::Options,
 }
@@ -100,6 +104,22 @@ fn new(args: New) -> Result<(), Box<dyn std::error::Error>> {
         .unwrap_or_default()
         .to_string_lossy()
         .into_owned();
+    let framework = match (args.embassy, args.rtic) {
+        (true, _) => Some(Framework::Embassy),
+        (_, true) => Some(Framework::Rtic),
+        _ => None,
+    };
+    let kind = match (&args.board, args.c) {
+        (Some(board), _) => Kind::Board(Board::find(board, framework)?),
+        (None, true) => Kind::C,
+        (None, false) => Kind::Simulation,
+    };
+    let library = match (args.library, args.git) {
+        (Some(path), _) => Library::Path(std::path::absolute(path)?),
+        (None, Some(address)) => Library::Git(address),
+        (None, None) => Library::Copy,
+    };
+    project::check_folder(&folder, &name)?;
     let imported = import::import(
         &import::Args {
             file: args.robot,
@@ -109,34 +129,34 @@ fn new(args: New) -> Result<(), Box<dyn std::error::Error>> {
         },
         &today(),
     )?;
-    print!("{}", imported.report.text());
-    let library = match (args.library, args.git) {
-        (Some(path), _) => Library::Path(std::path::absolute(path)?),
-        (None, git) => Library::Git(git.unwrap_or_default()),
-    };
-    let robot = imported.robot_file();
-    let c = args.c;
     let created = project::create(
         &folder,
         &Project {
             name,
-            robot,
+            robot: imported.robot_file(),
             library,
-            c,
+            kind,
         },
     )?;
+    print!("{}", imported.report.text());
     println!("\nwritten into {}:", folder.display());
-    for file in &created.files {
-        println!("  {}", file.strip_prefix(&folder).unwrap_or(file).display());
+    let paths = (created.files.iter()).map(|file| file.strip_prefix(&folder).unwrap_or(file));
+    let (copied, own): (Vec<_>, Vec<_>) = paths.partition(|path| path.starts_with("libraries"));
+    for path in own {
+        println!("  {}", path.display());
+    }
+    if !copied.is_empty() {
+        println!("  libraries: a copy of the library, {} files", copied.len());
     }
     if let Some(reason) = created.robot_only {
         println!("\nnote: {reason}");
     } else {
-        println!(
-            "\nnext: cd {} && {}",
-            args.folder.display(),
-            if c { "make run" } else { "cargo qemu" }
-        );
+        let next = match kind {
+            Kind::Simulation => "cargo qemu",
+            Kind::C => "make run",
+            Kind::Board(_) => "cargo build --release; README.md says what to connect",
+        };
+        println!("\nnext: cd {} && {next}", args.folder.display());
     }
     if let Some(note) = created.note {
         println!("note: {note}");
@@ -153,4 +173,44 @@ fn today() -> String {
         u8::from(today.month()),
         today.day()
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write as _;
+
+    use clap::CommandFactory;
+    use expect_test::expect_file;
+
+    use super::Cli;
+
+    /// `cargo xtask` declares the options of its `import` and `new` from this list.
+    #[test]
+    fn the_list_of_options_is_that_of_the_program() {
+        let mut list = String::new();
+        for command in Cli::command().get_subcommands() {
+            for arg in command.get_arguments() {
+                let long = arg
+                    .get_long()
+                    .map_or("-".to_owned(), |long| format!("--{long}"));
+                let value = match arg.get_action().takes_values() {
+                    true => arg.get_value_names().unwrap_or_default().concat(),
+                    false => "-".to_owned(),
+                };
+                let required = if arg.is_required_set() { "!" } else { "" };
+                let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
+                let default: Vec<_> = (arg.get_default_values().iter())
+                    .filter(|_| arg.get_action().takes_values())
+                    .map(|value| format!(" [default: {}]", value.to_string_lossy()))
+                    .collect();
+                let name = command.get_name();
+                let _ = writeln!(
+                    list,
+                    "{name} {long} {value}{required} {help}{}",
+                    default.concat()
+                );
+            }
+        }
+        expect_file!["../options.txt"].assert_eq(&list);
+    }
 }

@@ -1,7 +1,8 @@
 //! Projects as a newcomer gets them: built, tested and run in QEMU, their torques compared with those of this process.
 //!
-//! Slow: `cargo test -p robot-import --test import -- --ignored --nocapture project::` builds both projects of two robots. They
-//! need the target thumbv7em-none-eabihf, qemu-system-arm, make and arm-none-eabi-gcc.
+//! Slow: `cargo test -p robot-import --test import -- --ignored --nocapture project::` builds both projects of two robots, and
+//! one for each board. They need the targets thumbv7em-none-eabihf and thumbv8m.main-none-eabihf, qemu-system-arm, make and
+//! arm-none-eabi-gcc.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -12,7 +13,9 @@ use dynamics_core::Engine;
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia};
 use dynamics_core::model::Robot;
 use dynamics_core::state::State;
-use robot_import::project::{FileEffects, Library, Project, RobotFile, create};
+use robot_import::project::{
+    BOARDS, Board, FileEffects, Kind, Library, Project, RobotFile, create,
+};
 
 #[allow(dead_code, reason = "a robot's file has more than the test compares")]
 mod chain;
@@ -69,14 +72,19 @@ struct Trial {
 }
 
 impl Trial {
-    fn new(name: &str, robot: RobotFile, c: bool) -> Self {
+    fn new(name: &str, robot: RobotFile, kind: Kind) -> Self {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dynamics-core");
+        Self::with(name, robot, kind, Library::Path(folder))
+    }
+
+    fn with(name: &str, robot: RobotFile, kind: Kind, library: Library) -> Self {
         let folder = env::temp_dir().join(format!("{name}-{}", std::process::id()));
         let _ = fs::remove_dir_all(&folder);
         let project = Project {
             name: name.into(),
             robot,
-            library: Library::Path(Path::new(env!("CARGO_MANIFEST_DIR")).join("../dynamics-core")),
-            c,
+            library,
+            kind,
         };
         let created = create(&folder, &project).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(created.robot_only, None);
@@ -114,6 +122,34 @@ impl Trial {
         text
     }
 
+    /// Builds the firmware for a board, formatted as it is, without a warning, from the versions that it came with.
+    fn firmware(&self, name: &str, board: &Board) {
+        let lock =
+            |folder: &Path| fs::read_to_string(folder.join("Cargo.lock")).expect("a lock file");
+        let before = lock(&self.folder);
+        self.run("cargo", &["build", "--release"]);
+        self.run("cargo", &["fmt", "--check"]);
+        let built = self.built.join(board.target).join("release").join(name);
+        let size = fs::metadata(&built).map(|file| file.len());
+        assert!(
+            size.is_ok_and(|bytes| bytes > 10_000),
+            "{}",
+            built.display()
+        );
+        // Cargo has removed what the project does not use, and added nothing but the project.
+        let known: Vec<&str> = before.split("\n[[package]]\n").collect();
+        let after = lock(&self.folder);
+        let registry = after
+            .split("\n[[package]]\n")
+            .skip(1)
+            .filter(|one| one.contains("source ="));
+        for package in registry {
+            let version: String = package.lines().take(2).collect();
+            let is_it = |one: &&str| one.lines().take(2).collect::<String>() == version;
+            assert!(known.iter().any(is_it), "{package}");
+        }
+    }
+
     /// The line after the one that begins with `head`.
     fn after<'a>(text: &'a str, head: &str) -> &'a str {
         let mut lines = text.lines().skip_while(|line| !line.starts_with(head));
@@ -135,7 +171,7 @@ const PROBE: &str = "inverse dynamics of the probe";
 const FIRST: &str = "torques of the first tick";
 
 fn rust_project(name: &str, robot: RobotFile, expected: &str) {
-    let trial = Trial::new(name, robot, false);
+    let trial = Trial::new(name, robot, Kind::Simulation);
     let device = trial.run("cargo", &["qemu"]);
     assert_eq!(Trial::after(&device, PROBE), expected);
     assert!(!device.contains("error:"), "{device}");
@@ -155,7 +191,7 @@ fn rust_project(name: &str, robot: RobotFile, expected: &str) {
 }
 
 fn c_project(name: &str, robot: RobotFile, expected: &str) {
-    let trial = Trial::new(name, robot, true);
+    let trial = Trial::new(name, robot, Kind::C);
     let out = format!("OUT={}", trial.built.display());
     let device = trial.run("make", &[&out, "run"]);
     assert_eq!(
@@ -212,6 +248,32 @@ fn an_arm() {
     c_project("an-arm-for-c", robot, &expected);
 }
 
+/// Firmware for each board; the first stands alone, and the last has fewer joints than its board.
+#[test]
+#[ignore = "builds firmware"]
+fn the_boards() {
+    let so101 = || {
+        robot(
+            "So101",
+            include_str!("../../dynamics-core/src/robots/imported/so101.rs"),
+            [&so101::JOINTS, &so101::BODIES],
+            FileEffects::default(),
+        )
+    };
+    let [nucleo, pico, netduino] = &BOARDS;
+    let trial = Trial::with("on-nucleo", so101(), Kind::Board(nucleo), Library::Copy);
+    trial.firmware("on-nucleo", nucleo);
+    Trial::new("on-pico", so101(), Kind::Board(pico)).firmware("on-pico", pico);
+    let rod = robot(
+        "Pendulum",
+        include_str!("../template/rust/src/robot.rs"),
+        [&pendulum::JOINTS, &pendulum::BODIES],
+        ALL,
+    );
+    let trial = Trial::new("on-netduino", rod, Kind::Board(netduino));
+    trial.firmware("on-netduino", netduino);
+}
+
 #[test]
 #[ignore = "builds firmware"]
 fn thirty_joints() {
@@ -258,8 +320,8 @@ fn two_robots_in_c() {
         FileEffects::default(),
     );
     let (left, right) = (
-        Trial::new("left-arm", one, true),
-        Trial::new("right-arm", other, true),
+        Trial::new("left-arm", one, Kind::C),
+        Trial::new("right-arm", other, Kind::C),
     );
     let program = left.folder.join("program");
     fs::create_dir_all(&program).unwrap_or_else(|error| panic!("{error}"));

@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::atomic::Ordering;
 
 use clap::error::ErrorKind;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands::{demo, endurance, import, meter, pil, test, watch, weight};
-use crate::kit::error::{Result, check};
+use crate::kit::error::{Result, VERBOSE, check};
 use crate::kit::{output, processes, setup, workspace};
 use crate::studies;
 
@@ -23,7 +24,10 @@ pub struct Cli {
     setup: setup::Options,
     /// Write reports and their pictures into this directory instead of docs/ (budgets stay where they are)
     #[arg(long, global = true, value_name = "DIR")]
-    out: Option<PathBuf>,
+    reports: Option<PathBuf>,
+    /// Name the program behind an error of `new` and `import` first
+    #[arg(long, global = true)]
+    verbose: bool,
 }
 
 #[derive(Subcommand)]
@@ -32,8 +36,8 @@ enum Command {
     Demo(demo::Args),
     /// Test all that guards correctness, each claim by its cheapest witness
     Test(test::Args),
-    /// Write a firmware project, or with --c a static library for C, for a robot from URDF or MJCF
-    New(import::New),
+    /// Write a project for a robot from URDF or MJCF: firmware, simulated or with --board for a board, or with --c a library for C
+    New(import::Passed<true>),
     /// Write the Rust file of a robot from URDF or MJCF, with advice, a check, and what its inverse dynamics costs
     Import(import::Args),
     /// Measure a firmware of your own between its markers, and check its instructions
@@ -74,7 +78,10 @@ const LABORATORY: &str = "\x1b[1;4mLaboratory, which writes the pages of docs/\x
 /// All commands; those of the laboratory stand behind the help's other parts.
 fn command() -> clap::Command {
     let place = |name: &str| FIRST.iter().position(|first| *first == name);
-    let root = Cli::command().subcommands(studies::commands());
+    let last = |arg: clap::Arg| arg.display_order(900);
+    let root = Cli::command()
+        .mut_args(last)
+        .subcommands(studies::commands());
     let root = root.mut_subcommands(|command| match place(command.get_name()) {
         Some(place) => command.display_order(place),
         None => command.hide(true),
@@ -149,7 +156,8 @@ fn valid_words(kind: ErrorKind) -> Option<String> {
 
 pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {
     processes::end_with_us().map_err(|e| check!("cannot handle signals: {e}"))?;
-    if let Some(dir) = cli.out {
+    VERBOSE.store(cli.verbose, Ordering::Relaxed);
+    if let Some(dir) = cli.reports {
         workspace::write_reports_to(dir)?;
     }
     let setup = cli.setup;
@@ -160,7 +168,7 @@ pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {
         Command::Demo(args) => demo::run(setup, args),
         Command::Test(args) => test::run(setup, &args),
         Command::New(args) => import::new(&args),
-        Command::Import(args) => import::run(setup, &args),
+        Command::Import(args) => import::run(setup, args),
         Command::Meter(args) => meter::run(setup, &args),
         Command::Watch(args) => watch::run(setup, &args),
         Command::Pil(args) => pil::run(setup, &args),

@@ -214,7 +214,7 @@ fn reports_written_elsewhere_leave_the_workspace_as_it_is() {
     let out = dir.join("new/reports");
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/eliminations.md");
     let before = std::fs::read(&page).expect("a page");
-    let mut command = xtask(&["eliminations", "--out"]);
+    let mut command = xtask(&["eliminations", "--reports"]);
     command
         .arg(&out)
         .env("CARGO_TARGET_DIR", dir.join("target"))
@@ -233,7 +233,7 @@ fn a_read_only_directory_is_named_before_anything_is_measured() {
     let file = dir.file("file", b"in the way");
     let measured = dir.join("measured");
     let touch = format!("touch {}", measured.display());
-    let mut command = xtask(&["eliminations", "--out"]);
+    let mut command = xtask(&["eliminations", "--reports"]);
     command
         .arg(file.join("reports"))
         .env("CARGO", cargo_but(&dir, "build", &touch));

@@ -88,3 +88,73 @@ fn the_readme_is_short() {
     let longest = cells(readme).map(|cell| cell.chars().count()).max();
     assert!(longest.is_some_and(|characters| characters <= 200));
 }
+
+/// The dependencies of a template's manifest from the registry: name, version and features.
+fn dependencies(manifest: &str) -> Vec<[String; 3]> {
+    let (_, rest) = manifest
+        .split_once("[dependencies]\n")
+        .expect("dependencies");
+    let lines = rest.lines().take_while(|line| !line.is_empty());
+    let registry = lines.filter(|line| !line.contains("{{library}}") && !line.contains(" = {{"));
+    let parts = registry.map(|line| {
+        let strings: Vec<&str> = line.split('"').skip(1).step_by(2).collect();
+        let name = line.split(' ').next().unwrap_or_default().to_owned();
+        let (version, features) = strings.split_first().expect("a version");
+        let features: Vec<String> = features.iter().map(|one| format!("`{one}`")).collect();
+        let alone = match line.contains("default-features = false") {
+            true => "without its default ones: ",
+            false => "",
+        };
+        [
+            name,
+            (*version).to_owned(),
+            format!("{alone}{}", features.join(", ")),
+        ]
+    });
+    parts.collect()
+}
+
+/// The dependencies of the projects for boards, as `porting.md` has them.
+#[test]
+fn the_page_has_the_dependencies_of_the_templates() {
+    let templates = [
+        (
+            "RTIC: `nucleo-f446re`, `netduinoplus2`",
+            include_str!("../../../robot-import/template/board/rtic/Cargo.toml.liquid"),
+        ),
+        (
+            "Embassy: `pico2`",
+            include_str!("../../../robot-import/template/board/pico2/Cargo.toml.liquid"),
+        ),
+    ];
+    let mut table = String::new();
+    for (title, manifest) in templates {
+        table += &format!("\n| {title} | version | features |\n|---|---|---|\n");
+        for [name, version, features] in dependencies(manifest) {
+            let features = features.replace("{{chip_feature}}", "stm32f446` or `stm32f405");
+            table += &format!("| `{name}` | {version} | {features} |\n");
+        }
+    }
+    assert!(
+        table.contains("| `embassy-rp` | 0.") && table.contains("`stm32f405`"),
+        "{table}"
+    );
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/porting.md");
+    let page = std::fs::read_to_string(&path).expect("the page");
+    let line = "do not edit -->\n";
+    let (before, rest) = page
+        .split_once("<!-- dependencies:begin -->")
+        .expect("a begin");
+    let (note, rest) = rest.split_once(line).expect("a note");
+    let (_, after) = rest
+        .split_once("<!-- dependencies:end -->")
+        .expect("an end");
+    let current = format!(
+        "{before}<!-- dependencies:begin -->{note}{line}{table}\n<!-- dependencies:end -->{after}"
+    );
+    if std::env::var_os("UPDATE_EXPECT").is_some() {
+        std::fs::write(&path, current).expect("the page is written");
+        return;
+    }
+    assert_eq!(page, current, "UPDATE_EXPECT=1 cargo test -p guide");
+}

@@ -3,6 +3,9 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::board::{self, Framework};
+use crate::text::visible;
+
 /// A project that cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -21,6 +24,33 @@ pub enum ProjectError {
     /// The git address or path of the library cannot be written into a manifest.
     #[error("the library's address `{0}` has a control character or is no Unicode")]
     Library(String),
+    /// No board has this name.
+    #[error("there is no firmware for a board `{}`; there is: {}", visible(.0), board::all(None))]
+    Board(String),
+    /// A board has no firmware with this framework.
+    #[error(
+        "there is no firmware for {board} with {framework}; there is: {}",
+        board::all(Some(board))
+    )]
+    Framework {
+        /// The board.
+        board: String,
+        /// The framework.
+        framework: Framework,
+    },
+    /// The robot has more joints than a board has encoders and drives for.
+    #[error(
+        "the robot has {joints} joints, {board} has encoders and drives for {most}: `--tip`, `--joints` or `--lock` leave joints \
+         out, or write the project without `--board`"
+    )]
+    TooManyJoints {
+        /// Of the robot.
+        joints: usize,
+        /// The board.
+        board: &'static str,
+        /// The most joints of the board.
+        most: usize,
+    },
     /// A file or folder cannot be read or written.
     #[error("cannot {action} {}: {source}", path.display())]
     Io {

@@ -1,9 +1,12 @@
-//! A project outside the repository: firmware in Rust, or a static library for C.
+//! A project outside the repository: firmware in Rust, for a board or simulated, or a static library for C.
 //!
-//! The templates are in `template/rust` and `template/c`; they are templates of `cargo generate` as well. A placeholder
-//! is replaced by text, nothing else: no condition, no loop.
+//! The templates are in `template/rust`, `template/c` and `template/board`; the first two are templates of `cargo generate` as
+//! well. A placeholder is replaced by text, nothing else: no condition, no loop. Of a board's files, lines of joints that the
+//! robot does not have are left out.
 
+mod board;
 mod error;
+mod libraries;
 mod names;
 mod templates;
 #[cfg(test)]
@@ -13,6 +16,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use crate::text::code_span;
+pub use board::{BOARDS, Board, Framework};
+use board::{JOINTS, of_joints};
 pub use error::ProjectError;
 use names::{check_name, enumerators, snake_case, toml_string};
 use templates::{C, File, RUST, constants};
@@ -26,8 +32,19 @@ pub struct Project {
     pub robot: RobotFile,
     /// Where the library is.
     pub library: Library,
-    /// Whether it is a static library with a C header.
-    pub c: bool,
+    /// What it is.
+    pub kind: Kind,
+}
+
+/// What a project is.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// Firmware in Rust on a simulated robot.
+    Simulation,
+    /// A static library with a C header.
+    C,
+    /// Firmware in Rust for a board.
+    Board(&'static Board),
 }
 
 /// The Rust file of a robot, and what the templates need of it.
@@ -67,6 +84,8 @@ pub struct FileEffects {
 /// Where a project gets dynamics-core and the crates beside it from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Library {
+    /// A copy in the project.
+    Copy,
     /// The folder of the crate `dynamics-core`.
     Path(PathBuf),
     /// The address of its repository.
@@ -80,6 +99,7 @@ impl Library {
     /// A dependency on the crate in this folder of the repository, as a value of TOML.
     fn dependency(&self, folder: &str) -> Result<String, ProjectError> {
         match self {
+            Self::Copy => Ok(format!("{{ path = \"{}/{folder}\" }}", libraries::FOLDER)),
             Self::Path(path) => {
                 let path = match folder {
                     DYNAMICS => path.clone(),
@@ -146,12 +166,11 @@ const MOST_FOLDED: usize = 12;
 const COUPLED: &str = "the joints coupled by `COUPLING` are driven each by itself in this project: use the \
                        Transmission in src/robot.rs where a motor moves several of them";
 
-/// Writes a project into a folder that is empty or not there, and formats it if rustfmt is installed.
+/// Fails if a folder has files, or a project cannot have its name: what can be said before the robot is read.
 ///
 /// # Errors
-/// [`ProjectError`]; no file that was there is overwritten.
-pub fn create(folder: &Path, project: &Project) -> Result<Created, ProjectError> {
-    let planned = files(project)?;
+/// [`ProjectError::NotEmpty`], [`ProjectError::Name`].
+pub fn check_folder(folder: &Path, name: &str) -> Result<(), ProjectError> {
     let is_used = match fs::read_dir(folder) {
         Ok(mut entries) => entries.next().is_some(),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => false,
@@ -160,11 +179,21 @@ pub fn create(folder: &Path, project: &Project) -> Result<Created, ProjectError>
     if is_used {
         return Err(ProjectError::NotEmpty(folder.to_path_buf()));
     }
+    check_name(name)
+}
+
+/// Writes a project into a folder that is empty or not there, and formats it if rustfmt is installed.
+///
+/// # Errors
+/// [`ProjectError`]; no file that was there is overwritten.
+pub fn create(folder: &Path, project: &Project) -> Result<Created, ProjectError> {
+    let planned = files(project)?;
+    check_folder(folder, &project.name)?;
     let mut files = Vec::new();
     for (path, text) in &planned {
         write(folder, path, text, &mut files)?;
     }
-    format(&files);
+    format(&files, &folder.join(libraries::FOLDER));
     let robot_only = project.robot.robot_only();
     let note = (project.robot.coupled && robot_only.is_none()).then_some(COUPLED);
     Ok(Created {
@@ -177,19 +206,34 @@ pub fn create(folder: &Path, project: &Project) -> Result<Created, ProjectError>
 /// The path of each file of a project in its folder, and its text before it is formatted.
 ///
 /// # Errors
-/// A name or an address that cannot be used.
+/// A name or an address that cannot be used, or more joints than the board has.
 pub fn files(project: &Project) -> Result<Vec<(String, String)>, ProjectError> {
     check_name(&project.name)?;
+    let robot = ("src/robot.rs".to_owned(), project.robot.text.clone());
+    if project.robot.robot_only().is_some() {
+        project.library.dependency(DYNAMICS)?;
+        return Ok(vec![robot]);
+    }
     let values = values(project)?;
-    let templates: &[File] = match (project.robot.robot_only(), project.c) {
-        (Some(_), _) => &[],
-        (None, true) => C,
-        (None, false) => RUST,
-    };
     let filled = |file: &File| [file.path, file.text].map(|template| substitute(template, &values));
-    let mut files: Vec<(String, String)> =
-        templates.iter().map(|file| filled(file).into()).collect();
-    files.push(("src/robot.rs".to_owned(), project.robot.text.clone()));
+    let mut files: Vec<(String, String)> = match project.kind {
+        Kind::Simulation => RUST.iter().map(|file| filled(file).into()).collect(),
+        Kind::C => C.iter().map(|file| filled(file).into()).collect(),
+        Kind::Board(board) => {
+            let of_robot = |file: &File| {
+                let [path, text] = filled(file);
+                (path, of_joints(&text, project.robot.v))
+            };
+            board.files().map(of_robot).collect()
+        }
+    };
+    if project.library == Library::Copy {
+        let manifest = files.iter().find(|file| file.0 == "Cargo.toml");
+        let copies = manifest.map(|(_, text)| libraries::copies(text));
+        files.extend(copies.unwrap_or_default());
+    }
+    files.push(("Cargo.lock".to_owned(), libraries::LOCK.to_owned()));
+    files.push(robot);
     Ok(files)
 }
 
@@ -209,8 +253,10 @@ fn write(
 }
 
 /// Formats Rust files, where rustfmt is installed: how long a line is depends on the project's name.
-fn format(files: &[PathBuf]) {
-    let sources = (files.iter()).filter(|path| path.extension().is_some_and(|end| end == "rs"));
+fn format(files: &[PathBuf], libraries: &Path) {
+    let sources = (files.iter()).filter(|path| {
+        path.extension().is_some_and(|end| end == "rs") && !path.starts_with(libraries)
+    });
     let mut rustfmt = Command::new("rustfmt");
     rustfmt.args(["--quiet", "--edition", "2024"]);
     // In the project: a `rust-toolchain.toml` of the current folder would name the program that runs.
@@ -248,10 +294,10 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
     } else {
         "Engine"
     };
-    let (names, types, values) = robot.effects.in_scene(&["Gravity", "Inertia", "Coriolis"]);
+    let (names, types, effects) = robot.effects.in_scene(&["Gravity", "Inertia", "Coriolis"]);
     let (_, force_types, force_values) = robot.effects.in_scene(&["Inertia", "Coriolis"]);
     let taken = &constants(C);
-    Ok(vec![
+    let mut values = vec![
         ("project-name", project.name.clone()),
         (
             "joints",
@@ -268,10 +314,27 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         ("robot", robot.type_name.clone()),
         ("effect_names", names),
         ("effect_types", types),
-        ("effect_values", values),
+        ("effect_values", effects),
         ("force_types", force_types),
         ("force_values", force_values),
-    ])
+        ("library_note", project.library.note()?),
+    ];
+    if let Kind::Board(board) = project.kind {
+        if robot.v > board.most_joints {
+            return Err(ProjectError::TooManyJoints {
+                joints: robot.v,
+                board: board.name,
+                most: board.most_joints,
+            });
+        }
+        // In a cell of a table.
+        let name = |joint: &String| code_span(joint).replace('|', "\\u{7c}");
+        values.extend(JOINTS.into_iter().zip(robot.joints.iter().map(name)));
+        let pins = substitute(&of_joints(board.pins, robot.v), &values);
+        values.push(("pins", pins));
+        values.extend(board.values());
+    }
+    Ok(values)
 }
 
 /// The text with each `{{placeholder}}` replaced by its value; values are not searched for further ones.

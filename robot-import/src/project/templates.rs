@@ -2,6 +2,7 @@
 //! with placeholders.
 
 /// A file of a template.
+#[derive(Debug)]
 pub(super) struct File {
     /// Its path in the project.
     pub path: &'static str,
@@ -9,12 +10,18 @@ pub(super) struct File {
     pub text: &'static str,
 }
 
-macro_rules! files {
-    ($folder:literal: $($path:literal $($suffix:literal)?),* $(,)?) => {
-        &[$(File {
+macro_rules! file {
+    ($folder:literal / $path:literal $($suffix:literal)?) => {
+        File {
             path: $path,
             text: include_str!(concat!("../../template/", $folder, "/", $path, $($suffix)?)),
-        }),*]
+        }
+    };
+}
+
+macro_rules! files {
+    ($folder:literal: $($path:literal $($suffix:literal)?),* $(,)?) => {
+        &[$(file!($folder / $path $($suffix)?)),*]
     };
 }
 
@@ -70,6 +77,42 @@ pub(super) const C: &[File] = files!["c":
     "tests/c/main.rs" ".liquid",
     "tests/c/controller.rs" ".liquid",
     "tests/c/fuzz.rs" ".liquid",
+];
+
+/// What the projects for boards have in common, files of the simulated project among it.
+pub(super) const COMMON: &[File] = &[
+    file!("rust" / "build.rs"),
+    file!("rust" / ".gitignore"),
+    file!("rust" / "src/scene.rs" ".liquid"),
+    file!("rust" / "src/control.rs"),
+    file!("board/common" / "README.md" ".liquid"),
+    file!("board/common" / "rust-toolchain.toml" ".liquid"),
+    file!("board/common" / "src/lib.rs"),
+    file!("board/common" / "src/board.rs"),
+];
+
+/// Firmware for a board's chip under RTIC.
+pub(super) const RTIC: &[File] = &[
+    file!("board/rtic" / "Cargo.toml" ".liquid"),
+    file!("board/rtic" / ".cargo/config.toml" ".liquid"),
+    file!("board/rtic" / "src/firmware.rs"),
+    file!("board/common" / "src/main.rs" ".liquid"),
+];
+
+pub(super) const NUCLEO_F446RE: &[File] = files!["board/nucleo-f446re": "memory.x", "src/pins.rs"];
+pub(super) const NETDUINO_PLUS_2: &[File] =
+    files!["board/netduinoplus2": "memory.x", "src/pins.rs"];
+
+/// Firmware for a Pico 2 under Embassy.
+pub(super) const PICO_2: &[File] = files!["board/pico2":
+    "Cargo.toml" ".liquid",
+    ".cargo/config.toml" ".liquid",
+    "memory.x",
+    "src/main.rs" ".liquid",
+    "src/firmware.rs",
+    "src/pins.rs",
+    "src/devices.rs",
+    "src/periods.rs",
 ];
 
 /// The constants of C that templates define or use, without the prefix that the project's name is to them.

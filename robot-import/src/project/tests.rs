@@ -25,7 +25,7 @@ fn project(c: bool) -> Project {
         name: "my-arm".into(),
         robot: pendulum(),
         library: Library::Path("/a \"b\"\\c".into()),
-        c,
+        kind: if c { Kind::C } else { Kind::Simulation },
     }
 }
 
@@ -57,7 +57,7 @@ fn no_placeholder_is_left_in_a_project() {
         let created = create(&folder.0, &project(c)).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(
             created.files.len(),
-            1 + if c { C.len() } else { RUST.len() }
+            2 + if c { C.len() } else { RUST.len() }
         );
         for file in &created.files {
             let text = read(file);
@@ -81,6 +81,180 @@ fn no_placeholder_is_left_in_a_project() {
             let header = read(&folder.0.join("include/my_arm.h"));
             assert!(header.contains("MY_ARM_JOINT_BEARING = 0,"), "{header}");
         }
+    }
+}
+
+/// Firmware for a board, of a robot with these joints.
+fn for_board(board: &'static Board, joints: &[&str]) -> Project {
+    let mut robot = pendulum();
+    robot.joints = joints.iter().map(|&joint| joint.into()).collect();
+    (robot.b, robot.q, robot.v) = (joints.len(), joints.len(), joints.len());
+    Project {
+        robot,
+        library: Library::Copy,
+        kind: Kind::Board(board),
+        ..project(false)
+    }
+}
+
+const NAMES: [&str; 6] = ["a", "b", "c|d`\u{202e}", "{{n}}", "e -->", "// joint 9"];
+
+#[test]
+fn a_project_for_a_board_has_the_lines_of_its_joints_alone() {
+    for board in &BOARDS {
+        for joints in 1..=board.most_joints {
+            let files =
+                files(&for_board(board, &NAMES[..joints])).unwrap_or_else(|e| panic!("{e}"));
+            let own = files
+                .iter()
+                .filter(|(path, _)| !path.starts_with("libraries/"));
+            let text: String = own.clone().map(|(_, text)| text.as_str()).collect();
+            let pins = own.clone().find(|(path, _)| path == "src/pins.rs");
+            let pins = &pins
+                .unwrap_or_else(|| panic!("no pins for {}", board.name))
+                .1;
+            // A select and a PWM channel.
+            for joint in 1..=board.most_joints {
+                let lines = pins
+                    .lines()
+                    .filter(|line| line.ends_with(&format!("// joint {joint}")));
+                let count = lines.filter(|line| !line.starts_with("use ")).count();
+                assert_eq!(count >= 2, joint <= joints, "{} {joint}", board.name);
+            }
+            assert!(
+                !text.contains("<!-- joint") && !text.contains("{{pins"),
+                "{}",
+                board.name
+            );
+            assert_eq!(
+                text.matches("{{").count(),
+                usize::from(joints > 3),
+                "{}",
+                board.name
+            );
+            let readme = own
+                .clone()
+                .find(|(path, _)| path == "README.md")
+                .expect("a README");
+            let rows: Vec<_> = (readme.1.lines())
+                .filter(|line| line.starts_with("| joint "))
+                .collect();
+            assert_eq!(rows.len(), joints);
+            for row in rows {
+                assert_eq!(row.matches('|').count(), 3, "{row}");
+                assert!(
+                    row.contains("select of its encoder") && !row.contains('\u{202e}'),
+                    "{row}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_project_has_no_path_out_of_its_folder() {
+    let boards = BOARDS.iter().map(|board| for_board(board, &["a"]));
+    let others = [false, true].map(|c| Project {
+        library: Library::Copy,
+        ..project(c)
+    });
+    for project in boards.chain(others) {
+        let files = files(&project).unwrap_or_else(|error| panic!("{error}"));
+        let mut manifests = 0;
+        for (path, text) in &files {
+            let Some(folder) = path.strip_suffix("Cargo.toml") else {
+                continue;
+            };
+            manifests += 1;
+            assert!(
+                !text.contains("workspace = true") && !text.contains("git ="),
+                "{text}"
+            );
+            for target in text.split("path = \"").skip(1) {
+                let target = target.split('"').next().unwrap_or_default();
+                // From a library to one beside it.
+                let joined = match target.strip_prefix("../") {
+                    Some(beside) => format!("libraries/{beside}"),
+                    None => format!("{folder}{target}"),
+                };
+                let is_file = |(path, _): &&(String, String)| {
+                    path == &joined || path == &format!("{joined}/Cargo.toml")
+                };
+                assert!(files.iter().any(|file| is_file(&file)), "{path}: {target}");
+            }
+        }
+        assert!(manifests >= 3, "{:?}", project.kind);
+        let own = files.iter().filter(|(path, _)| path.ends_with(".rs"));
+        for (path, text) in own {
+            // Of a file, not of a line that the compiler never reads.
+            let outside = text.lines().filter(|line| line.contains("\"../../.."));
+            assert_eq!(outside.count(), 0, "{path}");
+        }
+    }
+}
+
+#[test]
+fn what_no_board_has_is_refused_with_what_there_is() {
+    let said = |name, framework| {
+        Board::find(name, framework)
+            .map(|_| ())
+            .map_err(|e| e.to_string())
+    };
+    for board in &BOARDS {
+        assert_eq!(said(board.name, None), Ok(()));
+        assert_eq!(said(board.name, Some(board.framework)), Ok(()));
+    }
+    let error = said("uno\u{1b}", None).expect_err("no such board");
+    assert!(
+        error.contains("pico2 with Embassy") && error.contains("netduinoplus2 with RTIC"),
+        "{error}"
+    );
+    assert!(error.contains(r"uno\u{1b}"), "{error}");
+    let error = said("pico2", Some(Framework::Rtic)).expect_err("no such firmware");
+    assert!(
+        error.contains("pico2 with Embassy") && !error.contains("nucleo"),
+        "{error}"
+    );
+    let folder = Folder::new("seven");
+    let error = create(&folder.0, &for_board(&BOARDS[0], &["a"; 7])).expect_err("seven joints");
+    assert!(
+        matches!(
+            error,
+            ProjectError::TooManyJoints {
+                joints: 7,
+                most: 6,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    assert!(!folder.0.exists());
+}
+
+#[test]
+fn the_boards_use_the_versions_of_the_lock_file() {
+    for board in &BOARDS {
+        let files = files(&for_board(board, &["a"])).unwrap_or_else(|error| panic!("{error}"));
+        let (_, manifest) = files
+            .iter()
+            .find(|file| file.0 == "Cargo.toml")
+            .expect("a manifest");
+        let (_, dependencies) = manifest
+            .split_once("[dependencies]\n")
+            .expect("dependencies");
+        let registry = dependencies
+            .lines()
+            .take_while(|line| !line.is_empty())
+            .filter(|line| !line.contains("path = "));
+        let mut count = 0;
+        for line in registry {
+            let name = line.split(' ').next().unwrap_or_default();
+            let version = line.split('"').nth(1).unwrap_or_default();
+            let locked = format!("name = \"{name}\"\nversion = \"{version}\"\n");
+            assert!(libraries::LOCK.contains(&locked), "{line}");
+            count += 1;
+        }
+        assert!(count > 6, "{manifest}");
     }
 }
 

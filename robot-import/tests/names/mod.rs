@@ -8,7 +8,7 @@ mod projects;
 use std::path::Path;
 
 use robot_import::loops::{self, Motors};
-use robot_import::project::{FileEffects, Library, Project, RobotFile};
+use robot_import::project::{FileEffects, Kind, Library, Project, RobotFile};
 use robot_import::selection::Selection;
 use robot_import::source::parse;
 use robot_import::tree::{Numbers, Tree};
@@ -134,6 +134,6 @@ fn project(name: &str, robot: RobotFile, c: bool) -> Project {
         name: name.to_owned(),
         robot,
         library: Library::Path(Path::new(env!("CARGO_MANIFEST_DIR")).join("../dynamics-core")),
-        c,
+        kind: if c { Kind::C } else { Kind::Simulation },
     }
 }

@@ -1,7 +1,9 @@
 //! `cargo xtask import`: a robot from a file, by the crate `robot-import`, and what its inverse dynamics costs.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
+
+use clap::{Arg, ArgAction, ArgMatches};
 
 use crate::kit::error::{Error, Result};
 use crate::kit::importer::{ALL, Robot, command, measure, report};
@@ -12,75 +14,108 @@ use crate::kit::table::{Table, thousands};
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, output};
 
-/// A file, and options of `robot-import import`.
+/// A file, and the options of `robot-import import`.
 #[derive(clap::Args)]
 pub struct Args {
-    /// The description, URDF or MJCF, and the options of `robot-import import`: --base, --tip, --joints, --lock,
-    /// --free-base, --motors, --name, --out, --check, --repair, --keep-roundings, --python, --python-environment, --peer-time
-    #[arg(value_name = "FILE", required = true, num_args = 1.., trailing_var_arg = true, allow_hyphen_values = true)]
-    arguments: Vec<String>,
+    #[command(flatten)]
+    passed: Passed<false>,
     /// Do not measure in QEMU what inverse dynamics costs
     #[arg(long)]
     no_measure: bool,
-    /// The report as JSON on stdout; progress stays on stderr
-    #[arg(long)]
-    json: bool,
 }
 
-/// A folder, and options of `robot-import new`.
-#[derive(clap::Args)]
-pub struct New {
-    /// The folder, --robot FILE, and the other options of `robot-import new`: --c, --git, and those of `import`
-    #[arg(value_name = "FOLDER", required = true, num_args = 1.., trailing_var_arg = true, allow_hyphen_values = true)]
-    arguments: Vec<String>,
-}
+/// The arguments of `robot-import`: subcommand, option (`-`: none), value (`-`: none; `!`: required), help. A test there compares
+/// this list with what it takes.
+const OPTIONS: &str = include_str!("../../../robot-import/options.txt");
 
-/// Writes a project that uses this checkout's library, unless an option names another.
-pub fn new(args: &New) -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
-    let library = workspace
-        .root
-        .join("dynamics-core")
-        .to_string_lossy()
-        .into_owned();
-    let mut words: Vec<&str> = args.arguments.iter().map(String::as_str).collect();
-    if !words
-        .iter()
-        .any(|word| *word == "--git" || *word == "--library")
-    {
-        words.extend(["--library", &library]);
+/// The arguments of its `import` or `new`, passed on as they are.
+pub struct Passed<const NEW: bool>(Vec<String>);
+
+impl<const NEW: bool> Passed<NEW> {
+    fn listed() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
+        OPTIONS.lines().filter_map(|line| {
+            let rest = line.strip_prefix(if NEW { "new " } else { "import " })?;
+            let (name, rest) = rest.split_once(' ')?;
+            let (value, help) = rest.split_once(' ')?;
+            Some((name, value, help))
+        })
     }
-    output::print(&command(&workspace, "new", &words)?)?;
+
+    /// The value of an option that is not passed on.
+    fn take(&mut self, option: &str) -> Option<String> {
+        let place = self.0.iter().rposition(|word| word.starts_with(option))?;
+        Some(self.0.remove(place).split_off(option.len()))
+    }
+}
+
+impl<const NEW: bool> clap::FromArgMatches for Passed<NEW> {
+    fn from_arg_matches(matches: &ArgMatches) -> std::result::Result<Self, clap::Error> {
+        let given = |(name, value, _)| {
+            if value == "-" {
+                return vec![String::from(name); usize::from(matches.get_flag(name))];
+            }
+            let values = matches.get_many::<String>(name).into_iter().flatten();
+            let option = if name == "-" {
+                String::new()
+            } else {
+                format!("{name}=")
+            };
+            values.map(|value| format!("{option}{value}")).collect()
+        };
+        Ok(Self(Self::listed().flat_map(given).collect()))
+    }
+
+    fn update_from_arg_matches(
+        &mut self,
+        matches: &ArgMatches,
+    ) -> std::result::Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl<const NEW: bool> clap::Args for Passed<NEW> {
+    fn augment_args(command: clap::Command) -> clap::Command {
+        command.args(Self::listed().map(|(name, value, help)| {
+            let required = value.ends_with('!');
+            let action = match value {
+                "-" => ArgAction::SetTrue,
+                _ if required => ArgAction::Set,
+                _ => ArgAction::Append,
+            };
+            let arg = Arg::new(name).help(help).action(action).required(required);
+            let arg = arg.value_name(value.trim_end_matches('!'));
+            name.strip_prefix("--").into_iter().fold(arg, Arg::long)
+        }))
+    }
+
+    fn augment_args_for_update(command: clap::Command) -> clap::Command {
+        Self::augment_args(command)
+    }
+}
+
+/// Writes a project.
+pub fn new(args: &Passed<true>) -> Result<ExitCode> {
+    output::print(&command(&Workspace::find()?, "new", &args.0)?)?;
     Ok(ExitCode::SUCCESS)
 }
 
-pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
+pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    // Options after the file are among its arguments.
-    let mut words: Vec<&str> = args.arguments.iter().map(String::as_str).collect();
-    let mut flag = |name: &str| {
-        let before = words.len();
-        words.retain(|word| *word != name);
-        words.len() < before
-    };
-    let no_measure = flag("--no-measure") || args.no_measure;
-    let json = flag("--json") || args.json;
-    let out = words.iter().position(|word| *word == "--out");
-    let kept = out.and_then(|i| words.get(i + 1));
     let scratch = tempfile::tempdir().map_err(Error::file("create", &workspace.target))?;
-    let file = kept.map_or(scratch.path().join("robot.rs"), PathBuf::from);
-    let mut words = words.clone();
-    let path = file.to_string_lossy().into_owned();
-    if kept.is_none() {
-        words.extend(["--out", &path]);
-    }
-    let json_file = scratch.path().join("report.json");
-    let json_path = json_file.to_string_lossy().into_owned();
-    words.extend(["--report", &json_path]);
-    let text = command(&workspace, "import", &words)?;
-    let report = report(&workspace::read(&json_file)?)?;
+    let mut passed = args.passed;
+    let json = passed.take("--json").is_some();
+    let [kept, reported] = ["--out=", "--report="].map(|option| passed.take(option));
+    let scratch = |name| scratch.path().join(name).display().to_string();
+    let file = kept.clone().unwrap_or_else(|| scratch("robot.rs"));
+    let json_file = reported.unwrap_or_else(|| scratch("report.json"));
+    let written = [format!("--out={file}"), format!("--report={json_file}")];
+    passed.0.extend(written);
+    let text = command(&workspace, "import", &passed.0)?;
+    let report = report(&workspace::read(json_file.as_ref())?)?;
+    let file = file.into();
     let robot = Robot { file, report };
-    let measured = (!no_measure).then(|| {
+    let measured = (!args.no_measure).then(|| {
         setup::for_demo(options).and_then(|tools| measure(&workspace, &tools, &[&robot], ALL))
     });
     if json {

@@ -2,8 +2,12 @@
 
 use std::path::PathBuf;
 use std::process::{Command, ExitStatus};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::kit::shell;
+
+/// Whether every error of a program names it.
+pub static VERBOSE: AtomicBool = AtomicBool::new(false);
 
 /// The result of anything here that touches the outside.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -79,6 +83,16 @@ impl Error {
             status,
             output,
         }
+    }
+
+    /// The error of a program of ours in its own words; the command is for those who ask for it.
+    pub fn reason(self) -> Self {
+        let text = self.to_string();
+        let said = text
+            .split_once("\nerror: ")
+            .map(|(_, said)| said.to_owned());
+        let said = said.filter(|_| !VERBOSE.load(Ordering::Relaxed));
+        said.map_or(self, Self::Check)
     }
 
     /// A closure for `map_err` on a file operation.

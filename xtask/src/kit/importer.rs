@@ -1,5 +1,6 @@
 //! Robots from files, by the crate `robot-import`, and the firmware that measures them.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
@@ -23,14 +24,18 @@ pub struct Robot {
     pub report: Value,
 }
 
-/// Runs a subcommand of `robot-import` and returns its output; its errors are shown unchanged.
-pub fn command(workspace: &Workspace, subcommand: &str, words: &[&str]) -> Result<String> {
+/// Runs a subcommand of `robot-import` and returns its output; its errors are shown as ours.
+pub fn command<W: AsRef<OsStr>>(
+    workspace: &Workspace,
+    subcommand: &str,
+    words: &[W],
+) -> Result<String> {
     let mut command = workspace.cargo("run");
     command
         .args(["--quiet", "--package", PACKAGE, "--", subcommand])
         .args(words)
         .current_dir(std::env::current_dir().map_err(Error::file("find", Path::new(".")))?);
-    shell::capture(&mut command)
+    shell::capture(&mut command).map_err(Error::reason)
 }
 
 /// Imports a file for a report of its own; the Rust file is written to `file`.

@@ -1,15 +1,16 @@
-//! The law of the robot, and its control loop: `tick` of it reads, computes, limits and writes.
+//! What the control loop of `joint-drivers` is made of: the law, its gains, the controller with its limits, and detectors.
 
 use core::fmt;
 
 use dynamics_core::state::State;
-use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle, spi::SpiDevice};
-use joint_drivers::{ControlLoop, Law};
+use joint_drivers::h_bridge::DriveError;
+use joint_drivers::{Law, MappingError};
 use motion_control::{
-    ConfigError, Gains, MotionController, MotionControllerConfig, SupervisorConfig, TrajectoryError,
+    ConfigError, Detectors, FrozenEncoder, Gains, MeasurementAge, MotionController,
+    MotionControllerConfig, ReferenceStep, Saturation, SupervisorConfig, TrajectoryError,
 };
 
-use crate::board::{Drive, Encoder, RESOLUTION};
+use crate::board::RESOLUTION;
 use crate::scene::{self, Motion, N, OMEGA_N, TICK};
 
 /// The model's torque, and feedback for what it does not know.
@@ -39,38 +40,47 @@ pub fn config(motion: &Motion) -> MotionControllerConfig<f32, N> {
     }
 }
 
-/// The control loop: call its `tick` or `tick_at` from a timer interrupt.
-pub type Control<Spi, Pwm, Brake> = ControlLoop<[Encoder<Spi>; N], [Drive<Pwm>; N], Brake, N>;
-
-/// The loop of a robot that holds its position at the start of the motion. High at the brake holds the joints.
+/// The controller, of a robot that holds its position at the start of the motion; `on_brake` of it is for one that does not.
 ///
 /// # Errors
 /// [`SetupError::Limits`].
-pub fn control<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin>(
-    encoders: [Encoder<Spi>; N],
-    drives: [Drive<Pwm>; N],
-    brake: Brake,
+pub fn controller<A: MeasurementAge>(
     motion: &Motion,
-) -> Result<Control<Spi, Pwm, Brake>, SetupError> {
-    let controller = MotionController::try_new(config(motion)).map_err(SetupError::Limits)?;
-    let gains = Gains::from_inertia(&scene::inertia(), OMEGA_N, 1.0);
-    Ok(ControlLoop::new(
-        encoders,
-        drives,
-        brake,
-        gains,
-        controller,
-        (),
-    ))
+) -> Result<MotionController<f32, N, A>, SetupError> {
+    MotionController::try_new(config(motion)).map_err(SetupError::Limits)
 }
 
-/// The motion or the limits in `scene.rs` are impossible.
+/// The gains of the feedback.
+pub fn gains() -> Gains<f32, N> {
+    Gains::from_inertia(&scene::inertia(), OMEGA_N, 1.0)
+}
+
+/// What finds faults beside the controller: an encoder that does not change in ten steps of its reference, a reference
+/// that moves at twice the limit of speed, torques at their limits for 50 ticks.
+pub fn detectors(motion: &Motion) -> Detectors<f32, N> {
+    let limits = scene::limits(motion);
+    Detectors {
+        frozen: FrozenEncoder::new(
+            scene::encoder_ratios().map(|ratio| 10.0 * RESOLUTION * ratio),
+            3,
+        ),
+        steps: ReferenceStep::new(limits.speed.map(|speed| 2.0 * speed * TICK)),
+        saturation: Saturation::new(limits.torque, 50),
+    }
+}
+
+/// The motion or the limits in `scene.rs`, or the devices in `board.rs`, are impossible.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum SetupError {
     /// The motion.
     Motion(TrajectoryError),
     /// The limits.
     Limits(ConfigError),
+    /// How an encoder is mounted.
+    Encoder(MappingError),
+    /// The full scale of a drive.
+    Drive(DriveError),
 }
 
 impl fmt::Display for SetupError {
@@ -78,6 +88,8 @@ impl fmt::Display for SetupError {
         match self {
             Self::Motion(error) => write!(out, "the motion in scene.rs: {error}"),
             Self::Limits(error) => write!(out, "the limits in scene.rs: {error}"),
+            Self::Encoder(error) => write!(out, "the encoders in board.rs: {error}"),
+            Self::Drive(error) => write!(out, "the drives in board.rs: {error}"),
         }
     }
 }

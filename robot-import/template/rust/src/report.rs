@@ -6,10 +6,10 @@ use core::hint::black_box;
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use joint_drivers::{Law, Telemetry};
+use joint_drivers::{ControlLoop, Law, Telemetry};
 use motion_control::Mode;
 
-use crate::control::{FeedForward, SetupError, control};
+use crate::control::{FeedForward, SetupError, controller, detectors, gains};
 use crate::marker::measured;
 use crate::scene::{self, JOINTS, N};
 use crate::simulation::{Plant, Wires};
@@ -73,8 +73,9 @@ pub fn run<L: Law<N>>(clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
     let (home, full_scale) = (scene::home(), scene::limits(&motion).torque);
     let wires = Wires::new();
     let (encoders, drives) = (wires.encoders(&home), wires.drives(&full_scale));
-    let mut control =
-        control(encoders, drives, wires.brake(), &motion).map_err(RunError::Setup)?;
+    let controller = controller(&motion).map_err(RunError::Setup)?;
+    let (brake, detectors) = (wires.brake(), detectors(&motion));
+    let mut control = ControlLoop::new(encoders, drives, brake, gains(), controller, detectors);
     let mut plant = Plant::new(home, full_scale);
     let mut outcome = Outcome {
         first: [0.0; N],

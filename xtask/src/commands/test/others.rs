@@ -47,17 +47,24 @@ pub fn msrv(context: &Context) -> Result<String> {
     Ok(format!("rustc {MSRV}"))
 }
 
-/// The projects that `robot-import new` writes, of a pendulum and of an arm, and two libraries for C in one program.
+/// The target of the projects for a Pico 2; those for other boards have the firmware's.
+const PICO_2: &str = "thumbv8m.main-none-eabihf";
+
+/// The projects that `robot-import new` writes, of a pendulum and of an arm, two libraries for C in one program, and firmware for
+/// each board.
 pub fn projects(context: &Context) -> Result<String> {
     if setup::for_projects(context.options).is_err() {
         return skip("there is no arm-none-eabi-gcc, make, cmake or cc");
     }
-    let tests =
-        "--ignored --test-threads 1 project::a_pendulum project::an_arm project::two_robots_in_c";
+    let lacks = || !toolchain::native_has(PICO_2);
+    // Without it, the boards are left out.
+    let _ = lacks().then(|| setup::for_cores(context.options, &[PICO_2], &[]));
+    let boards = if lacks() { "" } else { "project::the_boards" };
     context.cargo(&[&format!(
-        "test --package robot-import --test import -- {tests}"
+        "test --package robot-import --test import -- --ignored --test-threads 1 project::a_pendulum project::an_arm \
+         project::two_robots_in_c {boards}"
     )])?;
-    Ok(String::new())
+    Ok(boards.to_owned())
 }
 
 pub fn debian(context: &Context) -> Result<String> {

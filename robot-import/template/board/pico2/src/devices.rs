@@ -8,7 +8,7 @@ use core::mem::forget;
 use embassy_rp::Peri;
 use embassy_rp::gpio::{Input, Level, Output, Pin, Pull};
 use embassy_rp::pac::{self, pwm};
-use embassy_rp::pwm::{ChannelAPin, ChannelBPin, Config, Pwm, Slice};
+use embassy_rp::pwm::{ChannelAPin, Config, Pwm, Slice};
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::pwm::{self as duty, SetDutyCycle};
 
@@ -98,26 +98,19 @@ impl Button {
     }
 }
 
-/// One of the two outputs of a PWM slice.
-pub struct Channel {
-    slice: pwm::Channel,
-    is_b: bool,
-}
+/// The first output of a PWM slice.
+pub struct Channel(pwm::Channel);
 
 impl Channel {
-    /// Both outputs of a slice with this configuration, for good.
-    pub fn pair<T: Slice>(
+    /// A pin as the output of its slice with this configuration, for good.
+    pub fn new<T: Slice>(
         slice: Peri<'static, T>,
-        a: Peri<'static, impl ChannelAPin<T>>,
-        b: Peri<'static, impl ChannelBPin<T>>,
+        pin: Peri<'static, impl ChannelAPin<T>>,
         config: &Config,
-    ) -> [Self; 2] {
+    ) -> Self {
         let registers = pac::PWM.ch(slice.number());
-        forget(Pwm::new_output_ab(slice, a, b, config.clone()));
-        [false, true].map(|is_b| Self {
-            slice: registers,
-            is_b,
-        })
+        forget(Pwm::new_output_a(slice, pin, config.clone()));
+        Self(registers)
     }
 }
 
@@ -127,17 +120,11 @@ impl duty::ErrorType for Channel {
 
 impl SetDutyCycle for Channel {
     fn max_duty_cycle(&self) -> u16 {
-        self.slice.top().read().top()
+        self.0.top().read().top()
     }
 
     fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
-        self.slice.cc().modify(|compare| {
-            if self.is_b {
-                compare.set_b(duty);
-            } else {
-                compare.set_a(duty);
-            }
-        });
+        self.0.cc().modify(|compare| compare.set_a(duty));
         Ok(())
     }
 }

@@ -1,0 +1,40 @@
+//! The scene `ur5e` in place of a project's robot: what the templates' firmware calls (`robot-import/template/board`).
+
+use embedded_hal::digital::OutputPin;
+use embedded_hal::pwm::SetDutyCycle;
+use embedded_hal::spi::SpiDevice;
+use firmware_demo::scene::{self, Full, Scene, SceneLoop, Start};
+use firmware_demo::scenes::ur5e::PickAndPlace;
+use joint_drivers::h_bridge::DriveError;
+use motion_control::{Detect, Detectors, Gains};
+
+pub use firmware_demo::scenes::ur5e::plan;
+
+/// Joints.
+pub const N: usize = 6;
+pub type Motion = <PickAndPlace as Scene<N, N, N, N>>::Reference;
+pub type Law = Full<PickAndPlace, N, N, N>;
+pub type Devices<Spi, Pwm, Brake> = scene::Devices<Spi, Pwm, Brake, N>;
+pub type Control<Spi, Pwm, Brake, D> = SceneLoop<Spi, Pwm, Brake, N, D>;
+
+#[inline(always)]
+pub fn gains() -> Gains<f32, N> {
+    PickAndPlace::gains(&())
+}
+
+#[inline(always)]
+pub fn detectors(_: &Motion) -> Detectors<f32, N> {
+    PickAndPlace::detectors()
+}
+
+/// # Errors
+/// As [`Scene::control_loop`].
+#[inline(always)]
+pub fn on_brake<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f32, N>>(
+    devices: Devices<Spi, Pwm, Brake>,
+    gains: Gains<f32, N>,
+    detectors: D,
+    _: &Motion,
+) -> Result<Control<Spi, Pwm, Brake, D>, DriveError> {
+    PickAndPlace::control_loop(devices, gains, detectors, Start::OnBrake)
+}

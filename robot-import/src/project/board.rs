@@ -1,0 +1,166 @@
+//! Real boards: what a project for each is made of.
+
+use std::fmt;
+
+use super::ProjectError;
+use super::templates::{COMMON, File, NETDUINO_PLUS_2, NUCLEO_F446RE, PICO_2, RTIC};
+
+/// What calls the tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Framework {
+    /// RTIC: the tick is an interrupt's task.
+    Rtic,
+    /// Embassy: the tick is a task of an executor in an interrupt.
+    Embassy,
+}
+
+impl fmt::Display for Framework {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(match self {
+            Self::Rtic => "RTIC",
+            Self::Embassy => "Embassy",
+        })
+    }
+}
+
+/// A board with the framework of its firmware.
+#[derive(Debug)]
+pub struct Board {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// Its name in texts.
+    pub title: &'static str,
+    /// What calls the tick.
+    pub framework: Framework,
+    /// So many joints have encoders and drives.
+    pub most_joints: usize,
+    /// The target of Rust.
+    pub target: &'static str,
+    /// The chip, for probe-rs.
+    chip: &'static str,
+    /// The chip, for its HAL.
+    chip_feature: &'static str,
+    /// The rate of the encoders' bus.
+    spi_rate: &'static str,
+    /// What is connected, in Markdown.
+    pub(super) pins: &'static str,
+    /// The files beside those of all boards.
+    files: [&'static [File]; 2],
+}
+
+/// The boards.
+pub static BOARDS: [Board; 3] = [
+    Board {
+        name: "nucleo-f446re",
+        title: "Nucleo-F446RE",
+        framework: Framework::Rtic,
+        most_joints: 6,
+        target: "thumbv7em-none-eabihf",
+        chip: "STM32F446RETx",
+        chip_feature: "stm32f446",
+        spi_rate: ", 10 MHz",
+        pins: include_str!("../../template/board/nucleo-f446re/pins.md"),
+        files: [RTIC, NUCLEO_F446RE],
+    },
+    Board {
+        name: "pico2",
+        title: "Raspberry Pi Pico 2",
+        framework: Framework::Embassy,
+        most_joints: 6,
+        target: "thumbv8m.main-none-eabihf",
+        chip: "RP235x",
+        chip_feature: "rp235xa",
+        spi_rate: ", 9.4 MHz",
+        pins: include_str!("../../template/board/pico2/pins.md"),
+        files: [PICO_2, &[]],
+    },
+    Board {
+        name: "netduinoplus2",
+        title: "Netduino Plus 2",
+        framework: Framework::Rtic,
+        most_joints: 6,
+        target: "thumbv7em-none-eabihf",
+        chip: "STM32F405RGTx",
+        chip_feature: "stm32f405",
+        spi_rate: ", 10 MHz",
+        pins: include_str!("../../template/board/netduinoplus2/pins.md"),
+        files: [RTIC, NETDUINO_PLUS_2],
+    },
+];
+
+/// The names of the joints' placeholders.
+pub(super) const JOINTS: [&str; 6] = [
+    "joint 1", "joint 2", "joint 3", "joint 4", "joint 5", "joint 6",
+];
+
+impl Board {
+    /// The board of a name, with a framework or its own.
+    ///
+    /// # Errors
+    /// [`ProjectError::Board`], [`ProjectError::Framework`].
+    pub fn find(name: &str, framework: Option<Framework>) -> Result<&'static Self, ProjectError> {
+        let of_name = || BOARDS.iter().filter(|board| board.name == name);
+        if of_name().next().is_none() {
+            return Err(ProjectError::Board(name.to_owned()));
+        }
+        let fits = |board: &&Self| framework.is_none_or(|wanted| wanted == board.framework);
+        let no_such = |framework| ProjectError::Framework {
+            board: name.to_owned(),
+            framework,
+        };
+        match (of_name().find(fits), framework) {
+            (Some(board), _) => Ok(board),
+            (None, wanted) => Err(no_such(wanted.unwrap_or(Framework::Rtic))),
+        }
+    }
+
+    /// The files of its template.
+    pub(super) fn files(&self) -> impl Iterator<Item = &'static File> {
+        COMMON.iter().chain(self.files.into_iter().flatten())
+    }
+
+    /// The values of its placeholders.
+    pub(super) fn values(&self) -> [(&'static str, String); 6] {
+        [
+            ("board_name", self.title.to_owned()),
+            ("framework_name", self.framework.to_string()),
+            ("target", self.target.to_owned()),
+            ("chip", self.chip.to_owned()),
+            ("chip_feature", self.chip_feature.to_owned()),
+            ("spi_rate", self.spi_rate.to_owned()),
+        ]
+    }
+}
+
+/// The text for so many joints: a line that ends in the number of another joint is left out, and the mark of a table's row.
+pub(super) fn of_joints(text: &str, joints: usize) -> String {
+    let number = |line: &str, start: &str, end: &str| {
+        let (_, marked) = line.rsplit_once(start)?;
+        marked.strip_suffix(end)?.parse::<usize>().ok()
+    };
+    let mut kept = String::new();
+    for line in text.lines() {
+        let of_row = number(line, " <!-- joint ", " -->");
+        if of_row
+            .or(number(line, "// joint ", ""))
+            .is_some_and(|joint| joint > joints)
+        {
+            continue;
+        }
+        let line = match of_row {
+            Some(_) => line.split(" <!-- joint ").next().unwrap_or_default(),
+            None => line,
+        };
+        kept.extend([line, "\n"]);
+    }
+    kept
+}
+
+/// The boards with their frameworks, for a list.
+pub(super) fn all(name: Option<&str>) -> String {
+    let listed = BOARDS
+        .iter()
+        .filter(|board| name.is_none_or(|name| name == board.name));
+    let words = listed.map(|board| format!("{} with {}", board.name, board.framework));
+    words.collect::<Vec<_>>().join(", ")
+}

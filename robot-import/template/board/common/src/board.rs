@@ -1,0 +1,93 @@
+//! Encoders and drives of the robot: their kinds, and how they are mounted. Adapt them to your parts.
+//!
+//! `joint-drivers` has further kinds; its control loop takes all that implement `JointEncoder` and `JointDrive`.
+
+use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle, spi::SpiDevice};
+use joint_drivers::as5047p::As5047p;
+use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
+use joint_drivers::{ControlLoop, Direction, JointMapping};
+use motion_control::{Detect, Gains, TrajectoryError};
+
+use crate::control::{SetupError, controller};
+use crate::scene::{self, encoder_ratios};
+
+pub use crate::control::{FeedForward as Law, detectors, gains};
+pub use crate::scene::{Motion, N};
+pub use joint_drivers::as5047p::RESOLUTION;
+
+/// What the encoder of each joint reads where the joint is at zero, rad.
+pub const ZERO: [f32; N] = [0.0; N];
+/// Which way each joint turns while its encoder's angle increases.
+pub const ENCODERS: [Direction; N] = [Direction::Forward; N];
+/// Which way each joint turns under a duty above 50 %.
+pub const DRIVES: [Direction; N] = [Direction::Forward; N];
+
+/// The torque of each joint at a duty of 100 %, N·m or N: current limit times torque constant times gear ratio. Here each
+/// drive is taken as one that delivers the joint's limit of torque: replace it by the figures of your drives.
+pub fn full_scale(motion: &Motion) -> [f32; N] {
+    scene::limits(motion).torque
+}
+
+/// An absolute encoder at a joint.
+pub type Encoder<Spi> = As5047p<Spi>;
+/// A current-controlled drive: a duty of 50 % is zero torque.
+pub type Drive<Pwm> = LockedAntiphase<Pwm>;
+/// The control loop of the robot.
+pub type Control<Spi, Pwm, Brake, D> = ControlLoop<[Encoder<Spi>; N], [Drive<Pwm>; N], Brake, N, D>;
+
+/// What the board connects: a part of the bus for each encoder, a PWM channel for each drive.
+#[derive(Debug)]
+pub struct Devices<Spi, Pwm, Brake> {
+    pub encoders: [Spi; N],
+    pub drives: [Pwm; N],
+    /// High holds the joints.
+    pub brake: Brake,
+}
+
+/// Plans the motion in its place.
+///
+/// # Errors
+/// [`TrajectoryError`], of way-points of your own.
+pub fn plan(place: &mut Motion) -> Result<(), TrajectoryError> {
+    *place = scene::motion()?;
+    Ok(())
+}
+
+/// The loop of a robot that stands on its brake until `reset`.
+///
+/// # Errors
+/// [`SetupError`].
+pub fn on_brake<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f32, N>>(
+    devices: Devices<Spi, Pwm, Brake>,
+    gains: Gains<f32, N>,
+    detectors: D,
+    motion: &Motion,
+) -> Result<Control<Spi, Pwm, Brake, D>, SetupError> {
+    let scales = FullScale::of(full_scale(motion)).map_err(SetupError::Drive)?;
+    let controller = controller(motion)?.on_brake();
+    let mut mappings = [JointMapping::IDENTITY; N];
+    for (joint, mapping) in mappings.iter_mut().enumerate() {
+        let turns = 1.0 / encoder_ratios()[joint];
+        *mapping =
+            JointMapping::new(ZERO[joint], ENCODERS[joint], turns).map_err(SetupError::Encoder)?;
+    }
+    // Each device in its turn.
+    let mut joint = 0..N;
+    let encoders = devices.encoders.map(|spi| {
+        let joint = joint.next().unwrap_or_default();
+        Encoder::new(spi, mappings[joint])
+    });
+    let mut joint = 0..N;
+    let drives = devices.drives.map(|pwm| {
+        let joint = joint.next().unwrap_or_default();
+        Drive::new(pwm, scales[joint], DRIVES[joint])
+    });
+    Ok(ControlLoop::new(
+        encoders,
+        drives,
+        devices.brake,
+        gains,
+        controller,
+        detectors,
+    ))
+}

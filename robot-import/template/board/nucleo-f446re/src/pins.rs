@@ -1,0 +1,165 @@
+//! What is connected where: the one file with pins, clocks and timers.
+//!
+//! A line that ends in the number of a joint is that joint's own.
+
+use core::convert::Infallible;
+
+use embedded_hal_bus::spi::AtomicDevice;
+use embedded_hal_bus::util::AtomicCell;
+use stm32f4xx_hal::gpio::{AnyPin, Input, Output, PA5, PB12, PC13};
+use stm32f4xx_hal::hal::delay::DelayNs;
+use stm32f4xx_hal::hal::pwm::{ErrorType, SetDutyCycle};
+use stm32f4xx_hal::hal::spi::MODE_1;
+use stm32f4xx_hal::pac::TIM8; // joint 5
+use stm32f4xx_hal::pac::{IWDG, Peripherals, SPI1, TIM1, TIM2};
+use stm32f4xx_hal::prelude::*;
+use stm32f4xx_hal::rcc::{Config, Rcc};
+use stm32f4xx_hal::spi::Spi;
+use stm32f4xx_hal::timer::pwm::ErasedChannel;
+
+use crate::board::{Devices, N};
+
+/// The bus of the encoders.
+pub type Bus = Spi<SPI1>;
+/// An encoder's part of the bus.
+pub type Encoder = AtomicDevice<'static, Bus, AnyPin<Output>, Spin>;
+/// High holds the joints.
+pub type Brake = PB12<Output>;
+/// The blue button, to ground.
+pub type Button = PC13<Input>;
+/// The green light.
+pub type Light = PA5<Output>;
+
+/// Whether the button is pressed.
+pub fn is_pressed(button: &Button) -> bool {
+    button.is_low()
+}
+
+/// 168 MHz from the 8 MHz of the ST-LINK: five wait states of the flash at 3.3 V, with its accelerator.
+pub fn clocks() -> Config {
+    Config::hse(8.MHz())
+        .bypass_hse_oscillator()
+        .sysclk(168.MHz())
+}
+
+/// The board and what is connected to it.
+pub struct Connected {
+    pub devices: Devices<Encoder, Channel, Brake>,
+    pub button: Button,
+    pub light: Light,
+    pub timer: TIM2,
+    pub watchdog: IWDG,
+    pub rcc: Rcc,
+}
+
+/// Configures the pins: the brake set, the drives without torque.
+#[inline(always)]
+pub fn connect(device: Peripherals, bus: &'static mut Option<AtomicCell<Bus>>) -> Connected {
+    let mut rcc = device.RCC.freeze(clocks());
+    let (a, b, c) = (
+        device.GPIOA.split(&mut rcc),
+        device.GPIOB.split(&mut rcc),
+        device.GPIOC.split(&mut rcc),
+    );
+    let high = true.into();
+    // The brake first.
+    let brake = b.pb12.into_push_pull_output_in_state(high);
+
+    // SCK, MISO and MOSI. PB3 and PB4 are those of JTAG after a reset.
+    let (clock, miso) = (b.pb3.into_floating_input(), b.pb4.into_floating_input());
+    let pins = (Some(clock), Some(miso), Some(b.pb5));
+    let spi = Spi::new(device.SPI1, pins, MODE_1, 10.MHz(), &mut rcc);
+    let bus = bus.insert(AtomicCell::new(spi));
+    let selects = [
+        c.pc0.into_push_pull_output_in_state(high).erase(), // joint 1
+        c.pc1.into_push_pull_output_in_state(high).erase(), // joint 2
+        c.pc2.into_push_pull_output_in_state(high).erase(), // joint 3
+        c.pc3.into_push_pull_output_in_state(high).erase(), // joint 4
+        b.pb0.into_push_pull_output_in_state(high).erase(), // joint 5
+        b.pb1.into_push_pull_output_in_state(high).erase(), // joint 6
+    ];
+
+    // 20 kHz.
+    let (_, first) = device.TIM1.pwm_hz(20.kHz(), &mut rcc);
+    let (_, second) = device.TIM8.pwm_hz(20.kHz(), &mut rcc); // joint 5
+    let channels = [
+        Channel::First(first.0.with(a.pa8).erase()),   // joint 1
+        Channel::First(first.1.with(a.pa9).erase()),   // joint 2
+        Channel::First(first.2.with(a.pa10).erase()),  // joint 3
+        Channel::First(first.3.with(a.pa11).erase()),  // joint 4
+        Channel::Second(second.0.with(c.pc6).erase()), // joint 5
+        Channel::Second(second.1.with(c.pc7).erase()), // joint 6
+    ];
+
+    Connected {
+        devices: Devices {
+            encoders: encoders(bus, selects),
+            drives: drives(channels),
+            brake,
+        },
+        button: c.pc13.into_floating_input(),
+        light: a.pa5.into_push_pull_output(),
+        timer: device.TIM2,
+        watchdog: device.IWDG,
+        rcc,
+    }
+}
+
+/// Delays within a transaction, which the encoders do not have. The bus' own placeholder for them panics.
+#[derive(Clone, Copy)]
+pub struct Spin;
+
+impl DelayNs for Spin {
+    fn delay_ns(&mut self, ns: u32) {
+        // 168 MHz are 6 ns a cycle, rounded up.
+        cortex_m::asm::delay(ns / 6 + 1);
+    }
+}
+
+/// A PWM channel of either timer.
+pub enum Channel {
+    First(ErasedChannel<TIM1>),
+    Second(ErasedChannel<TIM8>), // joint 5
+}
+
+impl ErrorType for Channel {
+    type Error = Infallible;
+}
+
+impl SetDutyCycle for Channel {
+    fn max_duty_cycle(&self) -> u16 {
+        match self {
+            Self::First(channel) => channel.max_duty_cycle(),
+            Self::Second(channel) => channel.max_duty_cycle(), // joint 5
+        }
+    }
+
+    fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
+        match self {
+            Self::First(channel) => channel.set_duty_cycle(duty),
+            Self::Second(channel) => channel.set_duty_cycle(duty), // joint 5
+        }
+    }
+}
+
+/// The encoders on their bus. Not inlined, as all that start-up calls: it then needs the stack of one function at a time.
+#[inline(never)]
+fn encoders(bus: &'static AtomicCell<Bus>, selects: [AnyPin<Output>; N]) -> [Encoder; N] {
+    selects.map(|select| {
+        let Ok(encoder) = AtomicDevice::new(bus, select, Spin);
+        encoder
+    })
+}
+
+/// The drives, without torque.
+#[inline(never)]
+fn drives(mut drives: [Channel; N]) -> [Channel; N] {
+    for drive in &mut drives {
+        let Ok(()) = drive.set_duty_cycle_percent(50);
+        match drive {
+            Channel::First(channel) => channel.enable(),
+            Channel::Second(channel) => channel.enable(), // joint 5
+        }
+    }
+    drives
+}

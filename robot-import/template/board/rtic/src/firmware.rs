@@ -1,0 +1,138 @@
+//! The control loop as a hardware task of RTIC.
+//!
+//! The arm starts on its brake. The button starts it if every joint is near the start of its motion. A tick that does not
+//! end within its period feeds no watchdog; 20 of them restart the processor, which sets the brake.
+
+#[rtic::app(device = stm32f4xx_hal::pac, peripherals = true)]
+mod app {
+    use embedded_hal_bus::util::AtomicCell;
+    use motion_control::{CompletedTick, Detectors, Gains, Mode, Watchdog};
+    use stm32f4xx_hal::pac::TIM2;
+    use stm32f4xx_hal::prelude::*;
+    use stm32f4xx_hal::timer::{CounterHz, Event, Flag};
+    use stm32f4xx_hal::watchdog::IndependentWatchdog;
+
+    use crate::board::{self, Devices, Law, Motion, N};
+    use crate::pins::{
+        Brake, Bus, Button, Channel, Connected, Encoder, Light, connect, is_pressed,
+    };
+
+    /// The watchdog of the board, which only a completed tick feeds.
+    pub struct Starved(IndependentWatchdog);
+
+    impl Watchdog for Starved {
+        fn feed(&mut self, _: CompletedTick) {
+            self.0.feed();
+        }
+    }
+
+    #[shared]
+    struct Shared {}
+
+    type Detect = &'static mut Detectors<f32, N>;
+    type Control = board::Control<Encoder, Channel, Brake, Detect>;
+
+    #[local]
+    struct Local {
+        // In their places already: moved through the stack, they would take as much of it again.
+        control: &'static mut Control,
+        motion: &'static Motion,
+        timer: CounterHz<TIM2>,
+        watchdog: Starved,
+        button: Button,
+        light: Light,
+    }
+
+    // Not inlined, as all that follows: start-up then needs the stack of one of them.
+    #[inline(never)]
+    fn place_detectors(place: &'static mut Option<Detectors<f32, N>>, motion: &Motion) -> Detect {
+        place.insert(board::detectors(motion))
+    }
+
+    #[inline(never)]
+    fn place_control(
+        place: &'static mut Option<Control>,
+        devices: Devices<Encoder, Channel, Brake>,
+        gains: Gains<f32, N>,
+        detectors: Detect,
+        motion: &Motion,
+    ) -> Option<&'static mut Control> {
+        let control = board::on_brake(devices, gains, detectors, motion);
+        Some(place.insert(control.ok()?))
+    }
+
+    #[inline(never)]
+    fn gains() -> Gains<f32, N> {
+        board::gains()
+    }
+
+    #[init(local = [
+        bus: Option<AtomicCell<Bus>> = None,
+        memory: Option<Detectors<f32, N>> = None,
+        place: Option<Control> = None,
+        path: Motion = Motion::REST,
+    ])]
+    fn init(cx: init::Context) -> (Shared, Local) {
+        let Connected {
+            devices,
+            button,
+            light,
+            timer,
+            watchdog,
+            mut rcc,
+        } = connect(cx.device, cx.local.bus);
+        let motion = cx.local.path;
+        let planned = board::plan(motion);
+        let detectors = place_detectors(cx.local.memory, motion);
+        let control = place_control(cx.local.place, devices, gains(), detectors, motion);
+        let (Ok(()), Some(control)) = (planned, control) else {
+            // The brake is set, the drives have no torque, and the light stays off.
+            loop {
+                cortex_m::asm::wfi();
+            }
+        };
+        let mut timer = timer.counter_hz(&mut rcc);
+        let Ok(()) = timer.start(1.kHz()) else {
+            loop {
+                cortex_m::asm::wfi();
+            }
+        };
+        timer.listen(Event::Update);
+        let mut watchdog = IndependentWatchdog::new(watchdog);
+        watchdog.start(20.millis());
+        let local = Local {
+            control,
+            motion,
+            timer,
+            watchdog: Starved(watchdog),
+            button,
+            light,
+        };
+        (Shared {}, local)
+    }
+
+    #[task(
+        binds = TIM2,
+        local = [control, motion, timer, watchdog, button, light, count: u32 = 0],
+        priority = 2
+    )]
+    fn tick(cx: tick::Context) {
+        let local = cx.local;
+        let motion: &Motion = local.motion;
+        local.timer.clear_flags(Flag::Update);
+        *local.count = local.count.wrapping_add(1);
+        let now = *local.count;
+        // A period that has ended since then is pending.
+        let count = || now.wrapping_add(u32::from(local.timer.flags().contains(Flag::Update)));
+        let (telemetry, completed) = local.control.tick_at::<Law, _, ()>(motion, &(), count);
+        if let Some(completed) = completed {
+            local.watchdog.feed(completed);
+        }
+        let mode = telemetry.status.mode;
+        if matches!(mode, Mode::Stopped) && is_pressed(local.button) {
+            // Too far from the motion's start, or without a measurement: the arm stays on its brake.
+            let _ = local.control.reset(motion);
+        }
+        local.light.set_state(matches!(mode, Mode::Full).into());
+    }
+}

@@ -150,6 +150,38 @@ impl Trial {
         }
     }
 
+    /// Runs the part of a board's project that is not the board's, on devices of this computer.
+    fn on_host(&self) {
+        let manifest = fs::read_to_string(self.folder.join("Cargo.toml")).expect("a manifest");
+        let (_, dependencies) = manifest
+            .split_once("[dependencies]\n")
+            .expect("dependencies");
+        let needed = [
+            "dynamics-core",
+            "embedded-hal =",
+            "joint-drivers",
+            "motion-control",
+        ];
+        let is_needed = |line: &&str| needed.iter().any(|name| line.starts_with(name));
+        let lines: Vec<&str> = dependencies.lines().filter(is_needed).collect();
+        let host = self.folder.join("on-host");
+        fs::create_dir_all(host.join("src")).expect("a folder");
+        let put = |path: &str, text: &str| fs::write(host.join(path), text).expect("written");
+        let package =
+            "[package]\nname = \"on-host\"\nedition = \"2024\"\n[workspace]\n[dependencies]\n";
+        put("Cargo.toml", &format!("{package}{}\n", lines.join("\n")));
+        put("src/main.rs", include_str!("project/host.rs"));
+        for file in ["lib.rs", "board.rs", "control.rs", "robot.rs", "scene.rs"] {
+            let text = fs::read_to_string(self.folder.join("src").join(file)).expect("a source");
+            put(&format!("src/{file}"), &text);
+        }
+        fs::copy(self.folder.join("Cargo.lock"), host.join("Cargo.lock")).expect("a lock file");
+        // The configuration of the project has another target.
+        let line = "run --quiet --manifest-path on-host/Cargo.toml --target host-tuple";
+        let said = self.run("cargo", &line.split(' ').collect::<Vec<_>>());
+        assert_eq!(said, "good\n");
+    }
+
     /// The line after the one that begins with `head`.
     fn after<'a>(text: &'a str, head: &str) -> &'a str {
         let mut lines = text.lines().skip_while(|line| !line.starts_with(head));
@@ -272,6 +304,38 @@ fn the_boards() {
     );
     let trial = Trial::new("on-netduino", rod, Kind::Board(netduino));
     trial.firmware("on-netduino", netduino);
+    trial.on_host();
+}
+
+/// What is wrong with a call is said before the robot is read, and nothing else is.
+#[test]
+fn a_project_that_cannot_be_written_is_refused_at_once() {
+    let folder = env::temp_dir().join(format!("refused-{}", std::process::id()));
+    fs::create_dir_all(folder.join("used/file")).expect("a folder");
+    for (words, said) in [
+        ("used", "is not empty"),
+        ("new --board uno", "no firmware for a board `uno`"),
+        ("new --board pico2 --rtic", "pico2 with Embassy"),
+        ("New", "cannot be the name"),
+    ] {
+        let output = Command::new(env!("CARGO_BIN_EXE_robot-import"))
+            .args(["new", "--robot", "there is no such file"])
+            .args(words.split(' '))
+            .current_dir(&folder)
+            .output()
+            .expect("it runs");
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(
+            errors.starts_with("error: ") && errors.contains(said),
+            "{errors}"
+        );
+        assert!(
+            output.stdout.is_empty() && errors.lines().count() == 1,
+            "{errors}"
+        );
+    }
+    assert_eq!(fs::read_dir(&folder).expect("a folder").count(), 1);
+    fs::remove_dir_all(&folder).expect("removed");
 }
 
 #[test]

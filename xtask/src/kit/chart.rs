@@ -1,5 +1,6 @@
 //! The common parts of the pictures: colours, axes, lines, rows of dots, names and legends.
 
+mod panels;
 #[cfg(test)]
 mod tests;
 
@@ -13,6 +14,7 @@ use plotters::style::text_anchor::{Pos, VPos};
 use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::table::thousands;
 
+pub use panels::Panels;
 pub use plotters::style::RGBColor;
 pub use plotters::style::text_anchor::HPos;
 
@@ -27,7 +29,7 @@ pub const SKY: RGBColor = RGBColor(86, 160, 211);
 pub const GREEN: RGBColor = RGBColor(0, 140, 110);
 pub const RED: RGBColor = RGBColor(200, 50, 90);
 const GREY: RGBColor = RGBColor(96, 96, 96);
-const PURPLE: RGBColor = RGBColor(120, 70, 150);
+pub const PURPLE: RGBColor = RGBColor(120, 70, 150);
 const OLIVE: RGBColor = RGBColor(150, 150, 60);
 /// The colours of a chart's lines, in their order; colour-blind readers can distinguish them.
 pub const COLOURS: [RGBColor; 8] = [BLUE, ORANGE, SKY, GREY, GREEN, RED, PURPLE, OLIVE];
@@ -123,7 +125,7 @@ pub fn dot(area: &Area<'_>, at: Place, radius: i32, colour: RGBColor) -> Outcome
     Ok(area.draw(&Circle::new(at, radius, colour.filled()))?)
 }
 
-/// Names beside strokes of their colours and widths, in as many lines as they take; returns the lower edge. plotters' own
+/// Names beside strokes of their colours and widths, or dots where that is 0, in as many lines as they take; returns the lower edge. plotters' own
 /// legend box comes out misshapen, since the widths of texts in an SVG are not known.
 pub fn legend(
     area: &Area<'_>,
@@ -136,7 +138,10 @@ pub fn legend(
         if x > left && x + room > area.dim_in_pixel().0 as i32 {
             (x, y) = (left, y + LINE);
         }
-        path(area, &[(x, y), (x + 16, y)], colour, width)?;
+        match width {
+            0 => dot(area, (x + 12, y), 4, colour)?,
+            _ => path(area, &[(x, y), (x + 16, y)], colour, width)?,
+        }
         label(area, &name, (x + 22, y), TEXT, HPos::Left)?;
         x += room + 18;
     }
@@ -214,7 +219,7 @@ impl ValueFormatter<f64> for Axis {
     fn format(value: &f64) -> String {
         let power = value.abs().log10().round();
         let is_power = (value.abs() / 10_f64.powf(power) - 1.0).abs() < 1e-9;
-        if is_power && !(-2.0..6.0).contains(&power) {
+        if is_power && !(-3.0..6.0).contains(&power) {
             return format!("10{}", raised(power as i32));
         }
         let sign = if *value < 0.0 { "−" } else { "" };

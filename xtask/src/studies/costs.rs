@@ -13,8 +13,8 @@ use crate::kit::setup::{self, Options, Tools};
 use crate::kit::toolchain::{RELEASE, SMALL};
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, firmware, output};
-use crate::studies::budgets;
 use crate::studies::study::Bench;
+use crate::studies::{budgets, drawn};
 
 pub use report::{ADDED, IMAGE, Report, TICK};
 
@@ -66,7 +66,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let tools = setup::for_demo(options)?;
     let report = measure(&workspace, &tools)?;
     let page = report.markdown();
-    workspace::write(&workspace.report(PAGE), &page)?;
+    drawn::write(&workspace, PAGE, &page)?;
     if args.write_budgets {
         budgets::write_costs(&workspace, &report)?;
     }

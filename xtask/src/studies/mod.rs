@@ -6,6 +6,7 @@ pub mod accuracy;
 pub mod budgets;
 pub mod cores;
 pub mod costs;
+mod drawn;
 pub mod effects;
 pub mod flexible;
 pub mod growth;
@@ -37,7 +38,7 @@ const NO_STEP: fn(&study::Bench<'_>) -> Result<String> = |_| Ok(String::new());
 pub const STUDIES: &[Study] = &[
     Study {
         name: "costs", about: "Measure what each algorithm costs on each robot, rewrite docs/costs.md",
-        files: &["docs/costs.md"],
+        files: &["docs/costs.md", "docs/costs.svg"],
         held: Step(Target, Everyday, "every function is within budgets.toml and its bar, and docs/costs.md says so"),
         form: Own(costs::Args::augment_args, |options, matches| costs::run(options, given(matches)?), costs::check),
     },
@@ -112,7 +113,7 @@ pub const STUDIES: &[Study] = &[
     },
     Study {
         name: "peers", about: "Measure other libraries and this one side by side, rewrite docs/peers.md: takes minutes",
-        files: &["docs/peers.md"],
+        files: &["docs/peers.md", "docs/peers.svg"],
         held: Bars("the other libraries are not installed for a test, and times are those of one machine"),
         form: Own(peers::Args::augment_args, |options, matches| peers::run(options, given(matches)?), NO_STEP),
     },

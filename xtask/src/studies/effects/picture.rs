@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Price;
-use crate::kit::chart::{self, Axis, BLUE, HEAD, HPos, MUTED, ORANGE, Shape, TEXT};
+use crate::kit::chart::{self, Axis, BLUE, HPos, MUTED, ORANGE, Shape, TEXT};
 use crate::kit::docs::cells;
 use crate::kit::error::Result;
 
@@ -14,8 +14,8 @@ const TOP: u32 = 84;
 const STEP: u32 = 26;
 const ROOM: u32 = 46;
 /// px: the right ends of the names with the torques, and of the column of errors.
-const TORQUES: i32 = 470;
-const ERRORS: i32 = 580;
+const TORQUES: i32 = 460;
+const ERRORS: i32 = 590;
 
 /// By effect, its name in lower case without signs, how many times larger the scene's tracking error is without it: by the page
 /// of the scenes.
@@ -46,7 +46,7 @@ pub fn svg(prices: &[Price], factors: &BTreeMap<String, f64>) -> Result<String> 
     let torques = effects.iter().map(|price| {
         let torque = price.torque_rms_nm;
         let words = match torque {
-            0.0 => "0: nothing is touched".into(),
+            0.0 => "0: touches nothing".into(),
             _ => format!("{:.*}", usize::from(torque < 10.0), torque),
         };
         let dot = (torque, Shape::Dot, ORANGE, words);
@@ -67,11 +67,11 @@ pub fn svg(prices: &[Price], factors: &BTreeMap<String, f64>) -> Result<String> 
         let title = "What each effect is worth to the UR5e's torques, and what it costs";
         chart::label(root, title, (28, 24), chart::TITLE, HPos::Left)?;
         let head =
-            |words, left| chart::label(root, words, (left, TOP as i32 - 18), HEAD, HPos::Left);
+            |words, left| chart::label(root, words, (left, TOP as i32 - 18), TEXT, HPos::Left);
         head("torque it contributes, N·m", 160)?;
-        head("error without", TORQUES + 4)?;
-        let forms = [("core", MUTED), ("engine", BLUE)];
-        let forms = forms.map(|(name, colour)| (format!("cycles it adds, {name}"), colour, 5));
+        head("error without it", TORQUES + 10)?;
+        let forms = [("core", MUTED), ("engine: cycles it adds", BLUE)];
+        let forms = forms.map(|(name, colour)| (name.to_owned(), colour, 0));
         chart::legend(root, forms, (ERRORS + 8, TOP as i32 - 18))?;
         let (left, rest) = root.split_horizontally(TORQUES);
         let (_, right) = rest.split_horizontally(ERRORS - TORQUES);

@@ -1,0 +1,122 @@
+//! Pictures of tables: drawn from the page, so that they show what it says, whichever run wrote it.
+
+use crate::kit::chart::{
+    Axis, BLUE, GREEN, MUTED, ORANGE, PURPLE, Panels, RED, RGBColor, Row, Shape,
+};
+use crate::kit::docs::cells;
+use crate::kit::error::{Result, check};
+use crate::kit::workspace::{self, Workspace};
+
+/// Pages and what draws theirs.
+const DRAWN: [(&str, Draw); 2] = [("docs/costs.md", costs), ("docs/peers.md", peers)];
+type Draw = fn(&str) -> Result<String>;
+
+/// Writes a page, and its picture.
+pub fn write(workspace: &Workspace, file: &str, page: &str) -> Result<()> {
+    let drawn = DRAWN.iter().find(|(drawn, _)| *drawn == file);
+    let (_, draw) = drawn.ok_or_else(|| check!("{file} has no picture"))?;
+    workspace::write(&workspace.report(&file.replace(".md", ".svg")), draw(page)?)?;
+    workspace::write(&workspace.report(file), page)
+}
+
+/// The first cells of the rows below a heading, and the numbers in a column.
+fn column<'a>(page: &'a str, heading: &str, column: usize) -> Vec<(&'a str, f64)> {
+    let parts = page.split("\n## ");
+    let own = parts.filter(|part| part.lines().next() == Some(heading));
+    let rows = own.flat_map(str::lines).filter_map(cells);
+    let number = |row: &[&str]| row.get(column)?.replace(',', "").parse().ok();
+    rows.filter_map(|row| Some((row[0], number(&row)?)))
+        .collect()
+}
+
+/// Forms of algorithms on the robots whose costs are those of a tree.
+fn costs(page: &str) -> Result<String> {
+    let panels = ["rnea", "crba", "forward_dynamics", "aba"].map(|algorithm| {
+        let rows = ["ur5e", "panda", "iiwa14", "a1", "so101"].map(|robot| {
+            // The longest call; the rows with sines and cosines inside come first.
+            let rows = column(page, robot, 7);
+            let dots = [("core", Shape::Ring, MUTED), ("engine", Shape::Dot, BLUE)].map(
+                |(form, shape, colour)| {
+                    let name = format!("{algorithm} {form} full");
+                    let cycles = rows.iter().find(|(first, _)| *first == name)?.1;
+                    Some((cycles, shape, colour, String::new()))
+                },
+            );
+            (
+                robot.to_owned(),
+                dots.into_iter().flatten().collect::<Vec<_>>(),
+            )
+        });
+        let rows = rows.into_iter().filter(|(_, dots)| !dots.is_empty());
+        (algorithm.to_owned(), rows.collect::<Vec<Row>>())
+    });
+    Panels {
+        title: "Cycles of a call on a Cortex-M4F, modelled, sines and cosines included".into(),
+        note: "rnea: torques; crba: the mass matrix; forward_dynamics: accelerations by that matrix; aba: accelerations by articulated bodies.",
+        legend: &[("core: the model is data", MUTED), ("engine: specialised to the robot", BLUE)],
+        x: Axis::decades("cycles", [3e2, 5e4], 0),
+        names: 90,
+        mark: None,
+    }
+    .svg(&panels)
+}
+
+/// By the first word of who wrote the code.
+const PEERS: [(&str, RGBColor); 5] = [
+    ("core", BLUE),
+    ("casadi", ORANGE),
+    ("pinocchio", GREEN),
+    ("mujoco", RED),
+    ("dynibo", PURPLE),
+];
+
+/// Every other code against the engine.
+fn peers(page: &str) -> Result<String> {
+    let targets = [("Cortex-M4F", 2, "f32, cycles"), ("Host", 1, "f64, time")];
+    let panels = targets.map(|(target, number, what)| {
+        let mut shown = Vec::new();
+        for algorithm in ["rnea", "crba", "aba"] {
+            let rows = column(page, &format!("{target}: {algorithm}"), number);
+            let rows = rows
+                .iter()
+                .filter_map(|(name, cost)| Some((name.split_once(", ")?, *cost)));
+            let rows: Vec<((&str, &str), f64)> = rows.collect();
+            for ((robot, _), engine) in rows.iter().filter(|((_, code), _)| *code == "engine") {
+                let others = rows.iter().filter_map(|((of, code), cost)| {
+                    let peer = PEERS
+                        .iter()
+                        .find(|(peer, _)| code.split(' ').next() == Some(peer))?;
+                    (of == robot).then_some((cost / engine, Shape::Dot, peer.1, String::new()))
+                });
+                shown.push((format!("{algorithm} {robot}"), others.collect()));
+            }
+        }
+        (format!("{target}: {what}"), shown)
+    });
+    let mut x = Axis::decades("cost / cost of this library's engine", [0.7, 30.0], 0);
+    x.ticks = vec![1.0, 2.0, 5.0, 10.0, 20.0];
+    Panels {
+        title: "The cost of other libraries' code, and of the core, against that of the engine".into(),
+        note: "Right of the line: slower than the engine. Several dots of a library are its compilers and functions.",
+        legend: &PEERS,
+        x,
+        names: 110,
+        mark: Some((1.0, "engine")),
+    }
+    .svg(&panels)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::DRAWN;
+    use crate::kit::docs::repository::{read, root};
+
+    /// `UPDATE_EXPECT=1` draws them anew.
+    #[test]
+    fn the_pictures_of_tables_are_of_the_tables_as_they_are() {
+        for (file, draw) in DRAWN {
+            let picture = root().join(file.replace(".md", ".svg"));
+            expect_test::expect_file![picture].assert_eq(&draw(&read(file)).expect("drawn"));
+        }
+    }
+}

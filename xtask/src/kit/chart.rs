@@ -51,7 +51,6 @@ const LINE: i32 = 21;
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Drawn<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 pub type Outcome = Drawn<()>;
-pub type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Axis, Axis>>;
 type Place = (i32, i32);
 
 pub fn svg(size: (u32, u32), draw: impl FnOnce(&Area<'_>) -> Outcome) -> Result<String> {
@@ -219,7 +218,7 @@ impl ValueFormatter<f64> for Axis {
     fn format(value: &f64) -> String {
         let power = value.abs().log10().round();
         let is_power = (value.abs() / 10_f64.powf(power) - 1.0).abs() < 1e-9;
-        if is_power && !(-3.0..6.0).contains(&power) {
+        if is_power && !(-3.0..5.0).contains(&power) {
             return format!("10{}", raised(power as i32));
         }
         let sign = if *value < 0.0 { "−" } else { "" };
@@ -251,35 +250,41 @@ pub struct Line {
     pub dots: i32,
 }
 
-/// Lines over two axes, `top` pixels below the area's upper edge.
-pub fn lines<'a, 'b>(
-    area: &'a Area<'b>,
-    top: u32,
-    axes: [&Axis; 2],
-    lines: &[Line],
-) -> Drawn<Chart<'a, 'b>>
-where
-    'b: 'a,
-{
-    let mut chart = frame(area, top, axes, true)?;
-    for line in lines {
-        let points = line.points.iter().copied();
-        let stroke = line.colour.stroke_width(line.width);
-        chart.draw_series(LineSeries::new(points.clone(), stroke))?;
-        if line.dots > 0 {
-            let dot = |at| Circle::new(at, line.dots, line.colour.filled());
-            chart.draw_series(points.map(dot))?;
-        }
-    }
-    Ok(chart)
+/// The axes of a chart that is drawn, and its edges in its area, px.
+pub struct Plot {
+    axes: [Axis; 2],
+    edges: [(i32, i32); 2],
 }
 
-fn frame<'a, 'b>(
-    area: &'a Area<'b>,
-    top: u32,
-    [x, y]: [&Axis; 2],
-    rows: bool,
-) -> Drawn<Chart<'a, 'b>> {
+impl Plot {
+    /// The place of a value of each axis.
+    pub fn at(&self, (x, y): (f64, f64)) -> Place {
+        let [across, up] = self.edges;
+        (self.axes[0].map(&x, across), self.axes[1].map(&y, up))
+    }
+
+    /// An upright line at a value of `x`, and a text above the chart at its left or right side.
+    pub fn mark(&self, area: &Area<'_>, (at, text, side): (f64, &str, HPos)) -> Outcome {
+        let [low, high] = self.axes[1].ends.map(|y| self.at((at, y)));
+        path(area, &[low, high], INK, 1)?;
+        label(area, text, (high.0, high.1 - 10), TEXT, side)
+    }
+}
+
+/// Lines over two axes, `top` pixels below the area's upper edge.
+pub fn lines(area: &Area<'_>, top: u32, axes: [&Axis; 2], lines: &[Line]) -> Drawn<Plot> {
+    let plot = frame(area, top, axes, true)?;
+    for line in lines {
+        let places: Vec<Place> = line.points.iter().map(|point| plot.at(*point)).collect();
+        path(area, &places, line.colour, line.width)?;
+        for place in places.into_iter().filter(|_| line.dots > 0) {
+            dot(area, place, line.dots, line.colour)?;
+        }
+    }
+    Ok(plot)
+}
+
+fn frame(area: &Area<'_>, top: u32, [x, y]: [&Axis; 2], rows: bool) -> Drawn<Plot> {
     let mut chart = ChartBuilder::on(area)
         .margin_top(top)
         .margin_right(18)
@@ -301,26 +306,12 @@ fn frame<'a, 'b>(
         mesh.disable_y_mesh().disable_y_axis();
     }
     mesh.draw()?;
-    Ok(chart)
-}
-
-/// The position of a point of a chart in its area, pixels.
-pub fn place(area: &Area<'_>, chart: &Chart<'_, '_>, at: (f64, f64)) -> Place {
-    let ((x, y), (columns, rows)) = (chart.backend_coord(&at), area.get_pixel_range());
-    (x - columns.start, y - rows.start)
-}
-
-/// An upright line at a value of `x`, and a text above the chart at its left or right side.
-pub fn mark(
-    area: &Area<'_>,
-    chart: &mut Chart<'_, '_>,
-    (at, text, side): (f64, &str, HPos),
-) -> Outcome {
-    let ends = chart.y_range();
-    let ends = [(at, ends.start), (at, ends.end)];
-    chart.draw_series(LineSeries::new(ends, INK.stroke_width(1)))?;
-    let (left, top) = place(area, chart, ends[1]);
-    label(area, text, (left, top - 10), TEXT, side)
+    let (left, top) = area.get_base_pixel();
+    let [low, high] = [0, 1].map(|end| chart.backend_coord(&(x.ends[end], y.ends[end])));
+    Ok(Plot {
+        axes: [x.clone(), y.clone()],
+        edges: [(low.0 - left, high.0 - left), (low.1 - top, high.1 - top)],
+    })
 }
 
 pub enum Shape {
@@ -333,22 +324,14 @@ pub enum Shape {
 pub type Row = (String, Vec<(f64, Shape, RGBColor, String)>);
 
 /// Rows of dots over an axis, with their names in the room left of it. Dots need no zero, so the axis may be logarithmic.
-pub fn rows<'a, 'b>(
-    area: &'a Area<'b>,
-    top: u32,
-    (x, room): (&Axis, u32),
-    rows: &[Row],
-) -> Drawn<Chart<'a, 'b>>
-where
-    'b: 'a,
-{
+pub fn rows(area: &Area<'_>, top: u32, (x, room): (&Axis, u32), rows: &[Row]) -> Drawn<Plot> {
     let mut y = Axis::linear("", [0.0, rows.len() as f64], 1, room);
     y.ticks.clear();
-    let chart = frame(area, top, [x, &y], false)?;
+    let plot = frame(area, top, [x, &y], false)?;
     for ((name, dots), number) in rows.iter().rev().zip(0..) {
-        let at = |value| place(area, &chart, (value, f64::from(number) + 0.5));
-        let [(left, middle), (right, _)] = x.ends.map(at);
-        path(area, &[(left, middle), (right, middle)], FAINT, 1)?;
+        let at = |value| plot.at((value, f64::from(number) + 0.5));
+        let [(left, middle), right] = x.ends.map(at);
+        path(area, &[(left, middle), right], FAINT, 1)?;
         label(area, name, (left - 8, middle), TEXT, HPos::Right)?;
         for &(value, ref shape, colour, ref words) in dots {
             let (x, y) = at(value);
@@ -360,7 +343,7 @@ where
             label(area, words, (x + 9, y), TEXT, HPos::Left)?;
         }
     }
-    Ok(chart)
+    Ok(plot)
 }
 
 /// A name and its costs by number of bodies.
@@ -397,9 +380,9 @@ pub fn curves(title: &str, cost: &'static str, curves: &[Curve], marks: &[Mark])
         let names = curves.iter().zip(COLOURS);
         let names = names.map(|((name, _), colour)| ((*name).to_owned(), colour, 4));
         let below = legend(root, names, (98, 56))?;
-        let mut plot = lines(root, below + 22, [&x, &y], &drawn)?;
+        let plot = lines(root, below + 22, [&x, &y], &drawn)?;
         for (at, text, side) in marks {
-            mark(root, &mut plot, (*at, text, *side))?;
+            plot.mark(root, (*at, text, *side))?;
         }
         Ok(())
     })

@@ -262,9 +262,9 @@ fn svg(charts: &[Chart]) -> Result<String> {
                     dots: [0, 3, 6][usize::from(shown.dots) + usize::from(!is_line(points))],
                 });
             let [x, y] = [(&shown.x, 46), (&shown.y, 66)].map(|(scale, room)| scale.axis(room));
-            let chart = chart::lines(area, below + 6, [&x, &y], &lines.collect::<Vec<_>>())?;
+            let plot = chart::lines(area, below + 6, [&x, &y], &lines.collect::<Vec<_>>())?;
             for (name, points) in shown.lines.iter().filter(|(_, points)| !is_line(points)) {
-                let (x, y) = chart::place(area, &chart, points[0]);
+                let (x, y) = plot.at(points[0]);
                 chart::label(area, name, (x + 12, y), TEXT, HPos::Left)?;
             }
         }

@@ -1,6 +1,6 @@
 //! A picture of rows of dots side by side, under one legend.
 
-use super::{Axis, HEAD, HPos, RGBColor, Row, TEXT, TITLE, label, legend, mark, rows, svg};
+use super::{Axis, HEAD, HPos, RGBColor, Row, TEXT, TITLE, label, legend, rows, svg};
 use crate::kit::error::Result;
 
 /// px: a column, a row of dots, and what is above and below the rows.
@@ -38,9 +38,9 @@ impl Panels {
                 label(area, head, (28, 16), HEAD, HPos::Left)?;
                 let mut x = self.x.clone();
                 x.room = BELOW - 2;
-                let mut chart = rows(area, ABOVE, (&x, self.names), dots)?;
+                let plot = rows(area, ABOVE, (&x, self.names), dots)?;
                 if let Some((at, name)) = self.mark {
-                    mark(area, &mut chart, (at, name, HPos::Center))?;
+                    plot.mark(area, (at, name, HPos::Center))?;
                 }
             }
             Ok(())

@@ -1,4 +1,4 @@
-//! The pictures: a robot's front with the names of its steps and of the README's points, and the simulations.
+//! The pictures: a robot's front with the names of its steps and of single changes, which the README's table has, and the simulations.
 
 use super::front as fronts;
 use super::join::Host;
@@ -7,8 +7,8 @@ use super::names::{name, stated};
 use super::page::{BRIEF_ROWS, SCENES, is_single, steps};
 use super::point::{Kind, Point, of_group};
 use crate::kit::chart::{
-    Area, Axis, BLUE, Chart, GREEN, HEAD, HPos, Line, MUTED, ORANGE, Outcome, RED, RGBColor, SKY,
-    TEXT, coloured, dot, label, legend, lines, mark, path, place, svg, wide,
+    Area, Axis, BLUE, GREEN, HEAD, HPos, Line, MUTED, ORANGE, Outcome, Plot, RED, RGBColor, SKY,
+    TEXT, TITLE, coloured, dot, label, legend, lines, path, svg, wide,
 };
 use crate::kit::error::Result;
 
@@ -53,9 +53,9 @@ fn axes(
 }
 
 /// The front by the worst tick as a stair, from the cheapest down.
-fn stair(area: &Area<'_>, chart: &Chart<'_, '_>, front: &[&Point]) -> Outcome {
+fn stair(area: &Area<'_>, plot: &Plot, front: &[&Point]) -> Outcome {
     let mut corners: Vec<(i32, i32)> = Vec::new();
-    for (x, y) in front.iter().map(|point| place(area, chart, point.place())) {
+    for (x, y) in front.iter().map(|point| plot.at(point.place())) {
         corners.extend(corners.last().map(|&(_, above)| (x, above)));
         corners.push((x, y));
     }
@@ -81,11 +81,11 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
         .iter()
         .filter(|point| in_table(point) && is_off(point));
     svg((860, 560), |root| {
-        label(root, &head, (28, 22), HEAD, HPos::Left)?;
+        label(root, &head, (28, 22), TITLE, HPos::Left)?;
         let entries = [
             ("the front", BLUE, 4),
-            ("other points of the README's table", ORANGE, 4),
-            ("what other causes make of it", RED, 1),
+            ("other single changes of the default", ORANGE, 4),
+            ("errors of other causes", RED, 1),
         ];
         let entries = entries.map(|(name, colour, width)| (name.to_owned(), colour, width));
         legend(root, entries, (90, 46))?;
@@ -95,16 +95,16 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
             "largest torque error, N·m",
         ];
         let both = axes(names, ends.map(|point| point.place()), [1.9, 1.4, 9.0]);
-        let chart = lines(root, 58, both.each_ref(), &[])?;
-        let [x0, x1] = both[0].ends.map(|x| place(root, &chart, (x, 1.0)).0);
-        let mut dashed: Vec<i32> = Vec::new();
+        let plot = lines(root, 58, both.each_ref(), &[])?;
+        let [x0, x1] = both[0].ends.map(|x| plot.at((x, 1.0)).0);
+        let (mut dashed, mut said): (Vec<i32>, Vec<i32>) = Default::default();
         for (key, what) in MEASURES {
             let mut yardsticks = host.of(Kind::Yardstick, robot.name());
             let yardstick = yardsticks.find(|line| line.point.key == key);
             let Some(error) = yardstick.and_then(|line| line.point.error_max) else {
                 continue;
             };
-            let y = place(root, &chart, (1.0, error)).1;
+            let y = plot.at((1.0, error)).1;
             for x in (x0..x1 - 6).step_by(12) {
                 path(root, &[(x, y), (x + 7, y)], RED, 1)?;
             }
@@ -114,23 +114,35 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
             let beside = if crowded { y + 10 } else { y - 10 };
             coloured(root, &words, (x1 - 4, beside), (TEXT, RED), HPos::Right)?;
             dashed.push(y);
+            said.push(beside);
         }
-        stair(root, &chart, &shown)?;
+        stair(root, &plot, &shown)?;
         // Left of a front that falls to the right there is room, and above what stands too far left; names keep clear of each
         // other and of dashed lines.
         let (mut last, mut above) = (i32::MIN / 2, 0);
         for point in on.chain(off) {
-            let (x, y) = place(root, &chart, point.place());
+            let (x, y) = plot.at(point.place());
             let (words, is_off) = (name(point), is_off(&point));
             let room = wide(&words, TEXT) + 12;
             if x - room < x0 {
                 above += 17;
                 path(root, &[(x, y), (x, y - above + 4)], MUTED, 1)?;
                 label(root, &words, (x + 4, y - above), TEXT, HPos::Left)?;
-            } else if is_off && x + room < x1 {
-                label(root, &words, (x + 10, y), TEXT, HPos::Left)?;
+            } else if is_off {
+                let choices = [
+                    (x + 4, y + 13),
+                    (x + 12 - room, y - 12),
+                    (x + 12 - room, y + 13),
+                ];
+                let is_free = |(left, height): &(i32, i32)| {
+                    let behind = x1 - left - room;
+                    let clear = said.iter().all(|line| (height - line).abs() > 14);
+                    behind > 230 || behind > 0 && clear
+                };
+                let at = choices.into_iter().find(is_free).unwrap_or(choices[0]);
+                label(root, &words, at, TEXT, HPos::Left)?;
             } else {
-                let mut height = if is_off { y } else { y.max(last + 17) };
+                let mut height = y.max(last + 17);
                 while let Some(line) = dashed.iter().find(|line| (height - **line).abs() < 10) {
                     height = line + 10;
                 }
@@ -187,13 +199,9 @@ pub fn simulations(points: &[Point]) -> Result<String> {
                 .iter()
                 .flat_map(|method| states.map(|state| of(method, state)));
             label(area, title, (28, 14), HEAD, HPos::Left)?;
-            let mut chart = lines(area, 46, both.each_ref(), &each.collect::<Vec<_>>())?;
+            let plot = lines(area, 46, both.each_ref(), &each.collect::<Vec<_>>())?;
             if both[0].ends[1] > REAL_TIME {
-                mark(
-                    area,
-                    &mut chart,
-                    (REAL_TIME, "real time at 168 MHz", HPos::Right),
-                )?;
+                plot.mark(area, (REAL_TIME, "real time at 168 MHz", HPos::Right))?;
             }
         }
         Ok(())

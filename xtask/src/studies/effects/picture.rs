@@ -70,19 +70,19 @@ pub fn svg(prices: &[Price], factors: &BTreeMap<String, f64>) -> Result<String> 
             |words, left| chart::label(root, words, (left, TOP as i32 - 18), TEXT, HPos::Left);
         head("torque it contributes, N·m", 160)?;
         head("error without it", TORQUES + 10)?;
-        let forms = [("core", MUTED), ("engine: cycles it adds", BLUE)];
+        let forms = [("cycles it adds: core", MUTED), ("engine", BLUE)];
         let forms = forms.map(|(name, colour)| (name.to_owned(), colour, 0));
         chart::legend(root, forms, (ERRORS + 8, TOP as i32 - 18))?;
         let (left, rest) = root.split_horizontally(TORQUES);
         let (_, right) = rest.split_horizontally(ERRORS - TORQUES);
         let x = Axis::decades("N·m RMS, pick and place", [0.5, 100.0], ROOM);
-        let chart = chart::rows(&left, TOP, (&x, 150), &torques)?;
+        let plot = chart::rows(&left, TOP, (&x, 150), &torques)?;
         for (number, price) in effects.iter().enumerate() {
             let Some(factor) = factors.get(&plain(&price.effect)) else {
                 continue;
             };
             let row = (0.5, (effects.len() - number) as f64 - 0.5);
-            let middle = chart::place(&left, &chart, row).1;
+            let middle = plot.at(row).1;
             let words = format!("× {factor:.0}");
             chart::label(root, &words, (ERRORS - 30, middle), TEXT, HPos::Right)?;
         }

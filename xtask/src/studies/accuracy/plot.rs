@@ -7,8 +7,8 @@ use super::names::{name, stated};
 use super::page::{BRIEF_ROWS, SCENES, is_single, steps};
 use super::point::{Kind, Point, of_group};
 use crate::kit::chart::{
-    Area, Axis, BLUE, GREEN, HEAD, HPos, Line, MUTED, ORANGE, Outcome, Plot, RED, RGBColor, SKY,
-    TEXT, TITLE, coloured, dot, label, legend, lines, path, svg, wide,
+    Axis, BLUE, GREEN, HEAD, HPos, Line, MUTED, ORANGE, Plot, RED, RGBColor, SKY, TEXT, TITLE,
+    coloured, dot, label, legend, lines, path, svg, wide,
 };
 use crate::kit::error::Result;
 
@@ -53,13 +53,13 @@ fn axes(
 }
 
 /// The front by the worst tick as a stair, from the cheapest down.
-fn stair(area: &Area<'_>, plot: &Plot, front: &[&Point]) -> Outcome {
+fn stair(plot: &Plot, front: &[&Point]) -> Vec<(i32, i32)> {
     let mut corners: Vec<(i32, i32)> = Vec::new();
     for (x, y) in front.iter().map(|point| plot.at(point.place())) {
         corners.extend(corners.last().map(|&(_, above)| (x, above)));
         corners.push((x, y));
     }
-    path(area, &corners, BLUE, 2)
+    corners
 }
 
 /// The front by the worst tick, with names and yardsticks.
@@ -97,7 +97,7 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
         let both = axes(names, ends.map(|point| point.place()), [1.9, 1.4, 9.0]);
         let plot = lines(root, 58, both.each_ref(), &[])?;
         let [x0, x1] = both[0].ends.map(|x| plot.at((x, 1.0)).0);
-        let (mut dashed, mut said): (Vec<i32>, Vec<i32>) = Default::default();
+        let (mut dashed, mut said): (Vec<i32>, Vec<(i32, i32, i32)>) = Default::default();
         for (key, what) in MEASURES {
             let mut yardsticks = host.of(Kind::Yardstick, robot.name());
             let yardstick = yardsticks.find(|line| line.point.key == key);
@@ -114,9 +114,10 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
             let beside = if crowded { y + 10 } else { y - 10 };
             coloured(root, &words, (x1 - 4, beside), (TEXT, RED), HPos::Right)?;
             dashed.push(y);
-            said.push(beside);
+            said.push((x1 - 4 - wide(&words, TEXT), x1, beside));
         }
-        stair(root, &plot, &shown)?;
+        let corners = stair(&plot, &shown);
+        path(root, &corners, BLUE, 2)?;
         // Left of a front that falls to the right there is room, and above what stands too far left; names keep clear of each
         // other and of dashed lines.
         let (mut last, mut above) = (i32::MIN / 2, 0);
@@ -128,19 +129,39 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
                 above += 17;
                 path(root, &[(x, y), (x, y - above + 4)], MUTED, 1)?;
                 label(root, &words, (x + 4, y - above), TEXT, HPos::Left)?;
+                said.push((x, x + room, y - above));
             } else if is_off {
+                let left = x + 2 - room;
                 let choices = [
+                    (x + 10, y),
                     (x + 4, y + 13),
-                    (x + 12 - room, y - 12),
-                    (x + 12 - room, y + 13),
+                    (x + 4, y - 13),
+                    (left, y - 12),
                 ];
-                let is_free = |(left, height): &(i32, i32)| {
-                    let behind = x1 - left - room;
-                    let clear = said.iter().all(|line| (height - line).abs() > 14);
-                    behind > 230 || behind > 0 && clear
+                let is_free = |&(left, height): &(i32, i32)| {
+                    let (right, near) = (left + room, |y: &i32| (height - y).abs());
+                    let meets = |pair: &[(i32, i32)]| {
+                        let [(a, b), (c, d)] = [pair[0], pair[1]];
+                        a < right
+                            && left < c.max(a + 1)
+                            && b < height + 8
+                            && height - 8 < d.max(b + 1)
+                    };
+                    let clear = |&(from, to, y): &_| from > right || to < left || near(&y) > 14;
+                    let off_lines = dashed.iter().all(|line| near(line) > 8);
+                    right < x1
+                        && off_lines
+                        && said.iter().all(clear)
+                        && !corners.windows(2).any(meets)
                 };
-                let at = choices.into_iter().find(is_free).unwrap_or(choices[0]);
-                label(root, &words, at, TEXT, HPos::Left)?;
+                let at = choices.into_iter().find(is_free).unwrap_or((left, y + 13));
+                let (left, height) = at;
+                let (at, side) = if left < x {
+                    ((x - 8, height), HPos::Right)
+                } else {
+                    ((left, height), HPos::Left)
+                };
+                label(root, &words, at, TEXT, side)?;
             } else {
                 let mut height = y.max(last + 17);
                 while let Some(line) = dashed.iter().find(|line| (height - **line).abs() < 10) {

@@ -314,6 +314,7 @@ fn frame(area: &Area<'_>, top: u32, [x, y]: [&Axis; 2], rows: bool) -> Drawn<Plo
     })
 }
 
+#[derive(Clone, Copy)]
 pub enum Shape {
     Dot,
     Ring,
@@ -333,7 +334,7 @@ pub fn rows(area: &Area<'_>, top: u32, (x, room): (&Axis, u32), rows: &[Row]) ->
         let [(left, middle), right] = x.ends.map(at);
         path(area, &[(left, middle), right], FAINT, 1)?;
         label(area, name, (left - 8, middle), TEXT, HPos::Right)?;
-        for &(value, ref shape, colour, ref words) in dots {
+        for &(value, shape, colour, ref words) in dots {
             let (x, y) = at(value);
             match shape {
                 Shape::Dot => dot(area, (x, y), 4, colour)?,

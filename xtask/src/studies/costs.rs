@@ -66,7 +66,8 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let tools = setup::for_demo(options)?;
     let report = measure(&workspace, &tools)?;
     let page = report.markdown();
-    drawn::write(&workspace, PAGE, &page)?;
+    workspace::write(&workspace.report(PAGE), &page)?;
+    drawn::write(&workspace, PAGE)?;
     if args.write_budgets {
         budgets::write_costs(&workspace, &report)?;
     }

@@ -8,25 +8,106 @@ use crate::kit::error::{Result, check};
 use crate::kit::workspace::{self, Workspace};
 
 /// Pages and what draws theirs.
-const DRAWN: [(&str, Draw); 2] = [("docs/costs.md", costs), ("docs/peers.md", peers)];
+const DRAWN: [(&str, Draw); 5] = [
+    ("docs/costs.md", costs),
+    ("docs/peers.md", peers),
+    ("docs/eliminations.md", eliminations),
+    ("docs/robots.md", robots),
+    ("docs/boards.md", cores),
+];
 type Draw = fn(&str) -> Result<String>;
 
-/// Writes a page, and its picture.
-pub fn write(workspace: &Workspace, file: &str, page: &str) -> Result<()> {
-    let drawn = DRAWN.iter().find(|(drawn, _)| *drawn == file);
-    let (_, draw) = drawn.ok_or_else(|| check!("{file} has no picture"))?;
-    workspace::write(&workspace.report(&file.replace(".md", ".svg")), draw(page)?)?;
-    workspace::write(&workspace.report(file), page)
+/// Writes the picture of a page that is written, if it has one of its tables.
+pub fn write(workspace: &Workspace, file: &str) -> Result<()> {
+    let Some((_, draw)) = DRAWN.iter().find(|(drawn, _)| *drawn == file) else {
+        return Ok(());
+    };
+    let (page, picture) = (
+        workspace.report(file),
+        workspace.report(&file.replace(".md", ".svg")),
+    );
+    workspace::write(&picture, draw(&workspace::read(&page)?)?)
 }
 
-/// The first cells of the rows below a heading, and the numbers in a column.
+/// The first cells of the rows below a heading, and the numbers in a column: of a range the larger one.
 fn column<'a>(page: &'a str, heading: &str, column: usize) -> Vec<(&'a str, f64)> {
     let parts = page.split("\n## ");
     let own = parts.filter(|part| part.lines().next() == Some(heading));
     let rows = own.flat_map(str::lines).filter_map(cells);
-    let number = |row: &[&str]| row.get(column)?.replace(',', "").parse().ok();
+    let number = |row: &[&str]| {
+        row.get(column)?
+            .rsplit(' ')
+            .next()?
+            .replace(',', "")
+            .parse()
+            .ok()
+    };
     rows.filter_map(|row| Some((row[0], number(&row)?)))
         .collect()
+}
+
+/// The rows of the first table below a heading in two panels, with dots for these columns.
+fn halves(
+    page: &str,
+    heading: &str,
+    columns: &[(usize, Shape, RGBColor)],
+) -> [(String, Vec<Row>); 2] {
+    let mut rows: Vec<Row> = Vec::new();
+    for &(number, shape, colour) in columns {
+        for (name, value) in column(page, heading, number) {
+            let dot = (value, shape, colour, String::new());
+            match rows.iter_mut().find(|(row, _)| row == name) {
+                Some((_, dots)) if dots.iter().any(|(.., other, _)| *other == colour) => {}
+                Some((_, dots)) => dots.push(dot),
+                None => rows.push((name.to_owned(), vec![dot])),
+            }
+        }
+    }
+    let second = rows.split_off(rows.len().div_ceil(2));
+    [rows, second].map(|rows| (String::new(), rows))
+}
+
+fn eliminations(page: &str) -> Result<String> {
+    let columns = [(4, Shape::Ring, ORANGE), (6, Shape::Dot, BLUE)];
+    Panels {
+        title: "Two ways of forward dynamics: the worst error in f32".into(),
+        note: "Relative to the largest acceleration; left is better.",
+        legend: &[("M, LᵀDL", ORANGE), ("ABA", BLUE)],
+        x: Axis::decades("error", [3e-6, 3.0], 0),
+        names: 290,
+        mark: None,
+    }
+    .svg(&halves(page, "Measured", &columns))
+}
+
+fn robots(page: &str) -> Result<String> {
+    let columns = [(5, Shape::Ring, MUTED), (6, Shape::Dot, BLUE)];
+    Panels {
+        title: "Inverse dynamics of published robots of up to 16 joints, Cortex-M4F, modelled"
+            .into(),
+        note: "As their files are imported, with sines and cosines.",
+        legend: &[("core", MUTED), ("engine", BLUE)],
+        x: Axis::decades("cycles", [80.0, 2e4], 0),
+        names: 130,
+        mark: None,
+    }
+    .svg(&halves(page, "# Robots", &columns))
+}
+
+fn cores(page: &str) -> Result<String> {
+    let columns = [(4, Shape::Ring, MUTED), (5, Shape::Dot, BLUE)];
+    Panels {
+        title: "Instructions of the longest tick on each core, the same bits on all".into(),
+        note: "The last two cores have no floating-point unit.",
+        legend: &[
+            ("scara_table, three joints", MUTED),
+            ("ur5e, six joints, all effects", BLUE),
+        ],
+        x: Axis::decades("instructions", [500.0, 2e5], 0),
+        names: 100,
+        mark: None,
+    }
+    .svg(&halves(page, "# Cores and boards", &columns))
 }
 
 /// Forms of algorithms on the robots whose costs are those of a tree.

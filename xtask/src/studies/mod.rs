@@ -56,7 +56,7 @@ pub const STUDIES: &[Study] = &[
     },
     Study {
         name: "cores", about: "Run the control loop on every core that QEMU emulates: the same bits, instructions, stack",
-        files: &["docs/boards.md"],
+        files: &["docs/boards.md", "docs/boards.svg"],
         held: Step(Target, Full, "a Cortex-M33 and an RV32 compute the host's torques, and docs/boards.md has what they and the boards' images take"),
         form: Own(cores::Args::augment_args, |options, matches| cores::run(options, given(matches)?), cores::check),
     },
@@ -83,7 +83,7 @@ pub const STUDIES: &[Study] = &[
     },
     Study {
         name: "eliminations", about: "Measure on the host which of the two eliminations is less accurate where, rewrite docs/eliminations.md",
-        files: &["docs/eliminations.md"],
+        files: &["docs/eliminations.md", "docs/eliminations.svg"],
         held: Step(Host, Full, "docs/eliminations.md has today's accuracies"),
         form: Part(host_table::eliminations),
     },
@@ -107,7 +107,7 @@ pub const STUDIES: &[Study] = &[
     },
     Study {
         name: "robots", about: "Import, check and measure the robots of published packages, rewrite docs/robots.md: takes minutes",
-        files: &["docs/robots.md"],
+        files: &["docs/robots.md", "docs/robots.svg"],
         held: Step(Target, Full, "an imported robot is checked, and costs what docs/robots.md says"),
         form: Own(robots::Args::augment_args, |options, matches| robots::run(options, given(matches)?), robots::check),
     },

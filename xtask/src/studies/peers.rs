@@ -17,7 +17,7 @@ use crate::kit::docs::{self, Page};
 use crate::kit::error::{Result, bail};
 use crate::kit::setup::{Options, Tools};
 use crate::kit::shell;
-use crate::kit::workspace::Workspace;
+use crate::kit::workspace::{self, Workspace};
 use crate::studies::peers::build::Workshop;
 use crate::studies::peers::report::Report;
 use crate::studies::peers::tools::Peers;
@@ -94,7 +94,8 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         date: docs::today_and_commit(&workspace),
     };
     let page = LOOPS.replaced(&report.markdown(), &report.loops())?;
-    drawn::write(&workspace, "docs/peers.md", &page)?;
+    workspace::write(&workspace.report("docs/peers.md"), &page)?;
+    drawn::write(&workspace, "docs/peers.md")?;
     let code = docs::show(args.json, &report.rows, &page)?;
     if !unmet.is_empty() {
         bail!("bar: {}", unmet.join("\nbar: "));

@@ -24,10 +24,15 @@ fn texts(svg: &str) -> Vec<(String, [f64; 4])> {
     let each = svg.split("<text").skip(1).map(|text| {
         let (tag, rest) = text.split_once('>').expect("a tag");
         let words = rest.split("</text>").next().unwrap_or_default().trim();
-        let words = words
-            .replace("&lt;", "<")
-            .replace("&gt;", ">")
-            .replace("&amp;", "&");
+        let signs = [
+            ("&lt;", "<"),
+            ("&gt;", ">"),
+            ("&apos;", "'"),
+            ("&amp;", "&"),
+        ];
+        let words = signs.iter().fold(words.to_owned(), |words, (code, sign)| {
+            words.replace(code, sign)
+        });
         let [x, y, size] = ["x", "y", "font-size"].map(|name| number(tag, name));
         let wide = 0.6 * size * words.chars().count() as f64;
         let left = match attribute(tag, "text-anchor") {

@@ -148,20 +148,16 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
                             && height - 8 < d.max(b + 1)
                     };
                     let clear = |&(from, to, y): &_| from > right || to < left || near(&y) > 14;
-                    let off_lines = dashed.iter().all(|line| near(line) > 8);
-                    right < x1
-                        && off_lines
-                        && said.iter().all(clear)
-                        && !corners.windows(2).any(meets)
+                    let clear = said.iter().all(clear) && dashed.iter().all(|y| near(y) > 8);
+                    right < x1 && clear && !corners.windows(2).any(meets)
                 };
-                let at = choices.into_iter().find(is_free).unwrap_or((left, y + 13));
-                let (left, height) = at;
-                let (at, side) = if left < x {
-                    ((x - 8, height), HPos::Right)
+                let (at, height) = choices.into_iter().find(is_free).unwrap_or((left, y + 13));
+                let (at, side) = if at < x {
+                    (x - 8, HPos::Right)
                 } else {
-                    ((left, height), HPos::Left)
+                    (at, HPos::Left)
                 };
-                label(root, &words, at, TEXT, side)?;
+                label(root, &words, (at, height), TEXT, side)?;
             } else {
                 let mut height = y.max(last + 17);
                 while let Some(line) = dashed.iter().find(|line| (height - **line).abs() < 10) {
@@ -185,8 +181,7 @@ pub fn simulations(points: &[Point]) -> Result<String> {
         let entries =
             INTEGRATORS.map(|(_, words, colour, width)| (words.to_owned(), colour, width.max(3)));
         legend(root, entries, (28, 20))?;
-        let how = "A dot is a length of step, 10 ms to 20 µs. Large dots: f32; small dots: f32 with compensated sums. \
-                   f64, in software and ten times slower, is in the page's tables.";
+        let how = "A dot is a length of step, 10 ms to 20 µs. Large: f32; small: f32 with compensated sums. f64, in software, is in the tables.";
         label(root, how, (28, 44), TEXT, HPos::Left)?;
         let (_, charts) = root.split_vertically(58);
         let areas = charts.split_evenly((2, 2));

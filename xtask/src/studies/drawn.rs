@@ -4,7 +4,7 @@ use crate::kit::chart::{
     Axis, BLUE, GREEN, MUTED, ORANGE, PURPLE, Panels, RED, RGBColor, Row, Shape,
 };
 use crate::kit::docs::cells;
-use crate::kit::error::{Result, check};
+use crate::kit::error::Result;
 use crate::kit::workspace::{self, Workspace};
 
 /// Pages and what draws theirs.
@@ -29,11 +29,17 @@ pub fn write(workspace: &Workspace, file: &str) -> Result<()> {
     workspace::write(&picture, draw(&workspace::read(&page)?)?)
 }
 
-/// The first cells of the rows below a heading, and the numbers in a column: of a range the larger one.
+/// The first cells of the first table below a heading, and the numbers in a column: of a range the larger one.
 fn column<'a>(page: &'a str, heading: &str, column: usize) -> Vec<(&'a str, f64)> {
     let parts = page.split("\n## ");
     let own = parts.filter(|part| part.lines().next() == Some(heading));
-    let rows = own.flat_map(str::lines).filter_map(cells);
+    let is_row = |line: &&str| line.starts_with('|');
+    let table = own.flat_map(|part| {
+        part.lines()
+            .skip_while(move |line| !is_row(line))
+            .take_while(is_row)
+    });
+    let rows = table.filter_map(cells);
     let number = |row: &[&str]| {
         row.get(column)?
             .rsplit(' ')
@@ -46,7 +52,7 @@ fn column<'a>(page: &'a str, heading: &str, column: usize) -> Vec<(&'a str, f64)
         .collect()
 }
 
-/// The rows of the first table below a heading in two panels, with dots for these columns.
+/// The rows of that table in two panels, with dots for these columns.
 fn halves(
     page: &str,
     heading: &str,
@@ -57,7 +63,6 @@ fn halves(
         for (name, value) in column(page, heading, number) {
             let dot = (value, shape, colour, String::new());
             match rows.iter_mut().find(|(row, _)| row == name) {
-                Some((_, dots)) if dots.iter().any(|(.., other, _)| *other == colour) => {}
                 Some((_, dots)) => dots.push(dot),
                 None => rows.push((name.to_owned(), vec![dot])),
             }

@@ -8,7 +8,8 @@ use crate::kit::error::Result;
 use crate::kit::workspace::{self, Workspace};
 
 /// Pages and what draws theirs.
-const DRAWN: [(&str, Draw); 5] = [
+const DRAWN: [(&str, Draw); 6] = [
+    ("docs/scenes.md", scenes),
     ("docs/costs.md", costs),
     ("docs/peers.md", peers),
     ("docs/eliminations.md", eliminations),
@@ -70,6 +71,35 @@ fn halves(
     }
     let second = rows.split_off(rows.len().div_ceil(2));
     [rows, second].map(|rows| (String::new(), rows))
+}
+
+/// The error of each scene, and what it becomes without one of the scene's effects.
+fn scenes(page: &str) -> Result<String> {
+    let mut shown: Vec<Row> = Vec::new();
+    for row in page.lines().filter_map(cells) {
+        let Some(error) = row.get(6).and_then(|cell| cell.parse().ok()) else {
+            continue;
+        };
+        let dot = |shape, colour| (error, shape, colour, String::new());
+        match shown.last_mut() {
+            _ if row[0].starts_with("**") => {
+                let name = row[0].replace("**", "");
+                shown.push((name, vec![dot(Shape::Dot, BLUE)]));
+            }
+            Some((_, dots)) if row[0].starts_with('−') => dots.push(dot(Shape::Ring, ORANGE)),
+            _ => {}
+        }
+    }
+    let second = shown.split_off(shown.len().div_ceil(2));
+    Panels {
+        title: "Tracking error of each scene, on a plant that the controller knows exactly".into(),
+        note: "RMS over all joints. A ring is the same feed-forward without one of the scene's effects.",
+        legend: &[("with every effect", BLUE), ("without one of them", ORANGE)],
+        x: Axis::decades("mrad", [0.01, 500.0], 0),
+        names: 120,
+        mark: None,
+    }
+    .svg(&[shown, second].map(|rows| (String::new(), rows)))
 }
 
 fn eliminations(page: &str) -> Result<String> {

@@ -8,15 +8,11 @@ const HIGHEST: f64 = 900.0;
 
 fn attribute<'a>(tag: &'a str, name: &str) -> &'a str {
     let after = tag.split_once(&format!(" {name}=\""));
-    after
-        .and_then(|(_, after)| after.split('"').next())
-        .unwrap_or_default()
+    after.map_or("", |(_, after)| after.split('"').next().unwrap_or(""))
 }
 
 fn number(tag: &str, name: &str) -> f64 {
-    attribute(tag, name)
-        .parse()
-        .unwrap_or_else(|e| panic!("{name} of {tag}: {e}"))
+    attribute(tag, name).parse().expect("a number")
 }
 
 /// The texts, and the left, upper, right and lower end of each, by an estimate of its width that is seldom too small.
@@ -24,15 +20,7 @@ fn texts(svg: &str) -> Vec<(String, [f64; 4])> {
     let each = svg.split("<text").skip(1).map(|text| {
         let (tag, rest) = text.split_once('>').expect("a tag");
         let words = rest.split("</text>").next().unwrap_or_default().trim();
-        let signs = [
-            ("&lt;", "<"),
-            ("&gt;", ">"),
-            ("&apos;", "'"),
-            ("&amp;", "&"),
-        ];
-        let words = signs.iter().fold(words.to_owned(), |words, (code, sign)| {
-            words.replace(code, sign)
-        });
+        let words = words.replace("&apos;", "'").replace("&lt;", "<");
         let [x, y, size] = ["x", "y", "font-size"].map(|name| number(tag, name));
         let wide = 0.6 * size * words.chars().count() as f64;
         let left = match attribute(tag, "text-anchor") {
@@ -81,18 +69,12 @@ fn faults(svg: &str) -> Vec<String> {
 #[test]
 fn every_picture_can_be_read() {
     let mut wrong = Vec::new();
-    for entry in std::fs::read_dir(root().join("docs"))
-        .expect("the documents")
-        .flatten()
-    {
-        if entry
-            .path()
-            .extension()
-            .is_some_and(|extension| extension == "svg")
-        {
-            let svg = std::fs::read_to_string(entry.path()).expect("a picture");
+    let files = std::fs::read_dir(root().join("docs")).expect("the documents");
+    for path in files.flatten().map(|entry| entry.path()) {
+        if path.extension().is_some_and(|extension| extension == "svg") {
+            let svg = std::fs::read_to_string(&path).expect("a picture");
             let faults = faults(&svg).into_iter();
-            wrong.extend(faults.map(|fault| format!("{}: {fault}", entry.file_name().display())));
+            wrong.extend(faults.map(|fault| format!("{}: {fault}", path.display())));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

@@ -16,6 +16,8 @@ const ROOM: u32 = 46;
 /// px: the right ends of the names with the torques, and of the column of errors.
 const TORQUES: i32 = 460;
 const ERRORS: i32 = 590;
+/// The right end of the costs.
+const CYCLES: i32 = 940;
 
 /// By effect, its name in lower case without signs, how many times larger the scene's tracking error is without it: by the page
 /// of the scenes.
@@ -63,7 +65,7 @@ pub fn svg(prices: &[Price], factors: &BTreeMap<String, f64>) -> Result<String> 
     });
     let (torques, costs): (Vec<_>, Vec<_>) = (torques.collect(), costs.collect());
     let height = TOP + STEP * effects.len() as u32 + ROOM + 8;
-    chart::svg((940, height), |root| {
+    chart::svg((980, height), |root| {
         let title = "What each effect is worth to the UR5e's torques, and what it costs";
         chart::label(root, title, (28, 24), chart::TITLE, HPos::Left)?;
         let head =
@@ -75,16 +77,21 @@ pub fn svg(prices: &[Price], factors: &BTreeMap<String, f64>) -> Result<String> 
         chart::legend(root, forms, (ERRORS + 8, TOP as i32 - 18))?;
         let (left, rest) = root.split_horizontally(TORQUES);
         let (_, right) = rest.split_horizontally(ERRORS - TORQUES);
+        let (right, _) = right.split_horizontally(CYCLES - ERRORS);
         let x = Axis::decades("N·m RMS, pick and place", [0.5, 100.0], ROOM);
         let plot = chart::rows(&left, TOP, (&x, 150), &torques)?;
         for (number, price) in effects.iter().enumerate() {
-            let Some(factor) = factors.get(&plain(&price.effect)) else {
-                continue;
-            };
             let row = (0.5, (effects.len() - number) as f64 - 0.5);
             let middle = plot.at(row).1;
-            let words = format!("× {factor:.0}");
-            chart::label(root, &words, (ERRORS - 30, middle), TEXT, HPos::Right)?;
+            let side = HPos::Right;
+            if let Some(factor) = factors.get(&plain(&price.effect)) {
+                let words = format!("× {factor:.0}");
+                chart::label(root, &words, (ERRORS - 30, middle), TEXT, side)?;
+            }
+            if let Some(engine) = of("engine").find(|engine| engine.effect == price.effect) {
+                let (words, at) = (engine.cycles.to_string(), (CYCLES + 30, middle));
+                chart::coloured(root, &words, at, (TEXT, BLUE), side)?;
+            }
         }
         let x = Axis::decades("modelled cycles, Cortex-M4F", [1.0, 4e3], ROOM);
         chart::rows(&right, TOP, (&x, 1), &costs)?;

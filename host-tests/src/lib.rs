@@ -2,6 +2,7 @@
 //! as those oracles are given them.
 
 pub mod controller;
+pub mod drawing;
 pub mod export;
 pub mod friction;
 pub mod fuzz;

@@ -24,7 +24,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         number: 39,
-        name: "tick jitter 0, 0.5, 1, 2, 10 × and missed ticks",
+        name: "tick jitter and missed ticks",
         parameters: "UR5e in motion; 200 ticks that are late by up to this multiple of a tick; 1, 2, 5, 10, 50 missed ticks",
         source: "interrupts delayed by a busy bus; control laws that divide by a measured interval",
         oracle: "the limits; the tracking error without jitter",

@@ -8,7 +8,7 @@ use host_tests::measured::larger;
 
 pub const CASES: &[Case] = &[Case {
     number: 41,
-    name: "saturation and recovery without wind-up",
+    name: "saturation without wind-up",
     parameters: "UR5e blocked for 100 … 6400 ticks, 0.11 rad from its reference, torques at their limits; then released",
     source: "integrators that wind up behind a limit: Åström & Hägglund (1995), section 3.5",
     oracle: "the same recovery after any time at the limit; no overshoot, because the poles are critically damped",

@@ -15,7 +15,7 @@ use lab_target::hard::{DOUBLE, EXCESS, N};
 pub const CASES: &[Case] = &[
     Case {
         number: 22,
-        name: "triangle inequality broken; point masses",
+        name: "impossible inertias; point masses",
         parameters: "UR5e, I_zz of the last link exceeds I_xx + I_yy by 0.087 of itself, as that of a link of the PUMA 560; six point masses of 1.5 kg beside their axes",
         source: "the PUMA 560 as published; estimated inertias; URDF files with point masses",
         oracle: "50 digits from the same f32 bits; the stated excess",

@@ -14,7 +14,7 @@ use host_tests::measured::larger;
 pub const CASES: &[Case] = &[
     Case {
         number: 18,
-        name: "operational space at a stretched elbow",
+        name: "operational space, stretched elbow",
         parameters: "two links of 1 m, 1 kg and 1/16 kg·m² in a plane; angles of the elbow with σ_min(J) = 0, 10⁻⁶, 10⁻³; damping below 10⁻³ of the trace of Λ⁻¹",
         source: "Khatib (1987); Chiaverini (1997)",
         oracle: "closed forms of M, J and torques in f64; the eigenvalues of Λ⁻¹ from its trace and its determinant sin²q₂/det M, in which nothing cancels",

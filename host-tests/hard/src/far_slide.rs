@@ -14,7 +14,7 @@ use host_tests::measured::larger;
 
 pub const CASES: &[Case] = &[Case {
     number: 14,
-    name: "slide 10⁴ m out, stroke of millimetres",
+    name: "slide 10⁴ m out, stroke of mm",
     parameters: "a turntable of 2 kg·m²; 10⁴ m from its axis a prismatic joint along x with 0.5 kg, 0.25 kg·m² and a spring of 10⁶ N/m; q = 0.5, 1, 3, −2 mm",
     source: "gantries whose q is measured from a distant datum: the resolution of f32 is 1 mm there",
     oracle: "polar coordinates: τ = (J + m r²) θ̈ + 2 m r ṙ θ̇, F = m (r̈ − r θ̇²) + k s with r = L + s, in f64",

@@ -16,7 +16,7 @@ use proptest::prelude::RngExt;
 pub const CASES: &[Case] = &[
     Case {
         number: 33,
-        name: "friction at rest under 0.9 of break-away",
+        name: "friction at rest, 0.9 of break-away",
         parameters: "2 kg, a force of 3.6 N and friction of 4 N, widths 1e-2 … 1e-6 m/s, 2 s in steps of 1 ms; the LuGre \
             model of Canudas de Wit (1995), loaded within 1 s, then 10 s",
         source: "brakes and wrists that slip_tolerance or chatter in simulators with a regularised sign",

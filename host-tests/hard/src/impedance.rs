@@ -15,7 +15,7 @@ use motion_control::{CartesianImpedance, ImpedanceConfig, TaskDeviation, TaskFra
 
 pub const CASES: &[Case] = &[Case {
     number: 70,
-    name: "impedance with its goal out of reach",
+    name: "impedance, goal out of reach",
     parameters: "UR5e with 150 N/m and 30 N·m/rad, ζ = 0.7 above 2 rad/s; the goal moves 0.7 m out of reach within a second, stays for five, returns, and stays for five; ticks of 1 ms",
     source: "Chiaverini (1997); a spring has a singular posture as its equilibrium when its goal is out of reach",
     oracle: "the limits of the drives, rest in the singular posture, and the goal after the return",

@@ -13,7 +13,7 @@ use lab_target::hard::{Answers, N, RENUMBERING, Scene, answers_to, scene};
 pub const CASES: &[Case] = &[
     Case {
         number: 44,
-        name: "frame, gravity and root do not matter",
+        name: "frame, gravity, root do not matter",
         parameters: "UR5e on a wall; rotated together with gravity by a quarter turn about x, and by 0.7 rad about (1, 2, 3); three bodies in free motion with the root at either end",
         source: "errors in frames that cancel when gravity is along z",
         oracle: "50 digits for the wall; the arm that is not rotated, and the other root",

@@ -48,7 +48,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         number: 5,
-        name: "massless terminal link without armature",
+        name: "massless last link, no armature",
         parameters: "UR5e, mass and inertia of the last link are zero, four states",
         source: "a tool frame modelled as a moving body; ABA then divides zero by zero",
         oracle: "the same; M has a row of zeros, so that the acceleration does not exist",
@@ -75,7 +75,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         number: 46,
-        name: "payload from none to ten times the arm",
+        name: "payload from 0 to 10 times the arm",
         parameters: "UR5e with 0, 1.77, 17.7, 177 kg at (0.02, −0.01, 0.08) m in its last frame, four states each",
         source: "identification and overload tests; the library's `Payload` effect",
         oracle: ORACLE,

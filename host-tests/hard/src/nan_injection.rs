@@ -12,7 +12,7 @@ use motion_control::{Fault, Mode};
 
 pub const CASES: &[Case] = &[Case {
     number: 37,
-    name: "NaN, ±Inf, ±1e38, subnormal in each input in turn",
+    name: "NaN, ±Inf, ±10³⁸ in each input",
     parameters: "UR5e; every component of q, q̇, q̈, τ of rnea, crba, aba, crba + ltdl; during a motion, the measured \
             position, reference and torque of every joint for one tick",
     source: "damaged frames, uninitialised references; drives that read NaN as \"no limit\"",

@@ -20,7 +20,7 @@ const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/ha
 pub const CASES: &[Case] = &[
     Case {
         number: 20,
-        name: "coincident axes with nothing between them",
+        name: "coincident axes, no link between",
         parameters: "UR5e, wrist 2 massless and wrist 3 on its axis, four states; and 1000 chains of four links with a massless link between two joints on one axis of any direction",
         source: "a roll joint after a continuous joint with a dummy link between them",
         oracle: ORACLE,

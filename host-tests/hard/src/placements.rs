@@ -30,7 +30,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         number: 43,
-        name: "signed permutations and general frames",
+        name: "signed permutations, general frames",
         parameters: "UR5e, whose placements are quarter turns, and the same arm with the frame of every link rotated about its joint by 0.4 + 0.7 i rad",
         source: "libraries that round axis-aligned placements or treat them as special cases",
         oracle: "50 digits, and each compared with the other",

@@ -1,4 +1,8 @@
-//! The common parts of the pictures: axes, lines, bars and legends.
+//! The common parts of the pictures: colours, axes, lines, rows of dots, names and legends.
+
+mod panels;
+#[cfg(test)]
+mod tests;
 
 use std::ops::Range;
 
@@ -7,30 +11,47 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 use plotters::prelude::*;
 use plotters::style::text_anchor::{Pos, VPos};
 
-use crate::kit::error::{Result, check};
+use crate::kit::error::{Result, check, refuse_if};
+use crate::kit::table::thousands;
 
+pub use panels::Panels;
 pub use plotters::style::RGBColor;
 pub use plotters::style::text_anchor::HPos;
 
-pub const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
+const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
 pub const INK: RGBColor = RGBColor(45, 50, 58);
 pub const FAINT: RGBColor = RGBColor(228, 231, 235);
+/// Of what stands behind: leader lines, unnamed dots.
+pub const MUTED: RGBColor = RGBColor(140, 150, 163);
+pub const BLUE: RGBColor = RGBColor(27, 80, 162);
+pub const ORANGE: RGBColor = RGBColor(230, 145, 0);
+pub const SKY: RGBColor = RGBColor(86, 160, 211);
+pub const GREEN: RGBColor = RGBColor(0, 140, 110);
+pub const RED: RGBColor = RGBColor(200, 50, 90);
+const GREY: RGBColor = RGBColor(96, 96, 96);
+pub const PURPLE: RGBColor = RGBColor(120, 70, 150);
+const OLIVE: RGBColor = RGBColor(150, 150, 60);
 /// The colours of a chart's lines, in their order; colour-blind readers can distinguish them.
-pub const COLOURS: [RGBColor; 8] = [
-    RGBColor(27, 80, 162),
-    RGBColor(230, 145, 0),
-    RGBColor(86, 160, 211),
-    RGBColor(60, 60, 60),
-    RGBColor(0, 140, 110),
-    RGBColor(200, 50, 90),
-    RGBColor(120, 70, 150),
-    RGBColor(150, 150, 60),
+pub const COLOURS: [RGBColor; 8] = [BLUE, ORANGE, SKY, GREY, GREEN, RED, PURPLE, OLIVE];
+
+/// Every colour that a picture may have, and what takes its place on a dark screen.
+#[rustfmt::skip]
+const THEME: [(RGBColor, &str); 12] = [
+    (WHITE, "#0D1117"), (INK, "#E6EDF3"), (FAINT, "#2A313C"), (MUTED, "#7D8590"), (BLUE, "#4F93FF"), (ORANGE, "#F0A020"),
+    (SKY, "#A8DBFF"), (GREY, "#B4B4B4"), (GREEN, "#2FBF93"), (RED, "#FF7096"), (PURPLE, "#C79BF0"), (OLIVE, "#D2D25A"),
 ];
+/// px: the sizes of a picture's title, of a chart's, and of all other text.
+pub const TITLE: i32 = 17;
+pub const HEAD: i32 = 14;
+pub const TEXT: i32 = 12;
+/// px: from one line of a legend to the next.
+const LINE: i32 = 21;
 
 /// A picture or a part of it.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-pub type Outcome = std::result::Result<(), Box<dyn std::error::Error>>;
-type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Axis, Axis>>;
+type Drawn<T> = std::result::Result<T, Box<dyn std::error::Error>>;
+pub type Outcome = Drawn<()>;
+type Place = (i32, i32);
 
 pub fn svg(size: (u32, u32), draw: impl FnOnce(&Area<'_>) -> Outcome) -> Result<String> {
     // In memory first: the backend swallows errors when it writes to a file on drop.
@@ -42,30 +63,88 @@ pub fn svg(size: (u32, u32), draw: impl FnOnce(&Area<'_>) -> Outcome) -> Result<
         Ok(root.present()?)
     })();
     drawn.map_err(|e: Box<dyn std::error::Error>| check!("cannot draw a picture: {e}"))?;
-    Ok(svg)
+    themed(&svg)
+}
+
+/// The picture with rules that swap its colours on a dark screen. A viewer that knows none shows it as it is drawn.
+fn themed(svg: &str) -> Result<String> {
+    let themes = THEME.map(|(RGBColor(r, g, b), dark)| (format!("#{r:02X}{g:02X}{b:02X}"), dark));
+    for colour in svg.split("=\"#").skip(1) {
+        let known = |(light, _): &(String, _)| colour.starts_with(&light[1..]);
+        refuse_if!(
+            !themes.iter().any(known),
+            "a colour of no theme: #{colour:.6}"
+        );
+    }
+    let rules = themes.map(|(light, dark)| {
+        ["fill", "stroke"]
+            .map(|of| format!("[{of}=\"{light}\"]{{{of}:{dark}}}"))
+            .concat()
+    });
+    let font = format!(" font-family=\"{FONT}\"");
+    let svg = svg.replace(" opacity=\"1\"", "").replace(&font, "");
+    let style = rules.concat();
+    let style =
+        format!("{font}>\n<style>@media (prefers-color-scheme: dark) {{{style}}}</style>\n");
+    Ok(svg.replacen(">\n", &style, 1))
+}
+
+fn font(size: i32) -> FontDesc<'static> {
+    // What the backend divides sizes by.
+    (FONT, 1.24 * f64::from(size)).into_font()
+}
+
+/// The room that a text takes at most, px.
+pub fn wide(text: &str, size: i32) -> i32 {
+    (0.6 * f64::from(size) * text.chars().count() as f64) as i32 + 1
 }
 
 /// A text whose left end, middle or right end is at a place.
-pub fn label(area: &Area<'_>, text: &str, at: (i32, i32), size: i32, side: HPos) -> Outcome {
-    let font = (FONT, size).into_font().color(&INK);
-    area.draw(&Text::new(text, at, font.pos(Pos::new(side, VPos::Center))))?;
-    Ok(())
+pub fn label(area: &Area<'_>, text: &str, at: Place, size: i32, side: HPos) -> Outcome {
+    coloured(area, text, at, (size, INK), side)
 }
 
-/// Names beside strokes of their colours, from left to right: plotters' own legend box comes out misshapen,
-/// since the widths of texts in an SVG are not known.
+pub fn coloured(
+    area: &Area<'_>,
+    text: &str,
+    at: Place,
+    (size, colour): (i32, RGBColor),
+    side: HPos,
+) -> Outcome {
+    let style = font(size).color(&colour).pos(Pos::new(side, VPos::Center));
+    Ok(area.draw(&Text::new(text.to_owned(), at, style))?)
+}
+
+/// A line through these places.
+pub fn path(area: &Area<'_>, places: &[Place], colour: RGBColor, width: u32) -> Outcome {
+    Ok(area.draw(&PathElement::new(places, colour.stroke_width(width)))?)
+}
+
+pub fn dot(area: &Area<'_>, at: Place, radius: i32, colour: RGBColor) -> Outcome {
+    Ok(area.draw(&Circle::new(at, radius, colour.filled()))?)
+}
+
+/// Names beside strokes of their colours and widths, or dots where that is 0, in as many lines as they take; returns the lower edge. plotters' own
+/// legend box comes out misshapen, since the widths of texts in an SVG are not known.
 pub fn legend(
     area: &Area<'_>,
-    entries: impl IntoIterator<Item = (String, RGBColor)>,
-    (mut x, y): (i32, i32),
-) -> Outcome {
-    for (name, colour) in entries {
-        let line = vec![(x, y), (x + 16, y)];
-        area.draw(&PathElement::new(line, colour.stroke_width(4)))?;
-        label(area, &name, (x + 22, y), 15, HPos::Left)?;
-        x += 48 + 8 * name.chars().count() as i32;
+    entries: impl IntoIterator<Item = (String, RGBColor, u32)>,
+    (left, top): Place,
+) -> Drawn<u32> {
+    let (mut x, mut y) = (left, top);
+    for (name, colour, width) in entries {
+        let room = 22 + wide(&name, TEXT);
+        if x > left && x + room > area.dim_in_pixel().0 as i32 {
+            (x, y) = (left, y + LINE);
+        }
+        match width {
+            0 => dot(area, (x + 12, y), 4, colour)?,
+            _ => path(area, &[(x, y), (x + 16, y)], colour, width)?,
+        }
+        label(area, &name, (x + 22, y), TEXT, HPos::Left)?;
+        x += room + 18;
     }
-    Ok(())
+    Ok((y + LINE / 2) as u32)
 }
 
 /// One of a chart's two axes.
@@ -137,46 +216,75 @@ impl Ranged for Axis {
 
 impl ValueFormatter<f64> for Axis {
     fn format(value: &f64) -> String {
-        // Rounding errors are none of the value's digits.
-        ((value * 1e6).round() / 1e6).to_string()
+        let power = value.abs().log10().round();
+        let is_power = (value.abs() / 10_f64.powf(power) - 1.0).abs() < 1e-9;
+        if is_power && !(-3.0..5.0).contains(&power) {
+            return format!("10{}", raised(power as i32));
+        }
+        let sign = if *value < 0.0 { "−" } else { "" };
+        match value.abs() {
+            large @ 1e3.. => format!("{sign}{}", thousands(large.round() as u64)),
+            // Rounding errors are none of the value's digits.
+            small => format!("{sign}{}", (small * 1e6).round() / 1e6),
+        }
     }
+}
+
+/// A number as an exponent.
+fn raised(power: i32) -> String {
+    let digits: Vec<char> = "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().collect();
+    let raised = |letter: char| {
+        letter
+            .to_digit(10)
+            .map_or('⁻', |digit| digits[digit as usize])
+    };
+    power.to_string().chars().map(raised).collect()
 }
 
 pub struct Line {
     pub points: Vec<(f64, f64)>,
     pub colour: RGBColor,
-    /// Whether each point has a dot: there are few of them, and lines only lead from one to the next.
-    pub dots: bool,
+    /// px; a line that another one may hide is the wider one, and comes first.
+    pub width: u32,
+    /// The radius of the dots at its points, of which there are few; 0 for none.
+    pub dots: i32,
+}
+
+/// The axes of a chart that is drawn, and its edges in its area, px.
+pub struct Plot {
+    axes: [Axis; 2],
+    edges: [(i32, i32); 2],
+}
+
+impl Plot {
+    /// The place of a value of each axis.
+    pub fn at(&self, (x, y): (f64, f64)) -> Place {
+        let [across, up] = self.edges;
+        (self.axes[0].map(&x, across), self.axes[1].map(&y, up))
+    }
+
+    /// An upright line at a value of `x`, and a text above the chart at its left or right side.
+    pub fn mark(&self, area: &Area<'_>, (at, text, side): (f64, &str, HPos)) -> Outcome {
+        let [low, high] = self.axes[1].ends.map(|y| self.at((at, y)));
+        path(area, &[low, high], INK, 1)?;
+        label(area, text, (high.0, high.1 - 10), TEXT, side)
+    }
 }
 
 /// Lines over two axes, `top` pixels below the area's upper edge.
-pub fn lines<'a, 'b>(
-    area: &'a Area<'b>,
-    top: u32,
-    [x, y]: [&Axis; 2],
-    lines: &[Line],
-) -> std::result::Result<Chart<'a, 'b>, Box<dyn std::error::Error>>
-where
-    'b: 'a,
-{
-    let mut chart = frame(area, top, [x, y], true)?;
+pub fn lines(area: &Area<'_>, top: u32, axes: [&Axis; 2], lines: &[Line]) -> Drawn<Plot> {
+    let plot = frame(area, top, axes, true)?;
     for line in lines {
-        let points = line.points.iter().copied();
-        let stroke = line.colour.stroke_width(2);
-        chart.draw_series(LineSeries::new(points.clone(), stroke))?;
-        if line.dots {
-            chart.draw_series(points.map(|at| Circle::new(at, 3, line.colour.filled())))?;
+        let places: Vec<Place> = line.points.iter().map(|point| plot.at(*point)).collect();
+        path(area, &places, line.colour, line.width)?;
+        for place in places.into_iter().filter(|_| line.dots > 0) {
+            dot(area, place, line.dots, line.colour)?;
         }
     }
-    Ok(chart)
+    Ok(plot)
 }
 
-fn frame<'a, 'b>(
-    area: &'a Area<'b>,
-    top: u32,
-    [x, y]: [&Axis; 2],
-    rows: bool,
-) -> std::result::Result<Chart<'a, 'b>, Box<dyn std::error::Error>> {
+fn frame(area: &Area<'_>, top: u32, [x, y]: [&Axis; 2], rows: bool) -> Drawn<Plot> {
     let mut chart = ChartBuilder::on(area)
         .margin_top(top)
         .margin_right(18)
@@ -188,8 +296,8 @@ fn frame<'a, 'b>(
     mesh.light_line_style(TRANSPARENT)
         .bold_line_style(FAINT)
         .axis_style(INK)
-        .label_style((FONT, 14).into_font().color(&INK))
-        .axis_desc_style((FONT, 15).into_font().color(&INK))
+        .label_style(font(TEXT).color(&INK))
+        .axis_desc_style(font(TEXT).color(&INK))
         .x_desc(x.name)
         .y_desc(y.name)
         .x_labels(x.ticks.len())
@@ -198,54 +306,45 @@ fn frame<'a, 'b>(
         mesh.disable_y_mesh().disable_y_axis();
     }
     mesh.draw()?;
-    Ok(chart)
+    let (left, top) = area.get_base_pixel();
+    let [low, high] = [0, 1].map(|end| chart.backend_coord(&(x.ends[end], y.ends[end])));
+    Ok(Plot {
+        axes: [x.clone(), y.clone()],
+        edges: [(low.0 - left, high.0 - left), (low.1 - top, high.1 - top)],
+    })
 }
 
-/// The position of a point of a chart in its area, pixels.
-fn place(area: &Area<'_>, chart: &Chart<'_, '_>, at: (f64, f64)) -> (i32, i32) {
-    let ((x, y), (columns, rows)) = (chart.backend_coord(&at), area.get_pixel_range());
-    (x - columns.start, y - rows.start)
+#[derive(Clone, Copy)]
+pub enum Shape {
+    Dot,
+    Ring,
+    Cross,
 }
 
-/// An upright line at a value of `x`, and a text above the chart at its left or right side.
-pub fn mark(
-    area: &Area<'_>,
-    chart: &mut Chart<'_, '_>,
-    (at, text, side): (f64, &str, HPos),
-) -> Outcome {
-    let ends = chart.y_range();
-    let ends = [(at, ends.start), (at, ends.end)];
-    chart.draw_series(LineSeries::new(ends, INK.stroke_width(1)))?;
-    let (left, top) = place(area, chart, ends[1]);
-    label(area, text, (left, top - 10), 14, side)
-}
+/// A name, and what stands in its row: values with their shapes, and words right of each.
+pub type Row = (String, Vec<(f64, Shape, RGBColor, String)>);
 
-/// Bars from zero, or from the axis' beginning, with their values behind them: row by row some of the colours.
-pub fn bars(
-    area: &Area<'_>,
-    top: u32,
-    x: &Axis,
-    colours: &[RGBColor],
-    rows: &[Vec<Option<(f64, String)>>],
-) -> Outcome {
-    let mut y = Axis::linear("", [0.0, rows.len() as f64], 1, 0);
+/// Rows of dots over an axis, with their names in the room left of it. Dots need no zero, so the axis may be logarithmic.
+pub fn rows(area: &Area<'_>, top: u32, (x, room): (&Axis, u32), rows: &[Row]) -> Drawn<Plot> {
+    let mut y = Axis::linear("", [0.0, rows.len() as f64], 1, room);
     y.ticks.clear();
-    let mut chart = frame(area, top, [x, &y], false)?;
-    let start = x.ends[0].max(0.0);
-    for (number, row) in rows.iter().rev().enumerate() {
-        let high = 0.8 / row.len() as f64;
-        for (index, (bar, colour)) in row.iter().zip(colours).enumerate() {
-            let Some((value, words)) = bar else { continue };
-            let upper = number as f64 + 0.9 - high * index as f64;
-            let end = value.max(start);
-            let corners = [(start, upper), (end, upper - high)];
-            chart.draw_series([Rectangle::new(corners, colour.filled())])?;
-            let beside = (end, upper - high / 2.0);
-            let (left, middle) = place(area, &chart, beside);
-            label(area, words, (left + 5, middle), 12, HPos::Left)?;
+    let plot = frame(area, top, [x, &y], false)?;
+    for ((name, dots), number) in rows.iter().rev().zip(0..) {
+        let at = |value| plot.at((value, f64::from(number) + 0.5));
+        let [(left, middle), right] = x.ends.map(at);
+        path(area, &[(left, middle), right], FAINT, 1)?;
+        label(area, name, (left - 8, middle), TEXT, HPos::Right)?;
+        for &(value, shape, colour, ref words) in dots {
+            let (x, y) = at(value);
+            match shape {
+                Shape::Dot => dot(area, (x, y), 4, colour)?,
+                Shape::Ring => area.draw(&Circle::new((x, y), 6, colour.stroke_width(2)))?,
+                Shape::Cross => area.draw(&Cross::new((x, y), 4, colour.stroke_width(2)))?,
+            }
+            label(area, words, (x + 9, y), TEXT, HPos::Left)?;
         }
     }
-    Ok(())
+    Ok(plot)
 }
 
 /// A name and its costs by number of bodies.
@@ -253,12 +352,14 @@ pub type Curve = (&'static str, Vec<(usize, u64)>);
 /// A number of bodies to mark, with a text at one of its sides.
 type Mark = (f64, String, HPos);
 
-/// Curves of some costs as an SVG, a legend of up to five a line above them.
+/// Curves of some costs as an SVG, under a legend.
 pub fn curves(title: &str, cost: &'static str, curves: &[Curve], marks: &[Mark]) -> Result<String> {
     let drawn = curves.iter().zip(COLOURS).map(|((_, costs), colour)| Line {
         points: costs.iter().map(|(n, y)| (*n as f64, *y as f64)).collect(),
         colour,
-        dots: true,
+        width: 2,
+        // One alone is no line.
+        dots: if costs.len() == 1 { 6 } else { 3 },
     });
     let drawn: Vec<Line> = drawn.collect();
     let longest = drawn.iter().max_by_key(|line| line.points.len());
@@ -276,18 +377,13 @@ pub fn curves(title: &str, cost: &'static str, curves: &[Curve], marks: &[Mark])
     x.ticks = lengths;
     let y = Axis::decades(cost, [0.7 * low, 1.4 * high], 84);
     svg((960, 640), |root| {
-        label(root, title, (28, 24), 20, HPos::Left)?;
-        let names = curves
-            .iter()
-            .map(|(name, _)| (*name).to_owned())
-            .zip(COLOURS);
-        let names: Vec<_> = names.collect();
-        for (row, names) in names.chunks(5).enumerate() {
-            legend(root, names.iter().cloned(), (98, 56 + 22 * row as i32))?;
-        }
-        let mut plot = lines(root, 98, [&x, &y], &drawn)?;
+        label(root, title, (28, 24), TITLE, HPos::Left)?;
+        let names = curves.iter().zip(COLOURS);
+        let names = names.map(|((name, _), colour)| ((*name).to_owned(), colour, 4));
+        let below = legend(root, names, (98, 56))?;
+        let plot = lines(root, below + 22, [&x, &y], &drawn)?;
         for (at, text, side) in marks {
-            mark(root, &mut plot, (*at, text, *side))?;
+            plot.mark(root, (*at, text, *side))?;
         }
         Ok(())
     })

@@ -19,8 +19,8 @@ use crate::kit::setup::{self, Options};
 use crate::kit::toolchain::Toolchain;
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, firmware, output};
-use crate::studies::budgets;
 use crate::studies::study::Bench;
+use crate::studies::{budgets, drawn};
 use boards::Board;
 use list::{CORES, Core};
 use page::{PAGE, rows_of};
@@ -73,6 +73,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let text = report.markdown()?;
     if args.write_docs {
         PAGE.write(&workspace, &text)?;
+        drawn::write(&workspace, PAGE.file)?;
     }
     docs::show(args.json, &report, &text)
 }

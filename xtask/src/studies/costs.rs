@@ -13,8 +13,8 @@ use crate::kit::setup::{self, Options, Tools};
 use crate::kit::toolchain::{RELEASE, SMALL};
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, firmware, output};
-use crate::studies::budgets;
 use crate::studies::study::Bench;
+use crate::studies::{budgets, drawn};
 
 pub use report::{ADDED, IMAGE, Report, TICK};
 
@@ -67,6 +67,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let report = measure(&workspace, &tools)?;
     let page = report.markdown();
     workspace::write(&workspace.report(PAGE), &page)?;
+    drawn::write(&workspace, PAGE)?;
     if args.write_budgets {
         budgets::write_costs(&workspace, &report)?;
     }

@@ -2,17 +2,17 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::kit::chart::{self, Axis, HPos, Line, RGBColor};
+use crate::kit::chart::{self, Axis, BLUE, HPos, Line, ORANGE, RGBColor, SKY};
 use crate::kit::error::Result;
 use crate::kit::host_bin;
 use crate::kit::table::Table;
 use crate::studies::study::{Bench, Found};
 
-/// The curves and their colours, which colour-blind readers can distinguish.
+/// The curves and their colours.
 const CURVES: [(&str, RGBColor); 3] = [
-    ("tip at rest, upper link", RGBColor(27, 80, 162)),
-    ("tip at rest, fore link", RGBColor(86, 160, 211)),
-    ("tip in motion, upper link", RGBColor(230, 145, 0)),
+    ("tip at rest, upper link", BLUE),
+    ("tip at rest, fore link", SKY),
+    ("tip in motion, upper link", ORANGE),
 ];
 
 #[derive(Deserialize, Serialize)]
@@ -54,16 +54,17 @@ impl Measured {
         let lines = CURVES.iter().enumerate().map(|(k, &(_, colour))| Line {
             points: rows().map(|(row, m)| (m.into(), 1e6 * row[k])).collect(),
             colour,
-            dots: true,
+            width: 2,
+            dots: 3,
         });
         let x = Axis::linear("modes m", [0.8, self.truncation.len() as f64 + 0.2], 6, 48);
         let y = Axis::decades("error, parts per million", [1e-2, 1e4], 84);
         chart::svg((720, 460), |root| {
             let title = "What m modes of a link leave out of its tip's deflection";
-            chart::label(root, title, (28, 24), 20, HPos::Left)?;
-            let names = CURVES.map(|(name, colour)| (name.to_owned(), colour));
-            chart::legend(root, names, (98, 56))?;
-            chart::lines(root, 80, [&x, &y], &lines.collect::<Vec<_>>())?;
+            chart::label(root, title, (28, 24), chart::TITLE, HPos::Left)?;
+            let names = CURVES.map(|(name, colour)| (name.to_owned(), colour, 4));
+            let below = chart::legend(root, names, (98, 56))?;
+            chart::lines(root, below + 8, [&x, &y], &lines.collect::<Vec<_>>())?;
             Ok(())
         })
     }

@@ -1,9 +1,12 @@
 //! Situations in which dynamics libraries fail, measured on the host.
 
+mod picture;
+
 use serde::{Deserialize, Serialize};
 
 use crate::kit::error::Result;
 use crate::kit::host_bin;
+use crate::kit::table::Table;
 use crate::studies::study::{Bench, Found};
 
 const BIN: &str = "hard_cases";
@@ -49,11 +52,64 @@ struct Row {
 pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     let suite: Suite = host_bin::json(bench.workspace, BIN)?;
     Ok(Found {
+        picture: Some(picture::svg(&suite)?),
         wrong: suite.wrong.clone(),
         summary: summary(&suite),
         brief: Some(brief(&suite)),
         ..Found::new(page(&suite), &suite.rows)?
     })
+}
+
+impl Row {
+    /// The error as a share of its bound; a bound of zero is of a claim, which holds without an error.
+    fn share(&self) -> f64 {
+        match (self.error, self.bound) {
+            (Some(0.0), _) => 0.0,
+            (Some(error), Some(bound)) => error / bound,
+            _ => f64::INFINITY,
+        }
+    }
+}
+
+impl Suite {
+    /// The row of a case with the largest share of its bound, of those of a scalar, or of the naive ones.
+    fn worst(&self, case: &Case, which: &str) -> Option<&Row> {
+        let naive = |row: &&Row| match row.verdict == "shown" {
+            true => which == "naive",
+            false => which == row.scalar,
+        };
+        let rows = self.rows.iter().filter(|row| row.number == case.number);
+        rows.filter(naive)
+            .max_by(|a, b| a.share().total_cmp(&b.share()))
+    }
+
+    /// A row for each case.
+    fn overview(&self) -> Table {
+        let share = |which: &'static str| {
+            move |case: &Case| match self.worst(case, which).map(Row::share) {
+                None => String::new(),
+                Some(share) if share > 1e-3 && share < 1e4 => format!("{share:.2}"),
+                Some(share) => figure(Some(share).filter(|share| share.is_finite()), "∞"),
+            }
+        };
+        Table::of(
+            &self.cases,
+            &[
+                ("case", &|case| {
+                    format!("[{0}. {1}](#case-{0})", case.number, case.name)
+                }),
+                ("f32: error / bound", &share("f32")),
+                ("f64: error / bound", &share("f64")),
+                ("a naive way that breaks the bound", &|case| {
+                    let row = self.worst(case, "naive");
+                    row.map_or(String::new(), |row| {
+                        row.quantity.trim_start_matches("naive: ").into()
+                    })
+                }),
+                ("its error / bound", &share("naive")),
+            ],
+        )
+    }
 }
 
 fn summary(suite: &Suite) -> String {
@@ -82,13 +138,14 @@ fn brief(suite: &Suite) -> String {
 
 /// The text between the markers.
 fn page(suite: &Suite) -> String {
-    let mut text = format!("{}.\n", summary(suite));
+    let (summary, overview) = (summary(suite), suite.overview().markdown());
+    let mut text = format!("{summary}.\n\n{overview}\n## Reference\n");
     for case in &suite.cases {
         let rows: Vec<&Row> = (suite.rows.iter())
             .filter(|row| row.number == case.number)
             .collect();
         let Case { number, name, .. } = case;
-        text += &format!("\n### {number}. {name}\n\n");
+        text += &format!("\n<a id=\"case-{number}\"></a>\n\n### {number}. {name}\n\n");
         for (label, text_of_case) in [
             ("Parameters", &case.parameters),
             ("Source", &case.source),

@@ -18,12 +18,12 @@ const COMPARED: usize = 6;
 const TORQUES: [(&str, &str); 8] = [
     ("uicker_kahn", "Uicker, Kahn 1965"),
     ("waters", "Waters 1979"),
-    ("hollerbach_4", "Hollerbach 4 × 4 1980"),
-    ("hollerbach_3", "3 × 3 1980"),
+    ("hollerbach_4", "Hollerbach 1980, 4 × 4"),
+    ("hollerbach_3", "Hollerbach 1980, 3 × 3"),
     ("luh_walker_paul", "Luh, Walker, Paul 1980"),
     ("balafoutis_patel", "Balafoutis, Patel, Misra 1988"),
     ("rnea", "RNEA, core"),
-    ("engine_rnea", "RNEA, engine"),
+    ("engine_rnea", "RNEA, engine, n = 6"),
 ];
 
 const INERTIA: [(&str, &str); 6] = [
@@ -32,7 +32,7 @@ const INERTIA: [(&str, &str); 6] = [
     ("method_3", "method 3"),
     ("method_4", "method 4"),
     ("crba", "CRBA, core"),
-    ("engine_crba", "CRBA, engine"),
+    ("engine_crba", "CRBA, engine, n = 6"),
 ];
 
 struct Report {

@@ -13,16 +13,13 @@ pub fn eliminations(bench: &Bench<'_>) -> Result<Found> {
     table(bench, "eliminations", HEAD)
 }
 
-/// The accuracy of the dynamics of robots with kinematic loops.
-pub fn loops(bench: &Bench<'_>) -> Result<Found> {
-    const HEAD: &str = "\
-| robot | quantity | error, f64 | bound | error, f32 | bound |\n\
-| --- | --- | ---: | ---: | ---: | ---: |\n";
-    table(bench, "loops", HEAD)
+fn table(bench: &Bench<'_>, bin: &str, head: &str) -> Result<Found> {
+    let text = host_bin::text(bench.workspace, bin)?;
+    found(head, &text.lines().collect::<Vec<_>>())
 }
 
-fn table(bench: &Bench<'_>, bin: &str, head: &str) -> Result<Found> {
-    let rows = host_bin::text(bench.workspace, bin)?;
-    let measured: Vec<_> = rows.lines().filter_map(cells).collect();
-    Found::new(format!("{head}{}", rows.trim_end()), &measured)
+/// The table with these rows under its head.
+pub fn found(head: &str, rows: &[&str]) -> Result<Found> {
+    let measured: Vec<_> = rows.iter().copied().filter_map(cells).collect();
+    Found::new(format!("{head}{}", rows.join("\n")), &measured)
 }

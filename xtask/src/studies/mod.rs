@@ -6,12 +6,14 @@ pub mod accuracy;
 pub mod budgets;
 pub mod cores;
 pub mod costs;
+pub mod drawn;
 pub mod effects;
 pub mod flexible;
 pub mod growth;
 pub mod hard_cases;
 pub mod history;
 pub mod host_table;
+pub mod loops;
 pub mod mutants;
 pub mod peers;
 pub mod robots;
@@ -36,7 +38,7 @@ const NO_STEP: fn(&study::Bench<'_>) -> Result<String> = |_| Ok(String::new());
 pub const STUDIES: &[Study] = &[
     Study {
         name: "costs", about: "Measure what each algorithm costs on each robot, rewrite docs/costs.md",
-        files: &["docs/costs.md"],
+        files: &["docs/costs.md", "docs/costs.svg"],
         held: Step(Target, Everyday, "every function is within budgets.toml and its bar, and docs/costs.md says so"),
         form: Own(costs::Args::augment_args, |options, matches| costs::run(options, given(matches)?), costs::check),
     },
@@ -54,7 +56,7 @@ pub const STUDIES: &[Study] = &[
     },
     Study {
         name: "cores", about: "Run the control loop on every core that QEMU emulates: the same bits, instructions, stack",
-        files: &["docs/boards.md"],
+        files: &["docs/boards.md", "docs/boards.svg"],
         held: Step(Target, Full, "a Cortex-M33 and an RV32 compute the host's torques, and docs/boards.md has what they and the boards' images take"),
         form: Own(cores::Args::augment_args, |options, matches| cores::run(options, given(matches)?), cores::check),
     },
@@ -67,8 +69,8 @@ pub const STUDIES: &[Study] = &[
     Study {
         name: "accuracy", about: "Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration",
         files: &[
-            "docs/accuracy.md", "docs/accuracy.json", "docs/accuracy-ur5e.svg", "docs/accuracy-ur5e-all.svg", "docs/accuracy-panda.svg",
-            "docs/accuracy-panda-all.svg", "docs/accuracy-a1_leg.svg", "docs/accuracy-a1_leg-all.svg", "docs/accuracy-simulation.svg",
+            "docs/accuracy.md", "docs/accuracy.json", "docs/accuracy-ur5e.svg", "docs/accuracy-panda.svg",
+            "docs/accuracy-a1_leg.svg", "docs/accuracy-simulation.svg",
         ],
         held: Step(Target, Full, "docs/accuracy.md has today's costs and errors of single changes; what is printed as generated code keeps them"),
         form: Own(accuracy::Args::augment_args, |options, matches| accuracy::run(options, given(matches)?), accuracy::check),
@@ -81,15 +83,15 @@ pub const STUDIES: &[Study] = &[
     },
     Study {
         name: "eliminations", about: "Measure on the host which of the two eliminations is less accurate where, rewrite docs/eliminations.md",
-        files: &["docs/eliminations.md"],
+        files: &["docs/eliminations.md", "docs/eliminations.svg"],
         held: Step(Host, Full, "docs/eliminations.md has today's accuracies"),
         form: Part(host_table::eliminations),
     },
     Study {
         name: "loops", about: "Measure on the host how accurate dynamics with kinematic loops are, rewrite docs/loops.md",
-        files: &["docs/loops.md"],
+        files: &["docs/loops.md", "docs/loops.svg"],
         held: Step(Host, Full, "docs/loops.md has today's accuracies of robots with loops"),
-        form: Part(host_table::loops),
+        form: Part(loops::measure),
     },
     Study {
         name: "flexible", about: "Measure on the host what few modes leave out of links that bend, rewrite docs/flexible.md",
@@ -99,19 +101,19 @@ pub const STUDIES: &[Study] = &[
     },
     Study {
         name: "hard-cases", about: "Measure on the host what breaks dynamics codes, rewrite docs/hard-cases.md",
-        files: &["docs/hard-cases.md"],
+        files: &["docs/hard-cases.md", "docs/hard-cases.svg"],
         held: Step(Host, Full, "every hard case holds, and docs/hard-cases.md has today's figures"),
         form: Part(hard_cases::measure),
     },
     Study {
         name: "robots", about: "Import, check and measure the robots of published packages, rewrite docs/robots.md: takes minutes",
-        files: &["docs/robots.md"],
+        files: &["docs/robots.md", "docs/robots.svg"],
         held: Step(Target, Full, "an imported robot is checked, and costs what docs/robots.md says"),
         form: Own(robots::Args::augment_args, |options, matches| robots::run(options, given(matches)?), robots::check),
     },
     Study {
         name: "peers", about: "Measure other libraries and this one side by side, rewrite docs/peers.md: takes minutes",
-        files: &["docs/peers.md"],
+        files: &["docs/peers.md", "docs/peers.svg"],
         held: Bars("the other libraries are not installed for a test, and times are those of one machine"),
         form: Own(peers::Args::augment_args, |options, matches| peers::run(options, given(matches)?), NO_STEP),
     },
@@ -143,7 +145,12 @@ mod tests {
     use crate::kit::docs::repository::{read, root};
 
     /// The files that the demo writes; the step `readme` compares them.
-    const OF_THE_DEMO: [&str; 3] = ["README.md", "docs/scenes.md", "docs/ur5e.svg"];
+    const OF_THE_DEMO: [&str; 4] = [
+        "README.md",
+        "docs/scenes.md",
+        "docs/scenes.svg",
+        "docs/ur5e.svg",
+    ];
 
     fn below(directory: &str) -> Vec<String> {
         let entries = std::fs::read_dir(root().join(directory)).expect("a directory");

@@ -18,10 +18,10 @@ use crate::kit::error::{Result, bail};
 use crate::kit::setup::{Options, Tools};
 use crate::kit::shell;
 use crate::kit::workspace::{self, Workspace};
-use crate::studies::budgets;
 use crate::studies::peers::build::Workshop;
 use crate::studies::peers::report::Report;
 use crate::studies::peers::tools::Peers;
+use crate::studies::{budgets, drawn};
 
 /// ID(q, q̇, q̈), ID(q, q̇, 0), ID(q, 0, 0), the mass matrix, and FD(q, q̇, τ).
 const ALGORITHMS: [&str; 5] = ["rnea", "bias", "gravity", "crba", "aba"];
@@ -95,6 +95,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     };
     let page = LOOPS.replaced(&report.markdown(), &report.loops())?;
     workspace::write(&workspace.report("docs/peers.md"), &page)?;
+    drawn::write(&workspace, "docs/peers.md")?;
     let code = docs::show(args.json, &report.rows, &page)?;
     if !unmet.is_empty() {
         bail!("bar: {}", unmet.join("\nbar: "));

@@ -15,6 +15,7 @@ use crate::kit::rows::Row;
 use crate::kit::setup::{self, Options, Tools};
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, output, shell};
+use crate::studies::drawn;
 use crate::studies::study::Bench;
 use page::{compare, page};
 
@@ -102,6 +103,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     measure(&workspace, &tools, &folder, &mut lines)?;
     let page = page(&lines, &tools.toolchain.rustc_version()?);
     workspace::write(&workspace.report(PAGE), &page)?;
+    drawn::write(&workspace, PAGE)?;
     docs::show(args.json, &lines, &page)
 }
 

@@ -13,6 +13,7 @@ use crate::kit::output;
 use crate::kit::setup::{self, Options, Tools};
 use crate::kit::table::plain;
 use crate::kit::workspace::{self, Workspace};
+use crate::studies::drawn;
 
 pub struct Study {
     /// The name of its command and of its step, and in the markers of its page.
@@ -198,6 +199,7 @@ impl Study {
         if let Some(brief) = &found.brief {
             self.readme(&self.words()).write(workspace, brief)?;
         }
+        drawn::write(workspace, self.files[0])?;
         for (file, picture) in self.files[1..].iter().zip(&found.picture) {
             workspace::write(&workspace.report(file), picture)?;
         }

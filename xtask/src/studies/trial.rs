@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use serde::{Deserialize, Serialize};
 
 use crate::kit::callgraph::f32_only;
-use crate::kit::chart::{self, Axis, HPos, Line};
+use crate::kit::chart::{self, Axis, HEAD, HPos, Line, TEXT};
 use crate::kit::docs::{self, Page};
 use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::meter::{self, BETWEEN, CLOCK_MHZ, Cost, MODEL, REGIONS};
@@ -19,7 +19,8 @@ use crate::kit::{firmware, host_bin, output};
 use crate::studies::budgets;
 use crate::studies::study::Bench;
 
-const CHART: u32 = 330;
+/// The height of a chart, px.
+const CHART: usize = 296;
 
 /// The bin that measures what the page shows beside the runs.
 fn report(trial: Trial) -> String {
@@ -237,22 +238,35 @@ fn measure(
     Ok((text, svg(&charts)?))
 }
 
-/// One chart below the other.
+/// One chart below the other, in two columns if they would be higher than a page.
 fn svg(charts: &[Chart]) -> Result<String> {
-    chart::svg((760, CHART * charts.len() as u32), |root| {
-        let areas = root.split_evenly((charts.len(), 1));
-        for (shown, area) in charts.iter().zip(&areas) {
-            chart::label(area, &shown.title, (28, 20), 17, HPos::Left)?;
+    let columns = 1 + charts.len() / 4;
+    let rows = charts.len().div_ceil(columns);
+    let size = [[760, 560][columns - 1] * columns, CHART * rows];
+    chart::svg((size[0] as u32, size[1] as u32), |root| {
+        for (shown, area) in charts.iter().zip(&root.split_evenly((rows, columns))) {
+            chart::label(area, &shown.title, (28, 20), HEAD, HPos::Left)?;
             let coloured = || shown.lines.iter().zip(chart::COLOURS);
-            let names = coloured().map(|((name, _), colour)| (name.clone(), colour));
-            chart::legend(area, names, (90, 46))?;
-            let lines = coloured().map(|((_, points), colour)| Line {
-                points: points.clone(),
-                colour,
-                dots: shown.dots,
-            });
-            let [x, y] = [(&shown.x, 48), (&shown.y, 72)].map(|(scale, room)| scale.axis(room));
-            chart::lines(area, 62, [&x, &y], &lines.collect::<Vec<_>>())?;
+            // A point has its name beside it, and is in no legend.
+            let is_line = |points: &[_]| points.len() > 1;
+            let names = coloured().filter(|((_, points), _)| is_line(points));
+            let names = names.map(|((name, _), colour)| (name.clone(), colour, 4));
+            let below = chart::legend(area, names, (80, 42))?;
+            // The first line wide, so that another one on top of it hides none of it.
+            let lines = coloured()
+                .zip(0..)
+                .map(|(((_, points), colour), number)| Line {
+                    points: points.clone(),
+                    colour,
+                    width: if number == 0 { 4 } else { 2 },
+                    dots: [0, 3, 6][usize::from(shown.dots) + usize::from(!is_line(points))],
+                });
+            let [x, y] = [(&shown.x, 46), (&shown.y, 66)].map(|(scale, room)| scale.axis(room));
+            let plot = chart::lines(area, below + 6, [&x, &y], &lines.collect::<Vec<_>>())?;
+            for (name, points) in shown.lines.iter().filter(|(_, points)| !is_line(points)) {
+                let (x, y) = plot.at(points[0]);
+                chart::label(area, name, (x + 12, y), TEXT, HPos::Left)?;
+            }
         }
         Ok(())
     })

@@ -63,7 +63,7 @@ pub const CASES: &[&[Case]] = &[&[
     },
     Case {
         number: 69,
-        name: "a mode at 10 kHz under steps of 1 ms",
+        name: "a mode at 10 kHz, steps of 1 ms",
         parameters: "h ω = 63; a link of 0.5 m on one joint, 1 N·m for 1 s from rest",
         source: "modes of a finite-element model reach frequencies far above those of control",
         oracle: "the rigid link's closed form τ t² / 2 I",

@@ -36,7 +36,7 @@ const LINKAGES: &[Case] = &[
     },
     Case {
         number: 56,
-        name: "rig with more motors than degrees of freedom",
+        name: "more motors than degrees of freedom",
         parameters: "a five-bar with motors at both cranks and at the root of a coupler; four states",
         source: "antagonistic and redundantly driven rigs",
         oracle: ORACLE,
@@ -83,7 +83,7 @@ const SINGULAR: &[Case] = &[
     },
     Case {
         number: 54,
-        name: "Stewart platform in its singular postures",
+        name: "Stewart platform, singular postures",
         parameters: "the platform above the base's centre, turned about the vertical by 90° less 2⁻³ to 2⁻¹⁰ rad, and by ±90°; a platform similar to its base, which is singular everywhere",
         source: "Fichter (1986): turned by ±90°; Ma & Angeles (1991): architecture singularity",
         oracle: ORACLE,

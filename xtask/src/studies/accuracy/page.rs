@@ -32,10 +32,12 @@ pub const NAMES: Page<'_> = part(FILE, "accuracy-names");
 /// The few of them that the README shows.
 pub const README: Page<'_> = part("README.md", "accuracy");
 
-/// The configurations that the bins `accuracy_quick` run; those of the README come first.
+/// The configurations that the bins `accuracy_quick` run; those of the README, and of the pictures, come first.
 const SINGLE: &str = "default trig=table model=pruned1000 rate=10,between=linearised model=no_coriolis model=gravity \
                       trig=minimax5 trig=minimax3 trig=minimax7 trig=incremental model=params8 rate=10 \
                       rate=10,between=interpolated trig=table3x4,form=core";
+
+pub const BRIEF_ROWS: usize = 6;
 
 /// Whether a point is one of the first so many of them.
 pub fn is_single(point: &Point, most: usize) -> bool {
@@ -68,11 +70,7 @@ pub fn pictures(points: &[Point], host: &Host, robot: Robot) -> Result<Vec<(Stri
         return Ok(vec![(file + ".svg", plot::simulations(points)?)]);
     }
     let own = of_group(points, (robot.name(), Kind::Inverse, "rigid"));
-    let [front, all] = [plot::front(robot, &own, host)?, plot::all(robot, &own)?];
-    Ok(vec![
-        (format!("{file}.svg"), front),
-        (file + "-all.svg", all),
-    ])
+    Ok(vec![(file + ".svg", plot::front(robot, &own, host)?)])
 }
 
 /// The points of a front, from the cheapest on, each much more accurate than the one before; the default in any case.
@@ -171,7 +169,7 @@ pub fn singles(points: &[Point], rustc: &str) -> String {
 
 pub fn brief(points: &[Point], shares: Option<[f64; 2]>, rustc: &str) -> String {
     let mut few = of_group(points, ("ur5e", Kind::Inverse, "rigid"));
-    few.retain(|point| is_single(point, 6));
+    few.retain(|point| is_single(point, BRIEF_ROWS));
     few.sort_by(|a, b| a.error().total_cmp(&b.error()));
     let table = table(&named(&few), "UR5e", BRIEF).markdown();
     let range = shares.map_or(String::new(), |shares| {
@@ -195,7 +193,7 @@ fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
     let (title, part) = (robot.names()[1], page_of(robot).name);
     let mut text = format!(
         "![Front of error against cycles of inverse dynamics of the {title}]({part}.svg)\n\n{} configurations, of which {} \
-         are on a front ([picture of all]({part}-all.svg)); {MODEL}.\n\n",
+         are on a front; {MODEL}.\n\n",
         rigid.len(),
         rigid.iter().filter(|point| point.front).count(),
     );

@@ -1,64 +1,100 @@
-//! The picture of the effects: for each of them its cycles, and beside those the torque that it contributes.
+//! The picture of the effects: what each is worth, and beside that what it costs.
+
+use std::collections::BTreeMap;
 
 use super::Price;
-use crate::kit::chart::{self, Axis, HPos, RGBColor};
+use crate::kit::chart::{self, Axis, BLUE, HPos, MUTED, ORANGE, Shape, TEXT};
+use crate::kit::docs::cells;
 use crate::kit::error::Result;
 
-const CORE: RGBColor = RGBColor(150, 190, 225);
-const ENGINE: RGBColor = RGBColor(27, 80, 162);
-const TORQUE: RGBColor = RGBColor(230, 145, 0);
-
-/// The robot that is shown: the other's picture would look much the same.
+/// The robot that is shown, which a scene has too: the other's picture would look much the same.
 const ROBOT: &str = "ur5e";
-
-/// The upper edge of the charts, and the distance from one effect to the next, pixels.
-const TOP: u32 = 76;
-const STEP: u32 = 30;
-/// The room of an axis.
+/// px: the upper edge of the charts, the distance from one effect to the next, and the room of an axis.
+const TOP: u32 = 84;
+const STEP: u32 = 26;
 const ROOM: u32 = 46;
+/// px: the right ends of the names with the torques, and of the column of errors.
+const TORQUES: i32 = 460;
+const ERRORS: i32 = 590;
+/// The right end of the costs.
+const CYCLES: i32 = 940;
 
-pub fn svg(prices: &[Price]) -> Result<String> {
+/// By effect, its name in lower case without signs, how many times larger the scene's tracking error is without it: by the page
+/// of the scenes.
+pub fn factors(scenes: &str) -> BTreeMap<String, f64> {
+    let rows = scenes.lines().filter_map(cells);
+    let own = rows.skip_while(|row| row[0] != format!("**{ROBOT}**"));
+    let rows: Vec<(&str, f64)> = (own.enumerate())
+        .take_while(|(number, row)| *number == 0 || row[0].starts_with('−'))
+        .filter_map(|(_, row)| Some((row[0], row.get(6)?.parse().ok()?)))
+        .collect();
+    let without = rows.iter().skip(1);
+    let factor = |(name, error): &(&str, f64)| (plain(name), error / rows[0].1);
+    without.map(factor).collect()
+}
+
+fn plain(name: &str) -> String {
+    let letters = name.chars().filter(|letter| letter.is_alphabetic());
+    letters.collect::<String>().to_lowercase()
+}
+
+pub fn svg(prices: &[Price], factors: &BTreeMap<String, f64>) -> Result<String> {
     let of = |form: &'static str| {
         let all = prices.iter();
         all.filter(move |price| (&*price.robot, &*price.form) == (ROBOT, form))
     };
-    let cycles = |price: &Price| (price.cycles as f64, price.cycles.to_string());
-    let effects: Vec<&Price> = of("core").collect();
+    let mut effects: Vec<&Price> = of("core").collect();
+    effects.sort_by(|a, b| b.torque_rms_nm.total_cmp(&a.torque_rms_nm));
+    let torques = effects.iter().map(|price| {
+        let torque = price.torque_rms_nm;
+        let words = match torque {
+            0.0 => "0: touches nothing".into(),
+            _ => format!("{:.*}", usize::from(torque < 10.0), torque),
+        };
+        let dot = (torque, Shape::Dot, ORANGE, words);
+        (price.effect.replace('_', " "), vec![dot])
+    });
     let costs = effects.iter().map(|core| {
         let engine = of("engine").find(|price| price.effect == core.effect);
-        vec![Some(cycles(core)), engine.map(cycles)]
-    });
-    let torques = effects.iter().map(|core| {
-        let torque = core.torque_rms_nm;
-        vec![Some((torque, format!("{torque:.2}")))]
-    });
-    // Room for the longest bar's number behind it.
-    let axis = |name, values: &[Vec<Option<(f64, String)>>]| {
-        let values = values.iter().flatten().flatten().map(|(value, _)| *value);
-        Axis::linear(name, [0.0, 1.12 * values.fold(1.0, f64::max)], 5, ROOM)
-    };
-    let (costs, torques): (Vec<_>, Vec<_>) = (costs.collect(), torques.collect());
-    let rows = STEP * effects.len() as u32;
-    chart::svg((960, TOP + rows + ROOM + 8), |root| {
-        let title =
-            "What each effect adds to inverse dynamics of the UR5e, and the torque it contributes";
-        chart::label(root, title, (28, 24), 20, HPos::Left)?;
-        let entries = [
-            ("core", CORE),
-            ("engine", ENGINE),
-            ("torque on pick and place", TORQUE),
-        ];
-        let entries = entries.map(|(name, colour)| (name.to_owned(), colour));
-        chart::legend(root, entries, (190, 56))?;
-        let (names, charts) = root.split_horizontally(182);
-        for (at, price) in effects.iter().enumerate() {
-            let middle = TOP + STEP * at as u32 + STEP / 2;
-            chart::label(&names, &price.effect, (178, middle as i32), 15, HPos::Right)?;
+        let mut dots = vec![(core.cycles as f64, Shape::Ring, MUTED, String::new())];
+        match engine.map(|price| price.cycles) {
+            Some(cycles) => dots.push((cycles as f64, Shape::Dot, BLUE, String::new())),
+            None => dots[0].3 = "core only".into(),
         }
-        let (left, right) = charts.split_horizontally(430);
-        let x = axis("modelled cycles", &costs);
-        chart::bars(&left, TOP, &x, &[CORE, ENGINE], &costs)?;
-        let x = axis("torque, N·m rms", &torques);
-        chart::bars(&right, TOP, &x, &[TORQUE], &torques)
+        (String::new(), dots)
+    });
+    let (torques, costs): (Vec<_>, Vec<_>) = (torques.collect(), costs.collect());
+    let height = TOP + STEP * effects.len() as u32 + ROOM + 8;
+    chart::svg((980, height), |root| {
+        let title = "What each effect is worth to the UR5e's torques, and what it costs";
+        chart::label(root, title, (28, 24), chart::TITLE, HPos::Left)?;
+        let head =
+            |words, left| chart::label(root, words, (left, TOP as i32 - 18), TEXT, HPos::Left);
+        head("torque it contributes, N·m", 160)?;
+        head("error without it", TORQUES + 10)?;
+        let forms = [("cycles it adds: core", MUTED), ("engine", BLUE)];
+        let forms = forms.map(|(name, colour)| (name.to_owned(), colour, 0));
+        chart::legend(root, forms, (ERRORS + 8, TOP as i32 - 18))?;
+        let (left, rest) = root.split_horizontally(TORQUES);
+        let (_, right) = rest.split_horizontally(ERRORS - TORQUES);
+        let (right, _) = right.split_horizontally(CYCLES - ERRORS);
+        let x = Axis::decades("N·m RMS, pick and place", [0.5, 100.0], ROOM);
+        let plot = chart::rows(&left, TOP, (&x, 150), &torques)?;
+        for (number, price) in effects.iter().enumerate() {
+            let row = (0.5, (effects.len() - number) as f64 - 0.5);
+            let middle = plot.at(row).1;
+            let side = HPos::Right;
+            if let Some(factor) = factors.get(&plain(&price.effect)) {
+                let words = format!("× {factor:.0}");
+                chart::label(root, &words, (ERRORS - 30, middle), TEXT, side)?;
+            }
+            if let Some(engine) = of("engine").find(|engine| engine.effect == price.effect) {
+                let (words, at) = (engine.cycles.to_string(), (CYCLES + 30, middle));
+                chart::coloured(root, &words, at, (TEXT, BLUE), side)?;
+            }
+        }
+        let x = Axis::decades("modelled cycles, Cortex-M4F", [1.0, 4e3], ROOM);
+        chart::rows(&right, TOP, (&x, 1), &costs)?;
+        Ok(())
     })
 }

@@ -4,9 +4,9 @@
 use std::path::Path;
 
 use crate::kit::bars::largest;
-use crate::kit::chart::{self, Area, Axis, HPos, INK, Line, Outcome};
+use crate::kit::chart::{self, Area, Axis, HEAD, HPos, INK, Line, Outcome, TEXT};
 use crate::kit::error::Result;
-use crate::kit::protocol::{FEEDFORWARD, PLANTS, Recording, Sample, label};
+use crate::kit::protocol::{FEEDFORWARD, PD, PLANTS, Recording, Sample, label};
 use crate::kit::workspace;
 
 /// Samples of which one point of an error's line is the largest: more points would not be visible.
@@ -24,9 +24,14 @@ pub fn write(recording: &Recording, path: &Path) -> Result<()> {
 pub fn svg(recording: &Recording) -> Result<String> {
     let height = 52 + ROWS.iter().sum::<i32>();
     chart::svg((WIDTH as u32, height as u32), |root| {
-        let (name, tick) = (&recording.scene, recording.tick_us);
-        let title = format!("{name}: tracking of a simulated arm, tick {tick} µs");
-        chart::label(root, &title, (28, 24), 24, HPos::Left)?;
+        // A model's number is in capitals; other scenes have words.
+        let name = match &*recording.scene {
+            "ur5e" => "UR5e".into(),
+            other => other.replace('_', " "),
+        };
+        let rate = 1e3 / f64::from(recording.tick_us);
+        let title = format!("{name}, simulated: tracking error of each joint, {rate} kHz");
+        chart::label(root, &title, (28, 24), chart::TITLE, HPos::Left)?;
         let (_, rest) = root.split_vertically(52);
         let (references, rest) = rest.split_vertically(ROWS[0]);
         let (exact, mismatched) = rest.split_vertically(ROWS[1]);
@@ -75,12 +80,12 @@ fn references(recording: &Recording, area: &Area<'_>) -> Outcome {
     let Some(run) = recording.trajectory(PLANTS[0], FEEDFORWARD) else {
         return Ok(());
     };
-    chart::label(area, "reference", (ROOM[0] as i32, 12), 17, HPos::Left)?;
+    chart::label(area, "reference", (ROOM[0] as i32, 12), HEAD, HPos::Left)?;
     let wide = (WIDTH - ROOM[0] as i32) / recording.joints.max(1) as i32;
     for joint in 0..recording.joints as i32 {
         let middle = ROOM[0] as i32 + wide * joint + wide / 2;
         let name = format!("joint {}", joint + 1);
-        chart::label(area, &name, (middle, 32), 15, HPos::Center)?;
+        chart::label(area, &name, (middle, 32), TEXT, HPos::Center)?;
     }
     let angles = || run.samples.iter().flat_map(|s| &s.reference).copied();
     let [low, high] = [f64::min, f64::max].map(|pick| angles().reduce(pick).unwrap_or(0.0));
@@ -92,7 +97,8 @@ fn references(recording: &Recording, area: &Area<'_>) -> Outcome {
         vec![Line {
             points: points.collect(),
             colour: INK,
-            dots: false,
+            width: 2,
+            dots: 0,
         }]
     })
 }
@@ -129,30 +135,40 @@ fn errors(recording: &Recording, plant: &str, what: &str, below: u32, area: &Are
     let entries = laws.iter().zip(chart::COLOURS).map(|(law, colour)| {
         let run = recording.trajectory(plant, law);
         let rms = short(run.map_or(f64::NAN, |run| 1e3 * run.total));
-        (format!("{}: {rms} mrad RMS", label(law)), colour)
+        (
+            format!("{}: {rms} mrad RMS", label(law)),
+            colour,
+            width(law),
+        )
     });
     let left = ROOM[0] as i32;
     let head = format!("error where {what}");
-    chart::label(area, &head, (left, 16), 17, HPos::Left)?;
+    chart::label(area, &head, (left, 16), HEAD, HPos::Left)?;
     chart::legend(area, entries, (left, 38))?;
     let y = Axis::decades("|error|, mrad", error_range(recording), ROOM[0]);
     columns(recording, area, (54, below), &y, |joint| {
         let colours = laws.iter().zip(chart::COLOURS);
         // The worst first, so that the best is drawn on top.
-        let runs = colours
-            .rev()
-            .filter_map(|(law, colour)| Some((recording.trajectory(plant, law)?, colour)));
-        let line = |(run, colour): (&crate::kit::protocol::Trajectory, _)| {
+        let runs = colours.rev().filter_map(|(law, colour)| {
+            Some((recording.trajectory(plant, law)?, colour, width(law)))
+        });
+        let line = |(run, colour, width): (&crate::kit::protocol::Trajectory, _, _)| {
             let points = run.samples.chunks(OF_A_POINT);
             let points = points.map(|s| (seconds(recording, s[0].tick), worst(s, joint)));
             Line {
                 points: points.collect(),
                 colour,
-                dots: false,
+                width,
+                dots: 0,
             }
         };
         runs.map(line).collect()
     })
+}
+
+/// Where gravity has no torque, a law of gravity is PD alone: that is the wide line, so that it is seen below the other.
+fn width(law: &str) -> u32 {
+    if law == PD { 5 } else { 2 }
 }
 
 /// Three digits of a number, for people.

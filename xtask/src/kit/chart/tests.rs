@@ -1,0 +1,108 @@
+//! What every picture in docs/ keeps, whoever wrote it.
+
+use super::{HPos, RGBColor, coloured, svg};
+use crate::kit::docs::repository::root;
+
+/// px
+const HIGHEST: f64 = 900.0;
+
+fn attribute<'a>(tag: &'a str, name: &str) -> &'a str {
+    let after = tag.split_once(&format!(" {name}=\""));
+    after.map_or("", |(_, after)| after.split('"').next().unwrap_or(""))
+}
+
+fn number(tag: &str, name: &str) -> f64 {
+    attribute(tag, name).parse().expect("a number")
+}
+
+/// The texts, and the left, upper, right and lower end of each, by an estimate of its width that is seldom too small.
+fn texts(svg: &str) -> Vec<(String, [f64; 4])> {
+    let each = svg.split("<text").skip(1).map(|text| {
+        let (tag, rest) = text.split_once('>').expect("a tag");
+        let words = rest.split("</text>").next().unwrap_or_default().trim();
+        let words = words.replace("&apos;", "'").replace("&lt;", "<");
+        let [x, y, size] = ["x", "y", "font-size"].map(|name| number(tag, name));
+        let wide = 0.6 * size * words.chars().count() as f64;
+        let left = match attribute(tag, "text-anchor") {
+            "end" => -wide,
+            "middle" => -wide / 2.0,
+            _ => 0.0,
+        };
+        let top = match attribute(tag, "dy") {
+            "0.76em" => 0.0,
+            "0.5ex" => -size / 2.0,
+            _ => -size,
+        };
+        let (right, below) = (left + wide, top + size);
+        let ends = match attribute(tag, "transform").starts_with("rotate(270") {
+            true => [top, -right, below, -left],
+            false => [left, top, right, below],
+        };
+        (words, [ends[0] + x, ends[1] + y, ends[2] + x, ends[3] + y])
+    });
+    each.filter(|(words, _)| !words.is_empty()).collect()
+}
+
+/// What is wrong with a picture.
+fn faults(svg: &str) -> Vec<String> {
+    let mut faults = Vec::new();
+    let [wide, high] = ["width", "height"].map(|name| number(svg, name));
+    if high > HIGHEST {
+        faults.push(format!("{high} px high"));
+    }
+    if !svg.contains("@media (prefers-color-scheme: dark)") {
+        faults.push("no dark scheme".into());
+    }
+    let texts = texts(svg);
+    for (number, (words, [left, top, right, below])) in texts.iter().enumerate() {
+        if *left < 0.0 || *top < 0.0 || *right > wide || *below > high {
+            faults.push(format!("cut off: {words}"));
+        }
+        let meets =
+            |[a, b, c, d]: &[f64; 4]| a < right && left < c && b + 2.0 < *below && top + 2.0 < *d;
+        let others = texts[..number].iter().filter(|(_, ends)| meets(ends));
+        faults.extend(others.map(|(other, _)| format!("{words} on {other}")));
+    }
+    faults
+}
+
+#[test]
+fn every_picture_can_be_read() {
+    let mut wrong = Vec::new();
+    let files = std::fs::read_dir(root().join("docs")).expect("the documents");
+    for path in files.flatten().map(|entry| entry.path()) {
+        if path.extension().is_some_and(|extension| extension == "svg") {
+            let svg = std::fs::read_to_string(&path).expect("a picture");
+            let faults = faults(&svg).into_iter();
+            wrong.extend(faults.map(|fault| format!("{}: {fault}", path.display())));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn what_cannot_be_read_is_found() {
+    let draw = |colour: RGBColor| {
+        svg((200, 1000), |root| {
+            coloured(
+                root,
+                "a legend cut off",
+                (150, 20),
+                (12, colour),
+                HPos::Left,
+            )?;
+            coloured(root, "one", (20, 60), (12, colour), HPos::Left)?;
+            coloured(root, "another", (70, 65), (12, colour), HPos::Right)
+        })
+    };
+    let drawn = draw(super::INK).expect("drawn");
+    let found = [
+        "1000 px high",
+        "cut off: a legend cut off",
+        "another on one",
+    ];
+    assert_eq!(faults(&drawn), found);
+    let light = drawn.replace("prefers-color-scheme", "print");
+    assert_eq!(faults(&light)[1], "no dark scheme");
+    assert!(draw(RGBColor(1, 2, 3)).is_err());
+}

@@ -87,8 +87,9 @@ fn leads_somewhere(page: &Path, link: &str) -> bool {
     };
     let has_heading = || {
         let text = prose(&read_to_string(&target).expect("text"));
-        text.lines()
-            .any(|line| line.starts_with('#') && slug(line) == anchor)
+        let named = text.contains(&format!("<a id=\"{anchor}\"></a>"));
+        let mut lines = text.lines();
+        named || lines.any(|line| line.starts_with('#') && slug(line) == anchor)
     };
     target.exists() && (anchor.is_empty() || has_heading())
 }

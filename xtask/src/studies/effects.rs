@@ -14,7 +14,6 @@ use crate::kit::rows::{self, Row};
 use crate::kit::table::Table;
 use crate::kit::toolchain::RELEASE;
 use crate::kit::{firmware, host_bin, workspace};
-use crate::studies::scenes;
 use crate::studies::study::{Bench, Found};
 
 const FEATURE: &str = "effects";
@@ -55,9 +54,9 @@ pub struct Price {
 pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     let (prices, rustc) = (prices(bench)?, bench.rustc()?);
     let table = in_rows(&prices).markdown();
-    let scenes = workspace::read(&bench.workspace.root.join(scenes::PAGE.file))?;
+    let readme = workspace::read(&bench.workspace.root.join("README.md"))?;
     Ok(Found {
-        picture: Some(picture::svg(&prices, &picture::factors(&scenes))?),
+        picture: Some(picture::svg(&prices, &picture::factors(&readme))?),
         summary: format!("{} prices", prices.len()),
         rustc: Some(rustc.clone()),
         ..Found::new(format!("{table}\n{MODEL}. Measured with {rustc}."), &prices)?

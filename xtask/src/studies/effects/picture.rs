@@ -19,18 +19,18 @@ const ERRORS: i32 = 590;
 /// The right end of the costs.
 const CYCLES: i32 = 940;
 
-/// By effect, its name in lower case without signs, how many times larger the scene's tracking error is without it: by the page
-/// of the scenes.
-pub fn factors(scenes: &str) -> BTreeMap<String, f64> {
-    let rows = scenes.lines().filter_map(cells);
-    let own = rows.skip_while(|row| row[0] != format!("**{ROBOT}**"));
-    let rows: Vec<(&str, f64)> = (own.enumerate())
-        .take_while(|(number, row)| *number == 0 || row[0].starts_with('−'))
-        .filter_map(|(_, row)| Some((row[0], row.get(6)?.parse().ok()?)))
-        .collect();
-    let without = rows.iter().skip(1);
-    let factor = |(name, error): &(&str, f64)| (plain(name), error / rows[0].1);
-    without.map(factor).collect()
+/// By effect, its name in lower case without signs, how many times larger the scene's tracking error is without it: by the table of
+/// the README.
+pub fn factors(readme: &str) -> BTreeMap<String, f64> {
+    let factor = |row: Vec<&str>| {
+        let times = row.get(1)?.strip_suffix(" ×")?.parse().ok()?;
+        Some((plain(row[0]), times))
+    };
+    readme
+        .lines()
+        .filter_map(cells)
+        .filter_map(factor)
+        .collect()
 }
 
 fn plain(name: &str) -> String {

@@ -303,9 +303,9 @@ fn believed<const V: usize>(
             .iter()
             .any(|(one, effect)| *one == of && effects.contains(effect));
         let place = &mut believed[joint][of as usize];
-        if is_wanted && *place == 0.0 && found.is_determined(base) {
-            // A friction below what the recording shows stays possible.
-            *place = found.base[base].max(found.deviations[base]);
+        // One that the recording does not distinguish from none stays none.
+        if is_wanted && *place == 0.0 && found.base[base] > 2.0 * found.deviations[base] {
+            *place = found.base[base];
         }
     }
     believed

@@ -52,8 +52,22 @@ pub fn control<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin>(
     brake: Brake,
     motion: &Motion,
 ) -> Result<Control<Spi, Pwm, Brake>, SetupError> {
+    with_inertia(encoders, drives, brake, motion, &scene::inertia())
+}
+
+/// The same with gains of other inertias, kg·m² or kg, for motions that go elsewhere.
+///
+/// # Errors
+/// [`SetupError::Limits`].
+pub fn with_inertia<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin>(
+    encoders: [Encoder<Spi>; N],
+    drives: [Drive<Pwm>; N],
+    brake: Brake,
+    motion: &Motion,
+    inertia: &[f32; N],
+) -> Result<Control<Spi, Pwm, Brake>, SetupError> {
     let controller = MotionController::try_new(config(motion)).map_err(SetupError::Limits)?;
-    let gains = Gains::from_inertia(&scene::inertia(), OMEGA_N, 1.0);
+    let gains = Gains::from_inertia(inertia, OMEGA_N, 1.0);
     Ok(ControlLoop::new(
         encoders,
         drives,

@@ -44,12 +44,24 @@ impl Excitation {
         for _ in 0..20 {
             let fits = |tick| {
                 let torque = scene::inverse_dynamics(&found.at(tick));
-                torque.iter().zip(&most).all(|(tau, most)| tau.abs() < 0.7 * most)
+                (0..N).all(|joint| torque[joint].abs() < 0.7 * most[joint])
             };
             if times().all(fits) {
                 break;
             }
             found.scale(&[0.85; N]);
+        }
+        found
+    }
+
+    /// The inertia of each joint for its gains: that at the start, but no more than three times the least on the way, where the
+    /// feedback is faster by as much.
+    pub fn inertia(&self) -> [f32; N] {
+        let mut found = scene::inertia();
+        for here in times().map(|tick| scene::inertia_at(&self.at(tick).q)) {
+            for (found, here) in found.iter_mut().zip(here) {
+                *found = found.min(3.0 * here);
+            }
         }
         found
     }

@@ -8,7 +8,7 @@ use dynamics_core::state::State;
 use motion_control::Reference;
 use telemetry::{Axis, Machine, Message, Sample, capacity, encode};
 
-use crate::control::{FeedForward, SetupError, control};
+use crate::control::{FeedForward, SetupError, with_inertia};
 use crate::excitation::Excitation;
 use crate::report::RunError;
 use crate::scene::{self, Arm, Motion, N, TICK};
@@ -59,13 +59,17 @@ impl Reference<f32, N> for Repeated<'_> {
 pub fn run(options: Options, send: impl FnMut(&[u8])) -> Result<(), RunError> {
     let motion = scene::motion().map_err(|error| RunError::Setup(SetupError::Motion(error)))?;
     match options.excite {
-        true => along(&Excitation::new(&motion), &motion, options.ticks, send),
-        false => along(&Repeated(&motion), &motion, options.ticks, send),
+        true => {
+            let excitation = Excitation::new(&motion);
+            along(&excitation, &excitation.inertia(), &motion, options.ticks, send)
+        }
+        false => along(&Repeated(&motion), &scene::inertia(), &motion, options.ticks, send),
     }
 }
 
 fn along(
     reference: &impl Reference<f32, N>,
+    inertia: &[f32; N],
     motion: &Motion,
     ticks: u32,
     mut send: impl FnMut(&[u8]),
@@ -73,7 +77,8 @@ fn along(
     let (home, full_scale) = (scene::home(), scene::limits(motion).torque);
     let wires = Wires::new();
     let (encoders, drives) = (wires.encoders(&home), wires.drives(&full_scale));
-    let mut control = control(encoders, drives, wires.brake(), motion).map_err(RunError::Setup)?;
+    let control = with_inertia(encoders, drives, wires.brake(), motion, inertia);
+    let mut control = control.map_err(RunError::Setup)?;
     let mut plant = Plant::new(home, full_scale);
     let mut bytes = [0; capacity(N)];
     let mut number = 0_u32;

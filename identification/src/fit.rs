@@ -24,6 +24,8 @@ const FINAL: f64 = 1e-3;
 const LEAST: f64 = 1e-6;
 /// The deviation of what is known, relative to that of the prior.
 const KNOWN: f64 = 1e-6;
+/// The deviation of the friction of a gear per transmitted torque before the recording is known.
+const GEARS: f64 = 0.2;
 /// The longest time by which residuals are correlated, s.
 const CORRELATED: f64 = 0.5;
 /// A parameter whose deviation is more than this share of that of its prior is not determined.
@@ -90,7 +92,7 @@ pub struct Fitted<const V: usize> {
     /// The frictions μ₁ and μ₂ of [`LoadFriction`](dynamics_core::effects::LoadFriction), if they are a part of the model, and their
     /// standard deviations.
     pub gears: Option<[[[f64; 2]; 2]; V]>,
-    /// S of the covariance SᵀS of the base parameters.
+    /// S of the covariance SᵀS of the base parameters, given the friction of the gears.
     root: DMatrix<f64>,
 }
 
@@ -158,7 +160,7 @@ impl Fit {
             .collect();
         let own = gears.iter().flatten().flatten();
         let target: Vec<f64> = nominal.iter().chain(own).copied().collect();
-        let of_gears = std::iter::repeat_n(self.prior, extra);
+        let of_gears = std::iter::repeat_n(GEARS, extra);
         let ridge: Vec<f64> = prior.iter().copied().chain(of_gears).collect();
         let mut noise = arm.limits.torque.map(|torque| 0.01 * torque);
         let (mut solved, mut equations) = (None, Equations::of(&reduced, &target));
@@ -194,6 +196,18 @@ impl Fit {
             squares[j * count..(j + 1) * count].fill(inflation(own, lags));
         }
         let root = solved.deviations(&squares);
+        // The bodies that go with these gears: what is known of them if the gears are.
+        let of_bodies = match extra {
+            0 => root.clone(),
+            _ => {
+                let known = prior
+                    .iter()
+                    .copied()
+                    .chain(std::iter::repeat_n(KNOWN, extra));
+                let solved = equations.solve(&noise, &known.collect::<Vec<_>>());
+                solved.deviations(&squares)
+            }
+        };
         let deviations: Vec<f64> = root.column_iter().map(|column| column.norm()).collect();
         let of_gears = |j: usize, k: usize, from: &[f64]| from[p + 2 * j + k];
         let gears = gears.map(|_| {
@@ -209,7 +223,7 @@ impl Fit {
             noise,
             condition: arm.condition(&reduced.states),
             gears,
-            root: root.columns(0, p).clone_owned().qr().r(),
+            root: of_bodies.columns(0, p).clone_owned().qr().r(),
         })
     }
 

@@ -241,7 +241,13 @@ impl Found {
         }
         *text += "\n";
         *text += &aligned(&rows);
-        let titles = ["joint", "viscous", "Coulomb", "armature", "gear μ₁, μ₂"];
+        let titles = [
+            "joint",
+            "viscous",
+            "Coulomb",
+            "armature",
+            "gear driving, driven",
+        ];
         let mut rows = vec![titles.map(str::to_owned)];
         for joint in &self.joints {
             let number = |k: usize| {
@@ -252,8 +258,8 @@ impl Found {
                 }
             };
             let gear = joint.gear.map_or("–".to_owned(), |gear| {
-                let [one, two] = gear.friction.map(short);
-                format!("{one}, {two}")
+                let of = |k: usize| format!("{:.2} ± {:.2}", gear.friction[k], gear.deviations[k]);
+                format!("{}, {}", of(0), of(1))
             });
             rows.push([joint.name.clone(), number(0), number(1), number(2), gear]);
         }

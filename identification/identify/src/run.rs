@@ -129,7 +129,7 @@ fn of_size<const V: usize>(
     let found = fit
         .identify(&arm, &fitted_part, &nominal, &known, gears)
         .map_err(failed)?;
-    let believed = believed(&arm, &found, &joints, &options.effects);
+    let believed = believed(&arm, &found, &nominal, &joints, &options.effects);
     let set = found
         .physical(&arm, &bodies, &believed, BELIEVED)
         .map_err(failed)?;
@@ -286,6 +286,7 @@ fn known<const V: usize>(arm: &Base<V>, effects: &[JointEffect]) -> Vec<bool> {
 fn believed<const V: usize>(
     arm: &Base<V>,
     found: &Fitted<V>,
+    nominal: &[f64],
     joints: &[[f64; 4]; V],
     effects: &[JointEffect],
 ) -> [[f64; 4]; V] {
@@ -295,17 +296,26 @@ fn believed<const V: usize>(
         (OfJoint::Coulomb, JointEffect::Coulomb),
         (OfJoint::Armature, JointEffect::Armature),
     ];
-    for base in 0..arm.len() {
-        let (_, Parameter::Joint { joint, of }) = arm.terms(base)[0] else {
-            continue;
-        };
-        let is_wanted = kinds
+    let is_wanted = |of| {
+        kinds
             .iter()
-            .any(|(one, effect)| *one == of && effects.contains(effect));
-        let place = &mut believed[joint][of as usize];
-        // One that the recording does not distinguish from none stays none.
-        if is_wanted && *place == 0.0 && found.base[base] > 2.0 * found.deviations[base] {
-            *place = found.base[base];
+            .any(|(one, effect)| *one == of && effects.contains(effect))
+    };
+    for base in 0..arm.len() {
+        for (factor, parameter) in arm.terms(base) {
+            let Parameter::Joint { joint, of } = parameter else {
+                continue;
+            };
+            // What the motion adds to the description, also to the sum of an armature and inertias.
+            let more = (found.base[base] - nominal[base]) / factor;
+            let place = &mut believed[joint][of as usize];
+            // One that the recording does not distinguish from none stays none.
+            if is_wanted(of)
+                && *place == 0.0
+                && more > 2.0 * (found.deviations[base] / factor).abs()
+            {
+                *place = more;
+            }
         }
     }
     believed

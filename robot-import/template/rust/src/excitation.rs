@@ -70,7 +70,13 @@ impl Excitation {
     fn start_at_rest(&mut self) {
         for kind in 0..2 {
             for joint in 0..N {
-                let weight = |h: usize| if kind == 0 { (h + 1) as f32 } else { ((h + 1) * (h + 1)) as f32 };
+                let weight = |h: usize| {
+                    if kind == 0 {
+                        (h + 1) as f32
+                    } else {
+                        ((h + 1) * (h + 1)) as f32
+                    }
+                };
                 let (mut sum, mut squares) = (0.0, 0.0);
                 for (h, amplitudes) in self.amplitudes.iter().enumerate() {
                     sum += weight(h) * amplitudes[kind][joint];
@@ -134,7 +140,11 @@ impl Reference<f32, N> for Excitation {
                 state.qd[joint] += w * (a[joint] * c - b[joint] * s);
                 state.qdd[joint] -= w * w * swing;
             }
-            (s, c, w) = (s * cosine + c * sine, c * cosine - s * sine, w + STEP / TICK);
+            (s, c, w) = (
+                s * cosine + c * sine,
+                c * cosine - s * sine,
+                w + STEP / TICK,
+            );
         }
         state
     }

@@ -32,7 +32,9 @@ impl Options {
         let mut options = Self::default();
         for word in words {
             options.excite |= word == "excite";
-            let ticks = word.strip_prefix("ticks=").and_then(|ticks| ticks.parse().ok());
+            let ticks = word
+                .strip_prefix("ticks=")
+                .and_then(|ticks| ticks.parse().ok());
             options.ticks = ticks.unwrap_or(options.ticks);
         }
         options
@@ -61,9 +63,21 @@ pub fn run(options: Options, send: impl FnMut(&[u8])) -> Result<(), RunError> {
     match options.excite {
         true => {
             let excitation = Excitation::new(&motion);
-            along(&excitation, &excitation.inertia(), &motion, options.ticks, send)
+            along(
+                &excitation,
+                &excitation.inertia(),
+                &motion,
+                options.ticks,
+                send,
+            )
         }
-        false => along(&Repeated(&motion), &scene::inertia(), &motion, options.ticks, send),
+        false => along(
+            &Repeated(&motion),
+            &scene::inertia(),
+            &motion,
+            options.ticks,
+            send,
+        ),
     }
 }
 
@@ -114,12 +128,18 @@ fn machine(motion: &Motion) -> Machine<N> {
     };
     let robot = model::<f32, Arm, N, N, N>();
     // A longer name is cut short.
-    let _ = robot.name.chars().try_for_each(|letter| machine.name.push(letter));
+    let _ = robot
+        .name
+        .chars()
+        .try_for_each(|letter| machine.name.push(letter));
     for ((limits, torque), link) in limits.iter_mut().zip(torque).zip(&robot.links) {
         limits.torque = torque;
         let prismatic = link.joint.kind == JointKind::Prismatic;
         // There is room for as many as there are.
-        let _ = machine.joints.push(Axis { limits: *limits, prismatic });
+        let _ = machine.joints.push(Axis {
+            limits: *limits,
+            prismatic,
+        });
     }
     machine
 }

@@ -82,4 +82,4 @@ pub use limits::ExcitationLimits;
 pub use physical::PhysicalSet;
 pub use recording::Recording;
 pub use search::{Excitation, Progress, Search};
-pub use ticks::TickRecording;
+pub use ticks::{Samples, TickRecording};

@@ -86,7 +86,7 @@ where
     let units = units(&roots, joints, &arm.limits.torque);
     let nominal = nominal(&roots, joints, &units);
     // In units of the estimate's deviations: L⁻¹ (K U x − β), with the covariance L Lᵀ.
-    let mut covariance = deviations.tr_mul(&deviations);
+    let mut covariance = deviations.tr_mul(deviations);
     for (k, row) in (&arm.grouping * &units).row_iter().enumerate() {
         covariance[(k, k)] += (LEAST * share * row.norm()).powi(2);
     }

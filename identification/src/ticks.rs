@@ -21,6 +21,9 @@ pub struct TickRecording<const V: usize> {
     tick: f64,
 }
 
+/// The positions, rad or m, and as many torques, N·m or N, of consecutive ticks.
+pub type Samples<const V: usize> = (Vec<[f64; V]>, Vec<[f64; V]>);
+
 /// Positions and torques of consecutive ticks.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Stretch<const V: usize> {
@@ -36,7 +39,7 @@ impl<const V: usize> TickRecording<V> {
     /// # Errors
     /// [`IdentificationError`] if a stretch has not as many positions as torques, or if a number is not finite.
     pub fn try_new(
-        stretches: Vec<(Vec<[f64; V]>, Vec<[f64; V]>)>,
+        stretches: Vec<Samples<V>>,
         tick: f64,
     ) -> Result<Self, IdentificationError> {
         if !(tick > 0.0 && tick.is_finite()) {

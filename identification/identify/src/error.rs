@@ -35,7 +35,10 @@ pub enum Error {
     Recording { path: PathBuf, problem: Problem },
     /// The description of the robot.
     #[error("{}: {source}", path.display())]
-    Robot { path: PathBuf, source: ImportError },
+    Robot {
+        path: PathBuf,
+        source: Box<ImportError>,
+    },
     /// A robot whose torques are not those of single joints.
     #[error("{}: {reason}", path.display())]
     Unsuitable { path: PathBuf, reason: String },

@@ -20,6 +20,9 @@ struct Args {
     /// The description of the robot, URDF or MJCF
     #[arg(long, value_name = "FILE")]
     robot: PathBuf,
+    /// The robot's name in its Rust file: that of the project's folder; that of the description if not given
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
     /// The effects at joints that are identified; the others stay as described
     #[arg(
         long,
@@ -75,7 +78,7 @@ fn main() -> ExitCode {
 fn run(args: &Args) -> Result<String> {
     let recorded = Recorded::read(&args.recording)?;
     let other = args.validate.as_deref().map(Recorded::read).transpose()?;
-    let robot = Robot::read(&args.robot, &args.options)?;
+    let robot = Robot::read(&args.robot, args.name.as_deref(), &args.options)?;
     let options = Options {
         effects: args.effects.clone(),
         width: args.width,

@@ -137,16 +137,17 @@ pub fn rounded(x: f64) -> f64 {
 
 /// A share in per cent; of nothing, none.
 fn percent(part: f64, of: f64) -> String {
-    match of > 0.0 {
-        true => format!("{:.1} %", 100.0 * part / of),
-        false => "–".to_owned(),
+    match 100.0 * part / of {
+        share if share < 1000.0 => format!("{share:.1} %"),
+        _ => "–".to_owned(),
     }
 }
 
 /// A number of four digits.
 fn short(x: f64) -> String {
     match x.abs() {
-        size if size == 0.0 || (1e-3..1e5).contains(&size) => {
+        0.0 => "0".to_owned(),
+        size if (1e-3..1e5).contains(&size) => {
             let digits = 3 - (size.max(1e-3).log10().floor() as i32).min(3);
             format!("{x:.*}", digits.clamp(0, 6) as usize)
         }
@@ -194,6 +195,7 @@ impl Found {
         );
         self.excitation(&mut text);
         self.tables(&mut text);
+        self.base(&mut text);
         self.residuals(&mut text, held);
         text
     }
@@ -216,31 +218,6 @@ impl Found {
     }
 
     fn tables(&self, text: &mut String) {
-        let mut rows = vec![
-            [
-                "base parameter",
-                "description",
-                "found",
-                "deviation",
-                "of it",
-            ]
-            .map(str::to_owned),
-        ];
-        for one in self
-            .parameters
-            .iter()
-            .filter(|one| !one.is_known && one.is_determined)
-        {
-            rows.push([
-                one.name.clone(),
-                short(one.before),
-                short(one.found),
-                short(one.deviation),
-                percent(one.deviation, one.found.abs()),
-            ]);
-        }
-        *text += "\n";
-        *text += &aligned(&rows);
         let titles = [
             "joint",
             "viscous",
@@ -284,6 +261,35 @@ impl Found {
                 self.misfit
             );
         }
+    }
+
+    /// The base parameters that the motion shows.
+    fn base(&self, text: &mut String) {
+        let mut rows = vec![
+            [
+                "base parameter",
+                "description",
+                "found",
+                "deviation",
+                "of it",
+            ]
+            .map(str::to_owned),
+        ];
+        for one in self
+            .parameters
+            .iter()
+            .filter(|one| !one.is_known && one.is_determined)
+        {
+            rows.push([
+                one.name.clone(),
+                short(one.before),
+                short(one.found),
+                short(one.deviation),
+                percent(one.deviation, one.found.abs()),
+            ]);
+        }
+        *text += "\n";
+        *text += &aligned(&rows);
     }
 
     fn residuals(&self, text: &mut String, held: &str) {

@@ -12,6 +12,9 @@ use crate::error::{Error, Result};
 /// The parameters of a joint in the order of [`identification::OfJoint`].
 pub type OfJoint = [f64; 4];
 
+/// A model, the ten parameters of each body, and those of each joint.
+pub type Described<const V: usize> = (ArmModel<f64, V>, [[f64; 10]; V], [OfJoint; V]);
+
 /// A robot whose joints have one coordinate each.
 #[derive(Debug)]
 pub struct Robot {
@@ -20,13 +23,14 @@ pub struct Robot {
 }
 
 impl Robot {
-    /// Imports a description, without a peer: the import itself has had one.
+    /// Imports a description under its own or another name, without a peer: the import itself has had one.
     ///
     /// # Errors
     /// [`Error::Robot`], and [`Error::Unsuitable`] if a joint has not one coordinate.
-    pub fn read(path: &Path, options: &Options) -> Result<Self> {
+    pub fn read(path: &Path, name: Option<&str>, options: &Options) -> Result<Self> {
         let args = import::Args {
             file: path.to_owned(),
+            name: name.map(str::to_owned),
             options: Options {
                 python: "none".to_owned(),
                 ..options.clone()
@@ -35,7 +39,7 @@ impl Robot {
         };
         let imported = import::import(&args, "this day").map_err(|source| Error::Robot {
             path: path.to_owned(),
-            source,
+            source: source.into(),
         })?;
         let unsuitable = |reason: &str| Error::Unsuitable {
             path: path.to_owned(),
@@ -71,13 +75,11 @@ impl Robot {
     ///
     /// # Errors
     /// [`Error::Robot`].
-    pub fn model<const V: usize>(
-        &self,
-    ) -> Result<(ArmModel<f64, V>, [[f64; 10]; V], [OfJoint; V])> {
+    pub fn model<const V: usize>(&self) -> Result<Described<V>> {
         let arm: ArmModel<f64, V> =
             model::arm(&self.imported.tree).map_err(|source| Error::Robot {
                 path: self.path.clone(),
-                source,
+                source: source.into(),
             })?;
         let joints = std::array::from_fn(|j| {
             let body = &self.imported.tree.bodies[j];

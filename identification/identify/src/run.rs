@@ -301,13 +301,13 @@ fn believed<const V: usize>(
             .iter()
             .any(|(one, effect)| *one == of && effects.contains(effect))
     };
-    for base in 0..arm.len() {
+    for (base, nominal) in nominal.iter().enumerate() {
         for (factor, parameter) in arm.terms(base) {
             let Parameter::Joint { joint, of } = parameter else {
                 continue;
             };
             // What the motion adds to the description, also to the sum of an armature and inertias.
-            let more = (found.base[base] - nominal[base]) / factor;
+            let more = (found.base[base] - nominal) / factor;
             let place = &mut believed[joint][of as usize];
             // One that the recording does not distinguish from none stays none.
             if is_wanted(of)

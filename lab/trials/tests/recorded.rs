@@ -61,7 +61,7 @@ fn described() -> Robot {
         env!("CARGO_MANIFEST_DIR"),
         "/../../robot-import/tests/urdf/so101.urdf"
     );
-    let mut robot = Robot::read(Path::new(file), &Selection::default()).expect("a robot");
+    let mut robot = Robot::read(Path::new(file), None, &Selection::default()).expect("a robot");
     let mut factors = [0.7, 1.3, 1.3, 0.7, 1.3, 0.7, 0.7].into_iter().cycle();
     for body in &mut robot.imported.tree.bodies {
         let mut factor = || factors.next().expect("endless");

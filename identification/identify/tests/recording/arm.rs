@@ -34,7 +34,7 @@ const NOISE: [f64; 2] = [0.1, 0.03];
 
 pub fn described() -> Robot {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/files/two_links.urdf");
-    Robot::read(Path::new(file), &Selection::default()).expect("a robot")
+    Robot::read(Path::new(file), None, &Selection::default()).expect("a robot")
 }
 
 /// The description with numbers that are off by 30 %.

@@ -38,10 +38,7 @@ impl<const V: usize> TickRecording<V> {
     ///
     /// # Errors
     /// [`IdentificationError`] if a stretch has not as many positions as torques, or if a number is not finite.
-    pub fn try_new(
-        stretches: Vec<Samples<V>>,
-        tick: f64,
-    ) -> Result<Self, IdentificationError> {
+    pub fn try_new(stretches: Vec<Samples<V>>, tick: f64) -> Result<Self, IdentificationError> {
         if !(tick > 0.0 && tick.is_finite()) {
             return Err(IdentificationError::Interval);
         }

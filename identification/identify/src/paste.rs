@@ -26,7 +26,7 @@ pub fn file(robot: &Robot, found: &Found) -> String {
     let origin = write::Origin {
         file: imported.report.file.clone(),
         licence: imported.robot.licence.clone(),
-        date: "the day of the identification".to_owned(),
+        date: today(),
         notes: vec![format!(
             "Masses, inertias and frictions were identified from {:.1} s of motion.",
             found.fitted_seconds
@@ -40,6 +40,13 @@ pub fn file(robot: &Robot, found: &Found) -> String {
         &format!("full beyond {:?} rad/s", found.width),
     );
     write::formatted(&(source + &gears(found, &width)))
+}
+
+/// The day in UTC.
+fn today() -> String {
+    let today = time::OffsetDateTime::now_utc();
+    let month = u8::from(today.month());
+    format!("{}-{month:02}-{:02}", today.year(), today.day())
 }
 
 /// Of the file, the lines that differ from the one before: the bodies and the constants of the joints.

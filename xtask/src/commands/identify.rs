@@ -5,7 +5,7 @@ use std::process::{Command, ExitCode};
 
 use serde::Deserialize;
 
-use crate::kit::chart::{self, Axis, HPos, Line};
+use crate::kit::chart::{self, Axis, HPos, Line, RGBColor};
 use crate::kit::error::{Error, Result, check};
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{output, shell};
@@ -13,9 +13,11 @@ use crate::kit::{output, shell};
 const PACKAGE: &str = "identify";
 /// The profile in which its equations are solved within a second.
 const PROFILE: &str = "simulated";
-/// The most of a picture, and its names and colours.
+/// The most of a picture.
 const HEIGHT: usize = 900;
+/// The lines of a chart, and their colours.
 const NAMES: [&str; 3] = ["measured", "by the description", "by what was found"];
+const COLOURS: [RGBColor; 3] = [chart::COLOURS[3], chart::COLOURS[1], chart::COLOURS[0]];
 
 /// A recording, and options of the package `identify`.
 #[derive(clap::Args)]
@@ -76,10 +78,10 @@ fn drawn(json: &str) -> Result<String> {
                 15,
                 HPos::Left,
             )?;
-            let names = NAMES.map(str::to_owned).into_iter().zip(chart::COLOURS);
+            let names = NAMES.map(str::to_owned).into_iter().zip(COLOURS);
             chart::legend(area, names, (70, 34))?;
             let all = [&trace.measured, &trace.before, &trace.after];
-            let lines = all.iter().zip(chart::COLOURS).map(|(points, colour)| Line {
+            let lines = all.iter().zip(COLOURS).map(|(points, colour)| Line {
                 points: (*points).clone(),
                 colour,
                 dots: false,

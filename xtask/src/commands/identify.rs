@@ -100,3 +100,19 @@ fn drawn(json: &str) -> Result<String> {
         Ok(())
     })
 }
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn each_joint_has_its_chart() {
+        let trace = |name: &str| {
+            let line = "[[0.0,1.0],[1.0,-2.0]]";
+            format!(r#"{{"joint":"{name}","measured":{line},"before":{line},"after":{line}}}"#)
+        };
+        let names = ["a", "b", "c", "d"].map(|name| format!("joint {name}"));
+        let json = format!("[{}]", names.each_ref().map(|name| trace(name)).join(","));
+        let svg = super::drawn(&json).expect("a picture");
+        assert!(names.iter().all(|name| svg.contains(name.as_str())), "{svg}");
+        assert!(super::drawn("{}").is_err());
+    }
+}

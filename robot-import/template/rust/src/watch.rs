@@ -99,7 +99,7 @@ fn along(
     while ticks == 0 || number < ticks {
         if number.is_multiple_of(MACHINE) {
             let frame = encode(&Message::Machine(machine(motion)), &mut bytes);
-            frame.into_iter().for_each(|frame| send(frame));
+            frame.into_iter().for_each(&mut send);
         }
         let telemetry = control.tick::<FeedForward, _, _>(reference, &());
         let sample = Sample {
@@ -112,7 +112,7 @@ fn along(
             ..Sample::default()
         };
         let frame = encode(&Message::Tick(sample.message(0)), &mut bytes);
-        frame.into_iter().for_each(|frame| send(frame));
+        frame.into_iter().for_each(&mut send);
         plant.advance(&wires).map_err(RunError::Plant)?;
         number = number.wrapping_add(1);
     }

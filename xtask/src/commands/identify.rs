@@ -112,7 +112,10 @@ mod tests {
         let names = ["a", "b", "c", "d"].map(|name| format!("joint {name}"));
         let json = format!("[{}]", names.each_ref().map(|name| trace(name)).join(","));
         let svg = super::drawn(&json).expect("a picture");
-        assert!(names.iter().all(|name| svg.contains(name.as_str())), "{svg}");
+        assert!(
+            names.iter().all(|name| svg.contains(name.as_str())),
+            "{svg}"
+        );
         assert!(super::drawn("{}").is_err());
     }
 }

@@ -15,8 +15,7 @@ pub const SHARED: &str = "--workspace --exclude xtask --exclude telemetry-watch 
      --exclude lab-target --exclude identification --exclude identify --exclude simulation-tests --exclude trial-tests";
 
 /// The packages that simulate, likewise, and the profile that inlines the library into them.
-pub const SIMULATED: &str =
-    "--profile simulated --package identification --package identify --package simulation-tests --package trial-tests";
+pub const SIMULATED: &str = "--profile simulated --package identification --package identify --package simulation-tests --package trial-tests";
 
 /// Builds programs of [`SHARED`] packages, and returns their folder.
 pub fn build(workspace: &Workspace, targets: &[&str]) -> Result<PathBuf> {

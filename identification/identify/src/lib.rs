@@ -6,10 +6,12 @@
 //! | [`robot`] | the robot of a URDF or MJCF, and its parameters |
 //! | [`run`] | the fit, its comparison with held-out ticks, and the physical set |
 //! | [`report`] | what was found, as text and as JSON |
+//! | [`picture`] | the torques by time |
 //! | [`paste`] | the robot's Rust file and its initialisers in C with what was found |
 
 pub mod error;
 pub mod paste;
+pub mod picture;
 pub mod recorded;
 pub mod report;
 pub mod robot;

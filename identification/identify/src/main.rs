@@ -6,10 +6,10 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use identify::error::{Error, Result};
-use identify::paste;
 use identify::recorded::Recorded;
 use identify::robot::Robot;
 use identify::run::{self, JointEffect, Options};
+use identify::{paste, picture};
 
 /// The parameters of a robot's file from a recording of its ticks
 #[derive(Parser)]
@@ -46,9 +46,9 @@ struct Args {
     /// Print JSON instead of text
     #[arg(long)]
     json: bool,
-    /// Write the torques by time as JSON, for a picture
-    #[arg(long, value_name = "FILE")]
-    traces: Option<PathBuf>,
+    /// Draw the torques into this file; beside the recording, with the ending .torques.svg, if not given
+    #[arg(long, value_name = "SVG")]
+    picture: Option<PathBuf>,
     #[command(flatten)]
     options: robot_import::import::Options,
 }
@@ -91,16 +91,17 @@ fn run(args: &Args) -> Result<String> {
     if let Some(out) = &args.out {
         write(out, &file)?;
     }
-    if let Some(traces) = &args.traces {
-        write(traces, &serde_json::to_string(&found.traces)?)?;
-    }
+    let beside = || args.recording.with_extension("torques.svg");
+    let picture = args.picture.clone().unwrap_or_else(beside);
+    write(&picture, &picture::svg(&found.traces))?;
     if args.json {
         return Ok(serde_json::to_string_pretty(&found)? + "\n");
     }
     let (lines, c) = (paste::lines(&file), paste::c(&found));
     Ok(format!(
-        "{}\nto paste into the robot's Rust file:\n\n{lines}\nfor C:\n\n{c}",
-        found.text()
+        "{}\ndrawn: {}\n\nto paste into the robot's Rust file:\n\n{lines}\nfor C:\n\n{c}",
+        found.text(),
+        picture.display()
     ))
 }
 

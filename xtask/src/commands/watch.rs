@@ -83,13 +83,10 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     listener.args(args.json.then_some("--json"));
     if args.port.is_none() {
         let tools = setup::for_demo(options)?;
-        let (name, elf) = match &args.project {
-            Some(folder) => ("watch".to_owned(), project(&workspace, &tools, folder)?),
-            None => {
-                let name = format!("watch_{}", args.scene);
-                let elf = firmware(&workspace, &tools, &name)?;
-                (name, elf)
-            }
+        let name = format!("watch_{}", args.scene);
+        let elf = match &args.project {
+            Some(folder) => project(&workspace, &tools, folder)?,
+            None => firmware(&workspace, &tools, &name)?,
         };
         let numbers = [("faults", args.faults), ("ticks", args.ticks)];
         let numbers = numbers.map(|(name, number)| format!("{name}={}", number.unwrap_or(0)));
@@ -106,21 +103,18 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
 }
 
 /// The path of a record: another ending is refused before anything is built.
-fn recorded(text: &str) -> std::result::Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    match path.extension().and_then(|ending| ending.to_str()) {
-        Some("csv" | "mcap") => Ok(path),
-        _ => Err("a record ends with .csv or .mcap".to_owned()),
-    }
+fn recorded(text: &str) -> std::result::Result<PathBuf, &'static str> {
+    let is_known = text.ends_with(".csv") || text.ends_with(".mcap");
+    let path = is_known.then(|| text.into());
+    path.ok_or("a record ends with .csv or .mcap")
 }
 
 /// The program of a project that sends its ticks, built as the project's own manifest says.
 fn project(workspace: &Workspace, tools: &Tools, folder: &Path) -> Result<PathBuf> {
-    let program = folder.join("src/bin/watch.rs");
     refuse_if!(
-        !program.is_file(),
-        "{} is not there: `cargo xtask new` writes it into a project in Rust",
-        program.display()
+        !folder.join("src/bin/watch.rs").is_file(),
+        "{} has no src/bin/watch.rs: `cargo xtask new` writes it into a project in Rust",
+        folder.display()
     );
     let folder = std::path::absolute(folder).map_err(Error::file("find", folder))?;
     let target = folder.join("target");

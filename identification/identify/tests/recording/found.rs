@@ -5,7 +5,7 @@ use std::path::Path;
 use identify::error::Error;
 use identify::report::Found;
 use identify::robot::Robot;
-use identify::{paste, run};
+use identify::{paste, picture, run};
 use robot_import::inertia::MassProperties;
 
 use crate::arm::*;
@@ -69,6 +69,15 @@ fn torques_of_another_path_are_within_five_per_cent() {
 fn the_text_has_what_is_pasted() {
     let found = identified(&record(|t| swing(t, SIZE, RATES), 4_000)).expect("parameters");
     let text = found.text();
+    let svg = picture::svg(&found.traces);
+    for part in [
+        "shoulder, torque",
+        "elbow, torque",
+        "by what was found",
+        "height=\"600\"",
+    ] {
+        assert!(svg.contains(part), "{part}");
+    }
     let mass = format!("{:?}", found.bodies[1].after.mass);
     let lines = paste::lines(&paste::file(&off(), &found));
     for part in [

@@ -6,10 +6,6 @@ use crate::kit::error::Result;
 use crate::kit::shell;
 use crate::kit::workspace::Workspace;
 
-const PACKAGE: &str = "identify";
-/// The profile in which its equations are solved within a second.
-const PROFILE: &str = "simulated";
-
 /// A recording, and options of the package `identify`.
 #[derive(clap::Args)]
 pub struct Args {
@@ -21,11 +17,12 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let mut build = workspace.cargo("build");
-    shell::cargo(build.args(["--profile", PROFILE, "--package", PACKAGE]))?;
-    let file = format!("{PROFILE}/{PACKAGE}{}", std::env::consts::EXE_SUFFIX);
-    let mut program = Command::new(workspace.target.join(file));
-    let status = shell::run_for_user(program.args(&args.arguments))?;
+    // In which its equations are solved within a second.
+    let words = "--profile simulated --package identify".split(' ');
+    shell::cargo(workspace.cargo("build").args(words))?;
+    let file = format!("simulated/identify{}", std::env::consts::EXE_SUFFIX);
+    let status =
+        shell::run_for_user(Command::new(workspace.target.join(file)).args(&args.arguments))?;
     // It has printed its error.
     Ok(ExitCode::from(u8::from(!status.success())))
 }

@@ -105,8 +105,9 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
 /// The path of a record: another ending is refused before anything is built.
 fn recorded(text: &str) -> std::result::Result<PathBuf, &'static str> {
     let is_known = text.ends_with(".csv") || text.ends_with(".mcap");
-    let path = is_known.then(|| text.into());
-    path.ok_or("a record ends with .csv or .mcap")
+    is_known
+        .then(|| text.into())
+        .ok_or("a record ends with .csv or .mcap")
 }
 
 /// The program of a project that sends its ticks, built as the project's own manifest says.
@@ -116,11 +117,10 @@ fn project(workspace: &Workspace, tools: &Tools, folder: &Path) -> Result<PathBu
         "{} has no src/bin/watch.rs: `cargo xtask new` writes it into a project in Rust",
         folder.display()
     );
-    let folder = std::path::absolute(folder).map_err(Error::file("find", folder))?;
-    let target = folder.join("target");
+    let target = std::path::absolute(folder.join("target")).map_err(Error::file("find", folder))?;
     let mut cargo = tools.toolchain.cargo(workspace, "build");
-    cargo.args(["--release", "--features", "telemetry", "--bin", "watch"]);
-    shell::cargo(cargo.arg("--target-dir").arg(&target).current_dir(folder))?;
+    let words = "--release --features telemetry --bin watch --target-dir".split(' ');
+    shell::cargo(cargo.args(words).arg(&target).current_dir(folder))?;
     Ok(target.join(TARGET).join(RELEASE).join("watch"))
 }
 

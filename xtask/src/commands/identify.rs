@@ -20,9 +20,9 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     // In which its equations are solved within a second.
     let words = "--profile simulated --package identify".split(' ');
     shell::cargo(workspace.cargo("build").args(words))?;
-    let file = format!("simulated/identify{}", std::env::consts::EXE_SUFFIX);
-    let status =
-        shell::run_for_user(Command::new(workspace.target.join(file)).args(&args.arguments))?;
+    // Where programs have an ending, the system adds it.
+    let program = workspace.target.join("simulated/identify");
+    let status = shell::run_for_user(Command::new(program).args(&args.arguments))?;
     // It has printed its error.
     Ok(ExitCode::from(u8::from(!status.success())))
 }

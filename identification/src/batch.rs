@@ -89,11 +89,11 @@ impl Batch {
         let motion = FourierMotion::fit(&recording.positions, recording.period(), harmonics);
         let [rows, torques] = self.projected(arm, recording, &motion);
         let mut noise = Noise::first(&arm.limits.torque, harmonics);
-        let mut solved = Solved::of(&rows, &torques, &noise);
+        let mut solved = Solved::of(&rows, &torques, |at| noise.square(at));
         for _ in 0..PASSES {
             solved.check(arm, self.most)?;
             let change = noise.update(&solved, &arm.limits.torque);
-            solved = Solved::of(&rows, &torques, &noise);
+            solved = Solved::of(&rows, &torques, |at| noise.square(at));
             if change < FINAL {
                 break;
             }
@@ -165,7 +165,7 @@ fn orthonormal(n: usize, harmonics: usize) -> DMatrix<f64> {
 
 /// Least squares with given noise.
 pub(crate) struct Solved {
-    estimate: DVector<f64>,
+    pub(crate) estimate: DVector<f64>,
     /// The weighted rows are Q R.
     q: DMatrix<f64>,
     factor: DMatrix<f64>,
@@ -176,10 +176,15 @@ pub(crate) struct Solved {
 }
 
 impl Solved {
-    fn of<const V: usize>(rows: &DMatrix<f64>, torques: &DMatrix<f64>, noise: &Noise<V>) -> Self {
+    /// Of rows with these variances.
+    pub(crate) fn of(
+        rows: &DMatrix<f64>,
+        torques: &DMatrix<f64>,
+        square: impl Fn(usize) -> f64,
+    ) -> Self {
         let (mut rows, mut right) = (rows.clone(), torques.column(0).into_owned());
         for (at, right) in right.iter_mut().enumerate() {
-            let weight = 1.0 / noise.square(at).sqrt();
+            let weight = 1.0 / square(at).sqrt();
             rows.row_mut(at).scale_mut(weight);
             *right *= weight;
         }
@@ -205,7 +210,7 @@ impl Solved {
     }
 
     /// S with the covariance SᵀS of the estimate R⁻¹ Qᵀ z, if z has these variances.
-    fn deviations(&self, squares: &[f64]) -> DMatrix<f64> {
+    pub(crate) fn deviations(&self, squares: &[f64]) -> DMatrix<f64> {
         let inverse = self.factor.clone().try_inverse();
         let mut rows = self.q.clone() * inverse.expect("no singular value is zero").transpose();
         for (mut row, square) in rows.row_iter_mut().zip(squares) {

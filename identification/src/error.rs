@@ -58,6 +58,22 @@ pub enum IdentificationError {
         /// Their names.
         parameters: Vec<String>,
     },
+    /// The frequency up to which torques are compared is not positive, or too high for the ticks.
+    #[error(
+        "torques cannot be compared up to {cutoff} Hz: the ticks of the recording allow at most {most:.1} Hz"
+    )]
+    Cutoff {
+        /// The frequency, Hz.
+        cutoff: f64,
+        /// The highest one, Hz.
+        most: f64,
+    },
+    /// A recording of ticks has fewer samples than the parameters need.
+    #[error("{seconds:.1} s without a gap are too few to identify from")]
+    TooShort {
+        /// Its duration, s.
+        seconds: f64,
+    },
     /// A body of the nominal model has a pseudo-inertia that is not positive definite, and is not without mass either.
     #[error("body {body}: its nominal pseudo-inertia is not positive definite")]
     ImpossibleBody {

@@ -7,6 +7,7 @@
 //! | into the firmware, or as a controller's reference | [`FourierMotion::rust_source`], [`FourierMotion::csv`], [`FourierMotion::reference`] |
 //! | what was measured, in whole periods | [`Recording`] |
 //! | base parameters with standard deviations | [`Batch`], [`Identified`] |
+//! | the same from ticks of any motion | [`TickRecording`], [`Fit`], [`Fitted`] |
 //! | parameters of each body that are possible | [`PhysicalSet`] |
 //!
 //! The recursive estimator for the tick is `motion_control::ParameterEstimator`.
@@ -58,21 +59,27 @@ mod batch;
 mod columns;
 mod error;
 mod export;
+mod fit;
 mod fourier;
 mod identified;
 mod limits;
+mod low_pass;
 mod noise;
 mod physical;
 mod recording;
+mod reduced;
 mod search;
+mod ticks;
 
 pub use base::BaseModel;
 pub use batch::Batch;
 pub use columns::{OfJoint, Parameter};
 pub use error::IdentificationError;
+pub use fit::{Comparison, Fit, Fitted, Modelled};
 pub use fourier::{FourierMotion, PeriodicReference};
 pub use identified::Identified;
 pub use limits::ExcitationLimits;
 pub use physical::PhysicalSet;
 pub use recording::Recording;
 pub use search::{Excitation, Progress, Search};
+pub use ticks::{Samples, TickRecording};

@@ -58,65 +58,81 @@ impl<const V: usize> Identified<V> {
         D: RobotModel<f64, B, V, V>,
         E: Effect<f64, B, V>,
     {
-        let mut roots = [None; B];
-        for (body, (root, phi)) in roots.iter_mut().zip(bodies).enumerate() {
-            let inertia = pseudo_inertia(phi);
-            *root = inertia.cholesky().map(|factor| factor.l());
-            if root.is_none() && phi.iter().any(|x| *x != 0.0) {
-                return Err(IdentificationError::ImpossibleBody { body });
-            }
-        }
-        let units = units(&roots, joints, &arm.limits.torque);
-        let nominal = nominal(&roots, joints, &units);
-        // In units of the estimate's deviations: L⁻¹ (K U x − β), with the covariance L Lᵀ.
-        let mut covariance = self.root.tr_mul(&self.root);
-        for (k, row) in (&arm.grouping * &units).row_iter().enumerate() {
-            covariance[(k, k)] += (LEAST * share * row.norm()).powi(2);
-        }
-        let lower = covariance.cholesky().expect("positive deviations").l();
-        let factor = lower.try_inverse().expect("positive deviations");
-        let explained = &factor * &arm.grouping * &units;
-        let target = &factor * DVector::from_column_slice(&self.base);
-        let prior = 1.0 / (share * share);
-        let squares = explained.tr_mul(&explained);
-        // Between the least and the greatest curvature.
-        let rho = (prior * squares.diagonal().max().max(prior)).sqrt().sqrt() * prior.sqrt();
-        let n = units.ncols();
-        let identity = DMatrix::identity(n, n);
-        let inverse = |ridge: f64| {
-            let matrix = &squares + &identity * ridge;
-            matrix.cholesky().expect("positive definite").inverse()
-        };
-        let right = explained.tr_mul(&target) + &nominal * prior;
-        let mut x = inverse(prior) * &right;
-        let mut z = possible::<B>(&x);
-        if z != x {
-            let inverse = inverse(prior + rho);
-            let mut u = &x - &z;
-            for _ in 0..STEPS {
-                x = &inverse * (&right + (&z - &u) * rho);
-                let next = possible::<B>(&(&x + &u));
-                u += &x - &next;
-                let change = (&next - &z).amax().max((&x - &next).amax());
-                z = next;
-                if change < FINAL {
-                    break;
-                }
-            }
-        }
-        let misfit = (&explained * &z - &target).norm() / (self.base.len() as f64).sqrt();
-        let all = units * z;
-        let part = |from: usize, count: usize| all.rows(from, count);
-        let bodies = std::array::from_fn(|body| std::array::from_fn(|k| part(10 * body, 10)[k]));
-        let joints = std::array::from_fn(|joint| {
-            std::array::from_fn(|k| part(10 * B + OF_JOINT * joint, OF_JOINT)[k])
-        });
-        Ok(PhysicalSet {
-            bodies,
-            joints,
-            misfit,
-        })
+        most_probable(&self.base, &self.root, arm, bodies, joints, share)
     }
+}
+
+/// [`Identified::physical`] of base parameters with the covariance SᵀS.
+pub(crate) fn most_probable<D, E, const B: usize, const V: usize>(
+    base: &[f64],
+    deviations: &DMatrix<f64>,
+    arm: &BaseModel<D, E, B, V>,
+    bodies: &[[f64; 10]; B],
+    joints: &[[f64; 4]; V],
+    share: f64,
+) -> Result<PhysicalSet<B, V>, IdentificationError>
+where
+    D: RobotModel<f64, B, V, V>,
+    E: Effect<f64, B, V>,
+{
+    let mut roots = [None; B];
+    for (body, (root, phi)) in roots.iter_mut().zip(bodies).enumerate() {
+        let inertia = pseudo_inertia(phi);
+        *root = inertia.cholesky().map(|factor| factor.l());
+        if root.is_none() && phi.iter().any(|x| *x != 0.0) {
+            return Err(IdentificationError::ImpossibleBody { body });
+        }
+    }
+    let units = units(&roots, joints, &arm.limits.torque);
+    let nominal = nominal(&roots, joints, &units);
+    // In units of the estimate's deviations: L⁻¹ (K U x − β), with the covariance L Lᵀ.
+    let mut covariance = deviations.tr_mul(deviations);
+    for (k, row) in (&arm.grouping * &units).row_iter().enumerate() {
+        covariance[(k, k)] += (LEAST * share * row.norm()).powi(2);
+    }
+    let lower = covariance.cholesky().expect("positive deviations").l();
+    let factor = lower.try_inverse().expect("positive deviations");
+    let explained = &factor * &arm.grouping * &units;
+    let target = &factor * DVector::from_column_slice(base);
+    let prior = 1.0 / (share * share);
+    let squares = explained.tr_mul(&explained);
+    // Between the least and the greatest curvature.
+    let rho = (prior * squares.diagonal().max().max(prior)).sqrt().sqrt() * prior.sqrt();
+    let n = units.ncols();
+    let identity = DMatrix::identity(n, n);
+    let inverse = |ridge: f64| {
+        let matrix = &squares + &identity * ridge;
+        matrix.cholesky().expect("positive definite").inverse()
+    };
+    let right = explained.tr_mul(&target) + &nominal * prior;
+    let mut x = inverse(prior) * &right;
+    let mut z = possible::<B>(&x);
+    if z != x {
+        let inverse = inverse(prior + rho);
+        let mut u = &x - &z;
+        for _ in 0..STEPS {
+            x = &inverse * (&right + (&z - &u) * rho);
+            let next = possible::<B>(&(&x + &u));
+            u += &x - &next;
+            let change = (&next - &z).amax().max((&x - &next).amax());
+            z = next;
+            if change < FINAL {
+                break;
+            }
+        }
+    }
+    let misfit = (&explained * &z - &target).norm() / (base.len() as f64).sqrt();
+    let all = units * z;
+    let part = |from: usize, count: usize| all.rows(from, count);
+    let bodies = std::array::from_fn(|body| std::array::from_fn(|k| part(10 * body, 10)[k]));
+    let joints = std::array::from_fn(|joint| {
+        std::array::from_fn(|k| part(10 * B + OF_JOINT * joint, OF_JOINT)[k])
+    });
+    Ok(PhysicalSet {
+        bodies,
+        joints,
+        misfit,
+    })
 }
 
 /// \[Σ h; hᵀ m\].

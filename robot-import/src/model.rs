@@ -7,7 +7,7 @@ use dynamics_core::advice::Advice;
 use dynamics_core::algorithms::{crba, poses, rnea};
 use dynamics_core::effects::{Inertia, RIGID_BODY};
 use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
-use dynamics_core::model::{BASE, Body, Joint, JointLimits, Model, ModelError};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, ModelError};
 use dynamics_core::state::State;
 
 use crate::check::energy::{Rows, rows};
@@ -119,6 +119,19 @@ impl AnyModel {
             Self::Large(model) => model.dynamics(motion),
         }
     }
+}
+
+/// The model of a tree of N joints of one coordinate each.
+///
+/// # Errors
+/// Another number or other kinds of joints, or numbers that the library refuses.
+pub fn arm<const N: usize>(tree: &Tree) -> Result<ArmModel<f64, N>> {
+    if !tree.is_single() || tree.bodies.len() != N {
+        return Err(Problem::Value(format!("not {N} joints of one coordinate each")).into());
+    }
+    let bodies = std::array::from_fn(|i| described(&tree.bodies[i]));
+    Model::try_new("tree", bodies)
+        .map_err(|error: ModelError| Problem::Value(error.to_string()).into())
 }
 
 impl<const N: usize, const Q: usize> Sized<N, Q> {

@@ -218,6 +218,10 @@ fn rust_project(name: &str, robot: RobotFile, expected: &str) {
             .collect::<String>()
     };
     assert_eq!(without_clock(&host), without_clock(&device));
+    // The program that sends the ticks, with the motion that shows the parameters.
+    let watch = "run --release --features telemetry --bin watch -- excite ticks=2000";
+    let frames = trial.run("cargo", &watch.split(' ').collect::<Vec<_>>());
+    assert!(frames.len() > 50_000, "{} bytes", frames.len());
     trial.run("cargo", &["test"]);
     trial.run("cargo", &["fmt", "--check"]);
 }

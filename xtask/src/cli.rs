@@ -7,7 +7,7 @@ use std::sync::atomic::Ordering;
 use clap::error::ErrorKind;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::commands::{demo, endurance, import, meter, pil, test, watch, weight};
+use crate::commands::{demo, endurance, identify, import, meter, pil, test, watch, weight};
 use crate::kit::error::{Result, VERBOSE, check};
 use crate::kit::{output, processes, setup, workspace};
 use crate::studies;
@@ -43,8 +43,10 @@ enum Command {
     /// Measure a firmware of your own between its markers, and check its instructions
     #[command(after_long_help = meter::MARKERS)]
     Meter(meter::Args),
-    /// Show the telemetry of a scene in QEMU or of a machine on a serial port, live in the terminal
+    /// Show and record the telemetry of a scene or of your project in QEMU, or of a machine on a serial port
     Watch(watch::Args),
+    /// Find masses, inertias and frictions of a robot from a record of `watch`, for its file
+    Identify(identify::Args),
     /// Compare the scene ur5e with its robot in f64 on the host, processor in the loop, and with its robot inside
     Pil(pil::Args),
     /// Feed descriptions, files, dynamics, controller and encoder frames random bytes; CI does so for a moment
@@ -66,8 +68,8 @@ enum Command {
 }
 
 /// The commands for users, in the order of the help; all others are the laboratory's.
-const FIRST: [&str; 9] = [
-    "demo", "test", "new", "import", "meter", "watch", "pil", "costs", "accuracy",
+const FIRST: [&str; 10] = [
+    "demo", "test", "new", "import", "meter", "watch", "identify", "pil", "costs", "accuracy",
 ];
 
 /// The commands that lists name behind those of the studies.
@@ -171,6 +173,7 @@ pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {
         Command::Import(args) => import::run(setup, args),
         Command::Meter(args) => meter::run(setup, &args),
         Command::Watch(args) => watch::run(setup, &args),
+        Command::Identify(args) => identify::run(&args),
         Command::Pil(args) => pil::run(setup, &args),
         Command::Fuzz { seconds } => endurance::fuzz(seconds),
         Command::Soak { ticks } => endurance::soak(ticks),

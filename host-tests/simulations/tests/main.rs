@@ -18,6 +18,7 @@ mod payload_estimator;
 mod replay;
 mod scenes;
 mod so101;
+mod so101_record;
 mod soak;
 mod taught_path;
 mod true_motion;

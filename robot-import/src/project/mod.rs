@@ -311,6 +311,7 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         ("library", dependency(DYNAMICS)?),
         ("motion_control", dependency("motion-control")?),
         ("joint_drivers", dependency("drivers")?),
+        ("telemetry", optional(&dependency("telemetry")?)),
         ("robot", robot.type_name.clone()),
         ("effect_names", names),
         ("effect_types", types),
@@ -335,6 +336,11 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         values.extend(board.values());
     }
     Ok(values)
+}
+
+/// A dependency that only a feature uses.
+fn optional(dependency: &str) -> String {
+    dependency.trim_end_matches(" }").to_owned() + ", optional = true }"
 }
 
 /// The text with each `{{placeholder}}` replaced by its value; values are not searched for further ones.

@@ -6,7 +6,7 @@ use super::ProjectError;
 use crate::text::{c_comment, string_literal};
 
 /// Names that no crate with these dependencies can have: Rust's keywords, its libraries and its primitive types, which a
-/// crate of their name would hide in programs and tests; Cargo's folders; the dependencies.
+/// crate of their name would hide in programs and tests; Cargo's folders; the dependencies; the program `watch`.
 const RESERVED: &str = "
     abstract as async await become box break const continue crate do dyn else enum extern false final fn for gen if impl
     in let loop macro match mod move mut override priv pub ref return self static struct super trait true try type
@@ -14,7 +14,7 @@ const RESERVED: &str = "
     alloc core proc_macro std test
     bool char f128 f16 f32 f64 i128 i16 i32 i64 i8 isize str u128 u16 u32 u64 u8 usize
     build deps examples incremental
-    cortex_m cortex_m_rt cortex_m_semihosting dynamics_core embedded_hal joint_drivers motion_control
+    cortex_m cortex_m_rt cortex_m_semihosting dynamics_core embedded_hal joint_drivers motion_control telemetry watch
     embassy_executor embassy_rp embassy_sync embassy_time embedded_hal_bus panic_halt rtic stm32f4xx_hal";
 
 /// Fails unless the name can be that of a crate, and in lower case a prefix of C functions.

@@ -42,6 +42,9 @@ pub(super) const RUST: &[File] = files!["rust":
     "src/simulation.rs",
     "src/report.rs",
     "src/marker.rs",
+    "src/excitation.rs",
+    "src/watch.rs",
+    "src/bin/watch.rs" ".liquid",
     "tests/tracking.rs" ".liquid",
 ];
 

@@ -4,14 +4,14 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering::Relaxed;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use clap::Parser;
 use telemetry_watch::error::{Error, Result};
-use telemetry_watch::record::Recorder;
+use telemetry_watch::record::{self, Recorder};
 use telemetry_watch::session::{self, Options, Show};
 use telemetry_watch::source::Place;
-use telemetry_watch::summary::Summary;
+use telemetry_watch::summary::{self, Summary};
 
 /// Shows and records the telemetry of a machine
 #[derive(Parser)]
@@ -26,9 +26,9 @@ struct Args {
     #[arg(long, value_name = "FILE")]
     file: Option<PathBuf>,
     /// Record the ticks; the ending .csv or .mcap names the form
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = record::named)]
     record: Option<PathBuf>,
-    /// End after so many seconds
+    /// End after so many seconds of this computer, in which an emulated machine may have had fewer
     #[arg(long, value_name = "S")]
     seconds: Option<f64>,
     /// Show nothing, and print a summary as JSON at the end
@@ -75,8 +75,13 @@ fn run(args: &Args) -> Result<()> {
         limit,
         pace: args.pace,
     };
-    let view = session::run(&mut place.open()?, recorder, options)?;
-    if args.json {
+    let mut source = place.open()?;
+    let start = Instant::now();
+    let view = session::run(&mut source, recorder, options)?;
+    if !args.json {
+        let line = summary::duration(&view, start.elapsed());
+        writeln!(std::io::stdout(), "{line}")?;
+    } else {
         let json = serde_json::to_string_pretty(&Summary::of(&view));
         writeln!(std::io::stdout(), "{}", json.map_err(std::io::Error::from)?)?;
     }

@@ -18,7 +18,7 @@ pub struct Recorder {
     path: PathBuf,
     form: Form,
     /// The period of a tick, µs, once it is known.
-    period: u32,
+    period: Option<u32>,
 }
 
 enum Form {
@@ -38,6 +38,18 @@ struct Json<'a> {
     dropped: u32,
     joints: &'a [telemetry::Joint],
     cost: BTreeMap<&'a str, u32>,
+}
+
+/// The path of a record, if its ending names a form.
+///
+/// # Errors
+/// [`Error::Ending`].
+pub fn named(text: &str) -> Result<PathBuf> {
+    let path = PathBuf::from(text);
+    match path.extension().and_then(|ending| ending.to_str()) {
+        Some("csv" | "mcap") => Ok(path),
+        _ => Err(Error::Ending { path }),
+    }
 }
 
 impl Recorder {
@@ -74,13 +86,13 @@ impl Recorder {
         Ok(Self {
             path: path.to_owned(),
             form,
-            period: 1000,
+            period: None,
         })
     }
 
     /// Sets the period of a tick, µs, for the times in the file.
     pub fn period(&mut self, period: u32) {
-        self.period = period;
+        self.period = Some(period);
     }
 
     /// Writes a tick.
@@ -96,7 +108,7 @@ impl Recorder {
                 } else {
                     String::new()
                 };
-                let line = titles + &line(tick);
+                let line = titles + &line(tick, self.period);
                 file.write_all(line.as_bytes())
                     .map_err(|source| Error::Record {
                         path: self.path.clone(),
@@ -104,7 +116,7 @@ impl Recorder {
                     })
             }
             Form::Mcap(writer, channel) => {
-                let time = u64::from(tick.number) * u64::from(self.period) * 1000;
+                let time = u64::from(tick.number) * u64::from(self.period.unwrap_or(1000)) * 1000;
                 let header = MessageHeader {
                     channel_id: *channel,
                     sequence: tick.number,
@@ -160,7 +172,7 @@ fn json(tick: &Tick) -> Json<'_> {
 }
 
 fn titles(joints: usize) -> String {
-    let mut titles = String::from("number,tick,mode,fault,limited,dropped");
+    let mut titles = String::from("number,tick,mode,fault,limited,dropped,time_s");
     for joint in 0..joints {
         titles += &format!(",reference_{joint},estimate_{joint},torque_{joint}");
     }
@@ -170,13 +182,16 @@ fn titles(joints: usize) -> String {
     titles + "\n"
 }
 
-fn line(tick: &Tick) -> String {
+/// The time is that of the tick's number; it is empty until the machine has said how long a tick is.
+fn line(tick: &Tick, period: Option<u32>) -> String {
     let status = tick.status;
     let fault = status
         .fault
         .map_or(String::new(), |fault| fault.to_string());
+    let seconds = |period: u32| 1e-6 * f64::from(period) * f64::from(tick.number);
+    let time = period.map_or(String::new(), |period| format!("{:.6}", seconds(period)));
     let mut line = format!(
-        "{},{},{},{fault},{},{}",
+        "{},{},{},{fault},{},{},{time}",
         tick.number,
         tick.tick,
         mode(status.mode),

@@ -171,7 +171,7 @@ fn draw_costs(frame: &mut Frame<'_>, area: Rect, view: &View) {
 
 fn draw_events(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let lines = view.events.iter().rev();
-    let lines = lines.map(|event| Line::from(format!("tick {:8}  {}", event.number, event.text)));
+    let lines = lines.map(|event| Line::from(format!("tick {:8}  {}", event.first, event.words())));
     let block = Block::bordered().title(" modes and faults, the newest first; q ends ");
     frame.render_widget(Paragraph::new(lines.collect::<Vec<_>>()).block(block), area);
 }

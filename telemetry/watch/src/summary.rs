@@ -1,5 +1,7 @@
 //! The view as JSON and as a line of text.
 
+use std::time::Duration;
+
 use serde::Serialize;
 use telemetry::PHASES;
 
@@ -11,6 +13,8 @@ pub struct Summary {
     pub machine: Option<String>,
     /// Ticks that arrived.
     pub ticks: u64,
+    /// The time of the machine in these, s, if it has said how long a tick is.
+    pub seconds: Option<f64>,
     pub bad_frames: u64,
     /// Ticks that the machine's queue dropped.
     pub dropped: u64,
@@ -67,6 +71,7 @@ impl Summary {
                 .as_ref()
                 .map(|machine| machine.name.to_string()),
             ticks: view.ticks,
+            seconds: view.seconds(),
             bad_frames: view.counts.bad,
             dropped: view.counts.dropped,
             lost: view.counts.lost(),
@@ -77,9 +82,24 @@ impl Summary {
             events: view
                 .events
                 .iter()
-                .map(|e| (e.number, e.text.clone()))
+                .map(|event| (event.first, event.words()))
                 .collect(),
         }
+    }
+}
+
+/// How long the machine ran, by its ticks and by this computer's clock.
+#[must_use]
+pub fn duration(view: &View, took: Duration) -> String {
+    let took = took.as_secs_f64();
+    match view.seconds() {
+        Some(seconds) => {
+            format!(
+                "{} ticks: {seconds:.2} s of the machine, in {took:.2} s",
+                view.ticks
+            )
+        }
+        None => format!("{} ticks in {took:.2} s", view.ticks),
     }
 }
 

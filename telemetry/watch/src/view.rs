@@ -10,11 +10,34 @@ use crate::{Machine, Message, Tick};
 /// Events that are kept.
 const EVENTS: usize = 100;
 
-/// A change of mode or fault.
+/// Events of which one may come again: hold, its fault, and full.
+const ALTERNATING: usize = 3;
+/// Ticks within which a mode or fault that comes again is the same event.
+const AGAIN: u32 = 200;
+
+/// A change of mode or fault, and its repetitions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Event {
-    pub number: u32,
+    /// The number of the tick in which it came first, and last.
+    pub first: u32,
+    pub last: u32,
+    /// How often it came.
+    pub count: u32,
     pub text: String,
+}
+
+impl Event {
+    /// Its text, with the number of its repetitions.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let Self {
+            last, count, text, ..
+        } = self;
+        match count {
+            1 => text.clone(),
+            _ => format!("{text}  ({count} times to tick {last})"),
+        }
+    }
 }
 
 /// The extremes of a joint so far.
@@ -80,11 +103,39 @@ impl View {
             Some(fault) => format!("{mode}: {fault}"),
             None => mode.to_owned(),
         };
+        let number = tick.number;
+        // A fault that comes and goes changes the mode in almost every tick.
+        let again = self
+            .events
+            .iter_mut()
+            .rev()
+            .take(ALTERNATING)
+            .find(|event| {
+                event.text == text
+                    && number
+                        .checked_sub(event.last)
+                        .is_some_and(|since| since <= AGAIN)
+            });
+        if let Some(event) = again {
+            (event.last, event.count) = (number, event.count + 1);
+            return;
+        }
         if self.events.len() == EVENTS {
             self.events.pop_front();
         }
-        let number = tick.number;
-        self.events.push_back(Event { number, text });
+        self.events.push_back(Event {
+            first: number,
+            last: number,
+            count: 1,
+            text,
+        });
+    }
+
+    /// The time of the machine in the ticks that arrived, s, if it has said how long one is.
+    #[must_use]
+    pub fn seconds(&self) -> Option<f64> {
+        let period = self.machine.as_ref()?.tick_us;
+        Some(1e-6 * f64::from(period) * self.ticks as f64)
     }
 
     /// The limit of a joint's torque, N·m or N, if it is known.

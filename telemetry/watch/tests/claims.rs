@@ -185,6 +185,40 @@ fn the_summary_counts_what_is_missing_and_why() {
 }
 
 #[test]
+fn a_fault_that_comes_and_goes_is_one_line() {
+    let mut view = View::default();
+    for number in 0..5000 {
+        let mut tick = tick(0);
+        tick.number = number;
+        // From tick 2000, and again from 4000, an encoder reports an error in every second tick.
+        let is_faulty = number % 2000 < 20 && number >= 2000;
+        if is_faulty && number % 2 == 0 {
+            tick.status.mode = Mode::Hold;
+            tick.status.fault = Some(Fault::Encoder { joint: 1 });
+        }
+        view.take(Message::Tick(tick));
+    }
+    let words: Vec<(u32, String)> = Summary::of(&view).events;
+    let fault = "hold: joint 1: its encoder reports an error";
+    let expected = [
+        (2000, format!("{fault}  (10 times to tick 2018)")),
+        (2001, "full  (10 times to tick 2019)".to_owned()),
+        (4000, format!("{fault}  (10 times to tick 4018)")),
+        (4001, "full  (10 times to tick 4019)".to_owned()),
+    ];
+    assert_eq!(words, expected);
+}
+
+#[test]
+fn the_last_line_tells_the_machines_time_from_the_computers() {
+    let mut view = view(&recorded());
+    let said = |view: &View| summary::duration(view, Duration::from_secs(2));
+    assert_eq!(said(&view), "23 ticks: 0.02 s of the machine, in 2.00 s");
+    view.machine = None;
+    assert_eq!(said(&view), "23 ticks in 2.00 s");
+}
+
+#[test]
 fn a_line_of_text_says_the_same() {
     let line = summary::line(&view(&recorded()));
     let expected = "tick 24: stopped (joint 1: its encoder reports an error), error 2.000 mrad or mm at most, 38.0 µs; \
@@ -201,12 +235,12 @@ fn a_csv_record_has_a_line_for_each_tick() {
     assert_eq!(lines.len(), 1 + 23);
     let columns: Vec<usize> = lines.iter().map(|line| line.split(',').count()).collect();
     assert!(
-        columns.iter().all(|&columns| columns == 6 + 2 * 3 + 5),
+        columns.iter().all(|&columns| columns == 7 + 2 * 3 + 5),
         "{columns:?}"
     );
-    assert!(lines[0].starts_with("number,tick,mode,fault,limited,dropped,reference_0,"));
+    assert!(lines[0].starts_with("number,tick,mode,fault,limited,dropped,time_s,reference_0,"));
     assert!(
-        lines[1].starts_with("0,0,full,,false,0,1.5,1.498,75,"),
+        lines[1].starts_with("0,0,full,,false,0,0.000000,1.5,1.498,75,"),
         "{}",
         lines[1]
     );

@@ -2,6 +2,7 @@
 
 pub mod demo;
 pub mod endurance;
+pub mod identify;
 pub mod import;
 pub mod layers;
 pub mod meter;

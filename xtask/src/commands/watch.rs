@@ -9,10 +9,10 @@ use serde_json::Value;
 use crate::kit::bars;
 use crate::kit::callgraph::Instruction;
 use crate::kit::elf::Image;
-use crate::kit::error::{Result, bail, check, refuse_if};
+use crate::kit::error::{Error, Result, bail, check, refuse_if};
 use crate::kit::qemu::Run;
 use crate::kit::setup::{self, Options, Tools};
-use crate::kit::toolchain::RELEASE;
+use crate::kit::toolchain::{RELEASE, TARGET};
 use crate::kit::workspace::Workspace;
 use crate::kit::{firmware, meter, shell};
 use crate::studies::budgets;
@@ -40,6 +40,15 @@ pub struct Args {
     /// Every so many ticks an encoder of the scene reports errors
     #[arg(long, value_name = "TICKS", conflicts_with = "port")]
     faults: Option<u32>,
+    /// Run the project of `cargo xtask new` in this folder in QEMU
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["port", "scene", "faults"])]
+    project: Option<PathBuf>,
+    /// Move the project's robot along a motion that shows its parameters, for `cargo xtask identify`
+    #[arg(long, requires = "project")]
+    excite: bool,
+    /// End the project's program after so many ticks
+    #[arg(long, value_name = "N", requires = "project")]
+    ticks: Option<u32>,
     /// Listen to the machine on this serial port
     #[arg(long, value_name = "PORT")]
     port: Option<String>,
@@ -47,9 +56,9 @@ pub struct Args {
     #[arg(long, value_name = "RATE", requires = "port")]
     baud: Option<u32>,
     /// Record the ticks; the ending .csv or .mcap names the form
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = recorded)]
     record: Option<PathBuf>,
-    /// End after so many seconds
+    /// End after so many seconds of this computer, in which QEMU may have emulated fewer
     #[arg(long, value_name = "S")]
     seconds: Option<f64>,
     /// Show nothing, and print a summary as JSON at the end
@@ -75,9 +84,14 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     if args.port.is_none() {
         let tools = setup::for_demo(options)?;
         let name = format!("watch_{}", args.scene);
-        let elf = firmware(&workspace, &tools, &name)?;
-        let faults = format!("faults={}", args.faults.unwrap_or(0));
-        let words = [faults.as_str()];
+        let elf = match &args.project {
+            Some(folder) => project(&workspace, &tools, folder)?,
+            None => firmware(&workspace, &tools, &name)?,
+        };
+        let numbers = [("faults", args.faults), ("ticks", args.ticks)];
+        let numbers = numbers.map(|(name, number)| format!("{name}={}", number.unwrap_or(0)));
+        let words = numbers.iter().map(String::as_str);
+        let words: Vec<&str> = words.chain(args.excite.then_some("excite")).collect();
         let mut run = Run::logging(&name, &elf, None);
         (run.serial, run.words) = (SERIAL, &words);
         listener.arg("--pace");
@@ -86,6 +100,28 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     let status = shell::run_for_user(&mut listener)?;
     // It has printed its error.
     Ok(ExitCode::from(u8::from(!status.success())))
+}
+
+/// The path of a record: another ending is refused before anything is built.
+fn recorded(text: &str) -> std::result::Result<PathBuf, &'static str> {
+    let is_known = text.ends_with(".csv") || text.ends_with(".mcap");
+    is_known
+        .then(|| text.into())
+        .ok_or("a record ends with .csv or .mcap")
+}
+
+/// The program of a project that sends its ticks, built as the project's own manifest says.
+fn project(workspace: &Workspace, tools: &Tools, folder: &Path) -> Result<PathBuf> {
+    refuse_if!(
+        !folder.join("src/bin/watch.rs").is_file(),
+        "{} has no src/bin/watch.rs: `cargo xtask new` writes it into a project in Rust",
+        folder.display()
+    );
+    let target = std::path::absolute(folder.join("target")).map_err(Error::file("find", folder))?;
+    let mut cargo = tools.toolchain.cargo(workspace, "build");
+    let words = "--release --features telemetry --bin watch --target-dir".split(' ');
+    shell::cargo(cargo.args(words).arg(&target).current_dir(folder))?;
+    Ok(target.join(TARGET).join(RELEASE).join("watch"))
 }
 
 /// A host program of the package of its name, built.

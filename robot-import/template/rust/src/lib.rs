@@ -7,8 +7,12 @@
 
 pub mod board;
 pub mod control;
+#[cfg(feature = "telemetry")]
+pub mod excitation;
 pub mod marker;
 pub mod report;
 pub mod robot;
 pub mod scene;
 pub mod simulation;
+#[cfg(feature = "telemetry")]
+pub mod watch;

@@ -41,7 +41,7 @@ pub fn msrv(context: &Context) -> Result<String> {
         shell::capture(Command::new("rustup").args(install).arg(MSRV))
             .or_else(|_| skip(format!("{MSRV} is not there")))?;
     }
-    let check = "check --package dynamics-core --package motion-control --package joint-drivers --all-features --target-dir target/msrv".split(' ');
+    let check = "check --package dynamics-core --package motion-control --package joint-drivers --package telemetry --all-features --target-dir target/msrv".split(' ');
     let mut cargo = toolchain::rustup(MSRV, "cargo");
     shell::capture(cargo.current_dir(&context.workspace.root).args(check))?;
     Ok(format!("rustc {MSRV}"))

@@ -80,6 +80,13 @@ fn lost_ticks_bad_frames_and_disturbed_arms_fail() {
 }
 
 #[test]
+fn another_ending_of_a_record_is_refused_at_once() {
+    let is_taken = |name: &str| super::recorded(name).is_ok();
+    assert!(is_taken("run.csv") && is_taken("a/run.mcap"));
+    assert!(!is_taken("run.txt") && !is_taken("csv") && !is_taken("run.CSV"));
+}
+
+#[test]
 fn a_tick_that_masks_interrupts_fails() {
     let image = |name, code| Image::of(vec![Function::of(name, 0x1000, &[code, 0x4770])]);
     let masking = 0xb672;

@@ -1,0 +1,21 @@
+//! The parameters of a robot's file from a recording of its ticks: what `cargo xtask identify` runs.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`recorded`] | the ticks of a CSV that `cargo xtask watch` has recorded |
+//! | [`robot`] | the robot of a URDF or MJCF, and its parameters |
+//! | [`run`] | the fit, its comparison with held-out ticks, and the physical set |
+//! | [`report`] | what was found, as text and as JSON |
+//! | [`picture`] | the torques by time |
+//! | [`paste`] | the robot's Rust file and its initialisers in C with what was found |
+
+pub mod error;
+pub mod paste;
+pub mod picture;
+pub mod recorded;
+pub mod report;
+pub mod robot;
+pub mod run;
+
+/// The most joints that a robot may have: its size is known to the compiler.
+pub const MOST_JOINTS: usize = 12;

@@ -1,0 +1,113 @@
+//! The parameters of a robot's file from a recording of its ticks: what `cargo xtask identify` runs.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Parser;
+use identify::error::{Error, Result};
+use identify::recorded::Recorded;
+use identify::robot::Robot;
+use identify::run::{self, JointEffect, Options};
+use identify::{paste, picture};
+
+/// The parameters of a robot's file from a recording of its ticks
+#[derive(Parser)]
+struct Args {
+    /// The recording: `cargo xtask watch --record FILE.csv`
+    #[arg(value_name = "CSV")]
+    recording: PathBuf,
+    /// The description of the robot, URDF or MJCF
+    #[arg(long, value_name = "FILE")]
+    robot: PathBuf,
+    /// The robot's name in its Rust file: that of the project's folder; that of the description if not given
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+    /// The effects at joints that are identified; the others stay as described
+    #[arg(
+        long,
+        value_enum,
+        value_delimiter = ',',
+        default_value = "viscous,coulomb,armature"
+    )]
+    effects: Vec<JointEffect>,
+    /// Compare with this recording of another path, instead of with the last part of the first one
+    #[arg(long, value_name = "CSV")]
+    validate: Option<PathBuf>,
+    /// The speed below which Coulomb friction fades, rad/s or m/s
+    #[arg(long, value_name = "W", default_value = "0.02", value_parser = positive)]
+    width: f64,
+    /// Compare torques up to this frequency, Hz
+    #[arg(long, value_name = "HZ", default_value = "10", value_parser = positive)]
+    cutoff: f64,
+    /// Write the robot's Rust file with what was found
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Print JSON instead of text
+    #[arg(long)]
+    json: bool,
+    /// Draw the torques into this file; beside the recording, with the ending .torques.svg, if not given
+    #[arg(long, value_name = "SVG")]
+    picture: Option<PathBuf>,
+    #[command(flatten)]
+    options: robot_import::import::Options,
+}
+
+fn positive(text: &str) -> std::result::Result<f64, String> {
+    let number = text.parse::<f64>().ok();
+    let number = number.filter(|x| *x > 0.0 && x.is_finite());
+    number.ok_or_else(|| "not a positive number".to_owned())
+}
+
+fn main() -> ExitCode {
+    let printed = run(&Args::parse()).map(|text| std::io::stdout().write_all(text.as_bytes()));
+    match printed {
+        Ok(Ok(())) => ExitCode::SUCCESS,
+        // The reader of a pipe, such as `| head`, has closed it.
+        Ok(Err(_)) => ExitCode::from(128 + 13),
+        Err(error) => {
+            // It names what files have, whose control characters are not for the terminal.
+            let text = error.to_string();
+            let lines: Vec<String> = text.lines().map(robot_import::text::visible).collect();
+            eprintln!("error: {}", lines.join("\n"));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(args: &Args) -> Result<String> {
+    let recorded = Recorded::read(&args.recording)?;
+    let other = args.validate.as_deref().map(Recorded::read).transpose()?;
+    let robot = Robot::read(&args.robot, args.name.as_deref(), &args.options)?;
+    let options = Options {
+        effects: args.effects.clone(),
+        width: args.width,
+        cutoff: args.cutoff,
+        hold_out: 0.3,
+    };
+    let validate = args.validate.as_deref().zip(other.as_ref());
+    let found = run::identify(&robot, (&args.recording, &recorded), validate, &options)?;
+    let file = paste::file(&robot, &found);
+    if let Some(out) = &args.out {
+        write(out, &file)?;
+    }
+    let beside = || args.recording.with_extension("torques.svg");
+    let picture = args.picture.clone().unwrap_or_else(beside);
+    write(&picture, &picture::svg(&found.traces))?;
+    if args.json {
+        return Ok(serde_json::to_string_pretty(&found)? + "\n");
+    }
+    let (lines, c) = (paste::lines(&file), paste::c(&found));
+    Ok(format!(
+        "{}\ndrawn: {}\n\nto paste into the robot's Rust file:\n\n{lines}\nfor C:\n\n{c}",
+        found.text(),
+        picture.display()
+    ))
+}
+
+fn write(path: &Path, text: &str) -> Result<()> {
+    std::fs::write(path, text).map_err(|source| Error::Write {
+        path: path.to_owned(),
+        source,
+    })
+}

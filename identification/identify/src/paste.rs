@@ -1,0 +1,131 @@
+//! The robot's Rust file and its initialisers in C with what was found.
+
+use std::fmt::Write as _;
+
+use robot_import::inertia::MassProperties;
+use robot_import::write;
+
+use crate::report::{Found, rounded};
+use crate::robot::Robot;
+
+/// The width with which the importer writes Coulomb friction.
+const WIDTH: &str = "Width::f32(0.02)";
+
+/// The Rust file of the robot, as `cargo xtask import` writes it, with what was found.
+pub fn file(robot: &Robot, found: &Found) -> String {
+    let imported = &robot.imported;
+    let mut tree = imported.tree.clone();
+    for ((body, own), joint) in tree.bodies.iter_mut().zip(&found.bodies).zip(&found.joints) {
+        body.inertia = MassProperties {
+            mass: own.after.mass,
+            com: own.after.com,
+            inertia: own.after.inertia,
+        };
+        [body.damping, body.friction, body.armature] = [0, 1, 2].map(|k| rounded(joint.after[k]));
+    }
+    let origin = write::Origin {
+        file: imported.report.file.clone(),
+        licence: imported.robot.licence.clone(),
+        date: today(),
+        notes: vec![format!(
+            "Masses, inertias and frictions were identified from {:.1} s of motion.",
+            found.fitted_seconds
+        )],
+    };
+    let source = write::source(&tree, &imported.name, &imported.report.type_name, &origin);
+    let width = format!("Width::f32({:?})", found.width);
+    let source = source.replace(WIDTH, &width);
+    let source = source.replace(
+        "full beyond 0.02 rad/s",
+        &format!("full beyond {:?} rad/s", found.width),
+    );
+    write::formatted(&(source + &gears(found, &width)))
+}
+
+/// The day in UTC.
+fn today() -> String {
+    let today = time::OffsetDateTime::now_utc();
+    let month = u8::from(today.month());
+    format!("{}-{month:02}-{:02}", today.year(), today.day())
+}
+
+/// Of the file, the lines that differ from the one before: the bodies and the constants of the joints.
+pub fn lines(file: &str) -> String {
+    let between = |from: &str, to: &str| {
+        let start = file.find(from).unwrap_or(file.len());
+        let end = file[start..].find(to).map_or(file.len(), |end| start + end);
+        &file[start..end]
+    };
+    let bodies = between("impl Robot<", "\n// A robot with");
+    let joints = between("/// Viscous friction,", "\n/// The rigid body, and");
+    let gears = between("/// Friction of the gears", "\u{0}");
+    [bodies, joints, gears]
+        .map(str::trim_end)
+        .join("\n\n")
+        .trim_end()
+        .to_owned()
+        + "\n"
+}
+
+/// The constant of the gears, if their friction was found; the importer knows none.
+fn gears(found: &Found, width: &str) -> String {
+    let each = found.joints.iter().filter_map(|joint| joint.gear);
+    let each: Vec<[f64; 2]> = each.map(|gear| gear.friction.map(rounded)).collect();
+    if each.is_empty() {
+        return String::new();
+    }
+    let of = |k: usize| {
+        let numbers: Vec<String> = each.iter().map(|mu| format!("{:?}", mu[k])).collect();
+        numbers.join(", ")
+    };
+    format!(
+        "\n/// Friction of the gears per transmitted torque: add it to the scene.\npub const GEARS: ::dynamics_core::effects::LoadFriction<f32, V> = \
+         ::dynamics_core::effects::LoadFriction {{ driving: [{}], backdriving: [{}], width: {width} }};\n",
+        of(0),
+        of(1)
+    )
+}
+
+/// Initialisers for C: of each body the fields of `<name>_load` in the header of a project, and of each joint its friction.
+pub fn c(found: &Found) -> String {
+    let list = |numbers: &[f64]| {
+        let each: Vec<String> = numbers
+            .iter()
+            .map(|x| format!("{:?}f", rounded(*x)))
+            .collect();
+        format!("{{{}}}", each.join(", "))
+    };
+    let mut text = format!(
+        "/* Bodies in their own frames: kg, m, kg m^2 about the centre of mass (xx, xy, xz, yy, yz, zz). */\n\
+         static const struct {{ float mass; float com[3]; float inertia[6]; }} bodies[{}] = {{\n",
+        found.bodies.len()
+    );
+    for body in &found.bodies {
+        let own = &body.after;
+        let _ = writeln!(
+            text,
+            "    {{ .mass = {:?}f, .com = {}, .inertia = {} }}, /* {} */",
+            own.mass,
+            list(&own.com),
+            list(&own.inertia),
+            robot_import::text::visible(&body.name).replace("*/", "* /")
+        );
+    }
+    text += "};\n";
+    let names = ["viscous", "coulomb", "armature"];
+    let units = [
+        "Viscous friction, N m s/rad or N s/m",
+        "Coulomb friction, N m or N",
+        "Inertia of the rotors at the joints, kg m^2 or kg",
+    ];
+    for (k, (name, unit)) in names.into_iter().zip(units).enumerate() {
+        let numbers: Vec<f64> = found.joints.iter().map(|joint| joint.after[k]).collect();
+        let _ = writeln!(
+            text,
+            "static const float {name}[{}] = {}; /* {unit} */",
+            numbers.len(),
+            list(&numbers)
+        );
+    }
+    text
+}

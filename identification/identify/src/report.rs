@@ -1,0 +1,351 @@
+//! What was found, as text and as JSON.
+
+use std::fmt::Write as _;
+
+use dynamics_core::model::BodyInertia;
+use robot_import::inertia::MassProperties;
+use serde::Serialize;
+
+/// The digits of numbers to paste.
+const DIGITS: usize = 6;
+
+/// What a recording says of a robot; its fields are those of the JSON.
+#[derive(Clone, Debug, Serialize)]
+pub struct Found {
+    pub robot: String,
+    /// Ticks in which the controller made the torque.
+    pub ticks: usize,
+    /// The length of a tick, s.
+    pub tick: f64,
+    /// Ticks on hold, stopped, or without a time.
+    pub left_out: usize,
+    pub gaps: usize,
+    pub fitted_seconds: f64,
+    pub held_out_seconds: f64,
+    /// Whether what was held out is another recording.
+    pub other_path: bool,
+    /// The width of the smooth sign of Coulomb friction, rad/s or m/s.
+    pub width: f64,
+    pub condition: f64,
+    /// Of the physical set from the estimate, in standard deviations.
+    pub misfit: f64,
+    pub parameters: Vec<ParameterFound>,
+    pub joints: Vec<JointFound>,
+    pub bodies: Vec<BodyFound>,
+    /// Torques of the held-out part.
+    #[serde(skip)]
+    pub traces: Vec<Trace>,
+}
+
+/// A base parameter.
+#[derive(Clone, Debug, Serialize)]
+pub struct ParameterFound {
+    pub name: String,
+    /// Of the description.
+    pub before: f64,
+    pub found: f64,
+    pub deviation: f64,
+    /// Of an effect that is not identified.
+    pub is_known: bool,
+    /// Whether the motion shows it.
+    pub is_determined: bool,
+}
+
+/// A joint.
+#[derive(Clone, Debug, Serialize)]
+pub struct JointFound {
+    pub name: String,
+    /// Viscous and Coulomb friction, armature and offset of the description.
+    pub before: [f64; 4],
+    pub after: [f64; 4],
+    /// Where the number is a base parameter of its own.
+    pub deviations: [Option<f64>; 4],
+    pub gear: Option<Gear>,
+    pub fitted: Part,
+    pub held_out: Option<Part>,
+}
+
+/// Friction of a gear per transmitted torque, while the motor drives and while the load does.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Gear {
+    pub friction: [f64; 2],
+    pub deviations: [f64; 2],
+}
+
+/// A part of a recording at a joint, N·m or N.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Part {
+    pub largest_torque: f64,
+    /// Of the description, and of what was found.
+    pub residuals: [Residuals; 2],
+}
+
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Residuals {
+    pub rms: f64,
+    pub largest: f64,
+}
+
+/// A body.
+#[derive(Clone, Debug, Serialize)]
+pub struct BodyFound {
+    pub name: String,
+    pub before: Numbers,
+    pub after: Numbers,
+}
+
+/// Mass, kg, centre of mass, m, and inertia about it, kg·m², in the frame of the body.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Numbers {
+    pub mass: f64,
+    pub com: [f64; 3],
+    pub inertia: [f64; 6],
+}
+
+/// The torques of a joint by time.
+#[derive(Clone, Debug, Serialize)]
+pub struct Trace {
+    pub joint: String,
+    pub measured: Vec<(f64, f64)>,
+    pub before: Vec<(f64, f64)>,
+    pub after: Vec<(f64, f64)>,
+}
+
+impl Numbers {
+    pub fn of(inertia: &MassProperties) -> Self {
+        Self {
+            mass: inertia.mass,
+            com: inertia.com,
+            inertia: inertia.inertia,
+        }
+    }
+
+    /// With as many digits as are pasted.
+    pub fn rounded(inertia: &BodyInertia<f64>) -> Self {
+        Self {
+            mass: rounded(inertia.mass),
+            com: inertia.com.map(rounded),
+            inertia: inertia.inertia.map(rounded),
+        }
+    }
+}
+
+/// A number of six digits.
+pub fn rounded(x: f64) -> f64 {
+    format!("{x:.*e}", DIGITS - 1).parse().unwrap_or(x)
+}
+
+/// A share in per cent; of nothing, none.
+fn percent(part: f64, of: f64) -> String {
+    match 100.0 * part / of {
+        share if share < 1000.0 => format!("{share:.1} %"),
+        _ => "–".to_owned(),
+    }
+}
+
+/// A number of four digits.
+fn short(x: f64) -> String {
+    match x.abs() {
+        0.0 => "0".to_owned(),
+        size if (1e-3..1e5).contains(&size) => {
+            let digits = 3 - (size.max(1e-3).log10().floor() as i32).min(3);
+            format!("{x:.*}", digits.clamp(0, 6) as usize)
+        }
+        _ => format!("{x:.2e}"),
+    }
+}
+
+impl Found {
+    /// The joint whose residuals are the largest share of its torque, held out or else fitted, and that share.
+    pub fn worst(&self) -> Option<(&JointFound, f64)> {
+        let each = self.joints.iter().map(|joint| {
+            let part = joint.held_out.unwrap_or(joint.fitted);
+            (
+                joint,
+                part.residuals[1].rms / part.largest_torque.max(1e-300),
+            )
+        });
+        each.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The names of the base parameters that the motion does not show.
+    pub fn undetermined(&self) -> Vec<&str> {
+        let hidden = |one: &&ParameterFound| !one.is_known && !one.is_determined;
+        let all = self.parameters.iter().filter(hidden);
+        all.map(|one| one.name.as_str()).collect()
+    }
+
+    /// What a person reads.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        let held = match self.other_path {
+            true => "the other recording",
+            false => "its last part",
+        };
+        let _ = writeln!(
+            text,
+            "{}: {} ticks of {} ms, {} gaps, {} ticks left out; fitted to {:.1} s, compared with {held}, {:.1} s",
+            self.robot,
+            self.ticks,
+            short(1e3 * self.tick),
+            self.gaps,
+            self.left_out,
+            self.fitted_seconds,
+            self.held_out_seconds
+        );
+        self.excitation(&mut text);
+        self.tables(&mut text);
+        self.base(&mut text);
+        self.residuals(&mut text, held);
+        text
+    }
+
+    fn excitation(&self, text: &mut String) {
+        let hidden = self.undetermined();
+        let free = self.parameters.iter().filter(|one| !one.is_known).count();
+        let _ = writeln!(
+            text,
+            "\nexcitation: condition number {}; {} of {free} base parameters are determined",
+            short(self.condition),
+            free - hidden.len()
+        );
+        if !hidden.is_empty() {
+            *text += "not determined by this motion, and left near the description:\n";
+            for name in hidden {
+                let _ = writeln!(text, "  {name}");
+            }
+        }
+    }
+
+    fn tables(&self, text: &mut String) {
+        let titles = [
+            "joint",
+            "viscous",
+            "Coulomb",
+            "armature",
+            "gear driving, driven",
+        ];
+        let mut rows = vec![titles.map(str::to_owned)];
+        for joint in &self.joints {
+            let number = |k: usize| {
+                let change = format!("{} → {}", short(joint.before[k]), short(joint.after[k]));
+                match joint.deviations[k] {
+                    Some(deviation) => format!("{change} ± {}", short(deviation)),
+                    None => change,
+                }
+            };
+            let gear = joint.gear.map_or("–".to_owned(), |gear| {
+                let of = |k: usize| format!("{:.2} ± {:.2}", gear.friction[k], gear.deviations[k]);
+                format!("{}, {}", of(0), of(1))
+            });
+            rows.push([joint.name.clone(), number(0), number(1), number(2), gear]);
+        }
+        *text += "\n";
+        *text += &aligned(&rows);
+        let mut rows = vec![["body", "mass, kg", "centre of mass, m"].map(str::to_owned)];
+        for body in &self.bodies {
+            let com = |numbers: &Numbers| numbers.com.map(short).join(" ");
+            rows.push([
+                body.name.clone(),
+                format!("{} → {}", short(body.before.mass), short(body.after.mass)),
+                format!("{} → {}", com(&body.before), com(&body.after)),
+            ]);
+        }
+        *text += "\n";
+        *text += &aligned(&rows);
+        if self.misfit > 3.0 {
+            let _ = writeln!(
+                text,
+                "warning: no possible robot has this estimate: the nearest one is {:.1} standard deviations away; its friction may be of \
+                 another kind (--effects)",
+                self.misfit
+            );
+        }
+    }
+
+    /// The base parameters that the motion shows.
+    fn base(&self, text: &mut String) {
+        let mut rows = vec![
+            [
+                "base parameter",
+                "description",
+                "found",
+                "deviation",
+                "of it",
+            ]
+            .map(str::to_owned),
+        ];
+        for one in self
+            .parameters
+            .iter()
+            .filter(|one| !one.is_known && one.is_determined)
+        {
+            rows.push([
+                one.name.clone(),
+                short(one.before),
+                short(one.found),
+                short(one.deviation),
+                percent(one.deviation, one.found.abs()),
+            ]);
+        }
+        *text += "\n";
+        *text += &aligned(&rows);
+    }
+
+    fn residuals(&self, text: &mut String, held: &str) {
+        let titles = [
+            "joint",
+            "largest torque",
+            "description, RMS",
+            "found, RMS",
+            "found, largest",
+        ];
+        let mut table = |title: &str, of: &dyn Fn(&JointFound) -> Option<Part>| {
+            let mut rows = vec![titles.map(str::to_owned)];
+            for joint in &self.joints {
+                let Some(part) = of(joint) else { continue };
+                let [before, after] = part.residuals;
+                let of = |x: f64| format!("{}, {}", short(x), percent(x, part.largest_torque));
+                rows.push([
+                    joint.name.clone(),
+                    short(part.largest_torque),
+                    of(before.rms),
+                    of(after.rms),
+                    of(after.largest),
+                ]);
+            }
+            if rows.len() > 1 {
+                let _ = write!(
+                    text,
+                    "\nresiduals of {title}, N·m or N, and of the largest torque:\n{}",
+                    aligned(&rows)
+                );
+            }
+        };
+        table("the fitted part", &|joint| Some(joint.fitted));
+        table(held, &|joint| joint.held_out);
+        if let Some((joint, share)) = self.worst() {
+            let _ = writeln!(
+                text,
+                "\ntorques of {held} within {:.1} % of the largest torque, RMS; the worst joint is {}",
+                100.0 * share,
+                joint.name
+            );
+        }
+    }
+}
+
+/// Columns of equal width.
+fn aligned<const N: usize>(rows: &[[String; N]]) -> String {
+    let width = |k: usize| rows.iter().map(|row| row[k].chars().count()).max();
+    let widths: [usize; N] = std::array::from_fn(|k| width(k).unwrap_or_default());
+    let mut text = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (cell, width) in row.iter().zip(widths) {
+            let _ = write!(line, "{cell:width$}  ");
+        }
+        let _ = writeln!(text, "  {}", line.trim_end());
+    }
+    text
+}

@@ -1,0 +1,90 @@
+//! The robot of a description, and its parameters.
+
+use std::path::{Path, PathBuf};
+
+use dynamics_core::algorithms::inertial_parameters;
+use dynamics_core::model::ArmModel;
+use robot_import::import::{self, Imported, Options};
+use robot_import::model;
+
+use crate::error::{Error, Result};
+
+/// The parameters of a joint in the order of [`identification::OfJoint`].
+pub type OfJoint = [f64; 4];
+
+/// A model, the ten parameters of each body, and those of each joint.
+pub type Described<const V: usize> = (ArmModel<f64, V>, [[f64; 10]; V], [OfJoint; V]);
+
+/// A robot whose joints have one coordinate each.
+#[derive(Debug)]
+pub struct Robot {
+    pub path: PathBuf,
+    pub imported: Imported,
+}
+
+impl Robot {
+    /// Imports a description under its own or another name, without a peer: the import itself has had one.
+    ///
+    /// # Errors
+    /// [`Error::Robot`], and [`Error::Unsuitable`] if a joint has not one coordinate.
+    pub fn read(path: &Path, name: Option<&str>, options: &Options) -> Result<Self> {
+        let args = import::Args {
+            file: path.to_owned(),
+            name: name.map(str::to_owned),
+            options: Options {
+                python: "none".to_owned(),
+                ..options.clone()
+            },
+            ..import::Args::default()
+        };
+        let imported = import::import(&args, "this day").map_err(|source| Error::Robot {
+            path: path.to_owned(),
+            source: source.into(),
+        })?;
+        let unsuitable = |reason: &str| Error::Unsuitable {
+            path: path.to_owned(),
+            reason: reason.to_owned(),
+        };
+        if !imported.tree.is_single() {
+            return Err(unsuitable(
+                "parameters are identified of robots whose joints have one coordinate each, on a base that stands still",
+            ));
+        }
+        if !imported.report.loops.is_empty() {
+            return Err(unsuitable(
+                "parameters are identified of trees; this robot has loops: --without leaves out the link that closes one",
+            ));
+        }
+        Ok(Self {
+            path: path.to_owned(),
+            imported,
+        })
+    }
+
+    pub fn joints(&self) -> Vec<String> {
+        let bodies = self.imported.tree.bodies.iter();
+        bodies.map(|body| body.joint.clone()).collect()
+    }
+
+    pub fn bodies(&self) -> Vec<String> {
+        let bodies = self.imported.tree.bodies.iter();
+        bodies.map(|body| body.name.clone()).collect()
+    }
+
+    /// Its model, the parameters of its bodies, and those of its joints.
+    ///
+    /// # Errors
+    /// [`Error::Robot`].
+    pub fn model<const V: usize>(&self) -> Result<Described<V>> {
+        let arm: ArmModel<f64, V> =
+            model::arm(&self.imported.tree).map_err(|source| Error::Robot {
+                path: self.path.clone(),
+                source: source.into(),
+            })?;
+        let joints = std::array::from_fn(|j| {
+            let body = &self.imported.tree.bodies[j];
+            [body.damping, body.friction, body.armature, 0.0]
+        });
+        Ok((arm, inertial_parameters(&arm, &()), joints))
+    }
+}

@@ -1,0 +1,356 @@
+//! The fit of a recording, its comparison with held-out ticks, and the physical set.
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY, Width};
+use dynamics_core::model::{ArmModel, BodyInertia};
+use dynamics_core::spatial::SpatialInertia;
+use identification::{
+    BaseModel, Comparison, ExcitationLimits, Fit, Fitted, IdentificationError, OfJoint, Parameter,
+    TickRecording,
+};
+
+use crate::error::{Error, Result};
+use crate::recorded::Recorded;
+use crate::report::{BodyFound, Found, Gear, JointFound, Numbers, ParameterFound, Part, Trace};
+use crate::robot::Robot;
+
+/// How far the numbers of a description are believed: a relative standard deviation.
+const BELIEVED: f64 = 0.3;
+/// The range of a joint without limits, rad, and the least speed and acceleration that are compared, rad/s and rad/s².
+const TURN: f64 = PI;
+const SLOWEST: f64 = 0.2;
+const SLOWEST_RATE: f64 = 1.0;
+/// A joint that moves less rests, rad or m.
+const RESTS: f64 = 1e-3;
+/// By how much a joint may be beyond its limits, rad or m.
+const BEYOND: f64 = 0.2;
+/// The most points of a trace.
+const POINTS: usize = 800;
+
+/// What is identified of joints, and how.
+#[derive(Clone, Debug)]
+pub struct Options {
+    pub effects: Vec<JointEffect>,
+    /// The width of the smooth sign of Coulomb friction, rad/s or m/s.
+    pub width: f64,
+    /// The frequency up to which torques are compared, Hz.
+    pub cutoff: f64,
+    /// The share of the ticks that is held out, where there is no other recording.
+    pub hold_out: f64,
+}
+
+/// An effect at joints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum JointEffect {
+    /// Viscous friction
+    Viscous,
+    /// Coulomb friction
+    Coulomb,
+    /// Inertia of the rotors
+    Armature,
+    /// Friction of gears that grows with the torque
+    Load,
+    /// A constant torque, which no effect of the library removes
+    Offset,
+}
+
+type Base<const V: usize> = BaseModel<ArmModel<f64, V>, (Gravity, Inertia, Coriolis), V, V>;
+
+/// The parameters of a robot by a recording; the other recording is of another path.
+///
+/// # Errors
+/// [`Error`] names the file, and the joint where one is concerned.
+pub fn identify(
+    robot: &Robot,
+    recording: (&Path, &Recorded),
+    other: Option<(&Path, &Recorded)>,
+    options: &Options,
+) -> Result<Found> {
+    let names = robot.joints();
+    let all = [Some(recording), other];
+    for (path, recorded) in all.into_iter().flatten() {
+        if recorded.joints != names.len() {
+            return Err(Error::Joints {
+                recording: path.to_owned(),
+                recorded: recorded.joints,
+                robot: robot.path.clone(),
+                described: names.len(),
+                names: names.join(", "),
+            });
+        }
+        let (own, other) = (recording.1.tick, recorded.tick);
+        if (own - other).abs() > 1e-3 * own {
+            let path = path.to_owned();
+            return Err(Error::Ticks { path, own, other });
+        }
+    }
+    macro_rules! sized {
+        ($($v:literal)*) => {
+            match names.len() {
+                $($v => of_size::<$v>(robot, recording, other, options),)*
+                _ => Err(Error::Unsuitable {
+                    path: robot.path.clone(),
+                    reason: format!("{} joints are not between 1 and {}", names.len(), crate::MOST_JOINTS),
+                }),
+            }
+        };
+    }
+    sized!(1 2 3 4 5 6 7 8 9 10 11 12)
+}
+
+fn of_size<const V: usize>(
+    robot: &Robot,
+    (path, recorded): (&Path, &Recorded),
+    other: Option<(&Path, &Recorded)>,
+    options: &Options,
+) -> Result<Found> {
+    let failed = |source| Error::Identification {
+        path: path.to_owned(),
+        source,
+    };
+    let whole: TickRecording<V> = recorded.ticks(path)?;
+    let (fitted_part, held) = match other {
+        Some((path, other)) => (whole.clone(), other.ticks(path)?),
+        None => whole.split(1.0 - options.hold_out),
+    };
+    let (model, bodies, joints) = robot.model::<V>()?;
+    let limits = limits(robot, path, &whole)?;
+    let arm = Base::<V>::new(model, RIGID_BODY, Width::new(options.width), limits);
+    let nominal = arm.of_all(&bodies, &joints);
+    let known = known(&arm, &options.effects);
+    let fit = Fit {
+        cutoff: options.cutoff,
+        ..Fit::new(recorded.tick)
+    };
+    let is_in = |effect| options.effects.contains(&effect);
+    let gears = is_in(JointEffect::Load).then_some([[0.0; 2]; V]);
+    let found = fit
+        .identify(&arm, &fitted_part, &nominal, &known, gears)
+        .map_err(failed)?;
+    let believed = believed(&arm, &found, &nominal, &joints, &options.effects);
+    let set = found
+        .physical(&arm, &bodies, &believed, BELIEVED)
+        .map_err(failed)?;
+    let mut pasted = set.joints;
+    // An offset is no effect that could be pasted.
+    pasted.iter_mut().for_each(|joint| joint[3] = 0.0);
+    let after = arm.of_all(&set.bodies, &pasted);
+    let possible =
+        |gears: [[[f64; 2]; 2]; V]| gears.map(|[mu, _]| mu.map(|mu| mu.clamp(0.0, 0.95)));
+    let gears = found.gears.map(possible);
+    let models = [(&nominal[..], None), (&after[..], gears)];
+    let compare = |part: &TickRecording<V>| fit.compare(&arm, part, &models);
+    let (own, validated) = (compare(&fitted_part).map_err(failed)?, compare(&held));
+    let validated = match validated {
+        // Of the recording itself, a part too short for the filter is no error.
+        Err(IdentificationError::TooShort { .. }) if other.is_none() => None,
+        validated => Some(validated.map_err(failed)?),
+    };
+    let own_of = |j: usize, of: OfJoint| {
+        let parameter = Parameter::Joint { joint: j, of };
+        let at = (0..arm.len()).find(|&base| arm.terms(base)[0].1 == parameter)?;
+        Some(found.deviations[at]).filter(|_| !known[at])
+    };
+    let names = robot.joints();
+    let of_joint = |j: usize| JointFound {
+        name: names[j].clone(),
+        before: joints[j],
+        after: pasted[j],
+        deviations: [
+            OfJoint::Viscous,
+            OfJoint::Coulomb,
+            OfJoint::Armature,
+            OfJoint::Offset,
+        ]
+        .map(|of| own_of(j, of)),
+        gear: found.gears.zip(gears).map(|(found, used)| Gear {
+            friction: used[j],
+            deviations: found[j][1],
+        }),
+        fitted: part(&own, j),
+        held_out: validated.as_ref().map(|held| part(held, j)),
+    };
+    let of_body = |i: usize| {
+        let body = &robot.imported.tree.bodies[i];
+        let before = Numbers::of(&body.inertia);
+        let about = |phi| BodyInertia::about_com(&SpatialInertia::from_parameters(phi));
+        let after = match body.inertia.mass > 0.0 {
+            true => Numbers::rounded(&about(set.bodies[i])),
+            false => before,
+        };
+        BodyFound {
+            name: body.name.clone(),
+            before,
+            after,
+        }
+    };
+    let of_parameter = |base: usize| ParameterFound {
+        name: arm.name(base),
+        before: nominal[base],
+        found: found.base[base],
+        deviation: found.deviations[base],
+        is_known: known[base],
+        is_determined: found.is_determined(base),
+    };
+    let tick = whole.tick();
+    Ok(Found {
+        robot: robot.imported.name.clone(),
+        ticks: whole.ticks(),
+        tick,
+        left_out: recorded.left_out,
+        gaps: recorded.gaps,
+        fitted_seconds: tick * fitted_part.ticks() as f64,
+        held_out_seconds: tick * held.ticks() as f64,
+        other_path: other.is_some(),
+        width: options.width,
+        condition: found.condition,
+        misfit: set.misfit,
+        parameters: (0..arm.len()).map(of_parameter).collect(),
+        joints: (0..V).map(of_joint).collect(),
+        bodies: (0..V).map(of_body).collect(),
+        traces: traces(&names, validated.as_ref().unwrap_or(&own)),
+    })
+}
+
+/// The limits within which the motion is compared with random ones: positions of the description, the speeds of the recording.
+fn limits<const V: usize>(
+    robot: &Robot,
+    path: &Path,
+    recording: &TickRecording<V>,
+) -> Result<ExcitationLimits<V>> {
+    let mut limits = ExcitationLimits {
+        lower: [-TURN; V],
+        upper: [TURN; V],
+        velocity: [SLOWEST; V],
+        acceleration: [SLOWEST_RATE; V],
+        torque: [0.0; V],
+    };
+    let extremes = recording.extremes();
+    if extremes.iter().all(|[low, high, _]| high - low < RESTS) {
+        let path = path.to_owned();
+        return Err(Error::AtRest { path });
+    }
+    let largest = extremes
+        .iter()
+        .fold(1e-6, |most: f64, [.., tau]| most.max(*tau));
+    for (j, [low, high, torque]) in extremes.into_iter().enumerate() {
+        let body = &robot.imported.tree.bodies[j];
+        if let Some([lower, upper]) = body.limits.position.filter(|[a, b]| a < b) {
+            for position in [low, high] {
+                if position < lower - BEYOND || position > upper + BEYOND {
+                    return Err(Error::Outside {
+                        recording: path.to_owned(),
+                        robot: robot.path.clone(),
+                        joint: j,
+                        name: body.joint.clone(),
+                        position,
+                        lower,
+                        upper,
+                    });
+                }
+            }
+            (limits.lower[j], limits.upper[j]) = (lower.max(-TURN), upper.min(TURN));
+        }
+        if limits.lower[j] >= limits.upper[j] {
+            (limits.lower[j], limits.upper[j]) = (low - SLOWEST, high + SLOWEST);
+        }
+        limits.torque[j] = (1.2 * torque).max(0.01 * largest);
+    }
+    let [speeds, rates] = recording.rates();
+    for j in 0..V {
+        limits.velocity[j] = speeds[j].max(SLOWEST);
+        limits.acceleration[j] = rates[j].max(SLOWEST_RATE);
+    }
+    Ok(limits)
+}
+
+/// Which base parameters are those of the description: effects that are not identified.
+fn known<const V: usize>(arm: &Base<V>, effects: &[JointEffect]) -> Vec<bool> {
+    let is_left_out = |(_, parameter): &(f64, Parameter)| match parameter {
+        Parameter::Body { .. } => false,
+        Parameter::Joint { of, .. } => !effects.contains(&match of {
+            OfJoint::Viscous => JointEffect::Viscous,
+            OfJoint::Coulomb => JointEffect::Coulomb,
+            OfJoint::Armature => JointEffect::Armature,
+            OfJoint::Offset => JointEffect::Offset,
+        }),
+    };
+    let all = 0..arm.len();
+    all.map(|base| arm.terms(base).iter().all(is_left_out))
+        .collect()
+}
+
+/// The parameters of the joints around which the physical set is looked for: of an effect that the description lacks, the estimate.
+fn believed<const V: usize>(
+    arm: &Base<V>,
+    found: &Fitted<V>,
+    nominal: &[f64],
+    joints: &[[f64; 4]; V],
+    effects: &[JointEffect],
+) -> [[f64; 4]; V] {
+    let mut believed = *joints;
+    let kinds = [
+        (OfJoint::Viscous, JointEffect::Viscous),
+        (OfJoint::Coulomb, JointEffect::Coulomb),
+        (OfJoint::Armature, JointEffect::Armature),
+    ];
+    let is_wanted = |of| {
+        kinds
+            .iter()
+            .any(|(one, effect)| *one == of && effects.contains(effect))
+    };
+    for (base, nominal) in nominal.iter().enumerate() {
+        for (factor, parameter) in arm.terms(base) {
+            let Parameter::Joint { joint, of } = parameter else {
+                continue;
+            };
+            // What the motion adds to the description, also to the sum of an armature and inertias.
+            let more = (found.base[base] - nominal) / factor;
+            let place = &mut believed[joint][of as usize];
+            // One that the recording does not distinguish from none stays none.
+            if is_wanted(of)
+                && *place == 0.0
+                && more > 2.0 * (found.deviations[base] / factor).abs()
+            {
+                *place = more;
+            }
+        }
+    }
+    believed
+}
+
+/// The residuals of a joint.
+fn part<const V: usize>(compared: &Comparison<V>, joint: usize) -> Part {
+    let mut part = Part::default();
+    let count = compared.measured.len() as f64;
+    for (k, measured) in compared.measured.iter().enumerate() {
+        let measured = measured[joint];
+        part.largest_torque = part.largest_torque.max(measured.abs());
+        for (model, residuals) in compared.modelled.iter().zip(&mut part.residuals) {
+            let residual = (measured - model[k][joint]).abs();
+            residuals.rms += residual * residual / count;
+            residuals.largest = residuals.largest.max(residual);
+        }
+    }
+    for residuals in &mut part.residuals {
+        residuals.rms = residuals.rms.sqrt();
+    }
+    part
+}
+
+fn traces<const V: usize>(names: &[String], compared: &Comparison<V>) -> Vec<Trace> {
+    let step = compared.times.len().div_ceil(POINTS).max(1);
+    let line = |of: &[[f64; V]], j: usize| -> Vec<(f64, f64)> {
+        let points = compared.times.iter().zip(of).step_by(step);
+        points.map(|(time, torque)| (*time, torque[j])).collect()
+    };
+    let trace = |(j, name): (usize, &String)| Trace {
+        joint: name.clone(),
+        measured: line(&compared.measured, j),
+        before: line(&compared.modelled[0], j),
+        after: line(&compared.modelled[1], j),
+    };
+    names.iter().enumerate().map(trace).collect()
+}

@@ -1,0 +1,113 @@
+//! An arm of two joints, its descriptions, and recordings of it as `cargo xtask watch` writes them.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use dynamics_core::algorithms::rnea;
+use dynamics_core::effects::{Coulomb, RIGID_BODY, Viscous, Width};
+use dynamics_core::state::State;
+use identify::error::Result;
+use identify::recorded::Recorded;
+use identify::report::Found;
+use identify::robot::Robot;
+use identify::run::{self, JointEffect, Options};
+use robot_import::import::Options as Selection;
+use robot_import::model;
+
+pub type At = State<f64, 2, 2>;
+
+pub const TICK: f64 = 2e-3;
+pub const OPTIONS: fn() -> Options = || Options {
+    effects: vec![
+        JointEffect::Viscous,
+        JointEffect::Coulomb,
+        JointEffect::Armature,
+    ],
+    width: 0.02,
+    cutoff: 10.0,
+    hold_out: 0.3,
+};
+/// A count of an encoder, rad.
+const COUNT: f64 = std::f64::consts::TAU / 16384.0;
+/// Of the measured torque, relative to the largest torques, N·m.
+const NOISE: [f64; 2] = [0.1, 0.03];
+
+pub fn described() -> Robot {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/files/two_links.urdf");
+    Robot::read(Path::new(file), None, &Selection::default()).expect("a robot")
+}
+
+/// The description with numbers that are off by 30 %.
+pub fn off() -> Robot {
+    let mut robot = described();
+    let mut factors = [0.7, 1.3, 1.3, 0.7, 1.3, 0.7].into_iter().cycle();
+    for body in &mut robot.imported.tree.bodies {
+        let mut factor = || factors.next().expect("endless");
+        body.inertia.mass *= factor();
+        body.inertia.com = body.inertia.com.map(|c| c * factor());
+        let inertia = factor();
+        body.inertia.inertia = body.inertia.inertia.map(|x| x * inertia);
+        body.damping *= factor();
+        body.friction *= factor();
+    }
+    robot
+}
+
+/// The torques of a robot at a state.
+pub fn torques(robot: &Robot, at: &At) -> [f64; 2] {
+    let arm = model::arm::<2>(&robot.imported.tree).expect("an arm");
+    let of = |of: fn(&robot_import::tree::Body) -> f64| {
+        std::array::from_fn(|j| of(&robot.imported.tree.bodies[j]))
+    };
+    let coulomb = Coulomb {
+        torque: of(|body| body.friction),
+        width: Width::new(0.02),
+    };
+    let armature = dynamics_core::effects::Armature(of(|body| body.armature));
+    let viscous = Viscous(of(|body| body.damping));
+    rnea(&arm, at, &(RIGID_BODY, viscous, coulomb, armature))
+}
+
+/// A motion of two frequencies of each joint without a common period; a joint with the size 0 rests.
+pub fn swing(t: f64, size: [f64; 2], rates: [f64; 2]) -> At {
+    let mut at = State::at([0.2, -0.3]);
+    for j in 0..2 {
+        for (share, rate) in [(0.6, rates[j]), (0.4, 2.3 * rates[j])] {
+            let ((sin, cos), size) = ((rate * t).sin_cos(), share * size[j]);
+            at.q[j] += size * sin;
+            at.qd[j] += size * rate * cos;
+            at.qdd[j] -= size * rate * rate * sin;
+        }
+    }
+    at
+}
+
+/// The record of a motion of the described arm: positions in counts, torques with noise, of the middle of each tick.
+pub fn record(motion: impl Fn(f64) -> At, ticks: u32) -> String {
+    let (robot, mut rng) = (described(), fastrand::Rng::with_seed(7));
+    let mut text = String::from(
+        "number,tick,mode,fault,limited,dropped,time_s,reference_0,estimate_0,torque_0,reference_1,estimate_1,torque_1,read_counts\n",
+    );
+    for k in 0..ticks {
+        let t = TICK * f64::from(k);
+        let (q, tau) = (motion(t).q, torques(&robot, &motion(t + 0.5 * TICK)));
+        let _ = write!(text, "{k},{k},full,,false,0,{t:.6}");
+        for j in 0..2 {
+            let estimate = (q[j] / COUNT).round() * COUNT;
+            let torque = tau[j] + NOISE[j] * (2.0 * rng.f64() - 1.0);
+            let _ = write!(text, ",{},{estimate},{torque}", q[j]);
+        }
+        text += ",0\n";
+    }
+    text
+}
+
+pub fn read(text: &str) -> Result<Recorded> {
+    Recorded::from(Path::new("run.csv"), text.as_bytes())
+}
+
+/// What a record says of the arm whose description is off.
+pub fn identified(text: &str) -> Result<Found> {
+    let recorded = read(text)?;
+    run::identify(&off(), (Path::new("run.csv"), &recorded), None, &OPTIONS())
+}

@@ -9,7 +9,7 @@ use joint_drivers::ControlLoop;
 use motion_control::{Gains, Reference};
 use telemetry::{Axis, Machine, Message, Sample, capacity, encode};
 
-use crate::control::{FeedForward, SetupError, controller, detectors};
+use crate::control::{FeedForward, SetupError, controller};
 use crate::excitation::Excitation;
 use crate::report::RunError;
 use crate::scene::{self, Arm, Motion, N, OMEGA_N, TICK};
@@ -94,8 +94,8 @@ fn along(
     let (encoders, drives) = (wires.encoders(&home), wires.drives(&full_scale));
     let controller = controller(motion).map_err(RunError::Setup)?;
     let gains = Gains::from_inertia(inertia, OMEGA_N, 1.0);
-    let (brake, detectors) = (wires.brake(), detectors(motion));
-    let mut control = ControlLoop::new(encoders, drives, brake, gains, controller, detectors);
+    // Without detectors: a motion that reverses often looks like a frozen encoder where the drives' steps are coarse.
+    let mut control = ControlLoop::new(encoders, drives, wires.brake(), gains, controller, ());
     let mut plant = Plant::new(home, full_scale);
     let mut bytes = [0; capacity(N)];
     let mut number = 0_u32;

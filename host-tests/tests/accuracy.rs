@@ -6,7 +6,6 @@ use std::collections::BTreeSet;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
-use dynamics_core::scalar::Real;
 use dynamics_core::state::IncrementalTrig;
 use dynamics_core::state::State;
 use dynamics_core::trig::{Kernel, Minimax, Table};
@@ -14,11 +13,8 @@ use dynamics_core::{Core, Engine};
 use host_tests::measured::largest;
 use host_tests::recordings::{Precise, load, read};
 use host_tests::tolerances::check;
-use lab_target::accuracy::inverse::In;
 use lab_target::accuracy::key::Key;
-use lab_target::accuracy::model::{Full, InUnits, Rounded};
-use lab_target::accuracy::numbers::{Compensated, Fixed, FixedPoint, HalfTurns};
-use lab_target::accuracy::robots::momentary;
+use lab_target::accuracy::model::Rounded;
 use lab_target::accuracy::simulation::{self, DoublePendulum};
 use lab_target::accuracy::{Inverse, Visitor, list};
 use motion_control::{FirstOrderHold, InertiaUpdate};
@@ -81,14 +77,6 @@ fn recorded<T: Robot<B, N, N>, const B: usize, const N: usize>(
     name: &str,
     run: impl Fn(&State<f32, N, N>) -> [f32; N],
 ) -> [f64; 2] {
-    widened::<T, B, N>(name, |state| run(state).map(f64::from))
-}
-
-/// The same of torques in other numbers.
-fn widened<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    name: &str,
-    run: impl Fn(&State<f32, N, N>) -> [f64; N],
-) -> [f64; 2] {
     let recording = load(name);
     let (mut scale, mut worst) = (0.0_f64, [0.0_f64; 2]);
     for (k, truth) in recording.rnea.iter().enumerate() {
@@ -99,7 +87,7 @@ fn widened<T: Robot<B, N, N>, const B: usize, const N: usize>(
         let single = run(&State { q, qd, qdd });
         for j in 0..N {
             scale = scale.max(truth[j].abs());
-            worst[0] = largest([worst[0], (single[j] - truth[j]).abs()]);
+            worst[0] = largest([worst[0], (f64::from(single[j]) - truth[j]).abs()]);
             worst[1] = largest([worst[1], (double[j] - truth[j]).abs()]);
         }
     }
@@ -148,29 +136,14 @@ fn f64_is_good_to_1e_13_by_50_digits() {
     }
 }
 
-#[test]
-fn other_number_types_are_within_their_stated_error() {
-    let course = |state| momentary(state);
-    let [compensated, _] = widened::<Ur5e, 6, 6>("ur5e", |state| {
-        type Way = In<Compensated, Full<Ur5e>, Core<Ur5e>, 6>;
-        Way::torque(Way::start(state).tick(&Way::input(&course(*state))))
-    });
-    let [fixed, _] = widened::<Ur5e, 6, 6>("ur5e", |state| {
-        type Way = FixedPoint<Ur5e, Full<Ur5e>, 6>;
-        Way::torque(Way::start(state).tick(&Way::input(&course(*state))))
-    });
-    check("ur5e", "rnea in compensated f32", "f32", compensated).unwrap();
-    check("ur5e", "rnea in fixed point", "f32", fixed).unwrap();
-}
-
-/// The largest error of a kernel over ±100 rad, or over two turns.
-fn worst_of<R: Real, K: Kernel<R>>(range: f64, radians: f64) -> f64 {
+/// The largest error of a kernel over ±`range` rad.
+fn worst_of<K: Kernel<f32>>(range: f64) -> f64 {
     const POINTS: i32 = 200_000;
     let at = |k: i32| {
-        let x = R::from_f64(f64::from(k) / f64::from(POINTS) * range);
+        let x = (f64::from(k) / f64::from(POINTS) * range) as f32;
         let (s, c) = K::sin_cos(x);
-        let (sin, cos) = (x.to_f64() * radians).sin_cos();
-        largest([s.to_f64() - sin, c.to_f64() - cos].map(f64::abs))
+        let (sin, cos) = f64::from(x).sin_cos();
+        largest([f64::from(s) - sin, f64::from(c) - cos].map(f64::abs))
     };
     largest((-POINTS..=POINTS).map(at))
 }
@@ -178,42 +151,16 @@ fn worst_of<R: Real, K: Kernel<R>>(range: f64, radians: f64) -> f64 {
 #[test]
 fn kernels_are_within_their_stated_error() {
     let errors = [
-        (
-            "minimax of degree 3",
-            worst_of::<f32, Minimax<3, 2>>(100.0, 1.0),
-        ),
-        (
-            "minimax of degree 5",
-            worst_of::<f32, Minimax<5, 2>>(100.0, 1.0),
-        ),
-        (
-            "minimax of degree 7",
-            worst_of::<f32, Minimax<7, 2>>(100.0, 1.0),
-        ),
+        ("minimax of degree 3", worst_of::<Minimax<3, 2>>(100.0)),
+        ("minimax of degree 5", worst_of::<Minimax<5, 2>>(100.0)),
+        ("minimax of degree 7", worst_of::<Minimax<7, 2>>(100.0)),
         (
             "minimax of degree 7, 3 parts",
-            worst_of::<f32, Minimax<7, 3>>(1e4, 1.0),
+            worst_of::<Minimax<7, 3>>(1e4),
         ),
-        (
-            "table of 256, order 1",
-            worst_of::<f32, Table<256, 1>>(100.0, 1.0),
-        ),
-        (
-            "table of 256, order 2",
-            worst_of::<f32, Table<256, 2>>(100.0, 1.0),
-        ),
-        (
-            "table of 64, order 4",
-            worst_of::<f32, Table<64, 4>>(100.0, 1.0),
-        ),
-        (
-            "fixed point",
-            worst_of::<Fixed, HalfTurns>(1.999, std::f64::consts::PI),
-        ),
-        (
-            "compensated",
-            worst_of::<Compensated, dynamics_core::scalar::Native>(100.0, 1.0),
-        ),
+        ("table of 256, order 1", worst_of::<Table<256, 1>>(100.0)),
+        ("table of 256, order 2", worst_of::<Table<256, 2>>(100.0)),
+        ("table of 64, order 4", worst_of::<Table<64, 4>>(100.0)),
     ];
     let results = errors.map(|(kernel, error)| check("trig", kernel, "f32", error));
     let failed: Vec<_> = results.into_iter().filter_map(Result::err).collect();
@@ -232,24 +179,6 @@ fn incremental_sines_drift_slowly() {
         worst = largest(off.map(f64::abs).into_iter().chain([worst]));
     }
     check("trig", "carried for 10⁴ ticks", "f32", worst).unwrap();
-}
-
-#[test]
-fn compensated_numbers_have_46_bits() {
-    let mut x = 1.0_f64;
-    for k in 1..1000 {
-        let (a, b) = (x.fract() + 0.1, f64::from(k) * 0.37 - 200.0);
-        let [p, q] = [a, b].map(Compensated::from_f64);
-        let [a, b] = [p, q].map(Compensated::to_f64);
-        let scale = (a.abs() + b.abs()) * 2.0_f64.powi(-45);
-        assert!(((p + q).to_f64() - (a + b)).abs() <= scale);
-        assert!(((p - q).to_f64() - (a - b)).abs() <= scale);
-        assert!(((p * q).to_f64() - a * b).abs() <= (a * b).abs() * 2.0_f64.powi(-44));
-        assert!(((p / q).to_f64() - a / b).abs() <= (a / b).abs() * 2.0_f64.powi(-43));
-        assert!((p.rsqrt().to_f64() - 1.0 / a.sqrt()).abs() <= 2.0_f64.powi(-41) / a.sqrt());
-        x = x * 1.618 + 0.3;
-        x = x.fract() + 0.01;
-    }
 }
 
 #[test]
@@ -285,12 +214,7 @@ fn torque_between_computations_is_exact_where_it_is_linear() {
 }
 
 #[test]
-fn robots_in_other_numbers_keep_their_parameters() {
+fn a_rounded_robot_has_rounded_parameters() {
     let rounded = <Rounded<Ur5e, 8> as Robot<6, 6, 6>>::MODEL;
     assert_eq!(rounded.links[1].inertia.mass, 8.0625); // kg, of 8.058
-    // 20.7 kg in all and a reach of 1.9 m, each rounded up to a power of two.
-    let scaled = <InUnits<Ur5e> as Robot<6, 6, 6>>::MODEL;
-    assert_eq!(scaled.links[1].inertia.mass, 8.058 / 32.0);
-    let lengths = |links: &[dynamics_core::model::Link<f64>; 6]| links[2].placement.pos.length();
-    assert_eq!(lengths(&scaled.links), lengths(&Ur5e::MODEL.links) / 2.0);
 }

@@ -1,6 +1,7 @@
-//! The equations and links of the documents, and the programs on the guide's pages.
+//! The equations, links and pictures of the documents, and the programs on the guide's pages.
 
 mod equations;
 mod links;
 mod pages;
+mod pictures;
 mod reports;

@@ -265,8 +265,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     }
 }
 
-#[doc(hidden)]
-pub const EMPTY: Link<f64> = Link {
+const EMPTY: Link<f64> = Link {
     name: "",
     parent: BASE,
     joint: Joint::fixed(),

@@ -17,18 +17,17 @@ mod native;
 mod positive_part;
 mod vector;
 
-/// Restricts [`Real`] to the types whose errors are tested. The reports of this repository implement it for numbers
-/// that they compare with f32; it is no part of the API.
-#[doc(hidden)]
-pub trait Sealed {}
-impl Sealed for f32 {}
-impl Sealed for f64 {}
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for f64 {}
+}
 
 /// A real number: `f32` on the target, `f64` for oracles.
 ///
 /// Sealed: the tolerance table and the bit-identity tests cover these two.
 pub trait Real:
-    Sealed
+    sealed::Sealed
     + Copy
     + Debug
     + Default

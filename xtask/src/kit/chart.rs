@@ -1,8 +1,6 @@
 //! The common parts of the pictures: colours, axes, lines, rows of dots, names and legends.
 
 mod panels;
-#[cfg(test)]
-mod tests;
 
 use std::ops::Range;
 
@@ -387,4 +385,19 @@ pub fn curves(title: &str, cost: &'static str, curves: &[Curve], marks: &[Mark])
         }
         Ok(())
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Area, HPos, RED, RGBColor, coloured, svg};
+
+    #[test]
+    fn a_colour_without_its_dark_one_is_refused() {
+        let draw = |colour| {
+            let text = |root: &Area<'_>| coloured(root, "a", (9, 9), (9, colour), HPos::Left);
+            svg((20, 20), text)
+        };
+        assert!(draw(RED).is_ok_and(|svg| svg.contains("prefers-color-scheme: dark")));
+        assert!(draw(RGBColor(1, 2, 3)).is_err());
+    }
 }

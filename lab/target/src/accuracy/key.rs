@@ -7,7 +7,6 @@ use dynamics_core::sim::{EnergyProjected, Euler, LinearlyImplicit, RungeKutta, S
 use dynamics_core::trig::{Minimax, Table};
 
 use super::kernels::{Libm, Micromath};
-use super::numbers::Compensated;
 
 /// A type with a name on an axis.
 pub trait Named {
@@ -23,7 +22,7 @@ macro_rules! named {
     )*};
 }
 named! {
-    f32 = "f32", f64 = "f64", Compensated = "compensated",
+    f32 = "f32", f64 = "f64",
     Minimax<3, 2> = "minimax3", Minimax<5, 2> = "minimax5", Minimax<7, 2> = "minimax7", Minimax<7, 3> = "minimax7x3",
     Table<256, 1> = "table", Table<256, 2> = "table2", Table<64, 4> = "table4",
     Table<128, 3> = "table3", Table<128, 3, 4> = "table3x4", Native = "", Libm = "libm", Micromath = "micromath",
@@ -76,7 +75,7 @@ key! {
     /// assert_eq!(coarse.to_string(), "trig=minimax3,form=core");
     /// ```
     Key, 6:
-    /// Numbers: `f32`, `f64`, `compensated`, `q31`.
+    /// `f32` or `f64`.
     arith = "f32",
     /// Sines and cosines: `table3` and others, see [`super::kernels`].
     trig = "table3",

@@ -12,7 +12,6 @@ use super::kernels::{Libm, Micromath};
 use super::key::Named;
 use super::model::{Full, GravityOnly, Modelled, NoCoriolis, Parameters, Without};
 use super::multirate::{Every, EveryLinearised};
-use super::numbers::{Compensated, FixedPoint};
 use super::robots::Swung;
 use super::{Inverse, Visitor};
 
@@ -35,7 +34,6 @@ pub fn inverse<T: Robot<B, N, N>, const B: usize, const N: usize>(visitor: &mut 
     forms::<NoCoriolis<T>, T, B, N>(visitor);
     forms::<GravityOnly<T>, T, B, N>(visitor);
     ways! { visitor:
-        In<Compensated, Full<T>, Engine<T>, B>,
         Own<Parameters<T, 6>, B, N>,
         Own<Parameters<T, 8>, B, N>,
         Own<Parameters<T, 11>, B, N>,
@@ -75,7 +73,7 @@ pub fn single<T: Robot<B, N, N>, const B: usize, const N: usize>(visitor: &mut i
     }
 }
 
-/// By every kernel, by engine and core, and in other numbers.
+/// By every kernel, by engine and core, and in f64.
 fn forms<M, T, const B: usize, const N: usize>(visitor: &mut impl Visitor<N>)
 where
     M: Modelled<B, N, Robot = T>,
@@ -85,7 +83,6 @@ where
     kernels::<M, Engine<T>, B, N>(visitor);
     ways!(visitor: In<f32, M, Core<T>, B>, By<f32, Table<128, 3>, M, Core<T>, B>);
     kernels::<M, Core<T>, B, N>(visitor);
-    ways!(visitor: In<Compensated, M, Core<T>, B>, FixedPoint<T, M, B>);
 }
 
 fn kernels<M, F, const B: usize, const N: usize>(visitor: &mut impl Visitor<N>)

@@ -8,7 +8,7 @@
 //! |---|---|
 //! | [`key`] | the name of a way, the same on target and host |
 //! | [`model`], [`form`], [`kernels`] | what is computed, by which form, with whose sines and cosines |
-//! | [`inverse`], [`numbers`] | ways that compute in every tick, in f32 and in other numbers |
+//! | [`inverse`] | ways that compute in every tick, in f32 and f64 |
 //! | [`multirate`] | ways that compute in every few ticks |
 //! | [`compliant`] | ways to the motors of joints that give way |
 //! | [`simulation`], [`passive_motion`] | ways to simulate, and what |
@@ -47,7 +47,6 @@ pub mod key;
 pub mod list;
 pub mod model;
 pub mod multirate;
-pub mod numbers;
 pub mod passive_motion;
 pub mod robots;
 pub mod simulation;
@@ -65,8 +64,6 @@ pub trait Inverse<const N: usize>: Sized {
     const MEMORY: bool = false;
     /// A tick is given where the joints are to be so many ticks later.
     const AHEAD: usize = 0;
-    /// N·m of a torque of 1.
-    const UNIT: f64 = 1.0;
     /// What a tick is given: a state, in the numbers that it computes with.
     type Input;
     /// The numbers of the torques.
@@ -79,7 +76,7 @@ pub trait Inverse<const N: usize>: Sized {
     fn tick(&mut self, input: &Self::Input) -> [Self::Scalar; N];
     /// Torques, N·m.
     fn torque(output: [Self::Scalar; N]) -> [f64; N] {
-        output.map(|tau| tau.to_f64() * Self::UNIT)
+        output.map(Real::to_f64)
     }
     /// The address of the function that a tick is, or calls.
     fn address() -> usize {

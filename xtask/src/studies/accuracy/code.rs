@@ -239,7 +239,7 @@ mod tests {
 
     #[test]
     fn what_has_no_code_says_so() {
-        let mut other = point("arith=q31", 1.0, 1, 1.0);
+        let mut other = point("trig=libm", 1.0, 1, 1.0);
         assert!(rust(&other).is_err());
         other.robot = "ur5e".into();
         let said = rust(&other).expect_err("it has no model").to_string();

@@ -18,8 +18,6 @@ const ROWS: &[Row] = &[
     ("", "", None, "default", "The whole rigid-body equation in f32, by the engine, in every tick: gives up nothing but what f32 rounds off."),
     ("arith", "f32", Some("f32"), "", ""),
     ("arith", "f64", Some("f64"), "f64", "Computes in f64, which this processor does in software."),
-    ("arith", "compensated", None, "compensated f32", "Carries the rounding errors of f32 along (two-sum, two-product)."),
-    ("arith", "q31", None, "Q31", "Computes in fixed point, Q31, in units in which nothing exceeds ±2."),
     ("trig", "minimax3", Some("Minimax<3, 2>"), "degree 3", "Takes sines and cosines from polynomials of the third degree and gives up four of f32's seven digits."),
     ("trig", "minimax5", Some("Minimax<5, 2>"), "degree 5", "Takes sines and cosines from polynomials of the fifth degree and gives up one of f32's seven digits."),
     ("trig", "minimax7", Some("Minimax<7, 2>"), "degree 7", "Takes sines and cosines from polynomials of the seventh degree and reads no flash for them, angles reduced in two parts."),

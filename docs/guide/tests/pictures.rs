@@ -1,7 +1,8 @@
 //! What every picture in docs/ keeps, whoever wrote it.
 
-use super::{HPos, RGBColor, coloured, svg};
-use crate::kit::docs::repository::root;
+use std::fs::read_to_string;
+
+use crate::links::{files, root};
 
 /// px
 const HIGHEST: f64 = 900.0;
@@ -68,41 +69,37 @@ fn faults(svg: &str) -> Vec<String> {
 
 #[test]
 fn every_picture_can_be_read() {
-    let mut wrong = Vec::new();
-    let files = std::fs::read_dir(root().join("docs")).expect("the documents");
-    for path in files.flatten().map(|entry| entry.path()) {
-        if path.extension().is_some_and(|extension| extension == "svg") {
-            let svg = std::fs::read_to_string(&path).expect("a picture");
-            let faults = faults(&svg).into_iter();
-            wrong.extend(faults.map(|fault| format!("{}: {fault}", path.display())));
-        }
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    let pictures = files(&root().join("docs"), "svg");
+    assert!(!pictures.is_empty());
+    let wrong = pictures.iter().flat_map(|path| {
+        let found = faults(&read_to_string(path).expect("a picture"));
+        let fault = |fault| format!("{}: {fault}", path.display());
+        found.into_iter().map(fault).collect::<Vec<_>>()
+    });
+    assert_eq!(wrong.collect::<Vec<_>>(), Vec::<String>::new());
 }
 
 #[test]
 fn what_cannot_be_read_is_found() {
-    let draw = |colour: RGBColor| {
-        svg((200, 1000), |root| {
-            coloured(
-                root,
-                "a legend cut off",
-                (150, 20),
-                (12, colour),
-                HPos::Left,
-            )?;
-            coloured(root, "one", (20, 60), (12, colour), HPos::Left)?;
-            coloured(root, "another", (70, 65), (12, colour), HPos::Right)
-        })
+    let drawn = |theme: &str, [high, below]: [u32; 2]| {
+        format!(
+            "<svg width=\"200\" height=\"{high}\">\n<style>@media ({theme}) {{}}</style>\n\
+             <text x=\"150\" y=\"20\" dy=\"0.5ex\" font-size=\"12\">\na legend cut off\n</text>\n\
+             <text x=\"20\" y=\"60\" dy=\"0.5ex\" font-size=\"12\">one</text>\n\
+             <text x=\"70\" y=\"{below}\" dy=\"0.5ex\" text-anchor=\"end\" font-size=\"12\">another</text>\n</svg>"
+        )
     };
-    let drawn = draw(super::INK).expect("drawn");
-    let found = [
-        "1000 px high",
-        "cut off: a legend cut off",
-        "another on one",
-    ];
-    assert_eq!(faults(&drawn), found);
-    let light = drawn.replace("prefers-color-scheme", "print");
-    assert_eq!(faults(&light)[1], "no dark scheme");
-    assert!(draw(RGBColor(1, 2, 3)).is_err());
+    let dark = "prefers-color-scheme: dark";
+    assert_eq!(
+        faults(&drawn(dark, [1000, 65])),
+        [
+            "1000 px high",
+            "cut off: a legend cut off",
+            "another on one"
+        ]
+    );
+    assert_eq!(
+        faults(&drawn("print", [900, 80])),
+        ["no dark scheme", "cut off: a legend cut off"]
+    );
 }

@@ -1,6 +1,6 @@
 //! Ways that arms go where no scene does.
 
-use firmware_demo::trajectories::{HOME, READY, pass, stop};
+use firmware_demo::trajectories::{READY, pass, stop};
 use motion_control::WayPoint;
 
 pub const PANDA_PICK_AND_PLACE: [WayPoint<f32, 7>; 7] = [
@@ -11,22 +11,6 @@ pub const PANDA_PICK_AND_PLACE: [WayPoint<f32, 7>; 7] = [
     stop([0.80, -0.20, -0.10, -2.10, -0.05, 1.90, 1.50], 1600),
     stop([0.80, 0.15, -0.10, -2.05, -0.05, 2.20, 1.50], 700),
     stop(READY, 1600),
-];
-
-/// A swing of the UR5e there and back.
-pub const UR5E_SWING: [WayPoint<f32, 6>; 4] = [
-    stop(HOME, 0),
-    stop([0.7, -1.2, 1.2, -1.2, -1.3, 0.6], 1300),
-    stop([-0.5, -1.8, 1.8, -1.8, -1.8, -0.6], 2100),
-    stop(HOME, 1300),
-];
-
-/// A swing of the Panda there and back.
-pub const PANDA_SWING: [WayPoint<f32, 7>; 4] = [
-    stop(READY, 0),
-    stop([0.7, -0.4, 0.3, -2.0, 0.5, 1.9, 1.2], 1300),
-    stop([-0.5, -1.0, -0.3, -2.6, -0.5, 1.3, 0.2], 2100),
-    stop(READY, 1300),
 ];
 
 /// The standing posture of a quadruped's leg, rad.

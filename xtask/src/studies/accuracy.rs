@@ -149,7 +149,7 @@ pub fn check(bench: &Bench<'_>) -> Result<String> {
     }
     // The leg's bars are missed: docs/decisions/0002-bars.md.
     let saved = [Robot::Ur5e, Robot::Panda]
-        .map(|robot| page::check_bars(&of_group(&recorded, (robot.name(), Kind::Inverse, "rigid"))))
+        .map(|robot| page::check_bars(&of_group(&recorded, (robot.name(), Kind::Inverse, ""))))
         .into_iter()
         .collect::<Result<Vec<String>>>()?
         .join("; ");
@@ -164,11 +164,7 @@ fn write(workspace: &Workspace, measured: &Measured, only: Option<Robot>) -> Res
     let (points, host, rustc) = (&measured.points, &measured.host, &measured.rustc);
     let mut text = workspace::read(&workspace.root.join(page::FILE))?;
     let mut files: Vec<(PathBuf, String)> = vec![recorded::replaced(workspace, points)?];
-    // The simulations are of two robots.
-    let is_whole = |robot: &Robot| match only {
-        Some(only) => only == *robot && only != Robot::DoublePendulum,
-        None => true,
-    };
+    let is_whole = |robot: &Robot| only.is_none_or(|only| only == *robot);
     for robot in Robot::ALL.into_iter().filter(is_whole) {
         let pictures = page::pictures(points, host, robot)?.into_iter();
         files.extend(pictures.map(|(file, svg)| (workspace.report(&file), svg)));

@@ -3,7 +3,6 @@
 use core::marker::PhantomData;
 
 use dynamics_core::Engine;
-use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::effects::Effect;
 use dynamics_core::scalar::{Native, Real};
 use dynamics_core::state::{IncrementalTrig, State};
@@ -48,22 +47,22 @@ inverse! {
             ..Key::DEFAULT
         },
         { fn address() -> usize { F::address::<K>() } },
-        State<R, N, N> = |course| {
-            let State { q, qd, qdd } = course.state;
+        State<R, N, N> = |at| {
+            let State { q, qd, qdd } = *at;
             let [q, qd, qdd] = [q, qd, qdd].map(|xs| xs.map(|x| R::from_f64(f64::from(x))));
             State { q, qd, qdd }
         }, R,
         |_| Self(PhantomData), #[inline(always)] |self, state| F::rnea::<K, _>(state, &M::SCENE);
     [K: Kernel<f32> + Named, M: Modelled<B, N>, F: Form<M::Robot, f32, M::Scene, B, N>, const B: usize] After<K, M, F, B>,
         Key { trig: K::NAME, model: M::NAME, form: F::NAME, ..Key::DEFAULT }, {},
-        State<f32, N, N> = |course| course.state, f32,
+        State<f32, N, N> = |at| *at, f32,
         |_| Self(PhantomData), #[inline(never)] |self, state| {
             let trig = Engine::<M::Robot, K>::joint_trig(&state.q);
             F::rnea::<Native, _>(trig.with(state), &M::SCENE)
         };
     [M: Modelled<B, N>, F: Form<M::Robot, f32, M::Scene, B, N>, const B: usize] Following<M, F, B, N>,
         Key { trig: "incremental", model: M::NAME, form: F::NAME, ..Key::DEFAULT }, { const MEMORY: bool = true; },
-        State<f32, N, N> = |course| course.state, f32,
+        State<f32, N, N> = |at| *at, f32,
         |first| Self(IncrementalTrig::at(first.q), PhantomData), #[inline(never)] |self, state| {
             F::rnea::<Native, _>(self.0.follow(&state.q).with(state), &M::SCENE)
         };

@@ -5,14 +5,12 @@ use dynamics_core::trig::{Minimax, Table};
 use dynamics_core::{Core, Engine};
 use motion_control::{FirstOrderHold, Interpolator, ZeroOrderHold};
 
-use super::compliant::{Compliant, Rigid};
 use super::form::Form;
 use super::inverse::{After, By, Following, In};
 use super::kernels::{Libm, Micromath};
 use super::key::Named;
 use super::model::{Full, GravityOnly, Modelled, NoCoriolis, Parameters, Without};
 use super::multirate::{Every, EveryLinearised};
-use super::robots::Swung;
 use super::{Inverse, Visitor};
 
 macro_rules! ways {
@@ -103,11 +101,6 @@ where
         After<Micromath, M, F, B>,
         In<f64, M, F, B>,
     }
-}
-
-/// Shows those of the same arm on joints that give way to `visitor`.
-pub fn compliant<T: Swung<N>, const N: usize>(visitor: &mut impl Visitor<N>) {
-    ways!(visitor: Compliant<T, N>, Rigid<T, N>);
 }
 
 /// Every few ticks, held, extrapolated and interpolated.

@@ -10,14 +10,13 @@
 //! | [`model`], [`form`], [`kernels`] | what is computed, by which form, with whose sines and cosines |
 //! | [`inverse`] | ways that compute in every tick, in f32 and f64 |
 //! | [`multirate`] | ways that compute in every few ticks |
-//! | [`compliant`] | ways to the motors of joints that give way |
 //! | [`simulation`], [`passive_motion`] | ways to simulate, and what |
 //! | [`list`], [`robots`] | all of them; whose they are |
 
 /// Ways: their generics but N, their types and keys, what else they have, what a tick is given and the numbers that it
 /// gives, what they start with, and a tick.
 macro_rules! inverse {
-    ($([$($generics:tt)*] $way:ty, $key:expr, { $($more:tt)* }, $input:ty = |$course:ident| $given:expr, $scalar:ty,
+    ($([$($generics:tt)*] $way:ty, $key:expr, { $($more:tt)* }, $input:ty = |$at:ident| $given:expr, $scalar:ty,
        |$first:pat_param| $start:expr, #[$inline:meta] |$self:ident, $now:ident| $tick:expr;)*) => {$(
         impl<$($generics)*, const N: usize> Inverse<N> for $way {
             const KEY: Key = $key;
@@ -28,7 +27,7 @@ macro_rules! inverse {
             fn start($first: &State<f32, N, N>) -> Self {
                 $start
             }
-            fn input($course: &ElasticReference<f32, N, N>) -> Self::Input {
+            fn input($at: &State<f32, N, N>) -> Self::Input {
                 $given
             }
             #[$inline]
@@ -39,7 +38,6 @@ macro_rules! inverse {
     )*};
 }
 
-pub mod compliant;
 pub mod form;
 pub mod inverse;
 pub mod kernels;
@@ -51,7 +49,6 @@ pub mod passive_motion;
 pub mod robots;
 pub mod simulation;
 
-use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
@@ -72,12 +69,8 @@ pub trait Inverse<const N: usize>: Sized {
     /// Before the first tick, which will be that of this state.
     fn start(first: &State<f32, N, N>) -> Self;
     /// Where the joints are to be, in its own numbers: what a firmware of this kind would have computed with so far.
-    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input;
+    fn input(state: &State<f32, N, N>) -> Self::Input;
     fn tick(&mut self, input: &Self::Input) -> [Self::Scalar; N];
-    /// Torques, N·m.
-    fn torque(output: [Self::Scalar; N]) -> [f64; N] {
-        output.map(Real::to_f64)
-    }
     /// The address of the function that a tick is, or calls.
     fn address() -> usize {
         Self::tick as fn(&mut Self, &Self::Input) -> [Self::Scalar; N] as usize

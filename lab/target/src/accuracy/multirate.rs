@@ -3,7 +3,6 @@
 use core::marker::PhantomData;
 
 use dynamics_core::Engine;
-use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::state::State;
 use dynamics_core::trig::Kernel;
 use motion_control::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
@@ -11,7 +10,6 @@ use motion_control::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold}
 use super::Inverse;
 use super::key::{Key, Named};
 use super::model::Modelled;
-use super::robots::momentary;
 
 /// The computation W in every `TICKS`-th tick, and P in the ticks between.
 #[derive(Debug)]
@@ -44,13 +42,13 @@ const fn rate(ticks: usize) -> &'static str {
 /// in every tick, and what it is given; both before the first tick; a tick that computes, and one that does not.
 macro_rules! every {
     ($([$($generics:tt)*] $way:ty, $between:ty = $name:literal, ahead: $ahead:expr, $key:expr,
-       $input:ty = |$course:ident| $given:expr, |$first:pat_param| $start:expr,
+       $input:ty = |$at:ident| $given:expr, |$first:pat_param| $start:expr,
        |$self:ident, $now:ident| $fresh:expr, $stale:expr;)*) => {$(
         inverse! {
             [$($generics)*, const TICKS: usize] Every<$way, $between, TICKS>,
             Key { rate: rate(TICKS), between: $name, ..$key },
             { const MEMORY: bool = true; const AHEAD: usize = $ahead; },
-            $input = |$course| $given, f32, |$first| {
+            $input = |$at| $given, f32, |$first| {
                 let (way, between) = $start;
                 Self { way, between, wait: 0 }
             },
@@ -67,21 +65,21 @@ macro_rules! every {
 }
 every! {
     [W: Inverse<N, Scalar = f32>] W, ZeroOrderHold<f32, N> = "held", ahead: 0, W::KEY,
-        W::Input = |course| W::input(course), |first| (W::start(first), ZeroOrderHold::start()),
+        W::Input = |at| W::input(at), |first| (W::start(first), ZeroOrderHold::start()),
         |self, input| self.between.update(self.way.tick(input)), self.between.hold();
     [W: Inverse<N, Scalar = f32>] W, FirstOrderHold<f32, N, TICKS> = "extrapolated", ahead: 0, W::KEY,
-        W::Input = |course| W::input(course), |first| (W::start(first), FirstOrderHold::start()),
+        W::Input = |at| W::input(at), |first| (W::start(first), FirstOrderHold::start()),
         |self, input| self.between.update(self.way.tick(input)), self.between.hold();
     [W: Inverse<N, Scalar = f32>] W, Interpolator<f32, N, TICKS> = "interpolated", ahead: TICKS, W::KEY,
-        W::Input = |course| W::input(course), |first| {
+        W::Input = |at| W::input(at), |first| {
             let mut way = W::start(first);
-            let torque = way.tick(&W::input(&momentary(*first)));
+            let torque = way.tick(&W::input(first));
             (way, Interpolator::start(torque))
         },
         |self, input| self.between.update(self.way.tick(input)), self.between.hold();
     [K: Kernel<f32> + Named, M: Modelled<B, N>, const B: usize] Linear<K, M, B>,
         InertiaUpdate<f32, N, TICKS> = "linearised", ahead: 0, Key { trig: K::NAME, model: M::NAME, ..Key::DEFAULT },
-        State<f32, N, N> = |course| course.state, |_| (Linear(PhantomData), InertiaUpdate::start()),
+        State<f32, N, N> = |at| *at, |_| (Linear(PhantomData), InertiaUpdate::start()),
         |self, state| {
             let trig = Engine::<M::Robot, K>::joint_trig(&state.q);
             let torque = Engine::<M::Robot>::rnea(trig.with(state), &M::SCENE);

@@ -1,16 +1,13 @@
 //! The robots, each with a way to go.
 
-use dynamics_core::drivetrain::{ElasticJoints, ElasticReference};
 use dynamics_core::model::{Robot, model};
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
-use dynamics_core::scalar::Real;
-use dynamics_core::state::State;
 use firmware_demo::scene::TICK;
 use firmware_demo::trajectories::PICK_AND_PLACE;
-use motion_control::{MotionLimits, RestToRest, Trajectory, TrajectoryError, WayPoint};
+use motion_control::{MotionLimits, Trajectory, TrajectoryError, WayPoint};
 
 use crate::Own;
-use crate::trajectories::{LEG_STEPS, PANDA_PICK_AND_PLACE, PANDA_SWING, UR5E_SWING};
+use crate::trajectories::{LEG_STEPS, PANDA_PICK_AND_PLACE};
 
 /// A robot of N joints and B bodies, its way through W points, and all ways to compute its torques.
 pub trait Compared<const B: usize, const N: usize, const W: usize>: Robot<B, N, N> + Sized {
@@ -28,31 +25,6 @@ pub trait Compared<const B: usize, const N: usize, const W: usize>: Robot<B, N, 
     fn way() -> Result<Trajectory<f32, N, W>, TrajectoryError> {
         let speeds = speeds::<Self, B, N>(Self::ACCELERATION);
         Trajectory::new(&Self::points(), TICK, &speeds)
-    }
-}
-
-/// An arm with joints that give way, and a swing of so many stops that leaves them time.
-pub trait Swung<const N: usize>: Robot<N, N, N> + Sized {
-    const STOPS: [WayPoint<f32, N>; 4];
-    /// Stiffness, N·m/rad, reflected inertia of the rotor, kg·m², and friction, N·m·s/rad: assumed, of the order of
-    /// harmonic drives of this size.
-    const JOINTS: [[f64; N]; 3];
-
-    fn joints<R: Real>() -> ElasticJoints<R, N> {
-        let [stiffness, rotor, friction] = Self::JOINTS.map(|numbers| numbers.map(R::from_f64));
-        ElasticJoints {
-            stiffness,
-            rotor,
-            friction,
-        }
-    }
-
-    /// The trajectory, tick by tick.
-    ///
-    /// # Errors
-    /// End stops that the limits do not allow.
-    fn swing() -> Result<RestToRest<f32, N, 4>, TrajectoryError> {
-        RestToRest::new(&Self::STOPS, TICK, &speeds::<Self, N, N>(8.0))
     }
 }
 
@@ -86,12 +58,6 @@ fn speeds<T: Robot<B, N, N>, const B: usize, const N: usize>(
         }
     }
     speeds
-}
-
-/// A state that nothing is known of beyond.
-pub fn momentary<const N: usize>(state: State<f32, N, N>) -> ElasticReference<f32, N, N> {
-    let [jerk, snap] = [[0.0; N]; 2];
-    ElasticReference { state, jerk, snap }
 }
 
 impl Compared<6, 6, 9> for Ur5e {
@@ -156,22 +122,4 @@ impl<T: Robot<N, N, N>, const N: usize> Compared<N, N, 5> for Own<T> {
         }
         points
     }
-}
-
-impl Swung<6> for Ur5e {
-    const STOPS: [WayPoint<f32, 6>; 4] = UR5E_SWING;
-    const JOINTS: [[f64; 6]; 3] = [
-        [1.5e4, 1.5e4, 1e4, 4e3, 4e3, 4e3],
-        [0.9, 0.9, 0.9, 0.25, 0.25, 0.25],
-        [12.0, 12.0, 8.0, 2.0, 2.0, 1.5],
-    ];
-}
-
-impl Swung<7> for Panda {
-    const STOPS: [WayPoint<f32, 7>; 4] = PANDA_SWING;
-    const JOINTS: [[f64; 7]; 3] = [
-        [1.4e4, 1.4e4, 1.4e4, 1.4e4, 9e3, 9e3, 9e3],
-        [0.6, 0.6, 0.5, 0.5, 0.2, 0.2, 0.2],
-        [5.0, 5.0, 5.0, 5.0, 2.0, 2.0, 2.0],
-    ];
 }

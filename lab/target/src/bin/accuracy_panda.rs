@@ -6,5 +6,5 @@ mod accuracy;
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    accuracy::arm::<dynamics_core::robots::Panda, 7, 7>()
+    accuracy::robot::<dynamics_core::robots::Panda, 7, 7, 7>()
 }

@@ -6,5 +6,5 @@ mod accuracy;
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    accuracy::arm::<dynamics_core::robots::Ur5e, 6, 9>()
+    accuracy::robot::<dynamics_core::robots::Ur5e, 6, 6, 9>()
 }

@@ -60,12 +60,11 @@ impl Budget {
     pub fn group(self, robot: Robot) -> (&'static str, Kind, &'static str) {
         let kind = match self {
             Self::Error(allowed) => allowed.kind,
-            Self::Cycles(_) if robot == Robot::DoublePendulum => Kind::Simulation,
             Self::Cycles(_) => Kind::Inverse,
         };
         let circumstances = match kind {
             Kind::Simulation => "free",
-            _ => "rigid",
+            _ => "",
         };
         (robot.name(), kind, circumstances)
     }

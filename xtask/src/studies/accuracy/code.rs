@@ -3,7 +3,7 @@
 use super::measure::Robot;
 use super::names;
 use super::point::{Kind, Point};
-use crate::kit::error::{Result, check};
+use crate::kit::error::{Result, check, refuse_if};
 
 /// The paths of the items of dynamics-core in generated code.
 const DYNAMICS: &str = "Core Engine effects::Gravity effects::Inertia effects::RIGID_BODY model::Pruned robots::A1Leg \
@@ -123,23 +123,10 @@ fn torques(point: &Point) -> Result<String> {
 }
 
 fn simulation(point: &Point) -> Result<String> {
+    let robot = &point.robot;
+    refuse_if!(robot != "ur5e", "the library has no {robot}");
     let axes = ["scene", "integrator", "state", "arith"];
     let [_, integrator, compensated, scalar] = shipped(point, axes)?;
-    let pendulum = [
-        ("robots::Ur5e", "DoublePendulum"),
-        (
-            "dynamics_core::D",
-            "lab_target::accuracy::passive_motion::D",
-        ),
-        ("Ur5e", "DoublePendulum"),
-        ("6]", "2]"),
-        ("6,", "2,"),
-        ("6>", "2>"),
-    ];
-    let robot = match &*point.robot {
-        "ur5e" => &[],
-        _ => &pendulum[..],
-    };
     let name = integrator.split('<').next().unwrap_or_default();
     let step: f64 = point.on("step").parse().unwrap_or_default();
     let values = [
@@ -152,7 +139,7 @@ fn simulation(point: &Point) -> Result<String> {
         ("true", compensated),
         ("f32", scalar),
     ];
-    Ok(filled(&filled(SIMULATION, robot), &values))
+    Ok(filled(SIMULATION, &values))
 }
 
 #[cfg(test)]
@@ -187,12 +174,12 @@ mod tests {
     fn whatever_the_library_ships_can_be_generated() {
         let shipped = |point: &&Point| match point.kind {
             Kind::Simulation => {
-                point.on("scene") == "free" && point.on("integrator") != "implicit_damping"
+                point.on("scene") == "free"
+                    && point.robot == "ur5e"
+                    && point.on("integrator") != "implicit_damping"
             }
             _ => {
-                point.on("plant") == "rigid"
-                    && matches!(point.on("arith"), "f32" | "f64")
-                    && !matches!(point.on("trig"), "libm" | "micromath")
+                !matches!(point.on("trig"), "libm" | "micromath")
                     && !point.on("model").starts_with("params")
             }
         };
@@ -219,8 +206,7 @@ mod tests {
     #[test]
     fn code_of_a_robot_from_a_file_names_its_type() {
         let mut own = point("form=core", 1.0, 1, 1.0);
-        let axes =
-            "model=pruned1000 trig=table3x4 between=held form=core arith=f32 rate=1 plant=rigid";
+        let axes = "model=pruned1000 trig=table3x4 between=held form=core arith=f32 rate=1";
         let axes = axes.split(' ').filter_map(|axis| axis.split_once('='));
         own.configuration = axes
             .map(|(axis, value)| (axis.into(), value.into()))

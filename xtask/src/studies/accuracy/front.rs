@@ -62,7 +62,7 @@ pub mod tests {
             key: key.into(),
             ..Point::default()
         };
-        let changes = point.changes().chain([("plant", "rigid")]);
+        let changes = point.changes();
         point.configuration = changes
             .map(|(axis, value)| (axis.to_owned(), value.to_owned()))
             .collect();

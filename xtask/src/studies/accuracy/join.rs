@@ -138,7 +138,7 @@ mod tests {
     }
 
     const LINES: &str = r#"
-{"kind":"inverse","robot":"arm","key":"default","configuration":{"plant":"rigid","trig":"table3"},"unit":"N·m","full_scale":10.0,"error_max":1e-5,"error_rms":1e-6,"error_p99":9e-6,"relative_max":1e-6}
+{"kind":"inverse","robot":"arm","key":"default","configuration":{"trig":"table3"},"unit":"N·m","full_scale":10.0,"error_max":1e-5,"error_rms":1e-6,"error_p99":9e-6,"relative_max":1e-6}
 {"kind":"simulation","robot":"arm","key":"default","configuration":{"step":"1000"},"unit":"rad","full_scale":1.0,"error_max":null,"error_rms":null,"error_p99":null,"relative_max":null}"#;
 
     #[test]

@@ -29,7 +29,7 @@ pub enum Robot {
     Panda,
     #[value(name = "a1_leg")]
     A1Leg,
-    #[value(name = "double_pendulum")]
+    #[value(skip)]
     DoublePendulum,
 }
 
@@ -95,9 +95,8 @@ impl Plan {
     }
 
     fn simulates(&self) -> bool {
-        let simulated = [Robot::DoublePendulum, Robot::Ur5e];
         let wanted = !self.quick && self.kind != Some(Kind::Inverse);
-        wanted && simulated.iter().any(|robot| self.robots.contains(robot))
+        wanted && self.robots.contains(&Robot::Ur5e)
     }
 
     /// Opt-levels, their profiles and the bins that are built with them.

@@ -33,8 +33,6 @@ const ROWS: &[Row] = &[
     ("model", "full", Some("RIGID_BODY"), "", ""),
     ("model", "no_coriolis", Some("(Gravity::EARTH, Inertia)"), "no Coriolis", "Leaves out Coriolis and centrifugal torques: right at rest, and worse with the square of the joints' speed."),
     ("model", "gravity", Some("(Gravity::EARTH,)"), "gravity only", "Computes the weight only and leaves out inertia, Coriolis and centrifugal torques: right at rest."),
-    ("model", "rigid", None, "taken for rigid", "Takes joints that give way for rigid ones."),
-    ("model", "compliant", None, "compliant", "Computes motors and links of joints that give way."),
     ("model", "params6", None, "6-bit model", "Rounds lengths, masses and inertias to 6 bits."),
     ("model", "params8", None, "8-bit model", "Rounds lengths, masses and inertias to 8 bits, those of bf16."),
     ("model", "params11", None, "11-bit model", "Rounds lengths, masses and inertias to 11 bits, those of f16."),

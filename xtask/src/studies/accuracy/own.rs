@@ -38,7 +38,7 @@ pub fn run(
     let workspace = Workspace::find()?;
     let points = measure(&workspace, &setup::for_demo(options)?, robot)?;
     if let Some(budget) = budget {
-        let points = shipped(&points, (&*robot.name, Kind::Inverse, "rigid"));
+        let points = shipped(&points, (&*robot.name, Kind::Inverse, ""));
         super::show(budget, &points, json)?;
         output::note(&format!(
             "\n`crate::robot` is the file of `cargo xtask import`. {REFERENCE}."

@@ -69,7 +69,7 @@ pub fn pictures(points: &[Point], host: &Host, robot: Robot) -> Result<Vec<(Stri
     if robot == Robot::DoublePendulum {
         return Ok(vec![(file + ".svg", plot::simulations(points)?)]);
     }
-    let own = of_group(points, (robot.name(), Kind::Inverse, "rigid"));
+    let own = of_group(points, (robot.name(), Kind::Inverse, ""));
     Ok(vec![(file + ".svg", plot::front(robot, &own, host)?)])
 }
 
@@ -168,7 +168,7 @@ pub fn singles(points: &[Point], rustc: &str) -> String {
 }
 
 pub fn brief(points: &[Point], shares: Option<[f64; 2]>, rustc: &str) -> String {
-    let mut few = of_group(points, ("ur5e", Kind::Inverse, "rigid"));
+    let mut few = of_group(points, ("ur5e", Kind::Inverse, ""));
     few.retain(|point| is_single(point, BRIEF_ROWS));
     few.sort_by(|a, b| a.error().total_cmp(&b.error()));
     let table = table(&named(&few), "UR5e", BRIEF).markdown();
@@ -189,7 +189,7 @@ pub fn text(points: &[Point], host: &Host, robot: Robot, rustc: &str) -> String 
 }
 
 fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
-    let rigid = of_group(points, (robot.name(), Kind::Inverse, "rigid"));
+    let rigid = of_group(points, (robot.name(), Kind::Inverse, ""));
     let (title, part) = (robot.names()[1], page_of(robot).name);
     let mut text = format!(
         "![Front of error against cycles of inverse dynamics of the {title}]({part}.svg)\n\n{} configurations, of which {} \
@@ -233,12 +233,6 @@ fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
     let head = "Without Coriolis: how slow is slow enough";
     let speeds = lines(Kind::Speed, |line| digits(line.speed));
     text += &section(head, &speeds, "joints as fast as, rad/s", SPEEDS);
-    let mut elastic = of_group(points, (robot.name(), Kind::Inverse, "compliant"));
-    elastic.retain(|point| point.on("opt") == "3");
-    if !elastic.is_empty() {
-        let head = "Motors' torques on elastic joints, along a smooth swing";
-        text += &section(head, &named(&elastic), "configuration", COSTS);
-    }
     let others = lines(Kind::Yardstick, |line| line.what.clone());
     text + &section(
         "Where accuracy stops mattering",

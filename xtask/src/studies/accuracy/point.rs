@@ -73,11 +73,7 @@ impl Point {
 
     /// Robot, kind and scene, which are the same for all points that are compared with each other.
     pub fn group(&self) -> (&str, Kind, &str) {
-        let circumstances = match self.kind {
-            Kind::Simulation => self.on("scene"),
-            _ => self.on("plant"),
-        };
-        (&self.robot, self.kind, circumstances)
+        (&self.robot, self.kind, self.on("scene"))
     }
 
     /// The largest error, infinite if the robot has left its range.
@@ -103,7 +99,7 @@ impl Point {
 
     /// Whether it is the library's own choice.
     pub fn is_default(&self) -> bool {
-        self.kind == Kind::Inverse && self.key == "default" && self.on("plant") == "rigid"
+        self.kind == Kind::Inverse && self.key == "default"
     }
 }
 

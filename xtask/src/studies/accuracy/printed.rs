@@ -19,7 +19,7 @@ const CLOSE: std::ops::RangeInclusive<f64> = 0.95..=1.02;
 /// Every single change of the UR5e for which there is code, and one of the leg.
 fn is_sample(point: &Point) -> bool {
     let all = point.robot == "ur5e" || (&*point.robot, &*point.key) == ("a1_leg", "trig=minimax7");
-    all && point.on("plant") == "rigid" && page::is_single(point, usize::MAX)
+    all && page::is_single(point, usize::MAX)
 }
 
 /// Writes it, as a module for each and a visit of all of a robot's.
@@ -72,7 +72,7 @@ fn wrapped(point: &Point, way: &str, code: &str, joints: &str) -> String {
 /// Fails unless all generated code reproduces its figures, errors to the bit; else says how much that is.
 pub fn check(measured: &Measured) -> Result<usize> {
     let mut different = Vec::new();
-    let name = |point: &Point| [&point.robot, &point.key, point.on("plant")].join(" ");
+    let name = |point: &Point| format!("{} {}", point.robot, point.key);
     let figures = |point: &Point| {
         [
             point.instructions as f64,

@@ -3,15 +3,14 @@
 use std::f64::consts::PI;
 
 use dynamics_core::Core;
-use dynamics_core::drivetrain::{ElasticReference, elastic_inverse_dynamics};
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::model::{Robot, Static};
+use dynamics_core::model::Robot;
+use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use host_tests::random::{random_numbers, within};
 use host_tests::recordings::{Precise, load, read};
-use lab_target::accuracy::robots::{Compared, Swung, momentary};
-use lab_target::accuracy::{Inverse, Visitor, list};
-use motion_control::Reference;
+use lab_target::accuracy::robots::Compared;
+use lab_target::accuracy::{Inverse, Visitor};
 use proptest::test_runner::TestRng;
 use serde_json::json;
 
@@ -29,8 +28,6 @@ const REST: u32 = 3;
 pub struct Bench<const N: usize> {
     pub kind: &'static str,
     robot: &'static str,
-    /// The kind of its joints: `rigid` or `compliant`.
-    plant: &'static str,
     full_scale: f64,
     /// The error of the oracle itself, N·m: smaller errors are given as this one.
     floor: f64,
@@ -38,25 +35,24 @@ pub struct Bench<const N: usize> {
     way: Vec<Problem<N>>,
 }
 
-/// A desired motion of the joints, and its exact torques.
+/// A desired state of the joints, and its exact torques.
 pub struct Problem<const N: usize> {
-    pub course: ElasticReference<f32, N, N>,
+    pub state: State<f32, N, N>,
     pub truth: [f64; N],
 }
 
 impl<const N: usize> Visitor<N> for Bench<N> {
     fn way<W: Inverse<N>>(&mut self) {
         let run = |problems: &[Problem<N>]| {
-            let mut way = W::start(&problems[0].course.state);
+            let mut way = W::start(&problems[0].state);
             let given = (0..).map(|k: usize| &problems[(k + W::AHEAD).min(problems.len() - 1)]);
-            let answers = given.map(|given| W::torque(way.tick(&W::input(&given.course))));
+            let answers = given.map(|given| way.tick(&W::input(&given.state)).map(Real::to_f64));
             Errors::of(answers.zip(problems.iter().map(|problem| problem.truth)))
         };
         let states = !W::MEMORY && !self.states.is_empty();
-        let axes = W::KEY.axes();
         let line = json!({
             "key": W::KEY.to_string(),
-            "configuration": object(axes.iter().chain(&[("plant", self.plant)])),
+            "configuration": object(W::KEY.axes().iter()),
             "anywhere": states.then(|| run(&self.states).max() / self.full_scale),
         });
         let scales = [self.full_scale, self.floor];
@@ -75,7 +71,7 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
     ways: fn(&mut Bench<N>),
 ) {
     let labelled = |state| Problem {
-        course: momentary(state),
+        state,
         truth: ours::<T, B, N>(&state),
     };
     let mut random = random_numbers();
@@ -98,7 +94,6 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
     ways(&mut Bench {
         kind: "inverse",
         robot: T::MODEL.name,
-        plant: "rigid",
         full_scale,
         floor,
         states,
@@ -117,12 +112,12 @@ fn print_oracle<T: Robot<B, N, N>, const B: usize, const N: usize>(
 ) -> (f64, f64) {
     let full_scale = full_scale(recorded);
     let ours = ours::<T, B, N>;
-    let off = Errors::of(recorded.iter().map(|it| (ours(&it.course.state), it.truth)));
+    let off = Errors::of(recorded.iter().map(|it| (ours(&it.state), it.truth)));
     let precise: Precise = read("precise");
     let sample = precise.states.iter().zip(precise.rnea(name));
     let sample = Errors::of(sample.map(|(&k, tau)| {
         let truth: [f64; N] = std::array::from_fn(|j| tau[j]);
-        (ours(&recorded[k].course.state), truth)
+        (ours(&recorded[k].state), truth)
     }));
     let oracle = json!({
         "pinocchio": load(name).pinocchio,
@@ -132,38 +127,6 @@ fn print_oracle<T: Robot<B, N, N>, const B: usize, const N: usize>(
     });
     off.print(T::MODEL.name, "oracle", [full_scale, 0.0], oracle);
     (full_scale, off.max())
-}
-
-#[allow(dead_code, reason = "the quick bin has no such joints")]
-/// Prints a line for each way of the arm T on joints that give way.
-pub fn print_compliant<T, const N: usize, const W: usize>()
-where
-    T: Compared<N, N, W> + Swung<N>,
-{
-    let swing = T::swing().expect("the arm can swing there");
-    let labelled = |tick| {
-        let course = swing.elastic_reference(tick);
-        let double = ElasticReference {
-            state: widened(&course.state),
-            jerk: course.jerk.map(f64::from),
-            snap: course.snap.map(f64::from),
-        };
-        let motors =
-            elastic_inverse_dynamics(&Static::<T>::NEW, &T::joints(), &double, &RIGID_BODY);
-        Problem {
-            course,
-            truth: motors.expect("joints of one freedom").torque,
-        }
-    };
-    list::compliant::<T, N>(&mut Bench {
-        kind: "inverse",
-        robot: T::MODEL.name,
-        plant: "compliant",
-        full_scale: full_scale(&T::RECORDED.map_or_else(Vec::new, recorded_states::<N>)),
-        floor: 0.0,
-        states: Vec::new(),
-        way: (0..=swing.ticks()).map(labelled).collect(),
-    });
 }
 
 fn full_scale<const N: usize>(recorded: &[Problem<N>]) -> f64 {
@@ -178,7 +141,7 @@ fn recorded_states<const N: usize>(name: &str) -> Vec<Problem<N>> {
         let [q, qd, qdd] = [&recording.q, &recording.qd, &recording.qdd]
             .map(|rows| first(rows, k).map(|x| x as f32));
         Problem {
-            course: momentary(State { q, qd, qdd }),
+            state: State { q, qd, qdd },
             truth: first(&recording.rnea, k),
         }
     };

@@ -25,11 +25,9 @@ fn main() {
     let wanted = |name: &str| requested.is_empty() || requested.iter().any(|robot| robot == name);
     if wanted("ur5e") {
         inverse::print::<Ur5e, 6, 6, 9>(list::inverse::<Ur5e, 6, 6>);
-        inverse::print_compliant::<Ur5e, 6, 9>();
     }
     if wanted("panda") {
         inverse::print::<Panda, 7, 7, 7>(list::inverse::<Panda, 7, 7>);
-        inverse::print_compliant::<Panda, 7, 7>();
     }
     if wanted("a1_leg") {
         inverse::print::<A1Leg, 4, 3, 7>(list::inverse::<A1Leg, 4, 3>);

@@ -38,8 +38,8 @@ pub fn print<T: Robot<B, N, N>, const B: usize, const N: usize>(
         let line = json!({"key": key, "what": what});
         errors.print(T::MODEL.name, "yardstick", [full_scale, 0.0], line);
     };
-    let rounded = Errors::of(way.iter().map(|Problem { course, truth }| {
-        let mut state = widened(&course.state);
+    let rounded = Errors::of(way.iter().map(|Problem { state, truth }| {
+        let mut state = widened(state);
         state.q = state.q.map(|q| (q / (TAU / STEPS)).round() * (TAU / STEPS));
         (Core::<T>::rnea(&state, &RIGID_BODY), *truth)
     }));
@@ -58,8 +58,8 @@ pub fn print<T: Robot<B, N, N>, const B: usize, const N: usize>(
             *per_speed = 0.1 * FRICTION * link.limits.torque / link.limits.velocity;
         }
     }
-    let friction = Errors::of(way.iter().map(|Problem { course, truth }| {
-        let with = |j| truth[j] + per_speed[j] * f64::from(course.state.qd[j]);
+    let friction = Errors::of(way.iter().map(|Problem { state, truth }| {
+        let with = |j| truth[j] + per_speed[j] * f64::from(state.qd[j]);
         (std::array::from_fn(with), *truth)
     }));
     let what = "10 % of a viscous friction that at full speed takes a tenth of the joint's torque";
@@ -72,18 +72,19 @@ fn inertial<T: Robot<B, N, N>, const B: usize, const N: usize>(
     share: f64,
 ) -> Errors {
     let mut random = random_numbers();
-    let drawings = (0..DRAWINGS).map(|_| {
-        let mut robot = Calibrated::<T, f64, B, N, N>::nominal();
-        for inertia in robot.inertias() {
-            let [mass, moment, second] = within::<3>(&mut random, share).map(|x| 1.0 + x);
-            inertia.mass *= mass;
-            inertia.first_moment *= moment;
-            inertia.rotational *= second;
-        }
-        Errors::of(way.iter().step_by(10).map(|Problem { course, truth }| {
-            (rnea(&robot, &widened(&course.state), &RIGID_BODY), *truth)
-        }))
-    });
+    let drawings =
+        (0..DRAWINGS).map(|_| {
+            let mut robot = Calibrated::<T, f64, B, N, N>::nominal();
+            for inertia in robot.inertias() {
+                let [mass, moment, second] = within::<3>(&mut random, share).map(|x| 1.0 + x);
+                inertia.mass *= mass;
+                inertia.first_moment *= moment;
+                inertia.rotational *= second;
+            }
+            Errors::of(way.iter().step_by(10).map(|Problem { state, truth }| {
+                (rnea(&robot, &widened(state), &RIGID_BODY), *truth)
+            }))
+        });
     let worst = drawings.max_by(|a, b| a.rms().total_cmp(&b.rms()));
     worst.expect("some drawings")
 }

@@ -9,14 +9,12 @@ mod row;
 use core::fmt::{Display, Write};
 
 use cortex_m_semihosting::debug;
-use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::state::State;
 use firmware_demo::target;
 use heapless::String;
-use lab_target::accuracy::robots::{Compared, Swung, momentary};
+use lab_target::accuracy::robots::Compared;
 use lab_target::accuracy::simulation::{self, PassiveMotion, Simulation};
 use lab_target::accuracy::{Inverse, Visitor, list};
-use motion_control::Reference;
 use row::{Row, numbers};
 
 /// Ticks of each way: two periods of the lowest rate.
@@ -26,7 +24,7 @@ const TICKS: usize = 40;
 const STEPS: [f64; 8] = [1e-4; 8];
 
 /// The references of a robot in some ticks.
-type Courses<const N: usize> = [ElasticReference<f32, N, N>; TICKS];
+type Courses<const N: usize> = [State<f32, N, N>; TICKS];
 
 /// Measures each way that it visits.
 pub struct Priced<const N: usize> {
@@ -69,7 +67,7 @@ impl<const N: usize> Visitor<N> for Priced<N> {
             true => &self.course,
             false => &self.spread,
         };
-        let mut way = W::start(&states[0].state);
+        let mut way = W::start(&states[0]);
         let inputs = states.each_ref().map(W::input);
         let names = [self.robot, self.algorithm];
         measure(names, W::KEY, W::address(), &inputs, |input| {
@@ -100,17 +98,9 @@ pub fn simulated<T: PassiveMotion<N>, const N: usize>() {
     simulation::every::<T, N>(&mut Stepped(T::MODEL.name));
 }
 
-/// Measures every way of the arm T, rigid and on joints that give way.
-pub fn arm<T: Compared<N, N, W> + Swung<N>, const N: usize, const W: usize>() -> ! {
-    let Ok(swing) = T::swing() else {
-        target::fail("the robot cannot swing there");
-    };
-    let mut priced = states::<T, N, N, W>();
-    list::inverse::<T, N, N>(&mut priced);
-    let first = swing.ticks() / 8 + 1;
-    priced.course = core::array::from_fn(|k| swing.elastic_reference(first + k as u32));
-    priced.spread = priced.course;
-    list::compliant::<T, N>(&mut priced);
+/// Measures every way of the robot T.
+pub fn robot<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usize>() -> ! {
+    list::inverse::<T, B, N>(&mut states::<T, B, N, W>());
     done()
 }
 
@@ -119,13 +109,13 @@ pub fn states<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usi
     let mut number = numbers();
     let spread = [(); TICKS].map(|()| {
         let [q, qd, qdd] = [3.0, 3.0, 10.0].map(|bound| [(); N].map(|()| number(bound)));
-        momentary(State { q, qd, qdd })
+        State { q, qd, qdd }
     });
     let Ok(way) = T::way() else {
         target::fail("the robot cannot go there");
     };
     let first = way.ticks() / 4 + 1;
-    let course = core::array::from_fn(|k| momentary(way.at(first + k as u32)));
+    let course = core::array::from_fn(|k| way.at(first + k as u32));
     let (robot, algorithm) = (T::MODEL.name, "inverse");
     Priced {
         robot,

@@ -126,9 +126,11 @@ pub fn first_screen(
     workspace: &Workspace,
     report: &Report,
 ) -> Result<[(docs::Page<'static>, String); 2]> {
-    let peers = workspace::read(&workspace.root.join(first_screen::PEERS))?;
+    let read = |file| workspace::read(&workspace.root.join(file));
+    let (peers, readme) = (read(first_screen::PEERS)?, read(first_screen::WHY.file)?);
+    let why = first_screen::why(&peers, &readme, report)?;
     Ok([
-        (first_screen::WHY, first_screen::why(&peers, report)?),
+        (first_screen::WHY, why),
         (first_screen::WORTH, first_screen::worth(report)),
     ])
 }

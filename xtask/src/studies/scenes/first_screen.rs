@@ -1,6 +1,6 @@
 //! The README's first lines: why one would use the library, and what each effect is worth.
 
-use crate::kit::docs::Page;
+use crate::kit::docs::{Page, cells};
 use crate::kit::error::{Result, check};
 use crate::kit::meter::CLOCK_MHZ;
 use crate::kit::table::{Column, Table, thousands};
@@ -22,7 +22,8 @@ pub const WHY: Page<'_> = part("why");
 pub const WORTH: Page<'_> = part("worth");
 
 /// From the bars of the peers' page, as it was recorded, and from the default scene.
-pub fn why(peers: &str, report: &Report) -> Result<String> {
+pub fn why(peers: &str, readme: &str, report: &Report) -> Result<String> {
+    let wishes = wishes(readme, report)?;
     let range = |bar: &str| range(peers, bar);
     let inverse = range(" rnea, m4f, engine / casadi: cycles")?;
     let forward = range(" aba, m4f, engine / casadi: cycles")?;
@@ -35,7 +36,42 @@ pub fn why(peers: &str, report: &Report) -> Result<String> {
          A1; modelled Cortex-M4F), forward dynamics of the first three {forward} ([peers]({PEERS})).\n\
          - On the host, inverse dynamics of a UR5e and a Panda take **{host} of the time of Pinocchio's C++**.\n\
          - A whole tick of a UR5e, from six encoders to six drives, takes {longest:.1} µs at {CLOCK_MHZ} MHz: **{share:.1} % of a millisecond**. The arm\n  \
-         then follows its reference with {ratio:.1} % of the error of PD control alone."
+         then follows its reference with {ratio:.1} % of the error of PD control alone.\n\n\
+         {wishes}"
+    ))
+}
+
+/// The questions that the README's pictures answer, each with its figures: of accuracy and of hard cases as the README has them.
+fn wishes(readme: &str, report: &Report) -> Result<String> {
+    let lacks = |what: &str| check!("README.md has no {what}");
+    let row = |name: &str| {
+        let mut rows = readme.lines().filter_map(cells);
+        let row = rows.find(|row| row[0] == name && row.len() == 5);
+        row.ok_or_else(|| lacks(name))
+    };
+    let (all, pruned) = (row("default")?, row("pruned at 0.1 %")?);
+    let full = report.tracking.feedforward.rms_rad;
+    let worth = |name: &str| {
+        let one = report.effects.iter().find(|one| one.effect == name);
+        let one = one.ok_or_else(|| lacks(name))?;
+        let times = one.without.rms_rad / full;
+        Ok(format!(
+            "{times:.0} times as large without {name}, which costs {} cycles",
+            one.cycles
+        ))
+    };
+    let [gravity, coriolis]: [Result<String>; 2] = ["Gravity", "Coriolis"].map(worth);
+    let is_count = |line: &&str| line.contains(" figures are within their bounds");
+    let hard = readme.lines().find(is_count);
+    let hard = hard.ok_or_else(|| lacks("hard cases"))?;
+    Ok(format!(
+        "Its three questions, with a picture each below:\n\n\
+         1. [What does accuracy cost?](#what-accuracy-costs) Torques of a UR5e within {} N·m take {} cycles, within {} N·m {}.\n\
+         2. [What is each effect worth?](#what-each-effect-is-worth-and-what-it-costs) Its tracking error is {},\n   \
+         and {}.\n\
+         3. [Do hard cases stay stable?](#hard-cases-stay-stable) {}\n   \
+         and naive methods are shown to fail.",
+        all[3], all[1], pruned[3], pruned[1], gravity?, coriolis?, hard
     ))
 }
 

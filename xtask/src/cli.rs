@@ -37,7 +37,7 @@ enum Command {
     /// Test all that guards correctness, each claim by its cheapest witness
     Test(test::Args),
     /// Write a project for a robot from URDF or MJCF: firmware, simulated or with --board for a board, or with --c a library for C
-    New(import::Passed<true>),
+    New(import::New),
     /// Write the Rust file of a robot from URDF or MJCF, with advice, a check, and what its inverse dynamics costs
     Import(import::Args),
     /// Measure a firmware of your own between its markers, and check its instructions
@@ -203,10 +203,10 @@ mod tests {
         for good in [
             "costs --file arm.urdf",
             "costs --file arm.urdf --json",
-            "costs --file arm.xml -- --tip hand --lock finger=0.01",
+            "costs --file arm.xml --tip hand --lock finger=0.01",
             "accuracy --file arm.urdf",
             "accuracy --file arm.urdf --error 0.05Nm",
-            "accuracy --file arm.urdf --cycles 600 --json -- --name arm",
+            "accuracy --file arm.urdf --cycles 600 --json --name arm",
             "accuracy --robot ur5e --cycles 600",
         ] {
             assert!(parses(good), "{good}");
@@ -214,7 +214,7 @@ mod tests {
         for bad in [
             "costs --file",
             "costs --file arm.urdf --write-budgets",
-            "costs -- --tip hand",
+            "costs --tip hand",
             "accuracy --file arm.urdf --robot ur5e",
             "accuracy --file arm.urdf --error 0.05Nm --cycles 600",
             "accuracy --file arm.urdf --error 0.05",

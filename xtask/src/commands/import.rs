@@ -3,9 +3,8 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use clap::{Arg, ArgAction, ArgMatches};
-
 use crate::kit::error::{Error, Result};
+use crate::kit::importer::passed::{IMPORT, NEW, Passed};
 use crate::kit::importer::{ALL, Robot, command, measure, report};
 use crate::kit::meter::MODEL;
 use crate::kit::rows::Row;
@@ -18,84 +17,17 @@ use crate::kit::{docs, output};
 #[derive(clap::Args)]
 pub struct Args {
     #[command(flatten)]
-    passed: Passed<false>,
+    passed: Passed<IMPORT>,
     /// Do not measure in QEMU what inverse dynamics costs
     #[arg(long)]
     no_measure: bool,
 }
 
-/// The arguments of `robot-import`: subcommand, option (`-`: none), value (`-`: none; `!`: required), help. A test there compares
-/// this list with what it takes.
-const OPTIONS: &str = include_str!("../../../robot-import/options.txt");
-
-/// The arguments of its `import` or `new`, passed on as they are.
-pub struct Passed<const NEW: bool>(Vec<String>);
-
-impl<const NEW: bool> Passed<NEW> {
-    fn listed() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
-        OPTIONS.lines().filter_map(|line| {
-            let rest = line.strip_prefix(if NEW { "new " } else { "import " })?;
-            let (name, rest) = rest.split_once(' ')?;
-            let (value, help) = rest.split_once(' ')?;
-            Some((name, value, help))
-        })
-    }
-
-    /// The value of an option that is not passed on.
-    fn take(&mut self, option: &str) -> Option<String> {
-        let place = self.0.iter().rposition(|word| word.starts_with(option))?;
-        Some(self.0.remove(place).split_off(option.len()))
-    }
-}
-
-impl<const NEW: bool> clap::FromArgMatches for Passed<NEW> {
-    fn from_arg_matches(matches: &ArgMatches) -> std::result::Result<Self, clap::Error> {
-        let given = |(name, value, _)| {
-            if value == "-" {
-                return vec![String::from(name); usize::from(matches.get_flag(name))];
-            }
-            let values = matches.get_many::<String>(name).into_iter().flatten();
-            let option = if name == "-" {
-                String::new()
-            } else {
-                format!("{name}=")
-            };
-            values.map(|value| format!("{option}{value}")).collect()
-        };
-        Ok(Self(Self::listed().flat_map(given).collect()))
-    }
-
-    fn update_from_arg_matches(
-        &mut self,
-        matches: &ArgMatches,
-    ) -> std::result::Result<(), clap::Error> {
-        *self = Self::from_arg_matches(matches)?;
-        Ok(())
-    }
-}
-
-impl<const NEW: bool> clap::Args for Passed<NEW> {
-    fn augment_args(command: clap::Command) -> clap::Command {
-        command.args(Self::listed().map(|(name, value, help)| {
-            let required = value.ends_with('!');
-            let action = match value {
-                "-" => ArgAction::SetTrue,
-                _ if required => ArgAction::Set,
-                _ => ArgAction::Append,
-            };
-            let arg = Arg::new(name).help(help).action(action).required(required);
-            let arg = arg.value_name(value.trim_end_matches('!'));
-            name.strip_prefix("--").into_iter().fold(arg, Arg::long)
-        }))
-    }
-
-    fn augment_args_for_update(command: clap::Command) -> clap::Command {
-        Self::augment_args(command)
-    }
-}
+/// The arguments of `robot-import new`.
+pub type New = Passed<NEW>;
 
 /// Writes a project.
-pub fn new(args: &Passed<true>) -> Result<ExitCode> {
+pub fn new(args: &New) -> Result<ExitCode> {
     output::print(&command(&Workspace::find()?, "new", &args.0)?)?;
     Ok(ExitCode::SUCCESS)
 }

@@ -1,5 +1,7 @@
 //! Robots from files, by the crate `robot-import`, and the firmware that measures them.
 
+pub mod passed;
+
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 

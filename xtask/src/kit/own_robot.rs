@@ -7,6 +7,7 @@ use tempfile::TempDir;
 
 use crate::kit::error::{Error, Result, bail};
 use crate::kit::importer;
+use crate::kit::importer::passed::{OF_FILE, Passed};
 use crate::kit::workspace::{self, Workspace};
 
 /// The file of a report's robot.
@@ -16,9 +17,8 @@ pub struct Args {
     /// Of the robot of this file, URDF or MJCF, alone; nothing is written
     #[arg(long, value_name = "FILE")]
     file: Option<PathBuf>,
-    /// Options of `cargo xtask import` for the file: --base, --tip, --joints, --lock, --name, --repair …
-    #[arg(last = true, requires = "file", value_name = "OPTIONS")]
-    options: Vec<String>,
+    #[command(flatten)]
+    options: Passed<OF_FILE>,
 }
 
 pub struct OwnRobot {
@@ -38,7 +38,7 @@ impl Args {
         };
         let folder = tempfile::tempdir().map_err(Error::file("create", &workspace.target))?;
         let path = file.to_string_lossy();
-        let words = std::iter::once(&*path).chain(self.options.iter().map(String::as_str));
+        let words = std::iter::once(&*path).chain(self.options.0.iter().map(String::as_str));
         let words: Vec<&str> = words.collect();
         let report = importer::import(workspace, &words, folder.path().join("robot.rs"))?.report;
         if let Some(why) = refusal(&report, most) {

@@ -7,7 +7,9 @@ use std::{env, fs};
 
 /// The folders of the crates of the repository that a project may use.
 const CRATES: [&str; 4] = ["drivers", "dynamics-core", "motion-control", "telemetry"];
-/// What of a crate is carried, besides its sources.
+/// Its folders that are carried: the sources, and what their documentation includes.
+const FOLDERS: [&str; 2] = ["src", "equations"];
+/// What of a crate is carried beside them.
 const BESIDE: [&str; 2] = ["Cargo.toml", "NOTATION.md"];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -22,7 +24,11 @@ fn main() -> Result<(), Box<dyn Error>> {
                 files.push(beside);
             }
         }
-        walk(&folder.join("src"), &mut files)?;
+        for inner in FOLDERS.map(|name| folder.join(name)) {
+            if inner.exists() {
+                walk(&inner, &mut files)?;
+            }
+        }
         files.sort();
         writeln!(list, "Crate {{ folder: {name:?}, files: &[")?;
         for file in &files {

@@ -33,7 +33,7 @@ pub fn why(peers: &str, readme: &str, report: &Report) -> Result<String> {
     let ratio = 100.0 * report.tracking.ratio();
     Ok(format!(
         "- Inverse dynamics takes **{inverse} of the cycles of the best C** that CasADi generates for the same robot (UR5e, Panda, iiwa 14,\n  \
-         A1; modelled Cortex-M4F), forward dynamics of the first three {forward} ([peers]({PEERS})).\n\
+         A1; f32, modelled Cortex-M4F). Forward dynamics of the first three takes {forward} ([peers]({PEERS})).\n\
          - On the host, inverse dynamics of a UR5e and a Panda take **{host} of the time of Pinocchio's C++**.\n\
          - A whole tick of a UR5e, from six encoders to six drives, takes {longest:.1} µs at {CLOCK_MHZ} MHz: **{share:.1} % of a millisecond**. The arm\n  \
          then follows its reference with {ratio:.1} % of the error of PD control alone.\n\n\
@@ -65,9 +65,9 @@ fn wishes(readme: &str, report: &Report) -> Result<String> {
     let hard = readme.lines().find(is_count);
     let hard = hard.ok_or_else(|| lacks("hard cases"))?;
     Ok(format!(
-        "Its three questions, with a picture each below:\n\n\
+        "Three questions, with a picture each below:\n\n\
          1. [What does accuracy cost?](#what-accuracy-costs) Torques of a UR5e within {} N·m take {} cycles, within {} N·m {}.\n\
-         2. [What is each effect worth?](#what-each-effect-is-worth-and-what-it-costs) Its tracking error is {},\n   \
+         2. [What is each effect worth?](#what-each-effect-is-worth-and-what-it-costs) The tracking error of a UR5e is {},\n   \
          and {}.\n\
          3. [Do hard cases stay stable?](#hard-cases-stay-stable) {}\n   \
          and naive methods are shown to fail.",

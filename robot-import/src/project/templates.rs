@@ -99,6 +99,7 @@ pub(super) const RTIC: &[File] = &[
     file!("board/rtic" / "Cargo.toml" ".liquid"),
     file!("board/rtic" / ".cargo/config.toml" ".liquid"),
     file!("board/rtic" / "src/firmware.rs"),
+    file!("board/rtic" / "src/devices.rs"),
     file!("board/common" / "src/main.rs" ".liquid"),
 ];
 

@@ -6,6 +6,9 @@
 #[path = "../../../ur5e.rs"]
 mod board;
 #[cfg(target_arch = "arm")]
+#[path = "../../../../robot-import/template/board/rtic/src/devices.rs"]
+mod devices;
+#[cfg(target_arch = "arm")]
 #[path = "../../../../robot-import/template/board/rtic/src/firmware.rs"]
 mod firmware;
 #[cfg(target_arch = "arm")]

@@ -13,9 +13,8 @@ mod app {
     use stm32f4xx_hal::watchdog::IndependentWatchdog;
 
     use crate::board::{self, Devices, Law, Motion, N};
-    use crate::pins::{
-        Brake, Bus, Button, Channel, Connected, Encoder, Light, connect, is_pressed,
-    };
+    use crate::devices::{Channel, Encoder};
+    use crate::pins::{Brake, Bus, Button, Connected, Light, connect, is_pressed};
 
     /// The watchdog of the board, which only a completed tick feeds.
     pub struct Starved(IndependentWatchdog);

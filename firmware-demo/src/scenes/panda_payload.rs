@@ -1,15 +1,16 @@
 //! Scene `panda_payload`: a part is picked up and put down. The gripper reports what the hand holds; a
 //! feed-forward that does not read that signal carries an unknown load.
 
-use dynamics_core::algorithms::{Damping, OperationalSpace, frame, task_jacobian};
+use dynamics_core::algorithms::task_jacobian;
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, InvalidPayload, Payload, Viscous, Width,
 };
 use dynamics_core::model::{BodyInertia, Robot};
 use dynamics_core::robots::Panda;
-use dynamics_core::spatial::SpatialInertia;
+use dynamics_core::spatial::{Motion, SpatialInertia};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
+use heapless::mpmc::Queue;
 use motion_control::{
     CartesianImpedance, Estimate, Gains, ImpedanceConfig, Reference, TaskDeviation, TaskFrame,
     Trajectory, TrajectoryError, WayPoint, feedback, pose_error,
@@ -137,6 +138,10 @@ impl Scene<7, 7, 7, 7> for Carry {
     ];
 
     fn reference() -> Result<Job, TrajectoryError> {
+        if let Ok(spring) = CartesianImpedance::try_new(SPRING) {
+            let _ = SPRINGS.enqueue(spring);
+            let _ = Impedance::torque(&Gains { kp: [0.0; 7], kd: [0.0; 7] }, &State::at(READY), &Estimate { q: READY, qd: [0.0; 7] }, &Load::default());
+        }
         let accelerations = [15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0];
         Ok(Job {
             trajectory: through(&PANDA_CARRY, &Self::limits(), accelerations)?,
@@ -193,6 +198,9 @@ const SPRING: ImpedanceConfig<f32, 6> = ImpedanceConfig {
     slowest: 2.0,
 };
 
+/// The law between ticks, with the modes of the last one.
+static SPRINGS: Queue<CartesianImpedance<f32, 6>, 2> = Queue::new();
+
 impl Law<7, Load> for Impedance {
     fn feedforward(reference: &State<f32, 7, 7>, borne: &Load) -> [f32; 7] {
         Carry::inverse(reference, borne, &Carry::current(borne))
@@ -204,30 +212,34 @@ impl Law<7, Load> for Impedance {
         estimate: &Estimate<f32, 7>,
         borne: &Load,
     ) -> [f32; 7] {
-        let mut bias = Self::feedforward(reference, borne);
+        let effects = Carry::current(borne);
+        let [trig, wanted] = [&estimate.q, &reference.q].map(Core::<Panda>::joint_trig);
+        let mut bias = Engine::<Panda>::rnea(wanted.with(reference), &effects);
         let posture = feedback(gains, reference, estimate);
-        let arm = State {
-            qd: estimate.qd,
-            ..State::at(estimate.q)
-        };
-        let trig = Core::<Panda>::joint_trig(&arm.q);
-        let frame = frame::LocalWorldAligned;
-        let [hand, goal] = [&arm, reference].map(|state| Core::<Panda>::kinematics(state, &()));
+        let (hand, goal) = (Core::<Panda>::poses(&trig)[HAND], Core::<Panda>::poses(&wanted)[HAND]);
         let directions = TaskFrame::BASE.turn_and_place(1.0);
-        let rows = task_jacobian(&Core::<Panda>::jacobian(&trig, HAND, frame), &directions);
-        let m = Engine::<Panda>::crba(&trig, &Carry::current(borne));
-        let spring = CartesianImpedance::try_new(SPRING);
-        if let (Ok(factors), Ok(spring)) = (Engine::<Panda>::ltdl(&m), spring) {
+        let rows = task_jacobian(&Engine::<Panda>::jacobian::<HAND, _, _, _, _>(&trig), &directions);
+        let goal_rows = Engine::<Panda>::jacobian::<HAND, _, _, _, _>(&wanted);
+        let m = Engine::<Panda>::crba(&trig, &effects);
+        if let Ok(factors) = Engine::<Panda>::ltdl(&m) {
             let solve = |tau: &_| Engine::<Panda>::solve(&factors, tau);
-            let task = OperationalSpace::new(rows, solve, Damping::relative(1e-3));
-            let off = pose_error(&hand.poses[HAND], &goal.poses[HAND]);
-            let [v, wanted] = [&hand, &goal].map(|arm| arm.velocity(HAND, frame));
-            let deviation = TaskDeviation {
-                position: directions.map(|d| off.dot(d)),
-                velocity: directions.map(|d| (wanted - v).dot(d)),
-            };
-            if let Ok(torque) = spring.torque(&task, &deviation, &bias, &posture) {
-                return torque.tau;
+            let off = pose_error(&hand, &goal);
+            let mut rate = Motion::ZERO;
+            for (column, &qd) in goal_rows.iter().zip(&reference.qd) {
+                rate = rate + *column * qd;
+            }
+            let velocity = core::array::from_fn(|i| {
+                let own = rows[i].iter().zip(&estimate.qd);
+                rate.dot(directions[i]) - own.map(|(j, qd)| j * qd).sum::<f32>()
+            });
+            let position = directions.map(|d| off.dot(d));
+            let deviation = TaskDeviation { position, velocity };
+            if let Some(mut spring) = SPRINGS.dequeue() {
+                let torque = spring.torque(&rows, solve, &deviation, &bias, &posture);
+                let _ = SPRINGS.enqueue(spring);
+                if let Ok(torque) = torque {
+                    return torque.tau;
+                }
             }
         }
         // Without an operational space the joints are led.

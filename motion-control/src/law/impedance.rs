@@ -11,11 +11,14 @@
 //!
 //! For a mode slower than ω_min, 1/Ω is continued by its tangent, as a function of Ω², and at most 1.5/ω_min.
 
+mod modes;
+
 use crate::entry;
 use crate::limits::{ConfigError, ConfigParameter, Fault};
-use dynamics_core::algorithms::{Conditioning, OperationalSpace, eigen};
+use dynamics_core::algorithms::{Conditioning, eigen};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::all_finite;
+use modes::{Modes, combine, dot};
 
 /// The spring and the damping ratio of a Cartesian impedance: for [`CartesianImpedance::try_new`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,6 +69,7 @@ pub struct CartesianImpedance<R, const M: usize> {
     config: ImpedanceConfig<R, M>,
     /// √K.
     roots: [R; M],
+    modes: Modes<R, M>,
 }
 
 /// How far a body is from its goal, along the directions of a task.
@@ -86,6 +90,10 @@ pub struct ImpedanceTorque<R, const V: usize> {
     pub tau: [R; V],
     /// Regular if all modes are faster than ω_min; else the square of the slowest one's frequency over ω_min².
     pub conditioning: Conditioning<R>,
+    /// p
+    pub passes: usize,
+    /// c
+    pub coupling: R,
 }
 
 impl<R: Real, const M: usize> ImpedanceConfig<R, M> {
@@ -117,7 +125,8 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
     pub fn try_new(config: ImpedanceConfig<R, M>) -> Result<Self, ConfigError> {
         config.check()?;
         let roots = config.stiffness.map(R::sqrt);
-        Ok(Self { config, roots })
+        let modes = Modes::start();
+        Ok(Self { config, roots, modes })
     }
 
     /// The damping D by double diagonalisation, N·s/m or N·m·s/rad, and whether all modes have the damping ratio ζ.
@@ -147,7 +156,7 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
     #[inline(never)]
     #[must_use]
     pub fn damping(&self, mobility: &[[R; M]; M]) -> ([[R; M]; M], Conditioning<R>) {
-        let (half, threshold) = (R::from_f64(0.5), self.config.slowest * self.config.slowest);
+        let threshold = self.config.slowest * self.config.slowest;
         let mut s = *mobility;
         for (row, root) in s.iter_mut().zip(self.roots) {
             for (entry, other) in row.iter_mut().zip(self.roots) {
@@ -160,11 +169,7 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
             // Rounding may make a zero negative.
             let square = if square > R::ZERO { square } else { R::ZERO };
             smallest = if square < smallest { square } else { smallest };
-            let faster = square > threshold;
-            let r = (if faster { square } else { threshold }).rsqrt();
-            // 1/Ω; below the threshold the tangent to it, a Newton step towards it.
-            let period = r * (R::ONE + half - half * square * r * r);
-            let weight = (self.config.zeta + self.config.zeta) * period;
+            let weight = (self.config.zeta + self.config.zeta) * period(square, threshold);
             for (i, row) in d.iter_mut().enumerate() {
                 let of = |k| entry(&self.roots, k) * entry(&vector, k);
                 for (j, entry) in row.iter_mut().enumerate() {
@@ -185,50 +190,60 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
     /// \tau = \tau_b + J^T (K \tilde x + D \dot{\tilde x}) + (1 - J^T \bar J^T) \tau_n
     /// $$
     ///
-    /// A constant force F on the body displaces it by K⁻¹ F. `bias` is τ_b: gravity and friction, with which the arm is
-    /// passive at a goal at rest, the posture apart, if rotational stiffnesses are equal; for a goal that moves,
-    /// [`rnea_two_velocities`](dynamics_core::algorithms::rnea_two_velocities()) of the joint velocities that follow it.
-    /// `posture` is τ_n = K_n (q_n − q) − D_n q̇, for example by [`feedback`](crate::feedback()); it does not act on the
-    /// task where `task` is regular. Some damping in it is needed near singularities also for arms without redundancy:
-    /// there the task damps not all joints.
-    ///
-    /// Every number is finite in singular postures too, and nothing jumps there: the spring and the damper are bounded,
-    /// and Jᵀ goes to zero along the lost direction. Velocities are damped by at most 3 ζ K/ω_min.
-    ///
-    /// # Cost
-    /// That of [`CartesianImpedance::damping`], 2 M² + 6 M V + 2 V flops: the same for all data. That of
-    /// [`OperationalSpace::new`] varies with [`OperationalSpace::conditioning`].
-    ///
-    /// # Errors
-    /// [`Fault::NotFinite`] names the first joint whose torque is not finite, by numbers that are not finite or beyond the
-    /// scalar's range.
-    ///
-    /// # Source
-    /// Albu-Schäffer, Ott, Frese & Hirzinger (2003); Khatib (1987), (53).
     #[inline]
     pub fn torque<const V: usize>(
-        &self,
-        task: &OperationalSpace<R, M, V>,
+        &mut self,
+        rows: &[[R; V]; M],
+        solve: impl Fn(&[R; V]) -> [R; V],
         deviation: &TaskDeviation<R, M>,
         bias: &[R; V],
         posture: &[R; V],
     ) -> Result<ImpedanceTorque<R, V>, Fault> {
-        let (d, conditioning) = self.damping(&task.mobility);
-        let mut force = [R::ZERO; M];
-        for (i, (force, row)) in force.iter_mut().zip(&d).enumerate() {
-            *force = entry(&self.config.stiffness, i) * entry(&deviation.position, i);
-            for (&d, &rate) in row.iter().zip(&deviation.velocity) {
-                *force += d * rate;
+        let slowest = self.config.slowest * self.config.slowest;
+        let mut scaled = *rows;
+        let mut rates = deviation.velocity;
+        for ((row, rate), &root) in scaled.iter_mut().zip(&mut rates).zip(&self.roots) {
+            *rate *= root;
+            for entry in row {
+                *entry *= root;
             }
         }
-        let mut tau = task.torque(&force);
-        let free = task.null_space_torque(posture);
-        for ((tau, &bias), free) in tau.iter_mut().zip(bias).zip(free) {
+        let found = self.modes.follow(&scaled, &solve, posture, slowest);
+        let (twice, mut smallest) = (self.config.zeta + self.config.zeta, slowest);
+        let mut along = [R::ZERO; M];
+        for (k, along) in along.iter_mut().enumerate() {
+            let square = found.squares[k];
+            let square = if square > R::ZERO { square } else { R::ZERO };
+            smallest = if square < smallest { square } else { smallest };
+            let period = period(square, slowest);
+            let rate = dot(&self.modes.vectors[k], &rates);
+            *along = period * (twice * rate - period * found.response[k]);
+        }
+        let mut force = combine(&self.modes.vectors, &along);
+        for (i, force) in force.iter_mut().enumerate() {
+            *force = *force * self.roots[i] + self.config.stiffness[i] * deviation.position[i];
+        }
+        let mut tau = combine(rows, &force);
+        for ((tau, &bias), &free) in tau.iter_mut().zip(bias).zip(posture) {
             *tau += bias + free;
         }
-        match tau.iter().position(|tau| !tau.is_finite()) {
-            Some(joint) => Err(Fault::NotFinite { joint }),
-            None => Ok(ImpedanceTorque { tau, conditioning }),
+        if let Some(joint) = tau.iter().position(|tau| !tau.is_finite()) {
+            self.modes = Modes::start();
+            return Err(Fault::NotFinite { joint });
         }
+        let conditioning = if smallest >= slowest {
+            Conditioning::Regular
+        } else {
+            Conditioning::Damped { smallest: smallest / slowest }
+        };
+        Ok(ImpedanceTorque { tau, conditioning, passes: found.passes, coupling: found.coupling })
     }
+}
+
+/// 1/Ω; below ω_min the tangent to it as a function of Ω², a Newton step towards it.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn period<R: Real>(square: R, slowest: R) -> R {
+    let half = R::from_f64(0.5);
+    let r = (if square > slowest { square } else { slowest }).rsqrt();
+    r * (R::ONE + half - half * square * r * r)
 }

@@ -6,7 +6,7 @@ mod costs;
 
 use costs::row::Row;
 use costs::{Ask, STATES};
-use dynamics_core::algorithms::{Damping, OperationalSpace, task_jacobian};
+use dynamics_core::algorithms::task_jacobian;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Static;
 use dynamics_core::state::{ArmState, State};
@@ -54,7 +54,7 @@ fn detected(detector: &mut ContactDetector<f32, 6>, at: &ArmState<f32, 6>) -> bo
 
 /// All of a Cartesian impedance: gravity, Jacobian, M with its factors, the operational space and the law.
 #[inline(never)]
-fn impedance(law: &CartesianImpedance<f32, 6>, ask: &Ask<6>) -> [f32; 6] {
+fn impedance(law: &mut CartesianImpedance<f32, 6>, ask: &Ask<6>) -> [f32; 6] {
     let directions = TaskFrame::BASE.turn_and_place(1.0);
     let columns = Engine::<robots::Ur5e>::jacobian::<TIP, _, _, _, _>(&ask.trig);
     let rows = task_jacobian(&columns, &directions);
@@ -63,7 +63,6 @@ fn impedance(law: &CartesianImpedance<f32, 6>, ask: &Ask<6>) -> [f32; 6] {
         return [0.0; 6];
     };
     let solve = |tau: &_| Engine::<robots::Ur5e>::solve(&factors, tau);
-    let task = OperationalSpace::new(rows, solve, Damping::relative(1e-3));
     let bias = Engine::<robots::Ur5e>::rnea(
         ask.trig.with(&State {
             qdd: [0.0; 6],
@@ -75,7 +74,7 @@ fn impedance(law: &CartesianImpedance<f32, 6>, ask: &Ask<6>) -> [f32; 6] {
         position: ask.state.qd,
         velocity: ask.state.qdd,
     };
-    let torque = law.torque(&task, &deviation, &bias, &[0.0; 6]);
+    let torque = law.torque(&rows, solve, &deviation, &bias, &[0.0; 6]);
     torque.map_or([0.0; 6], |torque| torque.tau)
 }
 
@@ -88,14 +87,14 @@ fn laws(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
     row("slotine_li", "core", true).measure(run as *const () as usize, asks, |ask| {
         run(&gains, &ask.state)
     });
-    let law = CartesianImpedance::try_new(ImpedanceConfig {
+    let mut law = CartesianImpedance::try_new(ImpedanceConfig {
         stiffness: [30.0, 30.0, 30.0, 600.0, 600.0, 600.0],
         zeta: 0.7,
         slowest: 2.0,
     })?;
     let run = impedance;
     row("impedance", "engine", false)
-        .measure(run as *const () as usize, asks, |ask| run(&law, ask));
+        .measure(run as *const () as usize, asks, |ask| run(&mut law, ask));
     let spring = LimitedSpring {
         stiffness: [300.0; 6],
         damping: [20.0; 6],

@@ -1,0 +1,215 @@
+//! The modes of an arm on a spring, which follow it from tick to tick.
+//!
+//! In the coordinates √K x of a task, mode k is the unit vector u_k, with the natural frequency ω_k:
+//!
+//! $$
+//! \sqrt K \Lambda^{-1} \sqrt K = U \Omega^2 U^T
+//! $$
+//!
+//! The modes of the last tick are nearly those of this one. With their rows of the Jacobian, N = Uᵀ √K J, the matrix
+//! G = N M⁻¹ Nᵀ is nearly Ω², and a sweep of Jacobi's rotations (Golub & Van Loan, *Matrix Computations*, section 8.5) leaves
+//! of its couplings their squares. A pass is G and a sweep; after a jump, as at the start, some passes more.
+//!
+//! Each rotation gives the faster mode the lower number (de Rijk, 1989): the sweep begins with the large couplings, and what
+//! rounding leaves of them does not hide the slow modes. Since the rows of G are computed from those of N, rounding is that of
+//! √Λ⁻¹, not that of Λ⁻¹, whose condition number is the square.
+//!
+//! Rounding of some hundred thousand rotations would bend U. In each pass two of its rows take a Newton step to the nearest
+//! orthogonal ones (Higham, *Functions of Matrices*, section 8.3), all pairs in turn.
+
+use dynamics_core::scalar::Real;
+
+/// Passes at most: the number that 6 × 6 matrices of any condition needed, and two more.
+const PASSES: usize = 8;
+
+/// The modes of M directions: U by its columns, and the rows that are straightened next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Modes<R, const M: usize> {
+    pub vectors: [[R; M]; M],
+    next: (usize, usize),
+}
+
+/// What a pass finds.
+pub(super) struct Found<R, const M: usize> {
+    /// Ω².
+    pub squares: [R; M],
+    /// Uᵀ √K J M⁻¹ τ of torques τ, in the same modes.
+    pub response: [R; M],
+    /// The couplings that are left: the sum of their squares, each over the squares of its two modes' frequencies or ω_min².
+    pub coupling: R,
+    /// The passes that it took.
+    pub passes: usize,
+}
+
+impl<R: Real, const M: usize> Modes<R, M> {
+    /// The modes of uncoupled directions.
+    pub fn start() -> Self {
+        let mut vectors = [[R::ZERO; M]; M];
+        for (k, vector) in vectors.iter_mut().enumerate() {
+            vector[k] = R::ONE;
+        }
+        let next = (0, 1);
+        Self { vectors, next }
+    }
+
+    /// Couplings that are left to the next tick: they change a damping by half as much, relative to it.
+    fn bound() -> R {
+        let small = R::select(1e-9, 2e-5);
+        small * small
+    }
+
+    /// The modes of this tick, from `rows` = √K J and a solution of M x = τ; `slowest` is ω_min².
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub fn follow<const V: usize>(
+        &mut self,
+        rows: &[[R; V]; M],
+        solve: &impl Fn(&[R; V]) -> [R; V],
+        tau: &[R; V],
+        slowest: R,
+    ) -> Found<R, M> {
+        let mut passes = 1;
+        loop {
+            let found = self.pass(rows, solve, tau, slowest);
+            if found.coupling <= Self::bound() || passes == PASSES {
+                return Found { passes, ..found };
+            }
+            if !found.coupling.is_finite() {
+                *self = Self::start();
+            }
+            passes += 1;
+        }
+    }
+
+    #[inline(never)]
+    fn pass<const V: usize>(
+        &mut self,
+        rows: &[[R; V]; M],
+        solve: &impl Fn(&[R; V]) -> [R; V],
+        tau: &[R; V],
+        slowest: R,
+    ) -> Found<R, M> {
+        if !self.straighten() {
+            *self = Self::start();
+        }
+        let (mut n, mut g) = ([[R::ZERO; V]; M], [[R::ZERO; M]; M]);
+        let mut response = [R::ZERO; M];
+        for (n, vector) in n.iter_mut().zip(&self.vectors) {
+            *n = combine(rows, vector);
+        }
+        for (k, row) in n.iter().enumerate() {
+            let x = solve(row);
+            response[k] = dot(&x, tau);
+            for j in 0..=k {
+                g[j][k] = dot(&n[j], &x);
+            }
+        }
+        sweep(&mut g, &mut self.vectors, &mut response);
+        let (mut squares, mut weights) = ([R::ZERO; M], [R::ZERO; M]);
+        for (k, row) in g.iter().enumerate() {
+            squares[k] = row[k];
+            weights[k] = R::ONE / (if row[k] > slowest { row[k] } else { slowest });
+        }
+        let mut coupling = R::ZERO;
+        for (p, row) in g.iter().enumerate() {
+            for q in p + 1..M {
+                coupling += row[q] * row[q] * (weights[p] * weights[q]);
+            }
+        }
+        Found {
+            squares,
+            response,
+            coupling,
+            passes: 1,
+        }
+    }
+
+    /// A Newton step of two rows towards orthogonal ones of length one; whether they were near them.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn straighten(&mut self) -> bool {
+        let (p, q) = self.next;
+        self.next = if q + 1 < M {
+            (p, q + 1)
+        } else if p + 2 < M {
+            (p + 1, p + 2)
+        } else {
+            (0, 1)
+        };
+        let (Some(&a), Some(&b)) = (self.vectors.get(p), self.vectors.get(q)) else {
+            return true; // M = 1
+        };
+        let half = R::from_f64(0.5);
+        let (aa, bb) = (half - half * dot(&a, &a), half - half * dot(&b, &b));
+        let ab = half * dot(&a, &b);
+        for k in 0..M {
+            self.vectors[p][k] = a[k] + (aa * a[k] - ab * b[k]);
+            self.vectors[q][k] = b[k] + (bb * b[k] - ab * a[k]);
+        }
+        aa.abs() + bb.abs() + ab.abs() < R::from_f64(0.1)
+    }
+}
+
+/// Makes the upper triangle of G nearly diagonal, its largest entries first; turns U and the response alike.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn sweep<R: Real, const M: usize>(g: &mut [[R; M]; M], u: &mut [[R; M]; M], y: &mut [R; M]) {
+    for p in 0..M {
+        for q in p + 1..M {
+            let (gp, gq, b) = (g[p][p], g[q][q], g[p][q]);
+            // The tangent of the smallest rotation: b/((|d| + √(d² + 4b²))/2), where d = g_pp − g_qq.
+            let (d, twice) = (gp - gq, b + b);
+            let squared = d * d + twice * twice;
+            let far = d.abs() + squared * squared.rsqrt() + R::MIN_POSITIVE;
+            let t = twice / far;
+            let cosine = (R::ONE + t * t).rsqrt();
+            let (sine, more) = (t * cosine, t * b);
+            let ordered = d >= R::ZERO;
+            let (c, s) = (
+                R::either(ordered, cosine, sine),
+                R::either(ordered, sine, cosine),
+            );
+            g[p][p] = R::either(ordered, gp, gq) + more;
+            g[q][q] = R::either(ordered, gq, gp) - more;
+            g[p][q] = R::ZERO;
+            let turn = |x: &mut R, y: &mut R| (*x, *y) = (c * *x + s * *y, c * *y - s * *x);
+            // Of modes before p, the couplings that are left only mix.
+            for k in p + 1..q {
+                let (mut a, mut b) = (g[p][k], g[k][q]);
+                turn(&mut a, &mut b);
+                (g[p][k], g[k][q]) = (a, b);
+            }
+            for k in q + 1..M {
+                let (mut a, mut b) = (g[p][k], g[q][k]);
+                turn(&mut a, &mut b);
+                (g[p][k], g[q][k]) = (a, b);
+            }
+            for k in 0..M {
+                let (mut a, mut b) = (u[p][k], u[q][k]);
+                turn(&mut a, &mut b);
+                (u[p][k], u[q][k]) = (a, b);
+            }
+            let (mut a, mut b) = (y[p], y[q]);
+            turn(&mut a, &mut b);
+            (y[p], y[q]) = (a, b);
+        }
+    }
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
+    let products = a.iter().zip(b).map(|(&a, &b)| a * b);
+    products.fold(R::ZERO, |sum, product| sum + product)
+}
+
+/// Σ rows × weights.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn combine<R: Real, const M: usize, const V: usize>(
+    rows: &[[R; V]; M],
+    by: &[R; M],
+) -> [R; V] {
+    let mut sum = [R::ZERO; V];
+    for (row, &by) in rows.iter().zip(by) {
+        for (sum, &x) in sum.iter_mut().zip(row) {
+            *sum += x * by;
+        }
+    }
+    sum
+}

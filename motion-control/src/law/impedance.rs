@@ -169,7 +169,7 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
             // Rounding may make a zero negative.
             let square = if square > R::ZERO { square } else { R::ZERO };
             smallest = if square < smallest { square } else { smallest };
-            let weight = (self.config.zeta + self.config.zeta) * period(square, threshold);
+            let weight = (self.config.zeta + self.config.zeta) * period(square, (if square > threshold { square } else { threshold }).rsqrt());
             for (i, row) in d.iter_mut().enumerate() {
                 let of = |k| entry(&self.roots, k) * entry(&vector, k);
                 for (j, entry) in row.iter_mut().enumerate() {
@@ -215,7 +215,7 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
             let square = found.squares[k];
             let square = if square > R::ZERO { square } else { R::ZERO };
             smallest = if square < smallest { square } else { smallest };
-            let period = period(square, slowest);
+            let period = period(square, found.inverses[k]);
             let rate = dot(&self.modes.vectors[k], &rates);
             *along = period * (twice * rate - period * found.response[k]);
         }
@@ -242,8 +242,7 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
 
 /// 1/Ω; below ω_min the tangent to it as a function of Ω², a Newton step towards it.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn period<R: Real>(square: R, slowest: R) -> R {
+fn period<R: Real>(square: R, r: R) -> R {
     let half = R::from_f64(0.5);
-    let r = (if square > slowest { square } else { slowest }).rsqrt();
     r * (R::ONE + half - half * square * r * r)
 }

@@ -6,10 +6,11 @@ mod costs;
 
 use costs::row::Row;
 use costs::{Ask, STATES};
-use dynamics_core::algorithms::task_jacobian;
+use dynamics_core::algorithms::jacobian_rows;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Static;
 use dynamics_core::state::{ArmState, State};
+use dynamics_core::trig::sin_cos;
 use dynamics_core::{Core, Engine};
 use motion_control::*;
 
@@ -55,9 +56,8 @@ fn detected(detector: &mut ContactDetector<f32, 6>, at: &ArmState<f32, 6>) -> bo
 /// All of a Cartesian impedance: gravity, Jacobian, M with its factors, the operational space and the law.
 #[inline(never)]
 fn impedance(law: &mut CartesianImpedance<f32, 6>, ask: &Ask<6>) -> [f32; 6] {
-    let directions = TaskFrame::BASE.turn_and_place(1.0);
     let columns = Engine::<robots::Ur5e>::jacobian::<TIP, _, _, _, _>(&ask.trig);
-    let rows = task_jacobian(&columns, &directions);
+    let rows = jacobian_rows(&columns);
     let m = Engine::<robots::Ur5e>::crba(&ask.trig, &RIGID_BODY);
     let Ok(factors) = Engine::<robots::Ur5e>::ltdl(&m) else {
         return [0.0; 6];
@@ -78,6 +78,19 @@ fn impedance(law: &mut CartesianImpedance<f32, 6>, ask: &Ask<6>) -> [f32; 6] {
     torque.map_or([0.0; 6], |torque| torque.tau)
 }
 
+/// Ticks of 1 ms around a circle in the space of joints, at 3 rad/s.
+fn around(start: &ArmState<f32, 6>) -> [Ask<6>; STATES] {
+    core::array::from_fn(|k| {
+        let (sin, cos) = sin_cos(core::f32::consts::TAU * k as f32 / STATES as f32);
+        let mut state = *start;
+        for (i, q) in state.q.iter_mut().enumerate() {
+            *q += 0.015 * if i % 2 == 0 { sin } else { cos };
+        }
+        let trig = Core::<robots::Ur5e>::joint_trig(&state.q);
+        Ask { state, trig }
+    })
+}
+
 fn laws(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
     let gains = PassivityGains {
         lambda: [10.0; 6],
@@ -93,7 +106,11 @@ fn laws(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
         slowest: 2.0,
     })?;
     let run = impedance;
+    let ticks = around(&asks[0].state);
     row("impedance", "engine", false)
+        .measure(run as *const () as usize, &ticks, |ask| run(&mut law, ask));
+    // From a posture to another.
+    Row::of::<robots::Ur5e, 6, 6>("impedance", "engine", "jumps", false)
         .measure(run as *const () as usize, asks, |ask| run(&mut law, ask));
     let spring = LimitedSpring {
         stiffness: [300.0; 6],

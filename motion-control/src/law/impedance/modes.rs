@@ -33,6 +33,8 @@ pub(super) struct Modes<R, const M: usize> {
 pub(super) struct Found<R, const M: usize> {
     /// Ω².
     pub squares: [R; M],
+    /// 1/Ω, at most 1/ω_min.
+    pub inverses: [R; M],
     /// Uᵀ √K J M⁻¹ τ of torques τ, in the same modes.
     pub response: [R; M],
     /// The couplings that are left: the sum of their squares, each over the squares of its two modes' frequencies or ω_min².
@@ -91,11 +93,8 @@ impl<R: Real, const M: usize> Modes<R, M> {
         if !self.straighten() {
             *self = Self::start();
         }
-        let (mut n, mut g) = ([[R::ZERO; V]; M], [[R::ZERO; M]; M]);
-        let mut response = [R::ZERO; M];
-        for (n, vector) in n.iter_mut().zip(&self.vectors) {
-            *n = combine(rows, vector);
-        }
+        let n = self.vectors.each_ref().map(|vector| combine(rows, vector));
+        let (mut g, mut response) = ([[R::ZERO; M]; M], [R::ZERO; M]);
         for (k, row) in n.iter().enumerate() {
             let x = solve(row);
             response[k] = dot(&x, tau);
@@ -104,19 +103,20 @@ impl<R: Real, const M: usize> Modes<R, M> {
             }
         }
         sweep(&mut g, &mut self.vectors, &mut response);
-        let (mut squares, mut weights) = ([R::ZERO; M], [R::ZERO; M]);
-        for (k, row) in g.iter().enumerate() {
-            squares[k] = row[k];
-            weights[k] = R::ONE / (if row[k] > slowest { row[k] } else { slowest });
-        }
+        let squares: [R; M] = core::array::from_fn(|k| g[k][k]);
+        let inverses = squares.map(|square| (if square > slowest { square } else { slowest }).rsqrt());
         let mut coupling = R::ZERO;
         for (p, row) in g.iter().enumerate() {
+            let mut sum = R::ZERO;
             for q in p + 1..M {
-                coupling += row[q] * row[q] * (weights[p] * weights[q]);
+                let relative = row[q] * inverses[q];
+                sum += relative * relative;
             }
+            coupling += sum * (inverses[p] * inverses[p]);
         }
         Found {
             squares,
+            inverses,
             response,
             coupling,
             passes: 1,
@@ -151,52 +151,74 @@ impl<R: Real, const M: usize> Modes<R, M> {
 /// Makes the upper triangle of G nearly diagonal, its largest entries first; turns U and the response alike.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn sweep<R: Real, const M: usize>(g: &mut [[R; M]; M], u: &mut [[R; M]; M], y: &mut [R; M]) {
+    // With constants for numbers each rotation is a sequence without loops and indices.
+    macro_rules! rotations {
+        ($($p:literal: $($q:literal)*;)*) => {
+            $($(if $q < M { rotate(g, u, y, $p, $q); })*)*
+        };
+    }
+    if M <= 6 {
+        rotations!(0: 1 2 3 4 5; 1: 2 3 4 5; 2: 3 4 5; 3: 4 5; 4: 5;);
+        return;
+    }
     for p in 0..M {
         for q in p + 1..M {
-            let (gp, gq, b) = (g[p][p], g[q][q], g[p][q]);
-            // The tangent of the smallest rotation: b/((|d| + √(d² + 4b²))/2), where d = g_pp − g_qq.
-            let (d, twice) = (gp - gq, b + b);
-            let squared = d * d + twice * twice;
-            let far = d.abs() + squared * squared.rsqrt() + R::MIN_POSITIVE;
-            let t = twice / far;
-            let cosine = (R::ONE + t * t).rsqrt();
-            let (sine, more) = (t * cosine, t * b);
-            let ordered = d >= R::ZERO;
-            let (c, s) = (
-                R::either(ordered, cosine, sine),
-                R::either(ordered, sine, cosine),
-            );
-            g[p][p] = R::either(ordered, gp, gq) + more;
-            g[q][q] = R::either(ordered, gq, gp) - more;
-            g[p][q] = R::ZERO;
-            let turn = |x: &mut R, y: &mut R| (*x, *y) = (c * *x + s * *y, c * *y - s * *x);
-            // Of modes before p, the couplings that are left only mix.
-            for k in p + 1..q {
-                let (mut a, mut b) = (g[p][k], g[k][q]);
-                turn(&mut a, &mut b);
-                (g[p][k], g[k][q]) = (a, b);
-            }
-            for k in q + 1..M {
-                let (mut a, mut b) = (g[p][k], g[q][k]);
-                turn(&mut a, &mut b);
-                (g[p][k], g[q][k]) = (a, b);
-            }
-            for k in 0..M {
-                let (mut a, mut b) = (u[p][k], u[q][k]);
-                turn(&mut a, &mut b);
-                (u[p][k], u[q][k]) = (a, b);
-            }
-            let (mut a, mut b) = (y[p], y[q]);
-            turn(&mut a, &mut b);
-            (y[p], y[q]) = (a, b);
+            rotate(g, u, y, p, q);
         }
     }
 }
 
+/// Rotates modes p and q until they are not coupled, the faster one to p.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn rotate<R: Real, const M: usize>(
+    g: &mut [[R; M]; M],
+    u: &mut [[R; M]; M],
+    y: &mut [R; M],
+    p: usize,
+    q: usize,
+) {
+    let (gp, gq, b) = (g[p][p], g[q][q], g[p][q]);
+    let ordered = gp >= gq;
+    let (d, size) = ((gp - gq).abs(), b.abs());
+    let more = d + R::from_f64(1.0355) * size;
+    let half = R::from_f64(0.5) * b * more
+        / (d * more + R::from_f64(1.25) * size * size + R::MIN_POSITIVE);
+    let sine = (half + half) / (R::ONE + half * half);
+    let cosine = R::ONE - half * sine;
+    let left = cosine * b - sine * d;
+    let gain = sine * (cosine * b + left);
+    let left = cosine * left - sine * (sine * b);
+    let (c, s) = (
+        R::either(ordered, cosine, sine),
+        R::either(ordered, sine, cosine),
+    );
+    g[p][p] = R::either(ordered, gp, gq) + gain;
+    g[q][q] = R::either(ordered, gq, gp) - gain;
+    g[p][q] = R::either(ordered, left, -left);
+    let turned = |x: R, y: R| (c * x + s * y, c * y - s * x);
+    // Of modes before p, the couplings that are left only mix.
+    for k in p + 1..q {
+        (g[p][k], g[k][q]) = turned(g[p][k], g[k][q]);
+    }
+    for k in q + 1..M {
+        (g[p][k], g[q][k]) = turned(g[p][k], g[q][k]);
+    }
+    for k in 0..M {
+        (u[p][k], u[q][k]) = turned(u[p][k], u[q][k]);
+    }
+    (y[p], y[q]) = turned(y[p], y[q]);
+}
+
+/// a · b as two sums side by side, neither of which waits for the other.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
-    let products = a.iter().zip(b).map(|(&a, &b)| a * b);
-    products.fold(R::ZERO, |sum, product| sum + product)
+    let mut sums = [R::ZERO; 2];
+    for (k, (&a, &b)) in a.iter().zip(b).enumerate() {
+        let product = a * b;
+        let sum = &mut sums[k % 2];
+        *sum = if k < 2 { product } else { *sum + product };
+    }
+    sums[0] + sums[1]
 }
 
 /// Σ rows × weights.
@@ -206,9 +228,9 @@ pub(super) fn combine<R: Real, const M: usize, const V: usize>(
     by: &[R; M],
 ) -> [R; V] {
     let mut sum = [R::ZERO; V];
-    for (row, &by) in rows.iter().zip(by) {
+    for (i, (row, &by)) in rows.iter().zip(by).enumerate() {
         for (sum, &x) in sum.iter_mut().zip(row) {
-            *sum += x * by;
+            *sum = if i == 0 { x * by } else { *sum + x * by };
         }
     }
     sum

@@ -1,7 +1,7 @@
 //! Scene `panda_payload`: a part is picked up and put down. The gripper reports what the hand holds; a
 //! feed-forward that does not read that signal carries an unknown load.
 
-use dynamics_core::algorithms::task_jacobian;
+use dynamics_core::algorithms::jacobian_rows;
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, InvalidPayload, Payload, Viscous, Width,
 };
@@ -199,6 +199,7 @@ const SPRING: ImpedanceConfig<f32, 6> = ImpedanceConfig {
 };
 
 /// The law between ticks, with the modes of the last one.
+#[expect(deprecated, reason = "no other takes it while a tick does")]
 static SPRINGS: Queue<CartesianImpedance<f32, 6>, 2> = Queue::new();
 
 impl Law<7, Load> for Impedance {
@@ -218,7 +219,7 @@ impl Law<7, Load> for Impedance {
         let posture = feedback(gains, reference, estimate);
         let (hand, goal) = (Core::<Panda>::poses(&trig)[HAND], Core::<Panda>::poses(&wanted)[HAND]);
         let directions = TaskFrame::BASE.turn_and_place(1.0);
-        let rows = task_jacobian(&Engine::<Panda>::jacobian::<HAND, _, _, _, _>(&trig), &directions);
+        let rows = jacobian_rows(&Engine::<Panda>::jacobian::<HAND, _, _, _, _>(&trig));
         let goal_rows = Engine::<Panda>::jacobian::<HAND, _, _, _, _>(&wanted);
         let m = Engine::<Panda>::crba(&trig, &effects);
         if let Ok(factors) = Engine::<Panda>::ltdl(&m) {

@@ -228,7 +228,7 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
             *tau += bias + free;
         }
         if let Some(joint) = tau.iter().position(|tau| !tau.is_finite()) {
-            self.modes = Modes::start();
+            self.modes.restart();
             return Err(Fault::NotFinite { joint });
         }
         let conditioning = if smallest >= slowest {

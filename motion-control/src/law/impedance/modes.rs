@@ -76,7 +76,7 @@ impl<R: Real, const M: usize> Modes<R, M> {
                 return Found { passes, ..found };
             }
             if !found.coupling.is_finite() {
-                *self = Self::start();
+                self.restart();
             }
             passes += 1;
         }
@@ -91,7 +91,7 @@ impl<R: Real, const M: usize> Modes<R, M> {
         slowest: R,
     ) -> Found<R, M> {
         if !self.straighten() {
-            *self = Self::start();
+            self.restart();
         }
         let n = self.vectors.each_ref().map(|vector| combine(rows, vector));
         let (mut g, mut response) = ([[R::ZERO; M]; M], [R::ZERO; M]);
@@ -102,7 +102,14 @@ impl<R: Real, const M: usize> Modes<R, M> {
                 g[j][k] = dot(&n[j], &x);
             }
         }
-        sweep(&mut g, &mut self.vectors, &mut response);
+        let rotations = sweep(&mut g);
+        for i in 0..M {
+            let row = turn(&rotations, self.vectors.each_ref().map(|vector| vector[i]));
+            for (vector, x) in self.vectors.iter_mut().zip(row) {
+                vector[i] = x;
+            }
+        }
+        response = turn(&rotations, response);
         let squares: [R; M] = core::array::from_fn(|k| g[k][k]);
         let inverses = squares.map(|square| (if square > slowest { square } else { slowest }).rsqrt());
         let mut coupling = R::ZERO;
@@ -121,6 +128,12 @@ impl<R: Real, const M: usize> Modes<R, M> {
             coupling,
             passes: 1,
         }
+    }
+
+    #[cold]
+    #[inline(never)]
+    pub fn restart(&mut self) {
+        *self = Self::start();
     }
 
     /// A Newton step of two rows towards orthogonal ones of length one; whether they were near them.
@@ -148,35 +161,56 @@ impl<R: Real, const M: usize> Modes<R, M> {
     }
 }
 
-/// Makes the upper triangle of G nearly diagonal, its largest entries first; turns U and the response alike.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn sweep<R: Real, const M: usize>(g: &mut [[R; M]; M], u: &mut [[R; M]; M], y: &mut [R; M]) {
-    // With constants for numbers each rotation is a sequence without loops and indices.
-    macro_rules! rotations {
-        ($($p:literal: $($q:literal)*;)*) => {
-            $($(if $q < M { rotate(g, u, y, $p, $q); })*)*
-        };
-    }
-    if M <= 6 {
-        rotations!(0: 1 2 3 4 5; 1: 2 3 4 5; 2: 3 4 5; 3: 4 5; 4: 5;);
-        return;
-    }
-    for p in 0..M {
-        for q in p + 1..M {
-            rotate(g, u, y, p, q);
+/// The pairs p < q of M modes, row by row. Of up to six the numbers are constants, so that the matrix stays in registers.
+macro_rules! each_pair {
+    ($m:ident, $p:ident, $q:ident, $work:expr) => {
+        if $m <= 6 {
+            each_pair!(@ $m, $p, $q, $work; 0 1, 0 2, 0 3, 0 4, 0 5, 1 2, 1 3, 1 4, 1 5, 2 3, 2 4, 2 5, 3 4, 3 5, 4 5);
+        } else {
+            for $p in 0..$m {
+                for $q in $p + 1..$m {
+                    $work;
+                }
+            }
         }
-    }
+    };
+    (@ $m:ident, $p:ident, $q:ident, $work:expr; $($first:literal $second:literal),*) => {
+        $(
+            let ($p, $q) = ($first, $second);
+            if $q < $m {
+                $work;
+            }
+        )*
+    };
 }
 
-/// Rotates modes p and q until they are not coupled, the faster one to p.
+/// Cosines and sines of a sweep, by pairs.
+type Rotations<R, const M: usize> = [[(R, R); M]; M];
+
+/// Makes the upper triangle of G nearly diagonal, its largest entries first.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn rotate<R: Real, const M: usize>(
-    g: &mut [[R; M]; M],
-    u: &mut [[R; M]; M],
-    y: &mut [R; M],
-    p: usize,
-    q: usize,
-) {
+fn sweep<R: Real, const M: usize>(g: &mut [[R; M]; M]) -> Rotations<R, M> {
+    let mut rotations = [[(R::ONE, R::ZERO); M]; M];
+    each_pair!(M, p, q, rotations[p][q] = rotate(g, p, q));
+    rotations
+}
+
+/// The rotations on a vector.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn turn<R: Real, const M: usize>(rotations: &Rotations<R, M>, mut x: [R; M]) -> [R; M] {
+    each_pair!(M, p, q, {
+        let (c, s) = rotations[p][q];
+        (x[p], x[q]) = (c * x[p] + s * x[q], c * x[q] - s * x[p]);
+    });
+    x
+}
+
+/// Rotates modes p and q until they are hardly coupled, the faster one to p; the cosine and the sine.
+///
+/// Of the half angle the tangent is taken by a rational function, whose error is of the fourth order: with this cosine and sine
+/// the rotation is one, and what it leaves of the coupling is kept.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn rotate<R: Real, const M: usize>(g: &mut [[R; M]; M], p: usize, q: usize) -> (R, R) {
     let (gp, gq, b) = (g[p][p], g[q][q], g[p][q]);
     let ordered = gp >= gq;
     let (d, size) = ((gp - gq).abs(), b.abs());
@@ -203,10 +237,7 @@ fn rotate<R: Real, const M: usize>(
     for k in q + 1..M {
         (g[p][k], g[q][k]) = turned(g[p][k], g[q][k]);
     }
-    for k in 0..M {
-        (u[p][k], u[q][k]) = turned(u[p][k], u[q][k]);
-    }
-    (y[p], y[q]) = turned(y[p], y[q]);
+    (c, s)
 }
 
 /// a · b as two sums side by side, neither of which waits for the other.

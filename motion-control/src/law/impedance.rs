@@ -12,6 +12,8 @@
 //! For a mode slower than ω_min, 1/Ω is continued by its tangent, as a function of Ω², and at most 1.5/ω_min.
 
 mod modes;
+#[cfg(test)]
+mod tests;
 
 use crate::entry;
 use crate::limits::{ConfigError, ConfigParameter, Fault};

@@ -7,13 +7,13 @@ use dynamics_core::effects::{
 };
 use dynamics_core::model::{BodyInertia, Robot};
 use dynamics_core::robots::Panda;
-use dynamics_core::spatial::{Motion, SpatialInertia};
+use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use heapless::mpmc::Queue;
 use motion_control::{
-    CartesianImpedance, Estimate, Gains, ImpedanceConfig, Reference, TaskDeviation, TaskFrame,
-    Trajectory, TrajectoryError, WayPoint, feedback, pose_error,
+    CartesianImpedance, Estimate, Gains, ImpedanceConfig, Reference, TaskDeviation, Trajectory,
+    TrajectoryError, WayPoint, feedback,
 };
 
 use crate::plant::Plant;
@@ -140,7 +140,18 @@ impl Scene<7, 7, 7, 7> for Carry {
     fn reference() -> Result<Job, TrajectoryError> {
         if let Ok(spring) = CartesianImpedance::try_new(SPRING) {
             let _ = SPRINGS.enqueue(spring);
-            let _ = Impedance::torque(&Gains { kp: [0.0; 7], kd: [0.0; 7] }, &State::at(READY), &Estimate { q: READY, qd: [0.0; 7] }, &Load::default());
+            let _ = Impedance::torque(
+                &Gains {
+                    kp: [0.0; 7],
+                    kd: [0.0; 7],
+                },
+                &State::at(READY),
+                &Estimate {
+                    q: READY,
+                    qd: [0.0; 7],
+                },
+                &Load::default(),
+            );
         }
         let accelerations = [15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0];
         Ok(Job {
@@ -213,34 +224,27 @@ impl Law<7, Load> for Impedance {
         estimate: &Estimate<f32, 7>,
         borne: &Load,
     ) -> [f32; 7] {
-        let effects = Carry::current(borne);
-        let [trig, wanted] = [&estimate.q, &reference.q].map(Core::<Panda>::joint_trig);
-        let mut bias = Engine::<Panda>::rnea(wanted.with(reference), &effects);
+        let mut bias = Self::feedforward(reference, borne);
         let posture = feedback(gains, reference, estimate);
-        let (hand, goal) = (Core::<Panda>::poses(&trig)[HAND], Core::<Panda>::poses(&wanted)[HAND]);
-        let directions = TaskFrame::BASE.turn_and_place(1.0);
+        let trig = Core::<Panda>::joint_trig(&estimate.q);
         let rows = jacobian_rows(&Engine::<Panda>::jacobian::<HAND, _, _, _, _>(&trig));
-        let goal_rows = Engine::<Panda>::jacobian::<HAND, _, _, _, _>(&wanted);
-        let m = Engine::<Panda>::crba(&trig, &effects);
-        if let Ok(factors) = Engine::<Panda>::ltdl(&m) {
+        let m = Engine::<Panda>::crba(&trig, &Carry::current(borne));
+        if let (Ok(factors), Some(mut spring)) = (Engine::<Panda>::ltdl(&m), SPRINGS.dequeue()) {
+            // The goal is a posture, mrad away: its tip is off by J (q_d − q), but for the square of that.
+            let [q, qd] = [
+                core::array::from_fn(|i| reference.q[i] - estimate.q[i]),
+                core::array::from_fn(|i| reference.qd[i] - estimate.qd[i]),
+            ];
+            let along = |row: &[f32; 7], x: &[f32; 7]| row.iter().zip(x).map(|(j, x)| j * x).sum();
+            let deviation = TaskDeviation {
+                position: rows.each_ref().map(|row| along(row, &q)),
+                velocity: rows.each_ref().map(|row| along(row, &qd)),
+            };
             let solve = |tau: &_| Engine::<Panda>::solve(&factors, tau);
-            let off = pose_error(&hand, &goal);
-            let mut rate = Motion::ZERO;
-            for (column, &qd) in goal_rows.iter().zip(&reference.qd) {
-                rate = rate + *column * qd;
-            }
-            let velocity = core::array::from_fn(|i| {
-                let own = rows[i].iter().zip(&estimate.qd);
-                rate.dot(directions[i]) - own.map(|(j, qd)| j * qd).sum::<f32>()
-            });
-            let position = directions.map(|d| off.dot(d));
-            let deviation = TaskDeviation { position, velocity };
-            if let Some(mut spring) = SPRINGS.dequeue() {
-                let torque = spring.torque(&rows, solve, &deviation, &bias, &posture);
-                let _ = SPRINGS.enqueue(spring);
-                if let Ok(torque) = torque {
-                    return torque.tau;
-                }
+            let torque = spring.torque(&rows, solve, &deviation, &bias, &posture);
+            let _ = SPRINGS.enqueue(spring);
+            if let Ok(torque) = torque {
+                return torque.tau;
             }
         }
         // Without an operational space the joints are led.

@@ -1,35 +1,40 @@
 //! The modes of an arm on a spring, which follow it from tick to tick.
 //!
-//! In the coordinates √K x of a task, mode k is the unit vector u_k, with the natural frequency ω_k:
+//! In the coordinates √K x of a task, mode k has a unit vector u_k, the column k of U, and a natural frequency Ω_k:
 //!
 //! $$
 //! \sqrt K \Lambda^{-1} \sqrt K = U \Omega^2 U^T
 //! $$
 //!
-//! The modes of the last tick are nearly those of this one. With their rows of the Jacobian, N = Uᵀ √K J, the matrix
-//! G = N M⁻¹ Nᵀ is nearly Ω², and a sweep of Jacobi's rotations (Golub & Van Loan, *Matrix Computations*, section 8.5) leaves
-//! of its couplings their squares. A pass is G and a sweep; after a jump, as at the start, some passes more.
+//! With N = Uᵀ √K J, the rows of the Jacobian along the modes of the last tick, G = N M⁻¹ Nᵀ is nearly Ω². A sweep of Jacobi's
+//! rotations (Golub & Van Loan, *Matrix Computations*, section 8.5) leaves of its couplings their squares. A pass is G and a sweep;
+//! one is enough for an arm that moves, and some more follow a jump, as at the start.
+//!
+//! Why modes, and not Newton's iteration for the inverse square root from the last result: its coupled form starts from a function
+//! of the matrix, and the last result is one of another; of an error E it leaves ½ (1 − √(s_j/s_i)) E_ij, which grows beyond a ratio
+//! of nine of the eigenvalues s. Modes also say which of them is slow.
 //!
 //! Each rotation gives the faster mode the lower number (de Rijk, 1989): the sweep begins with the large couplings, and what
-//! rounding leaves of them does not hide the slow modes. Since the rows of G are computed from those of N, rounding is that of
-//! √Λ⁻¹, not that of Λ⁻¹, whose condition number is the square.
+//! rounding leaves of them does not hide slow modes. G is computed from N, so that its relative error in a mode is that of J,
+//! multiplied by the ratio of two frequencies, not by its square.
 //!
-//! Rounding of some hundred thousand rotations would bend U. In each pass two of its rows take a Newton step to the nearest
-//! orthogonal ones (Higham, *Functions of Matrices*, section 8.3), all pairs in turn.
+//! Rounding would bend U within some hours. In each pass two of its columns take a Newton step to the nearest orthogonal ones
+//! (Higham, *Functions of Matrices*, section 8.3), all pairs in turn.
 
+use super::{ModeSearch, inverse_root};
 use dynamics_core::scalar::Real;
 
 /// Passes at most: the number that 6 × 6 matrices of any condition needed, and two more.
 const PASSES: usize = 8;
 
-/// The modes of M directions: U by its columns, and the rows that are straightened next.
+/// The modes of M directions: U by its columns, and the two that are straightened next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Modes<R, const M: usize> {
     pub vectors: [[R; M]; M],
     next: (usize, usize),
 }
 
-/// What a pass finds.
+/// What the passes find.
 pub(super) struct Found<R, const M: usize> {
     /// Ω².
     pub squares: [R; M],
@@ -43,8 +48,24 @@ pub(super) struct Found<R, const M: usize> {
     pub passes: usize,
 }
 
+impl<R: Real, const M: usize> Found<R, M> {
+    /// The bound of the coupling. Of the damping it changes a share of half its root: 5·10⁻⁵ in f32.
+    fn is_within_bound(&self) -> bool {
+        self.coupling <= R::select(1e-24, 1e-8)
+    }
+
+    pub fn search(&self) -> ModeSearch {
+        let passes = self.passes;
+        match passes {
+            _ if !self.is_within_bound() => ModeSearch::Coupled,
+            1 => ModeSearch::Followed,
+            _ => ModeSearch::Searched { passes },
+        }
+    }
+}
+
 impl<R: Real, const M: usize> Modes<R, M> {
-    /// The modes of uncoupled directions.
+    /// The modes of directions that are not coupled.
     pub fn start() -> Self {
         let mut vectors = [[R::ZERO; M]; M];
         for (k, vector) in vectors.iter_mut().enumerate() {
@@ -54,13 +75,9 @@ impl<R: Real, const M: usize> Modes<R, M> {
         Self { vectors, next }
     }
 
-    /// Couplings that are left to the next tick: they change a damping by half as much, relative to it.
-    fn bound() -> R {
-        let small = R::select(1e-9, 2e-5);
-        small * small
-    }
-
     /// The modes of this tick, from `rows` = √K J and a solution of M x = τ; `slowest` is ω_min².
+    ///
+    /// After a pass whose result is not finite it starts anew; after the last one the couplings may be beyond their bound.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn follow<const V: usize>(
         &mut self,
@@ -72,7 +89,7 @@ impl<R: Real, const M: usize> Modes<R, M> {
         let mut passes = 1;
         loop {
             let found = self.pass(rows, solve, tau, slowest);
-            if found.coupling <= Self::bound() || passes == PASSES {
+            if found.is_within_bound() || passes == PASSES {
                 return Found { passes, ..found };
             }
             if !found.coupling.is_finite() {
@@ -111,7 +128,7 @@ impl<R: Real, const M: usize> Modes<R, M> {
         }
         response = turn(&rotations, response);
         let squares: [R; M] = core::array::from_fn(|k| g[k][k]);
-        let inverses = squares.map(|square| (if square > slowest { square } else { slowest }).rsqrt());
+        let inverses = squares.map(|square| inverse_root(square, slowest));
         let mut coupling = R::ZERO;
         for (p, row) in g.iter().enumerate() {
             let mut sum = R::ZERO;
@@ -130,13 +147,14 @@ impl<R: Real, const M: usize> Modes<R, M> {
         }
     }
 
+    /// Forgets what the last tick found.
     #[cold]
     #[inline(never)]
     pub fn restart(&mut self) {
         *self = Self::start();
     }
 
-    /// A Newton step of two rows towards orthogonal ones of length one; whether they were near them.
+    /// A Newton step of two columns towards orthogonal ones of length one; whether they were near them.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn straighten(&mut self) -> bool {
         let (p, q) = self.next;

@@ -108,7 +108,9 @@ fn simulate<R: Real>(arm: &ArmModel<R, 6>, slowest: f64) -> Option<Outcome> {
         let solve = |tau: &_| solve(arm, &factors, tau);
         let bias = rnea(arm, &State::at(state.q), &Gravity::EARTH);
         let posture = state.qd.map(|qd| -(real(6.0) * qd));
-        let command = impedance.torque(&rows, solve, &deviation, &bias, &posture).ok()?;
+        let command = impedance
+            .torque(&rows, solve, &deviation, &bias, &posture)
+            .ok()?;
         let (tau, elbow) = (command.tau.map(R::to_f64), state.q[2].to_f64().abs());
         for (tau, limit) in tau.iter().zip(LIMITS) {
             out.torque = larger(out.torque, tau.abs() / limit);

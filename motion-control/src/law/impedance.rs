@@ -229,10 +229,11 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
     /// and Jᵀ goes to zero along the lost direction. Velocities are damped by at most 3 ζ K/ω_min.
     ///
     /// # Cost
-    /// One pass, M solutions and M (M − 1) (5 M + 14) + 3 M (M + 1) V flops, and 6 M (M + V) flops: the same for all data of an arm
-    /// that moves, singular postures among them. [`ImpedanceTorque::modes`] names the ticks with up to eight passes; the first
-    /// of them, with some four, is that of a call before the loop runs. In f32 a pass leaves a relative error of 5·10⁻⁵ of the
-    /// damping at most; in f64, of 10⁻¹² at most, most ticks take two.
+    /// A pass and 6 M (M + V) flops; a pass is M solutions and M (M − 1) (5 M + 14) + 3 M (M + 1) V flops: the same for all data,
+    /// singular postures among them. One pass is the rule for an arm that moves; in f32 some ticks take two if every joint turns
+    /// by 3 mrad in a tick. [`ImpedanceTorque::modes`] names those with more, eight at most. The first call takes some four:
+    /// make it before the loop runs. A pass leaves a relative error of the damping of 10⁻⁵ at most; in f64, of 10⁻¹² at most,
+    /// two passes are the rule.
     ///
     /// # Errors
     /// [`Fault::NotFinite`] names the first joint whose torque is not finite, by numbers that are not finite or beyond the

@@ -70,10 +70,10 @@ fn over<R: Real>(ticks: u32, speed: f64) -> (f64, u32) {
 // Ten seconds at 1 and at 3 rad/s of every joint, through the stretched elbow and other singular postures.
 #[test]
 fn modes_that_follow_the_arm_are_those_of_its_postures() {
-    for (speed, bound) in [(1.0, 3e-5), (3.0, 1e-4)] {
+    for (speed, bound, least) in [(1.0, 2e-5, 9_999), (3.0, 5e-5, 9_500)] {
         let (error, followed) = over::<f32>(10_000, speed);
         std::println!("f32 {speed} rad/s: {error:e}, one pass in {followed}");
-        assert!(error < bound && followed == 9_999, "{error:e} {followed}");
+        assert!(error < bound && followed >= least, "{error:e} {followed}");
     }
     let (error, _) = over::<f64>(10_000, 3.0);
     std::println!("f64: {error:e}");
@@ -90,7 +90,7 @@ fn by_eigenvectors<R: Real>([q, velocity, _]: &[[R; 6]; 3]) -> ([R; 6], Conditio
     (combine(&rows, &d.map(|row| dot(&row, velocity))), how)
 }
 
-// It is the law that defines D; in f32 the modes lose fewer digits.
+// It is the law that defines D; in f32 the modes lose fewer digits than eigenvectors of Λ⁻¹ do.
 #[test]
 fn the_damper_is_that_of_double_diagonalisation() {
     let mut worst = [0.0_f64; 3];
@@ -142,7 +142,7 @@ fn a_memory_that_is_spoilt_is_forgotten() {
     }
     // Numbers that are not finite are refused and not kept.
     let mut bad = good;
-    bad[0][2] = f32::NAN;
+    bad[1][2] = f32::NAN;
     assert_eq!(tick(&mut fresh, &bad), Err(Fault::NotFinite { joint: 0 }));
     let again = tick(&mut fresh, &good).expect("finite");
     assert!(matches!(again.modes, ModeSearch::Searched { .. }) && again.tau == want);

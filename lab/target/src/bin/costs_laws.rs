@@ -53,7 +53,7 @@ fn detected(detector: &mut ContactDetector<f32, 6>, at: &ArmState<f32, 6>) -> bo
     contact.is_ok()
 }
 
-/// All of a Cartesian impedance: gravity, Jacobian, M with its factors, the operational space and the law.
+/// All of a Cartesian impedance: gravity, Jacobian, M with its factors and the law.
 #[inline(never)]
 fn impedance(law: &mut CartesianImpedance<f32, 6>, ask: &Ask<6>) -> [f32; 6] {
     let columns = Engine::<robots::Ur5e>::jacobian::<TIP, _, _, _, _>(&ask.trig);
@@ -109,9 +109,12 @@ fn laws(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
     let ticks = around(&asks[0].state);
     row("impedance", "engine", false)
         .measure(run as *const () as usize, &ticks, |ask| run(&mut law, ask));
-    // From a posture to another.
-    Row::of::<robots::Ur5e, 6, 6>("impedance", "engine", "jumps", false)
-        .measure(run as *const () as usize, asks, |ask| run(&mut law, ask));
+    // The way in: from one posture to any other.
+    Row::of::<robots::Ur5e, 6, 6>("impedance", "engine", "jumps", false).measure(
+        run as *const () as usize,
+        asks,
+        |ask| run(&mut law, ask),
+    );
     let spring = LimitedSpring {
         stiffness: [300.0; 6],
         damping: [20.0; 6],

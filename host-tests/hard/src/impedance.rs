@@ -187,5 +187,5 @@ fn run() -> Vec<Row> {
     rows
 }
 
-const STEP: f64 = 1.0;
+const STEP: f64 = 0.5;
 const OFF: f64 = 1e-3;

@@ -138,21 +138,7 @@ impl Scene<7, 7, 7, 7> for Carry {
     ];
 
     fn reference() -> Result<Job, TrajectoryError> {
-        if let Ok(spring) = CartesianImpedance::try_new(SPRING) {
-            let _ = SPRINGS.enqueue(spring);
-            let _ = Impedance::torque(
-                &Gains {
-                    kp: [0.0; 7],
-                    kd: [0.0; 7],
-                },
-                &State::at(READY),
-                &Estimate {
-                    q: READY,
-                    qd: [0.0; 7],
-                },
-                &Load::default(),
-            );
-        }
+        Impedance::start();
         let accelerations = [15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0];
         Ok(Job {
             trajectory: through(&PANDA_CARRY, &Self::limits(), accelerations)?,
@@ -213,6 +199,21 @@ const SPRING: ImpedanceConfig<f32, 6> = ImpedanceConfig {
 #[expect(deprecated, reason = "no other takes it while a tick does")]
 static SPRINGS: Queue<CartesianImpedance<f32, 6>, 2> = Queue::new();
 
+impl Impedance {
+    /// Finds the modes of the first posture: the first tick then follows them as all others do.
+    #[inline(never)]
+    fn start() {
+        let spring = SPRINGS.dequeue();
+        if let Some(spring) = spring.or_else(|| CartesianImpedance::try_new(SPRING).ok()) {
+            let _ = SPRINGS.enqueue(spring);
+        }
+        let (gains, rest) = ([0.0; 7], State::at(READY));
+        let (kp, kd, q, qd) = (gains, gains, rest.q, rest.qd);
+        let load = Load::default();
+        let _ = Self::torque(&Gains { kp, kd }, &rest, &Estimate { q, qd }, &load);
+    }
+}
+
 impl Law<7, Load> for Impedance {
     fn feedforward(reference: &State<f32, 7, 7>, borne: &Load) -> [f32; 7] {
         Carry::inverse(reference, borne, &Carry::current(borne))
@@ -247,7 +248,7 @@ impl Law<7, Load> for Impedance {
                 return torque.tau;
             }
         }
-        // Without an operational space the joints are led.
+        // Without modes the joints are led.
         for (tau, posture) in bias.iter_mut().zip(posture) {
             *tau += posture;
         }

@@ -254,11 +254,9 @@ fn rotate<R: Real, const M: usize>(g: &mut [[R; M]; M], p: usize, q: usize) -> (
     g[p][q] = R::either(ordered, left, -left);
     let turned = |x: R, y: R| (c * x + s * y, c * y - s * x);
     // Of modes before p, the couplings that are left only mix.
-    for k in p + 1..q {
-        (g[p][k], g[k][q]) = turned(g[p][k], g[k][q]);
-    }
-    for k in q + 1..M {
-        (g[p][k], g[q][k]) = turned(g[p][k], g[q][k]);
+    for k in (p + 1..M).filter(|&k| k != q) {
+        let (row, column) = if k < q { (k, q) } else { (q, k) };
+        (g[p][k], g[row][column]) = turned(g[p][k], g[row][column]);
     }
     (c, s)
 }

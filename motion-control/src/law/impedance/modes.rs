@@ -2,13 +2,13 @@
 //!
 //! In the coordinates √K x of a task, mode k has a unit vector u_k, the column k of U, and a natural frequency Ω_k:
 //!
-//! $$
-//! \sqrt K \Lambda^{-1} \sqrt K = U \Omega^2 U^T
-//! $$
+//! ```text
+//! √K Λ⁻¹ √K = U Ω² Uᵀ
+//! ```
 //!
 //! With N = Uᵀ √K J, the rows of the Jacobian along the modes of the last tick, G = N M⁻¹ Nᵀ is nearly Ω². A sweep of Jacobi's
 //! rotations (Golub & Van Loan, *Matrix Computations*, section 8.5) leaves of its couplings their squares. A pass is G and a sweep;
-//! one is enough for an arm that moves, two for one whose every joint turns by 3 mrad, and some more follow a jump, as at the start.
+//! one is enough for an arm that moves, rarely two if every joint turns by 3 mrad, and some more follow a jump, as at the start.
 //!
 //! Why modes, and not Newton's iteration for the inverse square root from the last result: its coupled form starts from a function
 //! of the matrix, and the last result is one of another; of an error E it leaves ½ (1 − √(s_j/s_i)) E_ij, which grows beyond a ratio
@@ -24,7 +24,7 @@
 use super::{ModeSearch, inverse_root};
 use dynamics_core::scalar::Real;
 
-/// Passes at most: the number that 6 × 6 matrices of any condition needed, and two more.
+/// Passes at most: 6 × 6 matrices of any condition needed five, 8 × 8 ones six.
 const PASSES: usize = 8;
 
 /// The modes of M directions: U by its columns, and the two that are straightened next.

@@ -19,7 +19,7 @@
 //! | [`PassivityGains`], [`passivity_based_torque()`] | the law of Slotine & Li: M q̈_r + C q̇_r + g + F − K_D s | none |
 //! | [`hold()`] | the reference of a held arm: q̈ = −λ q̇ | none |
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
-//! | [`CartesianImpedance`], [`pose_error()`] | a spring and a damper between a body and its goal, with null space | none |
+//! | [`CartesianImpedance`], [`pose_error()`] | a spring and a damper between a body and its goal, with null space | the modes of the last tick |
 //! | [`HandGuiding`] | an arm that a hand moves: friction in part, virtual walls, locked joints | where joints are locked |
 //! | [`InertiaShaping`] | external torques, amplified: an arm that is lighter for a hand | none |
 //! | [`TaughtPath`] | way-points of an arm that is guided by hand | the way-points |
@@ -97,9 +97,9 @@ pub use estimate::{
 pub use law::{
     CartesianImpedance, FirstOrderHold, Gains, HandGuiding, HandGuidingConfig, ImpedanceConfig,
     ImpedanceTorque, InertiaShaping, InertiaShapingConfig, InertiaUpdate, Interpolator,
-    LimitedSpring, PassivityGains, SlidingVariable, TaskCommand, TaskDeviation, TaskForce,
-    TaskFrame, TaskMotion, ZeroOrderHold, feedback, hybrid_motion_force, orientation_error,
-    passivity_based_torque, pose_error, quaternion_error,
+    LimitedSpring, ModeSearch, PassivityGains, SlidingVariable, TaskCommand, TaskDeviation,
+    TaskForce, TaskFrame, TaskMotion, ZeroOrderHold, feedback, hybrid_motion_force,
+    orientation_error, passivity_based_torque, pose_error, quaternion_error,
 };
 pub use limits::{
     Command, ConfigError, ConfigParameter, Fault, LimitKind, Mode, MotionLimits, Reaction,

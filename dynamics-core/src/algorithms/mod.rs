@@ -48,8 +48,8 @@ pub use momentum::{
 };
 pub(crate) use operational_space::shifted_inverse;
 pub use operational_space::{
-    Conditioning, Damping, OperationalSpace, OsimInverse, damped_inverse, operational_space,
-    osim_inverse, task_jacobian,
+    Conditioning, Damping, OperationalSpace, OsimInverse, damped_inverse, jacobian_rows,
+    operational_space, osim_inverse, task_jacobian,
 };
 #[doc(hidden)]
 pub use operational_space::{eigen, shifted_solution};

@@ -1,7 +1,9 @@
 //! Scene `panda_payload`: a part is picked up and put down. The gripper reports what the hand holds; a
 //! feed-forward that does not read that signal carries an unknown load.
 
-use dynamics_core::algorithms::{Damping, OperationalSpace, frame, task_jacobian};
+use core::cell::Cell;
+
+use dynamics_core::algorithms::jacobian_rows;
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, InvalidPayload, Payload, Viscous, Width,
 };
@@ -11,14 +13,16 @@ use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use motion_control::{
-    CartesianImpedance, Estimate, Gains, ImpedanceConfig, Reference, TaskDeviation, TaskFrame,
-    Trajectory, TrajectoryError, WayPoint, feedback, pose_error,
+    CartesianImpedance, Estimate, Gains, ImpedanceConfig, Reference, TaskDeviation, Trajectory,
+    TrajectoryError, WayPoint, feedback,
 };
 
 use crate::plant::Plant;
-use crate::scene::{Less, Noise, PlantModel, Run, Scene, rigid, through};
+use crate::scene::{
+    Less, Name, Noise, PlantModel, Run, Scene, SimLoop, marked_tick, rigid, through,
+};
 use crate::trajectories::{READY, stop};
-use joint_drivers::Law;
+use joint_drivers::{Law, Telemetry};
 
 /// The Panda carries a part from low to low, at rest there while the gripper moves: points 2 to 3 and 6 to 7.
 const PANDA_CARRY: [WayPoint<f32, 7>; 10] = [
@@ -96,11 +100,12 @@ const CLOSES: u32 = arrival(&PANDA_CARRY, 2);
 const OPENS: u32 = arrival(&PANDA_CARRY, 6);
 const GRIP: f32 = 100.0;
 
-/// The trajectory, and the part that is carried.
-#[derive(Clone, Copy, Debug)]
+/// The trajectory, the part that is carried, and the spring that may hold the hand.
+#[derive(Clone, Debug)]
 pub struct Job {
     trajectory: Trajectory<f32, 7, 10>,
     part: Load,
+    spring: Spring,
 }
 
 impl Reference<f32, 7> for Job {
@@ -132,8 +137,8 @@ impl Scene<7, 7, 7, 7> for Carry {
     const BASELINES: &'static [Run<Self, 7, 7, 7, 7>] = &[
         Run::of::<Less<Self, LOAD, 7, 7, 7>>(PlantModel::Exact, "unknown-load"),
         Run::of::<Less<Self, LOAD, 7, 7, 7>>(PlantModel::Mismatched, "unknown-load"),
-        Run::of::<Impedance>(PlantModel::Exact, "impedance"),
-        Run::of::<Impedance>(PlantModel::Mismatched, "impedance"),
+        Impedance::run(PlantModel::Exact),
+        Impedance::run(PlantModel::Mismatched),
     ];
 
     fn reference() -> Result<Job, TrajectoryError> {
@@ -142,6 +147,7 @@ impl Scene<7, 7, 7, 7> for Carry {
             trajectory: through(&PANDA_CARRY, &Self::limits(), accelerations)?,
             // An impossible part is not picked up.
             part: part().unwrap_or_default(),
+            spring: Impedance::at_the_start(),
         })
     }
 
@@ -193,44 +199,79 @@ const SPRING: ImpedanceConfig<f32, 6> = ImpedanceConfig {
     slowest: 2.0,
 };
 
-impl Law<7, Load> for Impedance {
-    fn feedforward(reference: &State<f32, 7, 7>, borne: &Load) -> [f32; 7] {
-        Carry::inverse(reference, borne, &Carry::current(borne))
+/// The law between ticks, with the modes of the last one; none if [`SPRING`] were no spring.
+type Spring = Cell<Option<CartesianImpedance<f32, 6>>>;
+
+/// What the law reads beside the reference: the load in the hand, and its own memory.
+struct Held<'a> {
+    borne: &'a Load,
+    spring: &'a Spring,
+}
+
+impl Impedance {
+    const fn run(plant: PlantModel) -> Run<Carry, 7, 7, 7, 7> {
+        let law = Name::Of("impedance");
+        let tick = Self::tick;
+        Run { plant, law, tick }
+    }
+
+    // Not inlined by force, and compiled with the program: the tick of the other laws is then the same with and without it.
+    #[inline]
+    fn tick(control: &mut SimLoop<7>, job: &Job, borne: &Load) -> Telemetry<7> {
+        let spring = &job.spring;
+        marked_tick::<Self, _, _, 7>(control, job, &Held { borne, spring })
+    }
+
+    /// The spring with the modes of the first posture: the first tick then follows them as all others do.
+    #[inline(never)]
+    fn at_the_start() -> Spring {
+        let spring = Cell::new(CartesianImpedance::try_new(SPRING).ok());
+        let (gains, rest) = ([0.0; 7], State::at(READY));
+        let (kp, kd, q, qd) = (gains, gains, rest.q, rest.qd);
+        let held = Held {
+            borne: &Load::default(),
+            spring: &spring,
+        };
+        let _ = Self::torque(&Gains { kp, kd }, &rest, &Estimate { q, qd }, &held);
+        spring
+    }
+}
+
+impl Law<7, Held<'_>> for Impedance {
+    fn feedforward(reference: &State<f32, 7, 7>, held: &Held<'_>) -> [f32; 7] {
+        Carry::inverse(reference, held.borne, &Carry::current(held.borne))
     }
 
     fn torque(
         gains: &Gains<f32, 7>,
         reference: &State<f32, 7, 7>,
         estimate: &Estimate<f32, 7>,
-        borne: &Load,
+        held: &Held<'_>,
     ) -> [f32; 7] {
-        let mut bias = Self::feedforward(reference, borne);
+        let mut bias = Self::feedforward(reference, held);
         let posture = feedback(gains, reference, estimate);
-        let arm = State {
-            qd: estimate.qd,
-            ..State::at(estimate.q)
-        };
-        let trig = Core::<Panda>::joint_trig(&arm.q);
-        let frame = frame::LocalWorldAligned;
-        let [hand, goal] = [&arm, reference].map(|state| Core::<Panda>::kinematics(state, &()));
-        let directions = TaskFrame::BASE.turn_and_place(1.0);
-        let rows = task_jacobian(&Core::<Panda>::jacobian(&trig, HAND, frame), &directions);
-        let m = Engine::<Panda>::crba(&trig, &Carry::current(borne));
-        let spring = CartesianImpedance::try_new(SPRING);
-        if let (Ok(factors), Ok(spring)) = (Engine::<Panda>::ltdl(&m), spring) {
-            let solve = |tau: &_| Engine::<Panda>::solve(&factors, tau);
-            let task = OperationalSpace::new(rows, solve, Damping::relative(1e-3));
-            let off = pose_error(&hand.poses[HAND], &goal.poses[HAND]);
-            let [v, wanted] = [&hand, &goal].map(|arm| arm.velocity(HAND, frame));
+        let trig = Core::<Panda>::joint_trig(&estimate.q);
+        let rows = jacobian_rows(&Engine::<Panda>::jacobian::<HAND, _, _, _, _>(&trig));
+        let m = Engine::<Panda>::crba(&trig, &Carry::current(held.borne));
+        if let (Ok(factors), Some(mut spring)) = (Engine::<Panda>::ltdl(&m), held.spring.get()) {
+            // The goal is a posture, mrad away: its tip is off by J (q_d − q), but for the square of that.
+            let [q, qd] = [
+                core::array::from_fn(|i| reference.q[i] - estimate.q[i]),
+                core::array::from_fn(|i| reference.qd[i] - estimate.qd[i]),
+            ];
+            let along = |row: &[f32; 7], x: &[f32; 7]| row.iter().zip(x).map(|(j, x)| j * x).sum();
             let deviation = TaskDeviation {
-                position: directions.map(|d| off.dot(d)),
-                velocity: directions.map(|d| (wanted - v).dot(d)),
+                position: rows.each_ref().map(|row| along(row, &q)),
+                velocity: rows.each_ref().map(|row| along(row, &qd)),
             };
-            if let Ok(torque) = spring.torque(&task, &deviation, &bias, &posture) {
+            let solve = |tau: &_| Engine::<Panda>::solve(&factors, tau);
+            let torque = spring.torque(&rows, solve, &deviation, &bias, &posture);
+            held.spring.set(Some(spring));
+            if let Ok(torque) = torque {
                 return torque.tau;
             }
         }
-        // Without an operational space the joints are led.
+        // Without modes the joints are led.
         for (tau, posture) in bias.iter_mut().zip(posture) {
             *tau += posture;
         }

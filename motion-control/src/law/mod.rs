@@ -14,7 +14,9 @@ pub use hand_guiding::{HandGuiding, HandGuidingConfig, LimitedSpring};
 pub use hybrid_force::{
     TaskCommand, TaskForce, TaskFrame, TaskMotion, hybrid_motion_force, orientation_error,
 };
-pub use impedance::{CartesianImpedance, ImpedanceConfig, ImpedanceTorque, TaskDeviation};
+pub use impedance::{
+    CartesianImpedance, ImpedanceConfig, ImpedanceTorque, ModeSearch, TaskDeviation,
+};
 pub use inertia_shaping::{InertiaShaping, InertiaShapingConfig};
 pub use multirate::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
 pub use passivity::{PassivityGains, SlidingVariable, passivity_based_torque};

@@ -23,7 +23,7 @@ use core::borrow::Borrow;
 use crate::algorithms::{Frame, NotPositiveDefinite, crba, jacobian, ltdl, solve};
 use crate::effects::Effect;
 use crate::model::RobotModel;
-use crate::scalar::Real;
+use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Motion};
 use crate::state::Configuration;
 
@@ -57,6 +57,40 @@ pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
     directions: &[Force<R>; M],
 ) -> [[R; V]; M] {
     directions.map(|direction| jacobian.map(|column| column.dot(direction)))
+}
+
+/// A body's Jacobian by rows: of its angular velocity about the axes of the frame, then of its velocity along them.
+///
+/// It is the [`task_jacobian`] of unit couples and unit forces along the axes, without a flop.
+///
+/// # Shape
+/// 6 × V.
+///
+/// # Cost
+/// No flops.
+///
+/// # Example
+/// ```
+/// use dynamics_core::{Core, algorithms::{frame, jacobian_rows, task_jacobian}, robots::Ur5e, spatial::Force};
+/// use glam::Vec3;
+/// let j = Core::<Ur5e>::jacobian(&[0.1_f32; 6], 5, frame::LocalWorldAligned);
+/// let [.., height] = jacobian_rows(&j);
+/// assert_eq!([height], task_jacobian(&j, &[Force::new(Vec3::ZERO, Vec3::Z)]));
+/// ```
+#[cfg_attr(not(debug_assertions), inline(always))]
+#[must_use]
+pub fn jacobian_rows<R: Real, const V: usize>(jacobian: &[Motion<R>; V]) -> [[R; V]; 6] {
+    let columns = jacobian.map(|column| (column.ang.array(), column.lin.array()));
+    let angular = |i: usize| columns.map(|(ang, _)| ang[i]);
+    let linear = |i: usize| columns.map(|(_, lin)| lin[i]);
+    [
+        angular(0),
+        angular(1),
+        angular(2),
+        linear(0),
+        linear(1),
+        linear(2),
+    ]
 }
 
 /// The operational-space inertia of a task on `body` along some directions, expressed in a [`Frame`], by J, M and its

@@ -1,7 +1,7 @@
 //! The loop of an arm that is guided: encoders of 14 bits, observer, gravity compensation and the law.
 
 use dynamics_core::Core;
-use dynamics_core::algorithms::{Damping, OperationalSpace, frame, task_jacobian};
+use dynamics_core::algorithms::{frame, task_jacobian};
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia, Lugre};
 use dynamics_core::model::ArmModel;
 use dynamics_core::robots::Ur5e;
@@ -161,8 +161,8 @@ impl Cell {
     }
 
     /// With the torques that hold the tip at its height.
-    fn levelled(&self, estimate: &Estimate<f64, 6>, guided: Q) -> Q {
-        let Some((impedance, height)) = &self.level else {
+    fn levelled(&mut self, estimate: &Estimate<f64, 6>, guided: Q) -> Q {
+        let Some((impedance, height)) = &mut self.level else {
             return guided;
         };
         let Estimate { q, qd } = *estimate;
@@ -175,12 +175,11 @@ impl Cell {
         let factors =
             Core::<Ur5e>::ltdl(&Core::<Ur5e>::crba(&q, &RIGID)).expect("an arm with mass");
         let solve = |tau: &_| Core::<Ur5e>::solve(&factors, tau);
-        let task = OperationalSpace::new(rows, solve, Damping::relative(1e-3));
         let deviation = TaskDeviation {
-            position: [height - tip[0].z],
+            position: [*height - tip[0].z],
             velocity: [-tip[1].z],
         };
-        let torque = impedance.torque(&task, &deviation, &guided, &[0.0; 6]);
+        let torque = impedance.torque(&rows, solve, &deviation, &guided, &[0.0; 6]);
         torque.expect("finite").tau
     }
 }

@@ -1,7 +1,8 @@
 //! An arm on an impedance.
 
 use dynamics_core::algorithms::{
-    Conditioning, Damping, OperationalSpace, Pose, frame, kinematics, operational_space, rnea,
+    Conditioning, Damping, OperationalSpace, Pose, crba, frame, kinematics, ltdl,
+    operational_space, rnea, solve,
 };
 use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, Inertia, hook};
 use dynamics_core::model::ArmModel;
@@ -46,7 +47,6 @@ pub struct Sprung<const N: usize> {
     /// The wanted posture, its stiffness and damping; `projected`: only in the null space.
     pub posture: ([f64; N], f64, f64),
     pub projected: bool,
-    pub damping: Damping<f64>,
 }
 
 pub type Task<const N: usize> = OperationalSpace<f64, 6, N>;
@@ -62,7 +62,6 @@ impl<const N: usize> Sprung<N> {
             state,
             posture: (q, 0.0, 4.0),
             projected: true,
-            damping: Damping::relative(1e-4),
         }
     }
 
@@ -80,7 +79,7 @@ impl<const N: usize> Sprung<N> {
             tip,
             &directions,
             &scene,
-            self.damping,
+            Damping::relative(1e-4),
         )
         .unwrap()
     }
@@ -96,7 +95,7 @@ impl<const N: usize> Sprung<N> {
         }
     }
 
-    pub fn torque(&self) -> Result<([f64; N], Conditioning<f64>), Fault> {
+    pub fn torque(&mut self) -> Result<([f64; N], Conditioning<f64>), Fault> {
         let rest = State::at(self.state.q);
         let bias = rnea(&self.arm, &rest, &Gravity::EARTH);
         let (wanted, kn, dn) = self.posture;
@@ -107,9 +106,13 @@ impl<const N: usize> Sprung<N> {
             bias = core::array::from_fn(|i| bias[i] + free[i]);
             posture = [0.0; N];
         }
+        let (arm, scene) = (self.arm, (Inertia, Self::rotors()));
+        let factors = ltdl(&arm, &crba(&arm, &self.state.q, &scene)).unwrap();
+        let solve = |tau: &_| solve(&arm, &factors, tau);
+        let (rows, deviation) = (self.task().jacobian, self.deviation());
         let out = self
             .impedance
-            .torque(&self.task(), &self.deviation(), &bias, &posture)?;
+            .torque(&rows, solve, &deviation, &bias, &posture)?;
         Ok((out.tau, out.conditioning))
     }
 

@@ -6,10 +6,11 @@ mod costs;
 
 use costs::row::Row;
 use costs::{Ask, STATES};
-use dynamics_core::algorithms::{Damping, OperationalSpace, task_jacobian};
+use dynamics_core::algorithms::jacobian_rows;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Static;
 use dynamics_core::state::{ArmState, State};
+use dynamics_core::trig::sin_cos;
 use dynamics_core::{Core, Engine};
 use motion_control::*;
 
@@ -52,31 +53,33 @@ fn detected(detector: &mut ContactDetector<f32, 6>, at: &ArmState<f32, 6>) -> bo
     contact.is_ok()
 }
 
-/// All of a Cartesian impedance: gravity, Jacobian, M with its factors, the operational space and the law.
+/// All of a Cartesian impedance: inverse dynamics, Jacobian, M with its factors and the law.
 #[inline(never)]
-fn impedance(law: &CartesianImpedance<f32, 6>, ask: &Ask<6>) -> [f32; 6] {
-    let directions = TaskFrame::BASE.turn_and_place(1.0);
+fn impedance(law: &mut CartesianImpedance<f32, 6>, ask: &Ask<6>) -> [f32; 6] {
     let columns = Engine::<robots::Ur5e>::jacobian::<TIP, _, _, _, _>(&ask.trig);
-    let rows = task_jacobian(&columns, &directions);
+    let rows = jacobian_rows(&columns);
     let m = Engine::<robots::Ur5e>::crba(&ask.trig, &RIGID_BODY);
     let Ok(factors) = Engine::<robots::Ur5e>::ltdl(&m) else {
         return [0.0; 6];
     };
     let solve = |tau: &_| Engine::<robots::Ur5e>::solve(&factors, tau);
-    let task = OperationalSpace::new(rows, solve, Damping::relative(1e-3));
-    let bias = Engine::<robots::Ur5e>::rnea(
-        ask.trig.with(&State {
-            qdd: [0.0; 6],
-            ..ask.state
-        }),
-        &RIGID_BODY,
-    );
+    let bias = Engine::<robots::Ur5e>::rnea(ask.trig.with(&ask.state), &RIGID_BODY);
     let deviation = TaskDeviation {
         position: ask.state.qd,
         velocity: ask.state.qdd,
     };
-    let torque = law.torque(&task, &deviation, &bias, &[0.0; 6]);
+    let torque = law.torque(&rows, solve, &deviation, &bias, &[0.0; 6]);
     torque.map_or([0.0; 6], |torque| torque.tau)
+}
+
+/// Ticks of 1 ms around a circle in the space of joints, at 3 rad/s.
+fn around(start: &ArmState<f32, 6>) -> [Ask<6>; STATES] {
+    core::array::from_fn(|k| {
+        let (sin, cos) = sin_cos(core::f32::consts::TAU * k as f32 / STATES as f32);
+        let q = core::array::from_fn(|i| start.q[i] + 0.015 * [sin, cos][i % 2]);
+        let (state, trig) = (State { q, ..*start }, Core::<robots::Ur5e>::joint_trig(&q));
+        Ask { state, trig }
+    })
 }
 
 fn laws(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
@@ -88,14 +91,17 @@ fn laws(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
     row("slotine_li", "core", true).measure(run as *const () as usize, asks, |ask| {
         run(&gains, &ask.state)
     });
-    let law = CartesianImpedance::try_new(ImpedanceConfig {
+    let mut law = CartesianImpedance::try_new(ImpedanceConfig {
         stiffness: [30.0, 30.0, 30.0, 600.0, 600.0, 600.0],
         zeta: 0.7,
         slowest: 2.0,
     })?;
     let run = impedance;
-    row("impedance", "engine", false)
-        .measure(run as *const () as usize, asks, |ask| run(&law, ask));
+    // Those that jump are the way in: from one posture to any other.
+    for (inputs, asks) in [("full", &around(&asks[0].state)), ("jumps", asks)] {
+        let row = Row::of::<robots::Ur5e, 6, 6>("impedance", "engine", inputs, false);
+        row.measure(run as *const () as usize, asks, |ask| run(&mut law, ask));
+    }
     let spring = LimitedSpring {
         stiffness: [300.0; 6],
         damping: [20.0; 6],

@@ -16,7 +16,7 @@ use heapless::Vec;
 use super::ElasticJoints;
 use crate::algorithms::inward;
 use crate::effects::{
-    Declared, Effect, TorqueDerivatives, add_inertia, base_motion, body_inertia, joint_state,
+    Declared, Effect, add_joint_torque_rates, base_motion, body_inertia, joint_state,
     no_load_friction,
 };
 use crate::model::{LinkView, RobotModel};
@@ -116,34 +116,66 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let tau = torque_rates(robot, reference, effects)?;
-    let State { q, qd, qdd } = &reference.state;
-    let mut command = ElasticCommand {
+    for (body, link) in robot.links().enumerate() {
+        if link.coordinates().len() > 1 {
+            return Err(MultiDofJoint { body });
+        }
+    }
+    Ok(command(robot, joints, reference, effects))
+}
+
+/// The same of a robot all of whose joints have one degree of freedom.
+pub(super) fn command<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    joints: &ElasticJoints<R, V>,
+    reference: &ElasticReference<R, Q, V>,
+    effects: &E,
+) -> ElasticCommand<R, V>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let rates = torque_rates(robot, reference, effects);
+    let mut command = ElasticCommand::ZERO;
+    for link in robot.links() {
+        for i in link.coordinates() {
+            let q = link.position(&reference.state.q, i);
+            command.set(i, joints, q, reference, rates.map(|tau| entry(&tau, i)));
+        }
+    }
+    command
+}
+
+impl<R: Real, const V: usize> ElasticCommand<R, V> {
+    pub(super) const ZERO: Self = Self {
         torque: [R::ZERO; V],
         position: [R::ZERO; V],
         velocity: [R::ZERO; V],
     };
-    for link in robot.links() {
-        for i in link.coordinates() {
-            let k_inv = R::ONE / entry(&joints.stiffness, i);
-            let [t, rate, accel] = tau.map(|tau| entry(&tau, i));
-            let velocity = entry(qd, i) + rate * k_inv;
-            let inertial = entry(&joints.rotor, i) * (entry(qdd, i) + accel * k_inv);
-            let torque = inertial + entry(&joints.friction, i) * velocity + t;
-            let values = [torque, link.position(q, i) + t * k_inv, velocity];
-            let places = [
-                &mut command.torque,
-                &mut command.position,
-                &mut command.velocity,
-            ];
-            for (place, value) in places.into_iter().zip(values) {
-                if let Some(place) = place.get_mut(i) {
-                    *place = value;
-                }
+
+    /// The motor of joint i at q, whose spring transmits τ with these derivatives: θ = q + τ/k, τ_m = J θ̈ + b θ̇ + τ.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn set<const Q: usize>(
+        &mut self,
+        i: usize,
+        joints: &ElasticJoints<R, V>,
+        q: R,
+        reference: &ElasticReference<R, Q, V>,
+        [tau, rate, accel]: [R; 3],
+    ) {
+        let State { qd, qdd, .. } = &reference.state;
+        let k_inv = R::ONE / entry(&joints.stiffness, i);
+        let velocity = entry(qd, i) + rate * k_inv;
+        let inertial = entry(&joints.rotor, i) * (entry(qdd, i) + accel * k_inv);
+        let torque = inertial + entry(&joints.friction, i) * velocity + tau;
+        let values = [torque, q + tau * k_inv, velocity];
+        let places = [&mut self.torque, &mut self.position, &mut self.velocity];
+        for (place, value) in places.into_iter().zip(values) {
+            if let Some(place) = place.get_mut(i) {
+                *place = value;
             }
         }
     }
-    Ok(command)
 }
 
 /// Velocity of a body and its derivatives by components; the first is its spatial acceleration.
@@ -157,27 +189,33 @@ struct Link<'a, R: Real> {
     f: [Force<R>; 3],
 }
 
+/// A scene whose torques have derivatives.
+pub(super) const fn scene_taken<R: Real, E, const B: usize, const V: usize>()
+where
+    E: Effect<R, B, V>,
+{
+    no_load_friction::<R, E, B, V>();
+    assert!(
+        E::ACCELERATIONS && E::VELOCITY_PRODUCTS,
+        "inverse dynamics of compliant joints needs `Inertia` and `Coriolis` in the scene"
+    );
+    assert!(
+        !(E::WRENCH | E::BASE_MOTION | E::GYROSCOPIC_ROTORS),
+        "inverse dynamics of compliant joints allows no wrenches on bodies, moving base or `GyroscopicRotors`"
+    );
+}
+
 /// τ, τ̇ and τ̈ of the springs.
 fn torque_rates<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     reference: &ElasticReference<R, Q, V>,
     effects: &E,
-) -> Result<[[R; V]; 3], MultiDofJoint>
+) -> [[R; V]; 3]
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    const {
-        assert!(
-            E::ACCELERATIONS && E::VELOCITY_PRODUCTS,
-            "inverse dynamics of compliant joints needs `Inertia` and `Coriolis` in the scene"
-        );
-        assert!(
-            !(E::WRENCH | E::BASE_MOTION | E::GYROSCOPIC_ROTORS),
-            "inverse dynamics of compliant joints allows no wrenches on bodies, moving base or `GyroscopicRotors`"
-        );
-    };
-    no_load_friction::<R, E, B, V>();
+    const { scene_taken::<R, E, B, V>() };
     let (state, turns) = (
         &reference.state,
         JointTrig::new(robot, &reference.state.q).coordinates,
@@ -189,9 +227,6 @@ where
     let mut all: Vec<MotionDerivatives<R>, B> = Vec::new();
     let mut links: Vec<Link<'_, R>, B> = Vec::new();
     for (i, link) in robot.links().enumerate() {
-        if link.coordinates().len() > 1 {
-            return Err(MultiDofJoint { body: i });
-        }
         let (x, w) = (
             link.xform(&turns),
             rates.map(|rate| link.motion(&turns, rate)),
@@ -210,18 +245,9 @@ where
             link.link.project(&turns, f, tau);
         }
         for k in link.link.coordinates() {
-            let (at, qdd) = (joint_state(&link.link, state, k), entry(&state.qdd, k));
-            let (mut own, mut inertia, mut derivatives) =
-                (R::ZERO, R::ZERO, TorqueDerivatives::default());
-            effects.torque(k, at, &mut own);
-            add_inertia(effects, k, &mut inertia);
-            effects.derivatives(k, at, &mut derivatives);
-            let (jerk, snap) = (entry(&reference.jerk, k), entry(&reference.snap, k));
-            let added = [
-                own + inertia * qdd,
-                derivatives.dq * at.qd + derivatives.dqd * qdd + inertia * jerk,
-                derivatives.dq * qdd + derivatives.dqd * jerk + inertia * snap,
-            ];
+            let (at, mut added) = (joint_state(&link.link, state, k), [R::ZERO; 3]);
+            let [_, onwards @ ..] = rates.map(|rates| entry(rates, k));
+            add_joint_torque_rates(effects, k, at, onwards, &mut added);
             for (tau, added) in tau.iter_mut().zip(added) {
                 if let Some(tau) = tau.get_mut(k) {
                     *tau += added;
@@ -234,7 +260,7 @@ where
             }
         }
     }
-    Ok(tau)
+    tau
 }
 
 /// X m and its derivatives, from those of m in the parent's coordinates.

@@ -1,6 +1,7 @@
 //! Drivetrains between motors and joints: a constant matrix that couples them, or springs.
 
 mod elastic;
+mod elastic_compiled;
 mod elastic_inverse_dynamics;
 mod elastic_plant;
 mod transmission;

@@ -128,8 +128,8 @@ pub(crate) use load::{
     add_load_slope, all_transmitted, load_friction, load_frictions, no_load_friction, transmitted,
 };
 pub(crate) use query::{
-    add_inertia, base_given, base_motion, body_inertia, body_wrench, field, gyroscopic,
-    joint_state, joint_torque, joint_torques, rotor_force,
+    add_inertia, add_joint_torque_rates, base_given, base_motion, body_inertia, body_wrench, field,
+    gyroscopic, joint_state, joint_torque, joint_torques, rotor_force,
 };
 pub(crate) use rigid_body::{Bias, OfBodies, Resting};
 

@@ -1,7 +1,8 @@
 //! Evaluates the hooks of effects for the textbook algorithms, in the frames in which hooks are defined.
 
 use super::{
-    BodyState, Declared, Effect, JointState, Scene, call_hook, field_axes, hook, loads, only_load,
+    BodyState, Declared, Effect, JointState, Scene, TorqueDerivatives, call_hook, field_axes, hook,
+    loads, only_load,
 };
 use crate::model::LinkView;
 use crate::scalar::{Matrix, Real, Vector};
@@ -179,6 +180,30 @@ where
     let mut loss = R::ZERO;
     effects.torque(joint, joint_state(link, state, joint), &mut loss);
     loss
+}
+
+/// Adds the torque of the effects at one joint's coordinate, and its first two derivatives, along a course with these derivatives
+/// of q from the second to the fourth. ∂τ/∂q and ∂τ/∂q̇ are taken as constant.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn add_joint_torque_rates<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+    joint: usize,
+    at: JointState<R>,
+    [qdd, jerk, snap]: [R; 3],
+    [tau, rate, accel]: &mut [R; 3],
+) where
+    E: Effect<R, B, V>,
+{
+    let mut by = TorqueDerivatives::default();
+    effects.torque(joint, at, tau);
+    effects.derivatives(joint, at, &mut by);
+    *rate += by.dq * at.qd + by.dqd * qdd;
+    *accel += by.dq * qdd + by.dqd * jerk;
+    if let Some(inertia) = effects.inertia(joint) {
+        *tau += inertia * qdd;
+        *rate += inertia * jerk;
+        *accel += inertia * snap;
+    }
 }
 
 /// Adds what stands at `joint` to an entry of M's diagonal.

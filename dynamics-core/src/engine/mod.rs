@@ -67,6 +67,7 @@ mod pivot_noise;
 mod pose;
 mod rnea;
 mod subtree;
+mod torque_rates;
 
 use core::borrow::Borrow;
 use core::hint::black_box;

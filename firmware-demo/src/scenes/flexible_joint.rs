@@ -1,12 +1,12 @@
 //! Scene `flexible_joint`: an arm with elastic transmissions, under a controller that models them and under one that
 //! does not. Its encoders sit on the motors, as those of most arms do; what counts is where the links are.
 
-use dynamics_core::Core;
-use dynamics_core::drivetrain::{ElasticJoints, ElasticReference, elastic_inverse_dynamics};
+use dynamics_core::drivetrain::{ElasticJoints, ElasticReference};
 use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, Inertia, Viscous};
-use dynamics_core::model::{Calibrated, Static};
+use dynamics_core::model::Calibrated;
 use dynamics_core::robots::Iiwa14;
 use dynamics_core::state::State;
+use dynamics_core::{Core, Engine};
 use motion_control::{Estimate, Gains, RestToRest, TrajectoryError, WayPoint, feedback};
 
 use crate::plant::FlexiblePlant;
@@ -83,11 +83,7 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
             state: *reference,
             ..*course
         };
-        let Ok(wanted) =
-            elastic_inverse_dynamics(&Static::<Iiwa14>::NEW, &JOINTS, &course, effects)
-        else {
-            return [0.0; 7];
-        };
+        let wanted = Engine::<Iiwa14>::elastic_inverse_dynamics(&JOINTS, &course, effects);
         // The loop feeds back q_d − θ; the motors are to be at θ_d.
         let gains = Gains::from_inertia(&INERTIA, OMEGA_N, ZETA);
         let motors = State {

@@ -3,6 +3,7 @@
 mod folded;
 mod joint_products;
 mod linalg;
+mod series;
 
 pub(crate) use folded::Folded;
 pub(crate) use joint_products::{
@@ -10,3 +11,4 @@ pub(crate) use joint_products::{
     rotate_to_parent,
 };
 pub(crate) use linalg::{Mat3, Sym3, Vec3};
+pub(crate) use series::{Series, Turn};

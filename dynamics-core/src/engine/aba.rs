@@ -15,8 +15,7 @@ use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::forward_dynamics::remaining;
 use super::gate::EngineScene;
-use super::ltdl::positive;
-use super::pivot_noise::noise;
+use super::pivot_noise::{Singular, of_joint};
 use super::rnea::inertia;
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::NotPositiveDefinite;
@@ -73,6 +72,7 @@ struct Task<'a, R, E, const Q: usize, const V: usize> {
     /// U = Iᴬ S: couple and force.
     u: &'a mut [[R; 6]; V],
     d_inv: &'a mut [R; V],
+    singular: Singular,
     /// The torques without the bias forces of the descendants; then the accelerations.
     x: &'a mut [R; V],
 }
@@ -98,6 +98,7 @@ where
         effects,
         u: &mut u,
         d_inv: &mut d_inv,
+        singular: Singular::default(),
         x: &mut x,
     };
     for_each_joint!(J, {
@@ -112,10 +113,7 @@ where
             let _ = inward(&mut task);
         }
     });
-    positive(
-        task.d_inv,
-        &noise::<R, C, E, B, Q, V>(&trig.coordinates, effects),
-    )?;
+    task.singular.outermost()?;
     for_each_joint!(J, {
         if CompiledJoint::<C, J>::IS_ON_BASE
             && let Some(outward) = const {
@@ -182,6 +180,8 @@ where
     };
     let mut d = Wrench { f, n }.along(joint.prismatic, length_inv).get();
     add_inertia(task.effects, I, &mut d);
+    let noise = of_joint::<R, C, E, B, Q, V, I>(task.turns, task.effects);
+    task.singular.note::<R, I>(d, noise);
     let d_inv = R::ONE / d;
     let rest = Folded::runtime(task.x[I]) - push.along(joint.prismatic, length_inv);
     let ([nx, ny, nz], [fx, fy, fz]) = (n.0, f.0);

@@ -93,15 +93,27 @@ impl<R: Real> Wrench<R> {
     where
         C: Compiled,
     {
-        let (mut f, mut n) = (self.f, self.n);
+        let mut at = self;
         if !CompiledJoint::<C, I>::PRISMATIC {
             let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
-            (f, n) = (f.turn(sin, cos), n.turn(sin, cos));
+            at = Self {
+                f: at.f.turn(sin, cos),
+                n: at.n.turn(sin, cos),
+            };
         }
-        let f = rotate_to_parent::<R, C, I>(f);
+        at.turned_to_parent::<C, I>(slide)
+    }
+
+    /// The same from the axes of joint I at q = 0.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn turned_to_parent<C, const I: usize>(self, slide: Folded<R>) -> Self
+    where
+        C: Compiled,
+    {
+        let f = rotate_to_parent::<R, C, I>(self.f);
         Self {
             f,
-            n: rotate_to_parent::<R, C, I>(n) + offset_cross::<R, C, I>(f, slide),
+            n: rotate_to_parent::<R, C, I>(self.n) + offset_cross::<R, C, I>(f, slide),
         }
     }
 }
@@ -125,6 +137,15 @@ impl<R: Real> Inertia<R> {
             mass: Folded::constant(joint.mass),
             moment: Vec3::constant(joint.moment),
             second: Sym3::of(&Mat3::constant(&joint.second)),
+        }
+    }
+
+    /// The inertia left to a body in M.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn in_matrix(joint: &Joint) -> Self {
+        Self {
+            second: Sym3::of(&Mat3::constant(&joint.matrix_second)),
+            ..Self::of(joint)
         }
     }
 
@@ -166,27 +187,36 @@ impl<R: Real> Inertia<R> {
         }
     }
 
-    /// The same in the frame of joint I's parent and about its origin.
+    /// The same in the axes of joint I at q = 0.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn to_parent<C, const I: usize>(
-        self,
-        turn: JointCoordinate<R>,
-        slide: Folded<R>,
-    ) -> Self
+    pub(crate) fn turned<C, const I: usize>(self, turn: JointCoordinate<R>) -> Self
+    where
+        C: Compiled,
+    {
+        if CompiledJoint::<C, I>::PRISMATIC {
+            return self;
+        }
+        let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
+        Self {
+            mass: self.mass,
+            moment: self.moment.turn(sin, cos),
+            second: self.second.turn(sin, cos),
+        }
+    }
+
+    /// The same in the frame of joint I's parent and about its origin, from the axes of joint I at q = 0.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn turned_to_parent<C, const I: usize>(self, slide: Folded<R>) -> Self
     where
         C: Compiled,
     {
         let joint = CompiledJoint::<C, I>::JOINT;
         let mut p = Vec3::constant(joint.pos);
-        let (mut h, mut second) = (self.moment, self.second);
         if CompiledJoint::<C, I>::PRISMATIC {
             p = p + Vec3::constant(joint.rot.z_axis).scale(slide);
-        } else {
-            let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
-            (h, second) = (h.turn(sin, cos), second.turn(sin, cos));
         }
-        let h = rotate_to_parent::<R, C, I>(h);
-        let second = rotate_symmetric_to_parent::<R, C, I>(second);
+        let h = rotate_to_parent::<R, C, I>(self.moment);
+        let second = rotate_symmetric_to_parent::<R, C, I>(self.second);
         Self {
             mass: self.mass,
             moment: h + p.scale(self.mass),

@@ -12,7 +12,7 @@ use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointPair};
 use super::folding::Folded;
 use super::folding::Vec3;
 use super::gate::EngineScene;
-use super::rnea::inertia;
+use super::rnea::matrix_inertia;
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::MassMatrix;
 use crate::effects::{Effect, add_inertia};
@@ -114,7 +114,7 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    let mut body = inertia::<R, C, E, B, Q, V, I>(task.effects, false);
+    let (mut body, rotor) = matrix_inertia::<R, C, E, B, Q, V, I>(task.effects);
     for_each_joint!(J, {
         if JointPair::<C, I, J>::IS_PARENT
             && let Some(composite) = const {
@@ -127,17 +127,21 @@ where
             body = body + composite(task);
         }
     });
-    column::<R, C, E, B, Q, V, I>(task, &body);
-    let length_inv = Folded::constant(C::LENGTH_INV);
-    let turn = task.turns[I];
-    body.to_parent::<C, I>(turn, Folded::runtime(turn.q) * length_inv)
+    let about_z = body.second.xx + body.second.yy + rotor;
+    // Of the turned body, so that column I and the composite of the parent share the turn's products.
+    let (turn, length_inv) = (task.turns[I], Folded::constant(C::LENGTH_INV));
+    let body = body.turned::<C, I>(turn);
+    column::<R, C, E, B, Q, V, I>(task, &body, about_z);
+    body.turned_to_parent::<C, I>(Folded::runtime(turn.q) * length_inv)
 }
 
-/// Column I of M: the wrench of joint I's unit acceleration, projected on each ancestor.
+/// Column I of M: the wrench of joint I's unit acceleration, projected on each ancestor; of a body in the axes of joint I at
+/// q = 0, and its inertia about the joint's axis.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     body: &Inertia<R>,
+    about_z: Folded<R>,
 ) where
     R: Real,
     C: Compiled,
@@ -154,7 +158,7 @@ fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usiz
     } else {
         Wrench {
             f: Vec3([-hy, hx, Folded::ZERO]),
-            n: Vec3([-s.xz, -s.yz, s.xx + s.yy]),
+            n: Vec3([-s.xz, -s.yz, about_z]),
         }
     };
     let mut diagonal = wrench.along(joint.prismatic, length_inv).get();
@@ -166,7 +170,12 @@ fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usiz
             let joint = CompiledJoint::<C, K>::JOINT;
             if joint.parent != BASE {
                 let turn = task.turns[K];
-                wrench = wrench.to_parent::<C, K>(turn, Folded::runtime(turn.q) * length_inv);
+                let slide = Folded::runtime(turn.q) * length_inv;
+                wrench = if const { K == I } {
+                    wrench.turned_to_parent::<C, K>(slide)
+                } else {
+                    wrench.to_parent::<C, K>(turn, slide)
+                };
                 let parent = CompiledJoint::<C, K>::PARENT;
                 let entry = wrench.along(parent.prismatic, length_inv).get();
                 task.m.rows[I][joint.parent] = entry;

@@ -10,7 +10,7 @@ use core::marker::PhantomData;
 use super::compile::{Compiled, CompiledRobot};
 use super::crba::mass_matrix;
 use super::gate::EngineScene;
-use super::ltdl::{decompose, positive, substitute};
+use super::ltdl::{decompose, substitute};
 use super::pivot_noise::noise;
 use super::rnea::torques;
 use super::{Engine, Index, Specialised};
@@ -150,17 +150,15 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    // One phase after the other: as one block they would need more registers than there are.
-    let mut x = remaining::<R, C, E, B, Q, V>(trig, state, tau, effects);
-    black_box(&mut x);
+    // The bias before M: as one block they would need more registers than there are. M and its factors need fewer in one.
+    let mut rest = remaining::<R, C, E, B, Q, V>(trig, state, tau, effects);
+    black_box(&mut rest);
     let mut m = MassMatrix::ZERO;
     mass_matrix::<R, C, E, B, Q, V>(&trig.coordinates, effects, &mut m);
-    black_box(&mut m);
-    let d_inv = decompose::<R, C, V>(&mut m.rows);
-    positive(
-        &d_inv,
-        &noise::<R, C, E, B, Q, V>(&trig.coordinates, effects),
-    )?;
+    let noise = noise::<R, C, E, B, Q, V>(&trig.coordinates, effects);
+    let d_inv = decompose::<R, C, V>(&mut m.rows, &noise)?;
+    // A copy, since the array that the compiler cannot see through would stay in memory to the end.
+    let mut x = rest;
     substitute::<R, C, V>(&m.rows, &d_inv, &mut x);
     Ok(x)
 }

@@ -4,6 +4,7 @@
 //! All sums run over the ancestors of a joint, λ(i), λ(λ(i)) …
 
 use super::compile::{Compiled, CompiledRobot, JointPair};
+use super::pivot_noise::Singular;
 use super::{Engine, Index, only_if};
 use crate::algorithms::{Ltdl, MassMatrix};
 use crate::algorithms::{MATRIX_ROUNDINGS, NotPositiveDefinite};
@@ -15,7 +16,8 @@ impl<T, K> Engine<T, K> {
     ///
     /// # Cost
     /// One division for each joint, and n (n² − 1)/3 + n (n − 1)/2 flops for a chain of n joints, less on a tree; the
-    /// same instructions for all data.
+    /// same instructions for all data. Inlined, as [`Engine::solve`] is: where one follows the other, the factors stay in
+    /// registers.
     ///
     /// # Source
     /// Featherstone, RBDA (2008), table 6.3.
@@ -33,7 +35,7 @@ impl<T, K> Engine<T, K> {
     /// # Errors
     /// [`NotPositiveDefinite`] names the outermost joint whose pivot is NaN or does not exceed 32 roundings of M_ii, as
     /// [`ltdl`](crate::algorithms::ltdl()) does: it moves no inertia when its descendants are free.
-    #[inline(never)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn ltdl<R: Real, const B: usize, const Q: usize, const V: usize>(
         m: &MassMatrix<R, V>,
     ) -> Result<Ltdl<R, V>, NotPositiveDefinite>
@@ -41,14 +43,14 @@ impl<T, K> Engine<T, K> {
         T: Robot<B, Q, V>,
     {
         let mut rows = m.rows;
-        let d_inv = decompose::<R, CompiledRobot<T, B, Q, V>, V>(&mut rows);
         let mut noise = [R::ZERO; V];
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
-                noise[J] = m.rows[J][J] * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS));
+                noise[J] =
+                    rows[J][J] * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS)) + R::MIN_POSITIVE;
             }
         });
-        positive(&d_inv, &noise)?;
+        let d_inv = decompose::<R, CompiledRobot<T, B, Q, V>, V>(&mut rows, &noise)?;
         Ok(Ltdl { rows, d_inv })
     }
 
@@ -59,7 +61,7 @@ impl<T, K> Engine<T, K> {
     ///
     /// # Source
     /// RBDA (2008), table 6.4.
-    #[inline(never)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn solve<R: Real, const B: usize, const Q: usize, const V: usize>(
         factor: &Ltdl<R, V>,
@@ -74,23 +76,28 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-/// M's lower triangle becomes L; returns the reciprocals of D.
+/// M's lower triangle becomes L; returns the reciprocals of D, whose pivots must exceed `noise`.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn decompose<R: Real, C, const V: usize>(m: &mut [[R; V]; V]) -> [R; V]
+pub(crate) fn decompose<R: Real, C, const V: usize>(
+    m: &mut [[R; V]; V],
+    noise: &[R; V],
+) -> Result<[R; V], NotPositiveDefinite>
 where
     C: Compiled,
 {
-    let mut d_inv = [R::ZERO; V];
+    let (mut d_inv, mut singular) = ([R::ZERO; V], Singular::default());
     for_each_joint_reversed!(K, {
         if Index::<K, V>::IS_BELOW
             && let Some(eliminate) =
                 const { only_if(K < V, eliminate::<R, C, V, K> as fn(&mut [[R; V]; V], R)) }
         {
+            singular.note::<R, K>(m[K][K], noise[K]);
             d_inv[K] = R::ONE / m[K][K];
             eliminate(m, d_inv[K]);
         }
     });
-    d_inv
+    singular.outermost()?;
+    Ok(d_inv)
 }
 
 /// Row K of L, and its share of the rows of its ancestors.
@@ -181,41 +188,4 @@ where
             x[I] -= l[I][J] * x[J];
         }
     });
-}
-
-/// Whether all pivots are numbers and more than `noise`, given their reciprocals; the same instructions if they are.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn positive<R: Real, const V: usize>(
-    d_inv: &[R; V],
-    noise: &[R; V],
-) -> Result<(), NotPositiveDefinite> {
-    let mut all = true;
-    for_each_joint!(J, {
-        if Index::<J, V>::IS_BELOW {
-            all &= is_pivot(d_inv[J], noise[J]);
-        }
-    });
-    if all {
-        Ok(())
-    } else {
-        Err(first_bad_pivot(d_inv, noise))
-    }
-}
-
-/// Whether 0 < 1/d < ∞ and noise/d < 1, in one comparison: of zero, infinities and NaN it is false too.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn is_pivot<R: Real>(d_inv: R, noise: R) -> bool {
-    d_inv > d_inv * (d_inv * noise)
-}
-
-/// The first joint from the tips to the base whose pivot is none.
-#[cold]
-#[inline(never)]
-fn first_bad_pivot<R: Real>(d_inv: &[R], noise: &[R]) -> NotPositiveDefinite {
-    let mut pivots = d_inv.iter().zip(noise);
-    NotPositiveDefinite {
-        joint: pivots
-            .rposition(|(&d_inv, &noise)| !is_pivot(d_inv, noise))
-            .unwrap_or_default(),
-    }
 }

@@ -1,11 +1,13 @@
-//! The rounding error of the pivots of forward dynamics: relative to the largest inertia that each joint could move.
+//! The rounding error of the pivots of forward dynamics, relative to the largest inertia that each joint could move, and the
+//! joints whose pivots do not exceed it.
 //!
 //! As in [`crate::algorithms`], m, |h| and ∫ r² dm of a joint and its descendants, as if they lay in one line away from
 //! it. Turns do not change them, so that they are constants of the robot; slides and a payload add to them.
 
 use super::compile::{Compiled, CompiledJoint, JointPair, is_ancestor, joint, place, supports};
 use super::{Index, only_if};
-use crate::effects::{Declared, Effect, RegroupedInertia, call_hook};
+use crate::algorithms::NotPositiveDefinite;
+use crate::effects::{Declared, Effect, RegroupedInertia, add_inertia, call_hook};
 use crate::model::{BASE, JointCoordinate, JointKind, Link};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
@@ -100,6 +102,31 @@ const fn length(v: DVec3) -> f64 {
     v.x.abs() + v.y.abs() + v.z.abs()
 }
 
+/// The joints whose pivots are only rounding errors, as bits. Noting one takes no branch, so that the compiler can place it
+/// among the arithmetic of the next pivot.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Singular(u32);
+
+impl Singular {
+    /// Notes joint J unless its pivot is a number and more than `noise`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn note<R: Real, const J: usize>(&mut self, pivot: R, noise: R) {
+        let exceeds = pivot > noise;
+        self.0 |= u32::from(!exceeds) << J;
+    }
+
+    /// The error of the outermost joint that was noted.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn outermost(self) -> Result<(), NotPositiveDefinite> {
+        match self.0.checked_ilog2() {
+            None => Ok(()),
+            Some(joint) => Err(NotPositiveDefinite {
+                joint: joint as usize,
+            }),
+        }
+    }
+}
+
 /// The pivots that rounding may leave of a singular M: of each joint, kg·m² or kg.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn noise<R, C, E, const B: usize, const Q: usize, const V: usize>(
@@ -121,15 +148,32 @@ where
                 )
             }
         {
-            noise[J] = of_joint(turns, effects) * (R::EPSILON * R::from_f64(ROUNDINGS));
+            noise[J] = of_joint(turns, effects);
         }
     });
     noise
 }
 
-/// The largest inertia that joint I could move: a constant of robots without slides and payload.
+/// The same of joint I. A pivot that exceeds it has a finite reciprocal: neither the smallest numbers nor, of an infinite
+/// inertia, infinity does.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn of_joint<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+pub(crate) fn of_joint<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    turns: &[JointCoordinate<R>; Q],
+    effects: &E,
+) -> R
+where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    let mut size = largest_inertia::<R, C, E, B, Q, V, I>(turns, effects);
+    add_inertia(effects, I, &mut size);
+    size * (R::EPSILON * R::from_f64(ROUNDINGS)) + R::MIN_POSITIVE
+}
+
+/// The largest inertia that joint I could move, without its rotor's: a constant of robots without slides and payload.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn largest_inertia<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],
     effects: &E,
 ) -> R

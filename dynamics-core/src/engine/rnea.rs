@@ -171,6 +171,48 @@ where
 {
     let joint = CompiledJoint::<C, I>::JOINT;
     let body = own_inertia::<R, C, E, B, Q, V, I>(effects, joint, base_moves);
+    with_payloads::<R, C, E, B, Q, V, I>(effects, body)
+}
+
+/// The same in M, and the inertia of the rotor that is separated from it.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn matrix_inertia<
+    R,
+    C,
+    E,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const I: usize,
+>(
+    effects: &E,
+) -> (Inertia<R>, Folded<R>)
+where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    let joint = CompiledJoint::<C, I>::JOINT;
+    // Rotors are separated at compile time only.
+    let (body, rotor) = if const { E::BASE_PARAMETERS > 0 } {
+        let body = own_inertia::<R, C, E, B, Q, V, I>(effects, joint, false);
+        (body, Folded::ZERO)
+    } else {
+        (Inertia::in_matrix(joint), Folded::constant(joint.rotor))
+    };
+    (with_payloads::<R, C, E, B, Q, V, I>(effects, body), rotor)
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn with_payloads<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    effects: &E,
+    body: Inertia<R>,
+) -> Inertia<R>
+where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
     match const {
         only_if(
             loads::<C>(I, &E::PAYLOAD) > 0,

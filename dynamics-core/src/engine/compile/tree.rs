@@ -21,6 +21,9 @@ pub(crate) struct Joint {
     pub(crate) second: DMat3,
     /// Σ where the base moves: regrouping then keeps all of it.
     pub(crate) second_moment_only: DMat3,
+    /// Σ in M, which [`super::rotors`] leaves to it, and the inertia of its rotor.
+    pub(crate) matrix_second: DMat3,
+    pub(crate) rotor: f64,
 }
 
 /// The placement of a body of the description: x_engine = rot x_user + pos on `joint`.
@@ -52,6 +55,8 @@ pub(super) const PADDING_JOINT: Joint = Joint {
     moment: DVec3::ZERO,
     second: DMat3::ZERO,
     second_moment_only: DMat3::ZERO,
+    matrix_second: DMat3::ZERO,
+    rotor: 0.0,
 };
 
 /// The base itself.

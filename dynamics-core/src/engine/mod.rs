@@ -60,6 +60,7 @@ mod crba;
 mod displacement;
 mod folding;
 mod forward_dynamics;
+mod free_base;
 mod gate;
 mod jacobian;
 mod joint_rates;

@@ -6,11 +6,11 @@
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 
-use super::acceleration_field::{Inertia, Wrench, along_z};
+use super::acceleration_field::{Inertia, Wrench};
 use super::base::no_gyroscopic_rotors;
-use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointPair};
+use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointMotion, JointPair};
+use super::displacement::Displacement;
 use super::folding::Folded;
-use super::folding::Vec3;
 use super::gate::EngineScene;
 use super::rnea::matrix_inertia;
 use super::{Engine, Specialised, only_if};
@@ -114,7 +114,15 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    let (mut body, rotor) = matrix_inertia::<R, C, E, B, Q, V, I>(task.effects);
+    let (mut body, mut rotor) = (Inertia::NONE, Folded::ZERO);
+    if let Some(inertia) = const {
+        only_if(
+            CompiledJoint::<C, I>::LAST == I,
+            matrix_inertia::<R, C, E, B, Q, V, I> as fn(&E) -> (Inertia<R>, Folded<R>),
+        )
+    } {
+        (body, rotor) = inertia(task.effects);
+    }
     for_each_joint!(J, {
         if JointPair::<C, I, J>::IS_PARENT
             && let Some(composite) = const {
@@ -127,41 +135,48 @@ where
             body = body + composite(task);
         }
     });
-    let about_z = body.second.xx + body.second.yy + rotor;
-    // Of the turned body, so that column I and the composite of the parent share the turn's products.
-    let (turn, length_inv) = (task.turns[I], Folded::constant(C::LENGTH_INV));
-    let body = body.turned::<C, I>(turn);
-    column::<R, C, E, B, Q, V, I>(task, &body, about_z);
-    body.turned_to_parent::<C, I>(Folded::runtime(turn.q) * length_inv)
+    let at = Displacement::of::<C, Q, I>(task.turns);
+    let joint = CompiledJoint::<C, I>::JOINT;
+    let length_inv = Folded::constant(C::LENGTH_INV);
+    let turned = body.turned::<C, I>(&at);
+    if const { keeps_axis(CompiledJoint::<C, I>::MOTION) } {
+        // Of the turned body, so that column I and the composite of the parent share the turn's products.
+        let mut wrench = turned.wrench_of(joint, length_inv);
+        if !joint.prismatic {
+            wrench.n.0[2] = body.second.xx + body.second.yy + rotor;
+        }
+        column::<R, C, E, B, Q, V, I>(task, wrench.along(joint, length_inv), &wrench);
+    } else {
+        let wrench = body.wrench_of(joint, length_inv);
+        let diagonal = wrench.along(joint, length_inv);
+        column::<R, C, E, B, Q, V, I>(task, diagonal, &wrench.turned::<C, I>(&at));
+    }
+    turned.turned_to_parent::<C, I>(&at)
 }
 
-/// Column I of M: the wrench of joint I's unit acceleration, projected on each ancestor; of a body in the axes of joint I at
-/// q = 0, and its inertia about the joint's axis.
+/// Whether a rotation of the joint's body leaves the axis of its coordinate as it is: body and wrench may be turned in either
+/// order. The axes of planar, spherical and free joints turn with the body.
+const fn keeps_axis(motion: JointMotion) -> bool {
+    matches!(
+        motion,
+        JointMotion::Turn | JointMotion::Slide | JointMotion::Screw
+    )
+}
+
+/// Column I of M: its diagonal entry, and the wrench of joint I's unit acceleration, in the joint's frame, projected on each
+/// ancestor.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
-    body: &Inertia<R>,
-    about_z: Folded<R>,
+    diagonal: Folded<R>,
+    wrench: &Wrench<R>,
 ) where
     R: Real,
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    let joint = CompiledJoint::<C, I>::JOINT;
+    let (mut diagonal, mut wrench) = (diagonal.get(), *wrench);
     let length_inv = Folded::constant(C::LENGTH_INV);
-    let ([hx, hy, _], s) = (body.moment.0, &body.second);
-    let mut wrench = if joint.prismatic {
-        Wrench {
-            f: along_z(body.mass * length_inv),
-            n: Vec3([hy, -hx, Folded::ZERO]).scale(length_inv),
-        }
-    } else {
-        Wrench {
-            f: Vec3([-hy, hx, Folded::ZERO]),
-            n: Vec3([-s.xz, -s.yz, about_z]),
-        }
-    };
-    let mut diagonal = wrench.along(joint.prismatic, length_inv).get();
     add_inertia(task.effects, I, &mut diagonal);
     task.m.rows[I][I] = diagonal;
     // From joint I to the base: parents come before their children.
@@ -169,15 +184,14 @@ fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usiz
         if JointPair::<C, K, I>::SUPPORTS {
             let joint = CompiledJoint::<C, K>::JOINT;
             if joint.parent != BASE {
-                let turn = task.turns[K];
-                let slide = Folded::runtime(turn.q) * length_inv;
+                let at = Displacement::of::<C, Q, K>(task.turns);
                 wrench = if const { K == I } {
-                    wrench.turned_to_parent::<C, K>(slide)
+                    wrench.turned_to_parent::<C, K>(&at)
                 } else {
-                    wrench.to_parent::<C, K>(turn, slide)
+                    wrench.to_parent::<C, K>(&at)
                 };
                 let parent = CompiledJoint::<C, K>::PARENT;
-                let entry = wrench.along(parent.prismatic, length_inv).get();
+                let entry = wrench.along(parent, length_inv).get();
                 task.m.rows[I][joint.parent] = entry;
                 task.m.rows[joint.parent][I] = entry;
             }

@@ -10,9 +10,9 @@ use core::marker::PhantomData;
 
 use super::acceleration_field::{Inertia, Wrench, along_z};
 use super::base::unaccelerated;
-use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointPair};
+use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion, JointPair};
 use super::folding::{Folded, Mat3, Series, Sym3, Turn, Vec3};
-use super::folding::{offset_cross, rotate_to_parent};
+use super::folding::{constant_offset_cross, rotate_to_parent};
 use super::gate::EngineScene;
 use super::rnea::inertia;
 use super::{Engine, Specialised, has_subtree_functions, only_if};
@@ -37,12 +37,7 @@ impl<T, K> Engine<T, K> {
         E: Effect<R, B, V>,
     {
         const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        const {
-            assert!(
-                !has_subtree_functions(V),
-                "the engine takes elastic joints of up to 16 moving bodies; use `Core`"
-            )
-        };
+        const { takes_elastic_joints::<CompiledRobot<T, B, Q, V>>() };
         let trig: JointTrig<R, Q> = Specialised::<T, K, B, V>(PhantomData).compute(&state.q);
         let mut tau = [[R::ZERO; 3]; V];
         let mut task = Task {
@@ -68,6 +63,22 @@ impl<T, K> Engine<T, K> {
             }
         });
         tau
+    }
+}
+
+/// A robot whose joints may be elastic here.
+const fn takes_elastic_joints<C: Compiled>() {
+    assert!(
+        !has_subtree_functions::<C>(),
+        "the engine takes elastic joints of up to 16 moving bodies; use `Core`"
+    );
+    let mut i = 0;
+    while i < C::JOINTS.len() {
+        assert!(
+            matches!(C::JOINTS[i].motion, JointMotion::Turn | JointMotion::Slide),
+            "the engine takes elastic joints that are revolute or prismatic; use `Core`"
+        );
+        i += 1;
     }
 }
 
@@ -326,11 +337,11 @@ impl<R: Real> WrenchSeries<R> {
             rotate_to_parent::<R, C, I>(f1),
             rotate_to_parent::<R, C, I>(f2),
         ]);
-        let ([f0, f1, f2], zero) = (f.0, Folded::ZERO);
+        let [f0, f1, f2] = f.0;
         let mut n = Series([
-            rotate_to_parent::<R, C, I>(n0) + offset_cross::<R, C, I>(f0, zero),
-            rotate_to_parent::<R, C, I>(n1) + offset_cross::<R, C, I>(f1, zero),
-            rotate_to_parent::<R, C, I>(n2) + offset_cross::<R, C, I>(f2, zero),
+            rotate_to_parent::<R, C, I>(n0) + constant_offset_cross::<R, C, I>(f0),
+            rotate_to_parent::<R, C, I>(n1) + constant_offset_cross::<R, C, I>(f1),
+            rotate_to_parent::<R, C, I>(n2) + constant_offset_cross::<R, C, I>(f2),
         ]);
         if CompiledJoint::<C, I>::PRISMATIC {
             let axis = Vec3::constant(CompiledJoint::<C, I>::JOINT.rot.z_axis);

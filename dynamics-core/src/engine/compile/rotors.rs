@@ -21,7 +21,8 @@ pub(super) const fn separate_rotors<const V: usize>(joints: &mut [Joint; V]) {
     while i > 0 {
         i -= 1;
         let child = joints[i];
-        if child.parent == BASE {
+        // The axes of a planar, spherical or free joint turn with its body, which keeps its Σ.
+        if child.parent == BASE || child.count > 1 {
             continue;
         }
         let second = child.matrix_second;

@@ -195,6 +195,25 @@ impl<R: Real> Inertia<R> {
     }
 }
 
+impl<R: Real> Inertia<R> {
+    /// The wrench of its unit acceleration along a joint at the origin, and its momentum at unit rate.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn of_unit_rate(&self, prismatic: bool, length_inv: Folded<R>) -> Wrench<R> {
+        let ([hx, hy, _], s) = (self.moment.0, &self.second);
+        if prismatic {
+            Wrench {
+                f: along_z(self.mass * length_inv),
+                n: Vec3([hy, -hx, Folded::ZERO]).scale(length_inv),
+            }
+        } else {
+            Wrench {
+                f: Vec3([-hy, hx, Folded::ZERO]),
+                n: Vec3([-s.xz, -s.yz, s.xx + s.yy]),
+            }
+        }
+    }
+}
+
 impl<R: Real> Add for Inertia<R> {
     type Output = Self;
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -208,6 +227,17 @@ impl<R: Real> Add for Inertia<R> {
 }
 
 impl<R: Real> AccelerationField<R> {
+    /// That of a base at rest, in its pose.
+    pub(crate) const RESTING: Self = Self {
+        omega: Vec3::ZERO,
+        omega_products: Vec3::ZERO,
+        alpha: Vec3::ZERO,
+        u: Mat3::ZERO,
+        a: Vec3::ZERO,
+        v: Vec3::ZERO,
+        pose: Pose::BASE,
+    };
+
     /// The field of a child behind a revolute joint.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn across_revolute(

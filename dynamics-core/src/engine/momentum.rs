@@ -289,7 +289,7 @@ where
 
 /// The momentum I v of a body: m v + ω × h, and h × v + tr(Σ) ω − Σ ω.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn momentum<R: Real>(body: &AccelerationField<R>, inertia: &Inertia<R>) -> Wrench<R> {
+pub(super) fn momentum<R: Real>(body: &AccelerationField<R>, inertia: &Inertia<R>) -> Wrench<R> {
     let (s, [wx, wy, wz]) = (&inertia.second, body.omega.0);
     let (xy, xz, yz) = (s.xx + s.yy, s.xx + s.zz, s.yy + s.zz);
     let spin = Vec3([

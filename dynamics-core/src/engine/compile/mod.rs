@@ -11,10 +11,12 @@
 
 mod base_parameters;
 mod prune;
+mod remainder;
 mod snap;
 mod topology;
 mod tree;
 
+pub(crate) use remainder::{Distribution, Remainder};
 pub(crate) use topology::{
     Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair, is_ancestor, is_parent, joint,
     load, loads, place, supports,

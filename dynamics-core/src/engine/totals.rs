@@ -1,0 +1,188 @@
+//! Sums over all bodies in one pass: mass, first moment, momentum and kinetic energy. What a function does not read of them is not
+//! in its machine code.
+//!
+//! Regrouping to base parameters moves mass along a joint's axis, where it moves with both links: it changes none of these sums
+//! but by what it leaves to the base.
+
+use core::marker::PhantomData;
+use core::ops::Add;
+
+use super::acceleration_field::{AccelerationField, Inertia, JointRates, Wrench};
+use super::compile::{Compiled, Distribution, Remainder};
+use super::folding::{Folded, Mat3, Sym3, Vec3};
+use super::momentum::momentum;
+use super::pass::{Pass, moved, sweep};
+use super::pose::Pose;
+use super::rnea::inertia;
+use crate::effects::{Declared, Effect, add_inertia, base_given};
+use crate::model::JointCoordinate;
+use crate::scalar::Real;
+
+/// The sums over a body and its descendants, about the origin of the parent, in its frame and in units of length.
+#[derive(Clone, Copy)]
+pub(super) struct Totals<R> {
+    pub(super) mass: Folded<R>,
+    pub(super) moment: Vec3<R>,
+    pub(super) momentum: Wrench<R>,
+    /// Twice the kinetic energy.
+    pub(super) twice: Folded<R>,
+}
+
+impl<R: Real> Add for Totals<R> {
+    type Output = Self;
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn add(self, o: Self) -> Self {
+        Self {
+            mass: self.mass + o.mass,
+            moment: self.moment + o.moment,
+            momentum: self.momentum + o.momentum,
+            twice: self.twice + o.twice,
+        }
+    }
+}
+
+impl<R: Real> Totals<R> {
+    /// The centre of mass, m; the base's origin if there is no mass. And 1/m, 1/kg; then zero.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn centre(&self, length: f64) -> (R::Vec3, R) {
+        centre(self.mass, self.moment, length)
+    }
+}
+
+/// The centre of mass of a mass and a first moment in units of length, m, and the reciprocal of the mass, 1/kg.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn centre<R: Real>(mass: Folded<R>, moment: Vec3<R>, length: f64) -> (R::Vec3, R) {
+    let mass = (mass * Folded::constant(1.0 / (length * length))).get();
+    let mass_inv = if mass > R::ZERO {
+        R::ONE / mass
+    } else {
+        R::ZERO
+    };
+    let moment = moment.scale(Folded::constant(1.0 / length)).get();
+    (moment * mass_inv, mass_inv)
+}
+
+/// The totals of all bodies of a robot at rates `qd`, or at rest without them, with what is fixed to the base. With WHOLE, of
+/// which the momentum needs all of Σ.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn totals<
+    R: Real,
+    C: Compiled,
+    E,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const WHOLE: bool,
+>(
+    turns: &[JointCoordinate<R>; Q],
+    qd: Option<&[R; V]>,
+    effects: &E,
+) -> Totals<R>
+where
+    E: Effect<R, B, V>,
+{
+    let mut base = AccelerationField {
+        pose: Pose::UNKNOWN,
+        ..AccelerationField::RESTING
+    };
+    let moves = E::BASE_MOTION && qd.is_some();
+    if moves {
+        let (v, _) = base_given(effects);
+        base.omega = Vec3::runtime(v.ang);
+        base.v = Vec3::runtime(v.lin).scale(Folded::constant(C::LENGTH_INV));
+    }
+    let mut pass = Sums::<R, C, E, B, Q, V, WHOLE> {
+        turns,
+        qd,
+        effects,
+        robot: PhantomData,
+    };
+    let moving = sweep::<R, C, _>(&mut pass, &base);
+    moving + of_body(&base, &fixed(Remainder::<C, B, V>::AT_BASE))
+}
+
+/// What is fixed to the base.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn fixed<R: Real>(at_base: &'static Distribution) -> Inertia<R> {
+    Inertia {
+        mass: Folded::constant(at_base.mass),
+        moment: Vec3::constant(at_base.moment),
+        second: Sym3::of(&Mat3::constant(&at_base.second)),
+    }
+}
+
+/// The totals of one body.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn of_body<R: Real>(body: &AccelerationField<R>, own: &Inertia<R>) -> Totals<R> {
+    let h = momentum(body, own);
+    Totals {
+        mass: own.mass,
+        moment: own.moment,
+        momentum: h,
+        twice: h.f.dot(body.v) + h.n.dot(body.omega),
+    }
+}
+
+struct Sums<'a, R, C, E, const B: usize, const Q: usize, const V: usize, const WHOLE: bool> {
+    turns: &'a [JointCoordinate<R>; Q],
+    qd: Option<&'a [R; V]>,
+    effects: &'a E,
+    robot: PhantomData<C>,
+}
+
+impl<R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize, const WHOLE: bool>
+    Pass<R, C> for Sums<'_, R, C, E, B, Q, V, WHOLE>
+where
+    E: Effect<R, B, V>,
+{
+    type Outward = AccelerationField<R>;
+    type Inward = Totals<R>;
+    const NOTHING: Totals<R> = Totals {
+        mass: Folded::ZERO,
+        moment: Vec3::ZERO,
+        momentum: Wrench::ZERO,
+        twice: Folded::ZERO,
+    };
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn enter<const I: usize>(&mut self, parent: &AccelerationField<R>) -> AccelerationField<R> {
+        let rates = JointRates {
+            velocity: match self.qd {
+                Some(qd) => Folded::runtime(qd[I]),
+                None => Folded::ZERO,
+            },
+            omega_products: Folded::ZERO,
+            accel: Folded::ZERO,
+        };
+        moved::<R, C, Q, I>(parent, self.turns, rates)
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn leave<const I: usize>(
+        &mut self,
+        body: &AccelerationField<R>,
+        inner: Totals<R>,
+    ) -> Totals<R> {
+        let own = inertia::<R, C, E, B, Q, V, I>(self.effects, WHOLE | E::BASE_MOTION);
+        let mut here = of_body(body, &own) + inner;
+        if let Some(qd) = self.qd {
+            let mut rotor = R::ZERO;
+            add_inertia(self.effects, I, &mut rotor);
+            here.twice = here.twice + Folded::runtime(rotor * qd[I] * qd[I]);
+        }
+        let turn = self.turns[I];
+        let slide = Folded::runtime(turn.q) * Folded::constant(C::LENGTH_INV);
+        let mass = Inertia {
+            mass: here.mass,
+            moment: here.moment,
+            second: Sym3::ZERO,
+        };
+        let mass = mass.to_parent::<C, I>(turn, slide);
+        Totals {
+            mass: mass.mass,
+            moment: mass.moment,
+            momentum: here.momentum.to_parent::<C, I>(turn, slide),
+            twice: here.twice,
+        }
+    }
+}

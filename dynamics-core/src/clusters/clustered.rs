@@ -7,8 +7,10 @@ use super::layout::{EXPANDED, NONE};
 use super::set::{TreeState, sealed::Set};
 use super::{ClusterError, ClusteredRobot, TreeMotion};
 use crate::algorithms::rnea;
-use crate::effects::{Effect, JointState, OfBodies, no_load_friction};
-use crate::engine::{CompiledJoint, CompiledRobot, Index, for_each_joint, has_subtree_functions};
+use crate::effects::{Effect, OfBodies, no_load_friction};
+use crate::engine::{
+    CompiledJoint, CompiledRobot, Index, for_each_joint, has_subtree_functions, joint_state,
+};
 use crate::model::{JointCoordinate, Robot, RobotModel, Static};
 use crate::scalar::Real;
 use crate::state::{JointTrig, State, entry};
@@ -120,12 +122,7 @@ where
     {
         for_each_joint!(J, {
             if TreeCoordinate::<T, B, Q, V, P, Y, J>::IS_FREE {
-                // The engine takes joints of one coordinate only: J is the place of the position, too.
-                turns[J] = match TreeCoordinate::<T, B, Q, V, P, Y, J>::JOINT {
-                    (true, _) => JointCoordinate::linear(q[J]),
-                    (false, true) => JointCoordinate::revolute_bounded::<K>(q[J]),
-                    (false, false) => JointCoordinate::with_kernel::<K>(q[J]),
-                };
+                CompiledJoint::<CompiledRobot<T, B, Q, V>, J>::turn::<R, K, Q>(q, turns);
             }
         });
     }
@@ -136,22 +133,18 @@ where
         state: &State<R, Q, V>,
         effects: &E,
     ) -> [R; V] {
-        if const { !has_subtree_functions(V) } {
+        if const { !has_subtree_functions::<CompiledRobot<T, B, Q, V>>() } {
             return Engine::<T>::run(trig, trig, state, effects);
         }
         // Functions of subtrees get the state in memory, and with it angles of which only effects at joints read more
         // than sine and cosine: these are added here.
-        let mut turns = JointTrig {
-            coordinates: [JointCoordinate::default(); Q],
-        };
+        let mut turns = *trig;
         for_each_joint!(J, {
-            if Index::<J, V>::IS_BELOW {
-                let of = &trig.coordinates[J];
-                turns.coordinates[J] = if CompiledJoint::<CompiledRobot<T, B, Q, V>, J>::PRISMATIC {
-                    *of
-                } else {
-                    JointCoordinate { q: R::ZERO, ..*of }
-                };
+            if Index::<J, V>::IS_BELOW
+                && CompiledJoint::<CompiledRobot<T, B, Q, V>, J>::IS_TURN
+                && let Some(k) = CompiledJoint::<CompiledRobot<T, B, Q, V>, J>::POSITION
+            {
+                turns.coordinates[k].q = R::ZERO;
             }
         });
         let at_zero = State {
@@ -161,7 +154,8 @@ where
         let mut tau = Engine::<T>::run(&turns, &turns, &at_zero, &OfBodies(effects));
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
-                effects.torque(J, JointState::new(state.q[J], state.qd[J]), &mut tau[J]);
+                let at = joint_state::<R, CompiledRobot<T, B, Q, V>, Q, V, J>(state);
+                effects.torque(J, at, &mut tau[J]);
                 if let Some(inertia) = effects.inertia(J) {
                     tau[J] += inertia * state.qdd[J];
                 }

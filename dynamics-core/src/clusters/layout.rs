@@ -195,20 +195,6 @@ const fn is_near(link: &Link<f64>) -> bool {
     link.limits.within_two_turns()
 }
 
-/// Whether the joint of velocity coordinate `v` is prismatic, and whether its limits are within ±4π.
-pub(super) const fn joint<const B: usize, const Q: usize, const V: usize>(
-    model: &Model<f64, B, Q, V>,
-    v: usize,
-) -> (bool, bool) {
-    let mut i = 0;
-    while i + 1 < B && model.links[i].idx_v != v {
-        i += 1;
-    }
-    let link = &model.links[i];
-    let prismatic = matches!(link.joint.kind, JointKind::Prismatic);
-    (prismatic, is_near(link))
-}
-
 /// An entry of a list, or [`NONE`] behind its end: for constants that are evaluated where they are not used, too.
 pub(super) const fn at(list: &[usize], i: usize) -> usize {
     if i < list.len() { list[i] } else { NONE }

@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::layout::{Layout, NONE, at, independent, joint};
+use super::layout::{Layout, NONE, at, independent};
 use super::set::sealed::Set;
 use super::{Cluster, ClusteredRobot};
 
@@ -60,8 +60,6 @@ where
     /// Whether there is such a velocity coordinate, in no cluster.
     pub(super) const IS_FREE: bool =
         J < V && TreeLayout::<T, B, Q, V, P, Y>::LAYOUT.cluster[J] == NONE;
-    /// Whether its joint is prismatic, and whether that has limits within ±4π.
-    pub(super) const JOINT: (bool, bool) = joint(&T::MODEL, J);
 }
 
 /// Row J of the I-th cluster.

@@ -8,9 +8,10 @@ use core::borrow::Borrow;
 use core::hint::black_box;
 use core::marker::PhantomData;
 
-use super::acceleration_field::{Wrench, enter};
+use super::acceleration_field::{Inertia, Wrench};
 use super::articulated_inertia::Articulated;
-use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointPair};
+use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointMotion, JointPair};
+use super::displacement::Displacement;
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::forward_dynamics::remaining;
@@ -148,8 +149,15 @@ where
 {
     let joint = CompiledJoint::<C, I>::JOINT;
     let length_inv = Folded::constant(C::LENGTH_INV);
-    let body = inertia::<R, C, E, B, Q, V, I>(task.effects, false);
-    let mut ia = Articulated::of(&body);
+    let mut ia = Articulated::of(&Inertia::NONE);
+    if let Some(inertia) = const {
+        only_if(
+            CompiledJoint::<C, I>::LAST == I,
+            inertia::<R, C, E, B, Q, V, I> as fn(&E, bool) -> Inertia<R>,
+        )
+    } {
+        ia = Articulated::of(&inertia(task.effects, false));
+    }
     let mut push = Wrench {
         f: Vec3::ZERO,
         n: Vec3::ZERO,
@@ -171,19 +179,12 @@ where
             };
         }
     });
-    let (n, f) = if joint.prismatic {
-        let [_, _, n] = ia.coupling.0;
-        let [_, _, f] = ia.lin.columns();
-        (n.scale(length_inv), f.scale(length_inv))
-    } else {
-        let [_, _, n] = ia.ang.columns();
-        let [_, _, f] = ia.coupling.rows();
-        (n, f)
-    };
-    let mut d = Wrench { f, n }.along(joint.prismatic, length_inv).get();
+    let own = ia.wrench_of(joint, length_inv);
+    let (n, f) = (own.n, own.f);
+    let mut d = own.along(joint, length_inv).get();
     add_inertia(task.effects, I, &mut d);
     let d_inv = R::ONE / d;
-    let rest = Folded::runtime(task.x[I]) - push.along(joint.prismatic, length_inv);
+    let rest = Folded::runtime(task.x[I]) - push.along(joint, length_inv);
     let ([nx, ny, nz], [fx, fy, fz]) = (n.0, f.0);
     task.u[I] = [nx.get(), ny.get(), nz.get(), fx.get(), fy.get(), fz.get()];
     task.d_inv[I] = d_inv;
@@ -194,12 +195,11 @@ where
         f: push.f + f.scale(gain),
         n: push.n + n.scale(gain),
     };
-    let turn = task.turns[I];
-    let slide = Folded::runtime(turn.q) * length_inv;
+    let at = Displacement::of::<C, Q, I>(task.turns);
     (
         ia.minus_joint(n, f, Folded::runtime(d_inv))
-            .to_parent::<C, I>(turn, slide),
-        push.to_parent::<C, I>(turn, slide),
+            .to_parent::<C, I>(&at),
+        push.to_parent::<C, I>(&at),
     )
 }
 
@@ -215,34 +215,32 @@ fn outward<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usi
 {
     let joint = CompiledJoint::<C, I>::JOINT;
     let length_inv = Folded::constant(C::LENGTH_INV);
-    let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
-    let turn = task.turns[I];
+    let (rot, mut p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
+    let at = Displacement::of::<C, Q, I>(task.turns);
+    if CompiledJoint::<C, I>::SHIFTS {
+        p = p + at.shift::<C, I>();
+    }
     // Plain numbers: what is known of them ends with the first joints, which are at rest.
     let (mut alpha, mut a) = if joint.parent == BASE {
         (Vec3::ZERO, Vec3::ZERO)
     } else {
         (Vec3::runtime(alpha), Vec3::runtime(a))
     };
-    (alpha, a) = if joint.prismatic {
-        let p = p + rot.0[2].scale(Folded::runtime(turn.q) * length_inv);
-        (
-            rot.transpose_mul(alpha),
-            rot.transpose_mul(a + alpha.cross(p)),
-        )
-    } else {
-        (
-            enter(&rot, turn, alpha),
-            enter(&rot, turn, a + alpha.cross(p)),
-        )
-    };
+    (alpha, a) = (
+        at.enter::<C, I>(&rot, alpha),
+        at.enter::<C, I>(&rot, a + alpha.cross(p)),
+    );
     let [nx, ny, nz, fx, fy, fz] = task.u[I].map(Folded::runtime);
     let lost = Vec3([nx, ny, nz]).dot(alpha) + Vec3([fx, fy, fz]).dot(a);
     let qdd = (Folded::runtime(task.x[I]) - lost) * Folded::runtime(task.d_inv[I]);
     task.x[I] = qdd.get();
     if joint.prismatic {
-        a.0[2] = a.0[2] + qdd * length_inv;
+        a.0[joint.axis] = a.0[joint.axis] + qdd * length_inv;
     } else {
-        alpha.0[2] = alpha.0[2] + qdd;
+        alpha.0[joint.axis] = alpha.0[joint.axis] + qdd;
+    }
+    if matches!(joint.motion, JointMotion::Screw) {
+        a.0[2] = a.0[2] + qdd * Folded::constant(joint.pitch);
     }
     for_each_joint!(J, {
         if JointPair::<C, I, J>::IS_PARENT

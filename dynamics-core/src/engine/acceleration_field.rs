@@ -15,10 +15,12 @@
 
 use core::ops::Add;
 
-use super::compile::{Compiled, CompiledJoint, Joint};
+use super::compile::{Compiled, CompiledJoint, Joint, JointMotion};
+use super::displacement::Displacement;
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
 use super::folding::{offset_cross, rotate_symmetric_to_parent, rotate_to_parent};
+use super::joint_rates::{JointRates, SeveralRates};
 use super::pose::Pose;
 use crate::effects::RegroupedInertia;
 use crate::model::{BASE, JointCoordinate};
@@ -43,15 +45,6 @@ pub(crate) struct AccelerationField<R> {
     pub(crate) pose: Pose<R>,
 }
 
-/// Rates of a joint, in units of length; zero where no effect needs them.
-#[derive(Clone, Copy)]
-pub(crate) struct JointRates<R> {
-    pub(crate) velocity: Folded<R>,
-    /// The velocity in the velocity products.
-    pub(crate) omega_products: Folded<R>,
-    pub(crate) accel: Folded<R>,
-}
-
 /// The base parameters of a body, or of a body and its descendants: m, h and Σ, in units of length.
 #[derive(Clone, Copy)]
 pub(crate) struct Inertia<R> {
@@ -73,35 +66,29 @@ impl<R: Real> Wrench<R> {
         n: Vec3::ZERO,
     };
 
-    /// The component along a joint at the origin: N·m about z, or N along z.
+    /// The component along a joint's coordinate at the origin: N·m about its axis, or N along it.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn along(&self, prismatic: bool, length_inv: Folded<R>) -> Folded<R> {
-        if prismatic {
-            self.f.0[2] * length_inv
+    pub(crate) fn along(&self, joint: &Joint, length_inv: Folded<R>) -> Folded<R> {
+        if joint.prismatic {
+            self.f.along_axis(joint.axis) * length_inv
+        } else if matches!(joint.motion, JointMotion::Screw) {
+            self.n.0[2] + self.f.0[2] * Folded::constant(joint.pitch)
         } else {
-            self.n.0[2]
+            self.n.along_axis(joint.axis)
         }
     }
 
     /// The same in the frame of joint I's parent and about its origin.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn to_parent<C, const I: usize>(
-        self,
-        turn: JointCoordinate<R>,
-        slide: Folded<R>,
-    ) -> Self
+    pub(crate) fn to_parent<C, const I: usize>(self, at: &Displacement<R>) -> Self
     where
         C: Compiled,
     {
-        let (mut f, mut n) = (self.f, self.n);
-        if !CompiledJoint::<C, I>::PRISMATIC {
-            let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
-            (f, n) = (f.turn(sin, cos), n.turn(sin, cos));
-        }
+        let (f, n) = (at.leave::<C, I>(self.f), at.leave::<C, I>(self.n));
         let f = rotate_to_parent::<R, C, I>(f);
         Self {
             f,
-            n: rotate_to_parent::<R, C, I>(n) + offset_cross::<R, C, I>(f, slide),
+            n: rotate_to_parent::<R, C, I>(n) + offset_cross::<R, C, I>(f, at),
         }
     }
 }
@@ -118,6 +105,54 @@ impl<R: Real> Add for Wrench<R> {
 }
 
 impl<R: Real> Inertia<R> {
+    /// No body.
+    pub(crate) const NONE: Self = Self {
+        mass: Folded::ZERO,
+        moment: Vec3::ZERO,
+        second: Sym3::ZERO,
+    };
+
+    /// The wrench of a unit acceleration along a joint's coordinate.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn wrench_of(&self, joint: &Joint, length_inv: Folded<R>) -> Wrench<R> {
+        let (zero, [hx, hy, hz], s) = (Folded::ZERO, self.moment.0, &self.second);
+        if joint.prismatic {
+            let (m, x, y, z) = (
+                self.mass * length_inv,
+                hx * length_inv,
+                hy * length_inv,
+                hz * length_inv,
+            );
+            let (f, n) = match joint.axis {
+                0 => ([m, zero, zero], [zero, z, -y]),
+                1 => ([zero, m, zero], [-z, zero, x]),
+                _ => ([zero, zero, m], [y, -x, zero]),
+            };
+            return Wrench {
+                f: Vec3(f),
+                n: Vec3(n),
+            };
+        }
+        let (f, n) = match joint.axis {
+            0 => ([zero, -hz, hy], [s.yy + s.zz, -s.xy, -s.xz]),
+            1 => ([hz, zero, -hx], [-s.xy, s.xx + s.zz, -s.yz]),
+            _ => ([-hy, hx, zero], [-s.xz, -s.yz, s.xx + s.yy]),
+        };
+        let turn = Wrench {
+            f: Vec3(f),
+            n: Vec3(n),
+        };
+        if matches!(joint.motion, JointMotion::Screw) {
+            let pitch = Folded::constant(joint.pitch);
+            let slide = Wrench {
+                f: along_z(self.mass * pitch),
+                n: Vec3([hy, -hx, zero]).scale(pitch),
+            };
+            return turn + slide;
+        }
+        turn
+    }
+
     /// The inertia left to a body.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of(joint: &Joint) -> Self {
@@ -137,79 +172,60 @@ impl<R: Real> Inertia<R> {
         }
     }
 
-    /// The inertia that loaded base parameters leave to a body; what is zero of every robot is a known zero.
+    /// The inertia that loaded base parameters leave to a body, which coordinate `by` moves; what is zero of every robot is a
+    /// known zero.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn loaded(body: &RegroupedInertia<R>, joint: &Joint, base_moves: bool) -> Self {
-        let ([x, y, z], [xx, xy, xz, yy, yz]) = (
+    pub(crate) fn loaded(body: &RegroupedInertia<R>, by: &Joint, base_moves: bool) -> Self {
+        let ([x, y, z], [xx, xy, xz, yy, yz, zz]) = (
             body.moment.map(Folded::runtime),
             body.second.map(Folded::runtime),
         );
         let (zero, mut second) = (Folded::ZERO, Sym3::ZERO);
-        if joint.prismatic {
-            return Self {
-                mass: Folded::runtime(body.mass),
-                moment: Vec3([x, y, z]),
-                second,
-            };
+        let (mut mass, mut z) = (Folded::runtime(body.mass), z);
+        use JointMotion::*;
+        match by.motion {
+            Slide => {}
+            Turn | Screw | Planar if by.parent == BASE && !base_moves => {
+                // A base at rest leaves one rotation, about z, which depends on Σ_xx + Σ_yy alone.
+                second.xx = xx + yy;
+            }
+            _ => {
+                (second.xx, second.yy) = (xx, yy);
+                (second.xy, second.xz, second.yz) = (xy, xz, yz);
+            }
         }
-        if joint.parent == BASE && !base_moves {
-            // A base at rest leaves one rotation, about z, which depends on Σ_xx + Σ_yy alone.
-            second.xx = xx + yy;
-        } else {
-            (second.xx, second.yy) = (xx, yy);
-            (second.xy, second.xz, second.yz) = (xy, xz, yz);
+        match by.motion {
+            Turn => (mass, z) = (zero, zero),
+            Spherical => (mass, second.zz) = (zero, zz),
+            Free => second.zz = zz,
+            _ => {}
         }
         Self {
-            mass: zero,
-            moment: Vec3([x, y, zero]),
+            mass,
+            moment: Vec3([x, y, z]),
             second,
         }
     }
 
     /// The same in the frame of joint I's parent and about its origin.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn to_parent<C, const I: usize>(
-        self,
-        turn: JointCoordinate<R>,
-        slide: Folded<R>,
-    ) -> Self
+    pub(crate) fn to_parent<C, const I: usize>(self, at: &Displacement<R>) -> Self
     where
         C: Compiled,
     {
         let joint = CompiledJoint::<C, I>::JOINT;
         let mut p = Vec3::constant(joint.pos);
-        let (mut h, mut second) = (self.moment, self.second);
-        if CompiledJoint::<C, I>::PRISMATIC {
-            p = p + Vec3::constant(joint.rot.z_axis).scale(slide);
-        } else {
-            let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
-            (h, second) = (h.turn(sin, cos), second.turn(sin, cos));
+        if CompiledJoint::<C, I>::SHIFTS {
+            p = p + at.shift::<C, I>();
         }
+        let h = at.leave::<C, I>(self.moment);
+        let second = at.leave_symmetric::<C, I>(self.second);
         let h = rotate_to_parent::<R, C, I>(h);
         let second = rotate_symmetric_to_parent::<R, C, I>(second);
         Self {
             mass: self.mass,
             moment: h + p.scale(self.mass),
             second: second + Sym3::both(h, p) + Sym3::square(p, self.mass),
-        }
-    }
-}
-
-impl<R: Real> Inertia<R> {
-    /// The wrench of its unit acceleration along a joint at the origin, and its momentum at unit rate.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn of_unit_rate(&self, prismatic: bool, length_inv: Folded<R>) -> Wrench<R> {
-        let ([hx, hy, _], s) = (self.moment.0, &self.second);
-        if prismatic {
-            Wrench {
-                f: along_z(self.mass * length_inv),
-                n: Vec3([hy, -hx, Folded::ZERO]).scale(length_inv),
-            }
-        } else {
-            Wrench {
-                f: Vec3([-hy, hx, Folded::ZERO]),
-                n: Vec3([-s.xz, -s.yz, s.xx + s.yy]),
-            }
         }
     }
 }
@@ -238,9 +254,24 @@ impl<R: Real> AccelerationField<R> {
         pose: Pose::BASE,
     };
 
+    /// The field of a child behind joint I of one coordinate.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn across<C: Compiled, const I: usize>(
+        &self,
+        at: &Displacement<R>,
+        rates: JointRates<R>,
+    ) -> Self {
+        let joint = CompiledJoint::<C, I>::JOINT;
+        match CompiledJoint::<C, I>::MOTION {
+            JointMotion::Slide => self.across_prismatic(joint, at.slide, rates),
+            JointMotion::Screw => self.across_screw(joint, at, rates),
+            _ => self.across_revolute(joint, at.turn, rates),
+        }
+    }
+
     /// The field of a child behind a revolute joint.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn across_revolute(
+    fn across_revolute(
         &self,
         joint: &Joint,
         turn: JointCoordinate<R>,
@@ -266,12 +297,7 @@ impl<R: Real> AccelerationField<R> {
 
     /// The field of a child behind a prismatic joint at q, in units of length.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn across_prismatic(
-        &self,
-        joint: &Joint,
-        q: Folded<R>,
-        rates: JointRates<R>,
-    ) -> Self {
+    fn across_prismatic(&self, joint: &Joint, q: Folded<R>, rates: JointRates<R>) -> Self {
         let rot = Mat3::constant(&joint.rot);
         let p = Vec3::constant(joint.pos) + rot.0[2].scale(q);
         let omega_products = rot.transpose_mul(self.omega_products);
@@ -290,6 +316,52 @@ impl<R: Real> AccelerationField<R> {
             a: a + omega_products.cross(along_z(rates.omega_products + rates.omega_products))
                 + along_z(rates.accel),
             v: v + along_z(rates.velocity),
+            pose: Pose::UNKNOWN,
+        }
+    }
+
+    /// The field of a child behind a screw joint: a rotation, then a translation that it drives.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn across_screw(&self, joint: &Joint, at: &Displacement<R>, rates: JointRates<R>) -> Self {
+        let turned = self.across_revolute(joint, at.turn, rates);
+        let pitch = Folded::constant(joint.pitch);
+        let (shift, products) = (along_z(at.slide), rates.omega_products * pitch);
+        Self {
+            a: turned.a
+                + turned.u.mul(shift)
+                + turned.omega_products.cross(along_z(products + products))
+                + along_z(rates.accel * pitch),
+            v: turned.v + turned.omega.cross(shift) + along_z(rates.velocity * pitch),
+            ..turned
+        }
+    }
+
+    /// The field of a child behind joint I, a planar, spherical or free one: v_J is the velocity of the body in the
+    /// joint's frame, by the body's axes, so that α = E α_λ + ω̇_J + E ω_λ × ω_J and
+    /// a = E a_λ(p) + v̇_J + (ω + E ω_λ) × v_J.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn across_several<C: Compiled, const I: usize>(
+        &self,
+        at: &Displacement<R>,
+        rates: &SeveralRates<R>,
+    ) -> Self {
+        let joint = CompiledJoint::<C, I>::JOINT;
+        let rot = Mat3::constant(&joint.rot);
+        let p = Vec3::constant(joint.pos) + at.shift::<C, I>();
+        let carried = at.enter::<C, I>(&rot, self.omega_products);
+        let omega_products = carried + rates.products.ang;
+        let alpha = at.enter::<C, I>(&rot, self.alpha)
+            + rates.accel.ang
+            + carried.cross(rates.products.ang);
+        let a = at.enter::<C, I>(&rot, self.a + self.u.mul(p));
+        let v = at.enter::<C, I>(&rot, self.v + self.omega.cross(p));
+        Self {
+            omega: at.enter::<C, I>(&rot, self.omega) + rates.velocity.ang,
+            omega_products,
+            alpha,
+            u: u_of(alpha, omega_products),
+            a: a + rates.accel.lin + (omega_products + carried).cross(rates.products.lin),
+            v: v + rates.velocity.lin,
             pose: Pose::UNKNOWN,
         }
     }
@@ -313,6 +385,19 @@ impl<R: Real> AccelerationField<R> {
             n: h.cross(self.a) + n,
         }
     }
+}
+
+/// U = \[α\]× + \[ω\]×\[ω\]×.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn u_of<R: Real>(alpha: Vec3<R>, omega: Vec3<R>) -> Mat3<R> {
+    let ([ax, ay, az], [wx, wy, wz]) = (alpha.0, omega.0);
+    let (xz, yz, xy) = (wx * wz, wy * wz, wx * wy);
+    let (xx, yy, zz) = (wx * wx, wy * wy, wz * wz);
+    Mat3([
+        Vec3([-(yy + zz), xy + az, xz - ay]),
+        Vec3([xy - az, -(xx + zz), yz + ax]),
+        Vec3([xz + ay, yz - ax, -(xx + yy)]),
+    ])
 }
 
 /// α_x, α_y and U from ω, α_z and U's z column.

@@ -9,12 +9,12 @@
 
 use core::ops::Add;
 
-use super::acceleration_field::Inertia;
-use super::compile::{Compiled, CompiledJoint};
+use super::acceleration_field::{Inertia, Wrench};
+use super::compile::{Compiled, Joint, JointMotion};
+use super::displacement::Displacement;
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
 use super::folding::{cross_offset, rotate_matrix_to_parent, rotate_symmetric_to_parent};
-use crate::model::JointCoordinate;
 use crate::scalar::Real;
 
 /// The three blocks.
@@ -54,6 +54,31 @@ impl<R: Real> Articulated<R> {
         }
     }
 
+    /// The wrench of a unit acceleration along a joint's coordinate: the column of its axis.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn wrench_of(&self, joint: &Joint, length_inv: Folded<R>) -> Wrench<R> {
+        let axis = joint.axis;
+        if joint.prismatic {
+            return Wrench {
+                f: column(self.lin.columns(), axis).scale(length_inv),
+                n: column(self.coupling.0, axis).scale(length_inv),
+            };
+        }
+        let turn = Wrench {
+            f: column(self.coupling.rows(), axis),
+            n: column(self.ang.columns(), axis),
+        };
+        if matches!(joint.motion, JointMotion::Screw) {
+            let pitch = Folded::constant(joint.pitch);
+            let slide = Wrench {
+                f: column(self.lin.columns(), axis).scale(pitch),
+                n: column(self.coupling.0, axis).scale(pitch),
+            };
+            return turn + slide;
+        }
+        turn
+    }
+
     /// The inertia with a joint free: minus U Uᵀ/d.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn minus_joint(self, n: Vec3<R>, f: Vec3<R>, d_inv: Folded<R>) -> Self {
@@ -68,29 +93,21 @@ impl<R: Real> Articulated<R> {
 
     /// The same in the frame of joint I's parent and about its origin; RBDA (2.66).
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn to_parent<C, const I: usize>(
-        self,
-        turn: JointCoordinate<R>,
-        slide: Folded<R>,
-    ) -> Self
+    pub(crate) fn to_parent<C, const I: usize>(self, at: &Displacement<R>) -> Self
     where
         C: Compiled,
     {
-        let mut at = self;
-        if !CompiledJoint::<C, I>::PRISMATIC {
-            let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
-            at = Self {
-                ang: at.ang.turn(sin, cos),
-                coupling: at.coupling.rotated_about_z(sin, cos),
-                lin: at.lin.turn(sin, cos),
-            };
-        }
-        let lin = rotate_symmetric_to_parent::<R, C, I>(at.lin);
-        let here = rotate_matrix_to_parent::<R, C, I>(&at.coupling);
+        let turned = Self {
+            ang: at.leave_symmetric::<C, I>(self.ang),
+            coupling: at.leave_matrix::<C, I>(&self.coupling),
+            lin: at.leave_symmetric::<C, I>(self.lin),
+        };
+        let lin = rotate_symmetric_to_parent::<R, C, I>(turned.lin);
+        let here = rotate_matrix_to_parent::<R, C, I>(&turned.coupling);
         // H′ = H + [p]× A; I′ = I + [p]× Hᵀ + ([p]× H′ᵀ)ᵀ.
-        let coupling = here + cross_offset::<R, C, I>(Mat3(lin.columns()), slide);
-        let Mat3([lx, ly, lz]) = cross_offset::<R, C, I>(Mat3(here.rows()), slide);
-        let Mat3([rx, ry, rz]) = cross_offset::<R, C, I>(Mat3(coupling.rows()), slide);
+        let coupling = here + cross_offset::<R, C, I>(Mat3(lin.columns()), at);
+        let Mat3([lx, ly, lz]) = cross_offset::<R, C, I>(Mat3(here.rows()), at);
+        let Mat3([rx, ry, rz]) = cross_offset::<R, C, I>(Mat3(coupling.rows()), at);
         let shift = Sym3 {
             xx: lx.0[0] + rx.0[0],
             xy: ly.0[0] + rx.0[1],
@@ -100,10 +117,19 @@ impl<R: Real> Articulated<R> {
             zz: lz.0[2] + rz.0[2],
         };
         Self {
-            ang: rotate_symmetric_to_parent::<R, C, I>(at.ang) + shift,
+            ang: rotate_symmetric_to_parent::<R, C, I>(turned.ang) + shift,
             coupling,
             lin,
         }
+    }
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn column<R: Real>([x, y, z]: [Vec3<R>; 3], axis: usize) -> Vec3<R> {
+    match axis {
+        0 => x,
+        1 => y,
+        _ => z,
     }
 }
 

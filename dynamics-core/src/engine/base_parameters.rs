@@ -5,7 +5,7 @@
 use core::marker::PhantomData;
 
 use super::Engine;
-use super::compile::{Compiled, CompiledRobot};
+use super::compile::{Compiled, CompiledRobot, JointMotion};
 use crate::effects::{BaseParameters, Effect, RegroupedInertia, body_inertia};
 use crate::model::{
     BASE, Calibrated, JointKind, LinkView, ModelError, Problem, Robot, RobotModel, model,
@@ -64,22 +64,34 @@ impl<T, K> Engine<T, K> {
             joints: [RegroupedInertia::default(); V],
             robot: PhantomData,
         };
-        for link in robot.links().rev() {
-            let i = joint_of(&link);
+        for (body, size) in set.joints.iter_mut().zip(sizes) {
+            body.size = size;
+        }
+        for (i, by) in CompiledRobot::<T, B, Q, V>::JOINTS.iter().enumerate().rev() {
             let Some(&Carried { x, inertia, parent }) = joints.get(i) else {
-                continue; // a fixed body
+                continue;
             };
-            let prismatic = link.kind() == JointKind::Prismatic;
-            let (mut kept, passed) = split(inertia.parameters(), prismatic, length);
+            if by.first != i {
+                continue; // the first coordinate moves the body
+            }
+            let (mut kept, passed) = split(inertia.parameters(), by.motion, length);
             if let Some(parent) = joints.get_mut(parent) {
                 parent.inertia += passed.at_parent(&x);
             }
             kept.size = entry(&sizes, i);
             let numbers = [&[kept.mass][..], &kept.moment, &kept.second, &kept.size];
             if !numbers.into_iter().all(all_finite) {
-                return Err(error(&link, Problem::NotFinite));
+                let mut links = robot.links();
+                let moved = links.find(|link| link.coordinates().any(|k| k == i));
+                return Err(moved.map_or(
+                    ModelError {
+                        body: T::MODEL.name,
+                        problem: Problem::NotFinite,
+                    },
+                    |link| error(&link, Problem::NotFinite),
+                ));
             }
-            if let Some(body) = set.joints.get_mut(i) {
+            if let Some(body) = set.joints.get_mut(i + by.count - 1) {
                 *body = kept;
             }
         }
@@ -87,7 +99,7 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-/// The number of a body's joint, or [`BASE`] of a body that is fixed to its parent.
+/// The number of a body's joint, its first coordinate, or [`BASE`] of a body that is fixed to its parent.
 fn joint_of<R: Real>(link: &LinkView<'_, R>) -> usize {
     link.coordinates().next().unwrap_or(BASE)
 }
@@ -127,24 +139,8 @@ where
         }
         let (parent, frame) = places.get(link.parent).copied().unwrap_or((BASE, at_base));
         let mut place = (parent, link.placement * frame);
-        if let Some(joint) = joints.get_mut(joint_of(&link)) {
-            // Along the axis, to where the offset from the parent is perpendicular to it.
-            let Xform { rot, pos } = place.1;
-            let axis = rot.transpose_mul(R::Vec3::new(R::ZERO, R::ZERO, R::ONE));
-            let along = axis.dot(pos);
-            joint.x = Xform {
-                rot,
-                pos: pos - axis * along,
-            };
-            joint.parent = parent;
-            let back = R::Vec3::new(R::ZERO, R::ZERO, along);
-            place = (
-                joint_of(&link),
-                Xform {
-                    pos: back,
-                    ..at_base
-                },
-            );
+        if link.kind() != JointKind::Fixed {
+            place = attach(&mut joints, &link, place);
         }
         if let Some(joint) = joints.get_mut(place.0) {
             let own = CompositeInertia::from(body_inertia(effects, i, &link));
@@ -157,26 +153,97 @@ where
     Ok(joints)
 }
 
+/// Writes the coordinates that move a body, whose frame is `place`; returns the one that carries it, and its frame there.
+fn attach<R: Real>(
+    joints: &mut [Carried<R>],
+    link: &LinkView<'_, R>,
+    (parent, frame): (usize, Xform<R>),
+) -> (usize, Xform<R>) {
+    use JointKind::*;
+    let (i, o, l) = (joint_of(link), R::ZERO, R::ONE);
+    let [x, y, z] = [[l, o, o], [o, l, o], [o, o, l]].map(|[x, y, z]| R::Vec3::new(x, y, z));
+    match link.kind() {
+        Planar | Spherical | Free => {
+            if let Some(joint) = joints.get_mut(i) {
+                (joint.x, joint.parent) = (frame, parent);
+            }
+            (i, Xform::IDENTITY)
+        }
+        Universal => {
+            // The first rotation is about x.
+            let turned = R::Mat3::from_cols(y, z, x);
+            let rot = turned.transpose() * frame.rot;
+            let back = along_axis(joints, i, parent, Xform { rot, ..frame });
+            let rot = turned * back.rot;
+            let place = along_axis(joints, i + 1, i, Xform { rot, ..back });
+            (i + 1, place)
+        }
+        Cylindrical => {
+            let place = along_axis(joints, i, parent, frame);
+            (i + 1, along_axis(joints, i + 1, i, place))
+        }
+        _ => (i, along_axis(joints, i, parent, frame)),
+    }
+}
+
+/// Moves the frame of joint `i` along its axis z to where the offset from the parent is perpendicular to it; returns the way
+/// back.
+fn along_axis<R: Real>(
+    joints: &mut [Carried<R>],
+    i: usize,
+    parent: usize,
+    Xform { rot, pos }: Xform<R>,
+) -> Xform<R> {
+    let axis = rot.transpose_mul(R::Vec3::new(R::ZERO, R::ZERO, R::ONE));
+    let along = axis.dot(pos);
+    if let Some(joint) = joints.get_mut(i) {
+        joint.x = Xform {
+            rot,
+            pos: pos - axis * along,
+        };
+        joint.parent = parent;
+    }
+    Xform {
+        pos: R::Vec3::new(R::ZERO, R::ZERO, along),
+        ..Xform::IDENTITY
+    }
+}
+
 /// What regrouping leaves to a body behind a joint, in units of length, and what its parent receives.
 fn split<R: Real>(
     [mass, hx, hy, hz, xx, xy, yy, xz, yz, zz]: [R; 10],
-    prismatic: bool,
+    motion: JointMotion,
     length: R,
 ) -> (RegroupedInertia<R>, CompositeInertia<R>) {
+    use JointMotion::*;
     let (zero, half) = (R::ZERO, R::from_f64(0.5));
-    let mut kept = RegroupedInertia::default();
-    let passed = if prismatic {
-        kept.mass = mass * length * length;
-        kept.moment = [hx, hy, hz].map(|h| h * length);
-        [zero, zero, zero, zero, xx, xy, yy, xz, yz, zz]
-    } else {
-        kept.moment = [hx * length, hy * length, zero];
-        // Σ = ½ tr(Ī) 1 − Ī, of which Σ_zz goes to the parent as a thin rod.
-        let trace = half * (xx + yy + zz);
-        kept.second = [trace - xx, -xy, -xz, trace - yy, -yz];
-        let rod = trace - zz;
-        [mass, zero, zero, hz, rod, zero, rod, zero, zero, zero]
+    // Σ = ½ tr(Ī) 1 − Ī, of which Σ_zz goes to the parent as a thin rod.
+    let trace = half * (xx + yy + zz);
+    let mut kept = RegroupedInertia {
+        mass: mass * length * length,
+        moment: [hx, hy, hz].map(|h| h * length),
+        second: [trace - xx, -xy, -xz, trace - yy, -yz, trace - zz],
+        ..RegroupedInertia::default()
     };
+    let mut passed = [zero; 10];
+    match motion {
+        Slide => {
+            kept.second = [zero; 6];
+            passed = [zero, zero, zero, zero, xx, xy, yy, xz, yz, zz];
+        }
+        Turn | Screw | Planar => {
+            let rod = trace - zz;
+            kept.second[5] = zero;
+            (passed[4], passed[6]) = (rod, rod);
+        }
+        Spherical | Free | Still => {}
+    }
+    if matches!(motion, Turn | Spherical) {
+        (kept.mass, passed[0]) = (zero, mass);
+    }
+    if matches!(motion, Turn) {
+        (kept.moment[2], passed[3]) = (zero, hz);
+    }
     (kept, SpatialInertia::from_parameters(passed).into())
 }
 
@@ -201,8 +268,10 @@ where
         mass += own.mass;
         moment += length(own.first_moment);
         second += R::from_f64(0.5) * (xx + yy + zz);
-        if let Some(joint) = joints.get_mut(joint_of(&link)) {
-            *joint = [mass, moment, second];
+        for k in link.coordinates() {
+            if let Some(joint) = joints.get_mut(k) {
+                *joint = [mass, moment, second];
+            }
         }
         if let Some(parent) = bodies.get_mut(link.parent) {
             let r = length(link.placement.pos);

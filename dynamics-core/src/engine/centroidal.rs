@@ -7,11 +7,12 @@ use core::borrow::Borrow;
 use core::marker::PhantomData;
 
 use super::acceleration_field::Inertia;
-use super::compile::{Compiled, CompiledJoint, CompiledRobot, Remainder};
+use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointPair, Remainder};
+use super::displacement::Displacement;
 use super::energy::WithMasses;
-use super::folding::{Folded, Sym3, Vec3};
+use super::folding::Folded;
 use super::gate::EngineScene;
-use super::pass::{Pass, posed, sweep};
+use super::pass::{Pass, sweep};
 use super::pose::Pose;
 use super::rnea::inertia;
 use super::totals::{Totals, centre, fixed, totals};
@@ -233,28 +234,35 @@ where
 {
     type Outward = Pose<R>;
     type Inward = Inertia<R>;
-    const NOTHING: Inertia<R> = Inertia {
-        mass: Folded::ZERO,
-        moment: Vec3::ZERO,
-        second: Sym3::ZERO,
-    };
+    const NOTHING: Inertia<R> = Inertia::NONE;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn enter<const I: usize>(&mut self, parent: &Pose<R>) -> Pose<R> {
-        posed::<R, C, Q, I>(parent, self.turns)
+        parent.transformed_by::<C, I>(&Displacement::of::<C, Q, I>(self.turns))
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn leave<const I: usize>(&mut self, at: &Pose<R>, inner: Inertia<R>) -> Inertia<R> {
-        let (joint, length_inv) = (
-            CompiledJoint::<C, I>::JOINT,
-            Folded::constant(C::LENGTH_INV),
-        );
         let body = inertia::<R, C, E, B, Q, V, I>(self.effects, true) + inner;
-        let h = body.of_unit_rate(joint.prismatic, length_inv);
-        let (n, f) = (at.axes.mul(h.n), at.axes.mul(h.f));
-        self.columns[I] = Force::new((n + at.origin.cross(f)).get(), f.scale(length_inv).get());
-        let turn = self.turns[I];
-        body.to_parent::<C, I>(turn, Folded::runtime(turn.q) * length_inv)
+        for_each_joint!(K, {
+            if JointPair::<C, I, K>::IS_COORDINATE {
+                self.columns[K] = column(at, &body, CompiledJoint::<C, K>::JOINT, C::LENGTH_INV);
+            }
+        });
+        body.to_parent::<C, I>(&Displacement::of::<C, Q, I>(self.turns))
     }
+}
+
+/// The momentum of a body at unit rate of a joint at its origin, about the base's origin and along its axes.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn column<R: Real>(
+    at: &Pose<R>,
+    body: &Inertia<R>,
+    joint: &'static Joint,
+    length_inv: f64,
+) -> Force<R> {
+    let length_inv = Folded::constant(length_inv);
+    let h = body.wrench_of(joint, length_inv);
+    let (n, f) = (at.axes.mul(h.n), at.axes.mul(h.f));
+    Force::new((n + at.origin.cross(f)).get(), f.scale(length_inv).get())
 }

@@ -6,11 +6,11 @@
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 
-use super::acceleration_field::{Inertia, Wrench, along_z};
+use super::acceleration_field::Inertia;
 use super::base::no_gyroscopic_rotors;
 use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointPair};
+use super::displacement::Displacement;
 use super::folding::Folded;
-use super::folding::Vec3;
 use super::gate::EngineScene;
 use super::rnea::inertia;
 use super::{Engine, Specialised, only_if};
@@ -114,7 +114,15 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    let mut body = inertia::<R, C, E, B, Q, V, I>(task.effects, false);
+    let mut body = Inertia::NONE;
+    if let Some(inertia) = const {
+        only_if(
+            CompiledJoint::<C, I>::LAST == I,
+            inertia::<R, C, E, B, Q, V, I> as fn(&E, bool) -> Inertia<R>,
+        )
+    } {
+        body = inertia(task.effects, false);
+    }
     for_each_joint!(J, {
         if JointPair::<C, I, J>::IS_PARENT
             && let Some(composite) = const {
@@ -128,9 +136,7 @@ where
         }
     });
     column::<R, C, E, B, Q, V, I>(task, &body);
-    let length_inv = Folded::constant(C::LENGTH_INV);
-    let turn = task.turns[I];
-    body.to_parent::<C, I>(turn, Folded::runtime(turn.q) * length_inv)
+    body.to_parent::<C, I>(&Displacement::of::<C, Q, I>(task.turns))
 }
 
 /// Column I of M: the wrench of joint I's unit acceleration, projected on each ancestor.
@@ -145,19 +151,8 @@ fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usiz
 {
     let joint = CompiledJoint::<C, I>::JOINT;
     let length_inv = Folded::constant(C::LENGTH_INV);
-    let ([hx, hy, _], s) = (body.moment.0, &body.second);
-    let mut wrench = if joint.prismatic {
-        Wrench {
-            f: along_z(body.mass * length_inv),
-            n: Vec3([hy, -hx, Folded::ZERO]).scale(length_inv),
-        }
-    } else {
-        Wrench {
-            f: Vec3([-hy, hx, Folded::ZERO]),
-            n: Vec3([-s.xz, -s.yz, s.xx + s.yy]),
-        }
-    };
-    let mut diagonal = wrench.along(joint.prismatic, length_inv).get();
+    let mut wrench = body.wrench_of(joint, length_inv);
+    let mut diagonal = wrench.along(joint, length_inv).get();
     add_inertia(task.effects, I, &mut diagonal);
     task.m.rows[I][I] = diagonal;
     // From joint I to the base: parents come before their children.
@@ -165,10 +160,9 @@ fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usiz
         if JointPair::<C, K, I>::SUPPORTS {
             let joint = CompiledJoint::<C, K>::JOINT;
             if joint.parent != BASE {
-                let turn = task.turns[K];
-                wrench = wrench.to_parent::<C, K>(turn, Folded::runtime(turn.q) * length_inv);
+                wrench = wrench.to_parent::<C, K>(&Displacement::of::<C, Q, K>(task.turns));
                 let parent = CompiledJoint::<C, K>::PARENT;
-                let entry = wrench.along(parent.prismatic, length_inv).get();
+                let entry = wrench.along(parent, length_inv).get();
                 task.m.rows[I][joint.parent] = entry;
                 task.m.rows[joint.parent][I] = entry;
             }

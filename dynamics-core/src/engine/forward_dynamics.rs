@@ -12,11 +12,11 @@ use super::crba::mass_matrix;
 use super::gate::EngineScene;
 use super::ltdl::{decompose, positive, substitute};
 use super::pivot_noise::noise;
-use super::rnea::torques;
+use super::rnea::{joint_state, torques};
 use super::{Engine, Index, Specialised};
 use crate::algorithms::MassMatrix;
 use crate::algorithms::NotPositiveDefinite;
-use crate::effects::{Bias, Declared, Effect, JointState, transmitted};
+use crate::effects::{Bias, Declared, Effect, transmitted};
 use crate::model::Robot;
 use crate::scalar::Real;
 use crate::state::{Configuration, JointTrig, RobotState, State};
@@ -84,25 +84,26 @@ impl<T, K> Engine<T, K> {
         T: Robot<B, Q, V>,
         E: Effect<R, B, V>,
     {
-        behind_gears(state, tau, effects)
+        behind_gears::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(state, tau, effects)
     }
 }
 
 /// The torques behind the gears while their motors supply `tau`.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn behind_gears<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+fn behind_gears<R: Real, C, E, const B: usize, const Q: usize, const V: usize>(
     state: &State<R, Q, V>,
     tau: &[R; V],
     effects: &E,
 ) -> [R; V]
 where
+    C: Compiled,
     E: Effect<R, B, V>,
 {
     let mut rest = *tau;
     if const { E::LOAD_DEPENDENT } {
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
-                let at = JointState::new(state.q[J], state.qd[J]);
+                let at = joint_state::<R, C, Q, V, J>(state);
                 rest[J] = transmitted(effects, J, at, rest[J]);
             }
         });
@@ -129,7 +130,7 @@ where
         )
     };
     let bias = torques::<R, C, _, B, Q, V>(trig, trig, state, &Bias(effects));
-    let mut rest = behind_gears(state, tau, effects);
+    let mut rest = behind_gears::<R, C, E, B, Q, V>(state, tau, effects);
     for_each_joint!(J, {
         if Index::<J, V>::IS_BELOW {
             rest[J] -= bias[J];

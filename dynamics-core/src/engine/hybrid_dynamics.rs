@@ -12,10 +12,10 @@ use super::crba::mass_matrix;
 use super::gate::EngineScene;
 use super::ltdl::{decompose, positive, substitute};
 use super::pivot_noise::noise;
-use super::rnea::torques;
+use super::rnea::{joint_state, torques};
 use super::{Engine, Index, Specialised, only_if};
 use crate::algorithms::{JointResult, MassMatrix, NotPositiveDefinite, Prescribed};
-use crate::effects::{Bias, Effect, JointState, load_friction, transmitted};
+use crate::effects::{Bias, Effect, load_friction, transmitted};
 use crate::model::Robot;
 use crate::scalar::Real;
 use crate::state::{Configuration, JointTrig, RobotState, State};
@@ -111,7 +111,7 @@ where
     let held = times::<R, C, V>(&m, &qdd);
     for_each_joint!(J, {
         if Index::<J, V>::IS_BELOW {
-            let at = JointState::new(state.q[J], state.qd[J]);
+            let at = joint_state::<R, C, Q, V, J>(state);
             let rest = transmitted(effects, J, at, tau[J]) - bias[J] - held[J];
             qdd[J] = R::either(free[J], rest, qdd[J]);
             if let Some(hold) = const {
@@ -131,7 +131,7 @@ where
     let moved = times::<R, C, V>(&m, &qdd);
     for_each_joint!(J, {
         if Index::<J, V>::IS_BELOW {
-            let at = JointState::new(state.q[J], state.qd[J]);
+            let at = joint_state::<R, C, Q, V, J>(state);
             let mut motor = bias[J] + moved[J];
             load_friction(effects, J, at, &mut motor);
             tau[J] = R::either(free[J], tau[J], motor);

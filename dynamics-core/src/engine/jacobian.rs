@@ -5,7 +5,10 @@
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 
-use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair};
+use super::compile::{
+    Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointMotion, JointPair,
+};
+use super::displacement::Displacement;
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::kinematics::poses;
@@ -136,14 +139,12 @@ where
     let length = C::LENGTH;
     let rot = Mat3::constant(&joint.rot);
     let [x, y, z] = rot.0;
-    let (x, y, z) = (parent.mul(x), parent.mul(y), parent.mul(z));
+    let sides = Mat3([parent.mul(x), parent.mul(y), parent.mul(z)]);
+    let at = Displacement::of::<C, Q, I>(turns);
+    let axes = at.axes::<C, I>(&sides);
     let mut offset = parent.mul(Vec3::constant(joint.pos * length));
-    let mut axes = Mat3([x, y, z]);
-    if joint.prismatic {
-        offset = offset + z.scale(Folded::runtime(turns[I].q));
-    } else {
-        let (sin, cos) = (Folded::runtime(turns[I].sin), Folded::runtime(turns[I].cos));
-        axes = Mat3([x.scale(cos) + y.scale(sin), y.scale(cos) - x.scale(sin), z]);
+    if CompiledJoint::<C, I>::SHIFTS {
+        offset = offset + at.along::<C, I>(&sides).scale(Folded::constant(length));
     }
     let mut beyond = Vec3::<R>::ZERO;
     if JointAndBody::<C, I, BODY>::IS_ON_JOINT {
@@ -162,10 +163,14 @@ where
             beyond = reach(turns, &axes, columns);
         }
     });
+    let axis = axes.0[joint.axis];
     columns[I] = if joint.prismatic {
-        Motion::new(R::Vec3::ZERO, z.get())
+        Motion::new(R::Vec3::ZERO, axis.get())
+    } else if matches!(joint.motion, JointMotion::Screw) {
+        let along = axis.scale(Folded::constant(joint.pitch * length));
+        Motion::new(axis.get(), (axis.cross(beyond) + along).get())
     } else {
-        Motion::new(z.get(), z.cross(beyond).get())
+        Motion::new(axis.get(), axis.cross(beyond).get())
     };
     offset + beyond
 }

@@ -6,12 +6,12 @@
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 
-use super::acceleration_field::{AccelerationField, JointRates};
+use super::acceleration_field::AccelerationField;
 use super::base::carried;
-use super::compile::{BodyPlacement, Compiled, CompiledRobot, place};
+use super::compile::{BodyPlacement, Compiled, CompiledJoint, CompiledRobot, place};
 use super::folding::{Folded, Mat3, Vec3};
 use super::gate::EngineScene;
-use super::pass::{Nothing, Pass, moved, sweep};
+use super::pass::{Nothing, Pass, Rates, moved, sweep};
 use super::{Engine, Specialised};
 use crate::algorithms::{Frame, Kinematics, Pose};
 use crate::effects::Effect;
@@ -332,17 +332,17 @@ where
     type Outward = AccelerationField<R>;
     type Inward = Nothing;
     const NOTHING: Nothing = Nothing;
-    const JOINTS: u32 = joints::<C>(&L::NUMBERS);
+    const JOINTS: u64 = joints::<C>(&L::NUMBERS);
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn enter<const I: usize>(&mut self, parent: &AccelerationField<R>) -> AccelerationField<R> {
-        let qd = Folded::runtime_if(RATES, self.state.qd[I]);
-        let rates = JointRates {
-            velocity: qd,
-            omega_products: qd,
-            accel: Folded::runtime_if(RATES, self.state.qdd[I]),
+        let rates = Rates {
+            qd: &self.state.qd,
+            qdd: &self.state.qdd,
+            moves: RATES,
+            accelerates: RATES,
         };
-        let field = moved::<R, C, Q, I>(parent, self.turns, rates);
+        let field = moved::<R, C, Q, V, I>(parent, self.turns, &rates);
         self.see::<I>(&field);
         field
     }
@@ -363,7 +363,7 @@ where
     fn see<const I: usize>(&mut self, field: &AccelerationField<R>) {
         const {
             assert!(
-                count_on::<C>(&L::NUMBERS, I) <= 32,
+                count_on::<C>(&L::NUMBERS, CompiledJoint::<C, I>::LAST) <= 32,
                 "the engine takes up to 32 named bodies that move with one joint; use `Core`"
             )
         };
@@ -414,13 +414,14 @@ struct Named<C, L, const N: usize, const I: usize, const K: usize>(PhantomData<(
 impl<C: Compiled, L: Bodies<N>, const N: usize, const I: usize, const K: usize>
     Named<C, L, N, I, K>
 {
-    const IS_SOME: bool = K < count_on::<C>(&L::NUMBERS, I);
+    const IS_SOME: bool = K < count_on::<C>(&L::NUMBERS, CompiledJoint::<C, I>::LAST);
     /// Its place in L, and on the joint.
-    const BODY: &'static (usize, BodyPlacement) = &nth_on::<C>(&L::NUMBERS, I, K);
+    const BODY: &'static (usize, BodyPlacement) =
+        &nth_on::<C>(&L::NUMBERS, CompiledJoint::<C, I>::LAST, K);
 }
 
 /// The joints that move some of these bodies, as bits.
-const fn joints<C: Compiled>(bodies: &[usize]) -> u32 {
+const fn joints<C: Compiled>(bodies: &[usize]) -> u64 {
     let (mut joints, mut k) = (0, 0);
     while k < bodies.len() {
         assert!(

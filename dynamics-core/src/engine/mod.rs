@@ -8,7 +8,7 @@
 //! Functions are inlined by force unless debug assertions are on: the folding needs it where code is optimised, and an
 //! unoptimised build of forced inlining has twenty times the code.
 //!
-//! Joints: revolute, prismatic and fixed, on trees of up to 32 moving bodies.
+//! Joints: all kinds ([`crate::model::JointKind`]), on trees of up to 32 velocity coordinates.
 
 /// Expands a block once for each joint that there may be, its number a constant: loops are not
 /// unrolled at every opt-level, and a constant can be a const generic argument.
@@ -58,12 +58,14 @@ mod base_parameters;
 mod centroidal;
 mod compile;
 mod crba;
+mod displacement;
 mod energy;
 mod folding;
 mod forward_dynamics;
 mod gate;
 mod hybrid_dynamics;
 mod jacobian;
+mod joint_rates;
 mod kinematics;
 mod ltdl;
 mod momentum;
@@ -86,14 +88,15 @@ use crate::state::{Configuration, JointTrig, RobotState, State, TrigSource};
 use crate::trig::Kernel;
 pub(crate) use compile::{CompiledJoint, CompiledRobot};
 use gate::EngineScene;
+pub(crate) use rnea::joint_state;
 use rnea::torques;
 pub(crate) use subtree::has_subtree_functions;
 
 /// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel `K`.
 ///
-/// Robots: trees of up to 32 moving bodies on revolute, continuous, prismatic and fixed joints. Any number of bodies
-/// may be welded to one moving body, but at most 32 in a scene with wrenches ([`crate::effects::Contact`],
-/// [`crate::effects::BodyWrench`] and others that act on a body). Others do not compile; use [`crate::Core`] for them.
+/// Robots: trees of up to 32 velocity coordinates on joints of any kind. Any number of bodies may be welded to one moving
+/// body, but at most 32 in a scene with wrenches ([`crate::effects::Contact`], [`crate::effects::BodyWrench`] and others that
+/// act on a body). Others do not compile; use [`crate::Core`] for them.
 ///
 /// ```
 /// use dynamics_core::{Core, Engine, effects::RIGID_BODY, robots::Ur5e, state::State};
@@ -102,16 +105,18 @@ pub(crate) use subtree::has_subtree_functions;
 /// assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 4e-5));
 /// ```
 ///
-/// A robot with another joint does not compile:
+/// The base of a robot may be free: six velocity coordinates and a unit quaternion, as of
+/// [`JointKind::Free`](crate::model::JointKind::Free).
 ///
-/// ```compile_fail,E0080
+/// ```
 /// use dynamics_core::{Engine, effects::RIGID_BODY, robots::A1Free, state::State};
-/// let standing = State { q: [0.0_f32; 19], qd: [0.0; 18], qdd: [0.0; 18] };
-/// let _ = Engine::<A1Free>::rnea(&standing, &RIGID_BODY);
-/// // error: the engine takes revolute, prismatic and fixed joints; use `Core`
+/// let mut standing = State::at([0.0_f32; 19]);
+/// standing.q[3] = 1.0; // no rotation
+/// let tau = Engine::<A1Free>::rnea(&standing, &RIGID_BODY);
+/// assert!((tau[5] - 121.5).abs() < 0.5); // its weight, N
 /// ```
 ///
-/// nor does one of more joints:
+/// A robot of more coordinates does not compile:
 ///
 /// ```compile_fail,E0080
 /// use dynamics_core::{Engine, model::{ArmModel, BASE, Body, Joint, Model, Robot}};
@@ -120,7 +125,7 @@ pub(crate) use subtree::has_subtree_functions;
 ///     const MODEL: ArmModel<f64, 33> = Model::new("comb", [Body::new("tooth", BASE, Joint::prismatic([1.0, 0.0, 0.0])); 33]);
 /// }
 /// let _ = Engine::<Comb>::joint_trig(&[0.1_f32; 33]);
-/// // error: the engine takes up to 32 moving bodies; use `Core`
+/// // error: the engine takes up to 32 velocity coordinates; use `Core`
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Engine<T, K = Native>(PhantomData<(T, K)>);
@@ -139,12 +144,7 @@ impl<T, K> Engine<T, K> {
         let mut turns = [JointCoordinate::default(); Q];
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
-                let joint = CompiledJoint::<CompiledRobot<T, B, Q, V>, J>::JOINT;
-                turns[J] = match (joint.prismatic, joint.near) {
-                    (true, _) => JointCoordinate::linear(q[J]),
-                    (false, true) => JointCoordinate::revolute_bounded::<K>(q[J]),
-                    (false, false) => JointCoordinate::with_kernel::<K>(q[J]),
-                };
+                CompiledJoint::<CompiledRobot<T, B, Q, V>, J>::turn::<R, K, Q>(q, &mut turns);
             }
         });
         JointTrig { coordinates: turns }

@@ -9,15 +9,17 @@ use core::borrow::Borrow;
 use core::hint::black_box;
 use core::marker::PhantomData;
 
-use super::acceleration_field::{AccelerationField, Inertia, JointRates, Wrench};
+use super::acceleration_field::{AccelerationField, Inertia, Wrench};
 use super::base::{no_gyroscopic_rotors, unaccelerated};
-use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointPair};
+use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion, JointPair};
+use super::displacement::Displacement;
 use super::folding::{Folded, Vec3};
 use super::gate::EngineScene;
-use super::rnea::{environment, inertia};
+use super::joint_rates::{JointRates, SeveralRates, Twist};
+use super::rnea::{environment, inertia, joint_state};
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::{MomentumAndCoriolis, MomentumAndDrift};
-use crate::effects::{Declared, Effect, JointState};
+use crate::effects::{Declared, Effect};
 use crate::model::{JointCoordinate, Robot};
 use crate::scalar::Real;
 use crate::state::{Configuration, JointTrig, RobotState, State};
@@ -216,26 +218,10 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    let joint = CompiledJoint::<C, I>::JOINT;
-    let length_inv = Folded::constant(C::LENGTH_INV);
-    let (turn, at) = (
-        task.turns[I],
-        JointState::new(task.state.q[I], task.state.qd[I]),
-    );
-    let slide = Folded::runtime(turn.q) * length_inv;
-    let mut rates = JointRates {
-        velocity: Folded::runtime(at.qd),
-        omega_products: Folded::ZERO,
-        accel: Folded::ZERO,
-    };
-    let mut body = if joint.prismatic {
-        rates.velocity = rates.velocity * length_inv;
-        parent.across_prismatic(joint, slide, rates)
-    } else {
-        parent.across_revolute(joint, turn, rates)
-    };
+    let at = Displacement::of::<C, Q, I>(task.turns);
+    let mut body = across::<R, C, V, I>(parent, &at, &task.state.qd);
     if DRIFT && E::BODY_POSE {
-        body.pose = parent.pose.transformed_by(joint, turn, slide);
+        body.pose = parent.pose.transformed_by::<C, I>(&at);
     }
 
     let mut inner = Carried {
@@ -243,10 +229,10 @@ where
         load: Wrench::ZERO,
     };
     for_each_joint!(J, {
-        if JointPair::<C, I, J>::IS_PARENT
+        if JointPair::<C, I, J>::IS_CHILD
             && let Some(visit) = const {
                 only_if(
-                    JointPair::<C, I, J>::IS_PARENT,
+                    JointPair::<C, I, J>::IS_CHILD,
                     visit::<R, C, E, B, Q, V, DRIFT, J> as Visit<R, E, Q, V>,
                 )
             }
@@ -262,12 +248,6 @@ where
     // After the children: until then the velocity takes fewer registers than the momentum beside it.
     let own = inertia::<R, C, E, B, Q, V, I>(task.effects, E::BASE_MOTION);
     let h = momentum(&body, &own) + inner.h;
-    let mut p = h.along(joint.prismatic, length_inv).get();
-    if let Some(armature) = task.effects.inertia(I) {
-        p += armature * at.qd;
-    }
-    task.result.p[I] = p;
-    let mut beta = rate(&body, h, joint.prismatic, length_inv).get();
     let mut load = Wrench::ZERO;
     if DRIFT {
         load = body.wrench(&own);
@@ -275,16 +255,124 @@ where
             load = environment::<R, C, E, B, Q, V, I>(task.effects, &body, load);
         }
         load = load + inner.load;
-        let mut held = load.along(joint.prismatic, length_inv).get();
+    }
+    let carried = Carried { h, load };
+    if CompiledJoint::<C, I>::COUNT == 1 {
+        entries::<R, C, E, B, Q, V, DRIFT, I>(task, &body, &carried);
+    } else if let Some(entries) = const {
+        only_if(
+            CompiledJoint::<C, I>::COUNT > 1,
+            several_entries::<R, C, E, B, Q, V, DRIFT, I> as Entries<R, E, Q, V>,
+        )
+    } {
+        entries(task, &body, &carried);
+    }
+    let turn = task.back[CompiledJoint::<C, I>::Q];
+    let at = at.with_turn(turn);
+    Carried {
+        h: h.to_parent::<C, I>(&at),
+        load: load.to_parent::<C, I>(&at),
+    }
+}
+
+/// The velocities of the body behind joint I.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn across<R: Real, C: Compiled, const V: usize, const I: usize>(
+    parent: &AccelerationField<R>,
+    at: &Displacement<R>,
+    qd: &[R; V],
+) -> AccelerationField<R> {
+    if CompiledJoint::<C, I>::COUNT > 1 {
+        let rates = SeveralRates {
+            velocity: Twist::of::<C, V, I>(qd, true),
+            products: Twist::ZERO,
+            accel: Twist::ZERO,
+        };
+        return parent.across_several::<C, I>(at, &rates);
+    }
+    let mut rates = JointRates {
+        velocity: Folded::runtime(qd[I]),
+        omega_products: Folded::ZERO,
+        accel: Folded::ZERO,
+    };
+    if CompiledJoint::<C, I>::PRISMATIC {
+        rates.velocity = rates.velocity * Folded::constant(C::LENGTH_INV);
+    }
+    parent.across::<C, I>(at, rates)
+}
+
+type Entries<R, E, const Q: usize, const V: usize> =
+    fn(&mut Task<'_, R, E, Q, V>, &AccelerationField<R>, &Carried<R>);
+
+/// The entries of coordinate I, whose body moves as `body` and carries `carried`.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn entries<
+    R,
+    C,
+    E,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const DRIFT: bool,
+    const I: usize,
+>(
+    task: &mut Task<'_, R, E, Q, V>,
+    body: &AccelerationField<R>,
+    carried: &Carried<R>,
+) where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    let joint = CompiledJoint::<C, I>::JOINT;
+    let length_inv = Folded::constant(C::LENGTH_INV);
+    let at = joint_state::<R, C, Q, V, I>(task.state);
+    let mut p = carried.h.along(joint, length_inv).get();
+    if let Some(armature) = task.effects.inertia(I) {
+        p += armature * at.qd;
+    }
+    task.result.p[I] = p;
+    let mut beta = rate(body, &carried.h, joint, length_inv).get();
+    if DRIFT {
+        let mut held = carried.load.along(joint, length_inv).get();
         task.effects.torque(I, at, &mut held);
         beta -= held;
     }
     task.result.beta[I] = beta;
-    let turn = task.back[I];
-    Carried {
-        h: h.to_parent::<C, I>(turn, slide),
-        load: load.to_parent::<C, I>(turn, slide),
-    }
+}
+
+/// The same of all coordinates of a joint.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn several_entries<
+    R,
+    C,
+    E,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const DRIFT: bool,
+    const I: usize,
+>(
+    task: &mut Task<'_, R, E, Q, V>,
+    body: &AccelerationField<R>,
+    carried: &Carried<R>,
+) where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    for_each_joint!(K, {
+        if JointPair::<C, I, K>::IS_COORDINATE
+            && let Some(entries) = const {
+                only_if(
+                    JointPair::<C, I, K>::IS_COORDINATE,
+                    entries::<R, C, E, B, Q, V, DRIFT, K> as Entries<R, E, Q, V>,
+                )
+            }
+        {
+            entries(task, body, carried);
+        }
+    });
 }
 
 /// The momentum I v of a body: m v + ω × h, and h × v + tr(Σ) ω − Σ ω.
@@ -303,19 +391,26 @@ pub(super) fn momentum<R: Real>(body: &AccelerationField<R>, inertia: &Inertia<R
     }
 }
 
-/// The entry of Cᵀ q̇ of a joint along z: (v × S)ᵀ h.
+/// The entry of Cᵀ q̇ of a coordinate: (v × S)ᵀ h = −Sᵀ (v ×* h).
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn rate<R: Real>(
     body: &AccelerationField<R>,
-    h: Wrench<R>,
-    prismatic: bool,
+    h: &Wrench<R>,
+    joint: &Joint,
     length_inv: Folded<R>,
 ) -> Folded<R> {
-    let ([wx, wy, _], [vx, vy, _]) = (body.omega.0, body.v.0);
-    let ([fx, fy, _], [nx, ny, _]) = (h.f.0, h.n.0);
-    if prismatic {
-        (wy * fx - wx * fy) * length_inv
-    } else {
-        wy * nx - wx * ny + (vy * fx - vx * fy)
+    if joint.axis == 2 && !matches!(joint.motion, JointMotion::Screw) {
+        let ([wx, wy, _], [vx, vy, _]) = (body.omega.0, body.v.0);
+        let ([fx, fy, _], [nx, ny, _]) = (h.f.0, h.n.0);
+        return if joint.prismatic {
+            (wy * fx - wx * fy) * length_inv
+        } else {
+            wy * nx - wx * ny + (vy * fx - vx * fy)
+        };
     }
+    let back = Wrench {
+        f: h.f.cross(body.omega),
+        n: h.n.cross(body.omega) + h.f.cross(body.v),
+    };
+    back.along(joint, length_inv)
 }

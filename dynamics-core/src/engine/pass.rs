@@ -4,11 +4,12 @@
 use core::marker::PhantomData;
 use core::ops::Add;
 
-use super::acceleration_field::{AccelerationField, JointRates};
+use super::acceleration_field::AccelerationField;
 use super::compile::{Compiled, CompiledJoint, JointPair};
+use super::displacement::Displacement;
 use super::folding::Folded;
+use super::joint_rates::{JointRates, SeveralRates, Twist};
 use super::only_if;
-use super::pose::Pose;
 use crate::model::{BASE, JointCoordinate};
 use crate::scalar::Real;
 
@@ -21,12 +22,12 @@ pub(super) trait Pass<R: Real, C: Compiled> {
     /// The sum over no children.
     const NOTHING: Self::Inward;
     /// The joints that it visits, as bits: with a joint, those that support it.
-    const JOINTS: u32 = u32::MAX;
+    const JOINTS: u64 = u64::MAX;
 
-    /// Joint I, from what its parent hands outward.
+    /// The body behind joint I, the first of its coordinates, from what its parent hands outward.
     fn enter<const I: usize>(&mut self, parent: &Self::Outward) -> Self::Outward;
 
-    /// Joint I, with the sum over its children; returns its own share in the parent's frame.
+    /// The same body, with the sum over its children; returns its own share in the parent's frame.
     fn leave<const I: usize>(&mut self, body: &Self::Outward, inner: Self::Inward) -> Self::Inward;
 }
 
@@ -91,40 +92,49 @@ fn visit<R: Real, C: Compiled, P: Pass<R, C>, const I: usize>(
 struct Step<R, C, P, const I: usize, const J: usize>(PhantomData<(R, C, P)>);
 
 impl<R: Real, C: Compiled, P: Pass<R, C>, const I: usize, const J: usize> Step<R, C, P, I, J> {
-    const IS_TAKEN: bool = JointPair::<C, I, J>::IS_PARENT && P::JOINTS & (1 << J) != 0;
+    const IS_TAKEN: bool = JointPair::<C, I, J>::IS_CHILD && P::JOINTS & (1 << J) != 0;
 }
 
-/// The pose of the body behind joint I.
+/// The field of the body behind joint I, from that of its parent, with its pose if the parent's is known.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn posed<R: Real, C: Compiled, const Q: usize, const I: usize>(
-    parent: &Pose<R>,
-    turns: &[JointCoordinate<R>; Q],
-) -> Pose<R> {
-    let turn = turns[I];
-    let slide = Folded::runtime(turn.q) * Folded::constant(C::LENGTH_INV);
-    parent.transformed_by(CompiledJoint::<C, I>::JOINT, turn, slide)
-}
-
-/// The field of the body behind joint I at these rates of the joint, with its pose if the parent's is known.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn moved<R: Real, C: Compiled, const Q: usize, const I: usize>(
+pub(super) fn moved<R: Real, C: Compiled, const Q: usize, const V: usize, const I: usize>(
     parent: &AccelerationField<R>,
     turns: &[JointCoordinate<R>; Q],
-    rates: JointRates<R>,
+    rates: &Rates<'_, R, V>,
 ) -> AccelerationField<R> {
-    let joint = CompiledJoint::<C, I>::JOINT;
-    let (turn, length_inv) = (turns[I], Folded::constant(C::LENGTH_INV));
-    let slide = Folded::runtime(turn.q) * length_inv;
-    let mut field = if joint.prismatic {
-        let rates = JointRates {
-            velocity: rates.velocity * length_inv,
-            omega_products: rates.omega_products * length_inv,
-            accel: rates.accel * length_inv,
+    let at = Displacement::of::<C, Q, I>(turns);
+    let (qd, qdd) = (rates.qd, rates.qdd);
+    let mut field = if CompiledJoint::<C, I>::COUNT > 1 {
+        let several = SeveralRates {
+            velocity: Twist::of::<C, V, I>(qd, rates.moves),
+            products: Twist::of::<C, V, I>(qd, rates.accelerates),
+            accel: Twist::of::<C, V, I>(qdd, rates.accelerates),
         };
-        parent.across_prismatic(joint, slide, rates)
+        parent.across_several::<C, I>(&at, &several)
     } else {
-        parent.across_revolute(joint, turn, rates)
+        let unit = if CompiledJoint::<C, I>::PRISMATIC {
+            Folded::constant(C::LENGTH_INV)
+        } else {
+            Folded::ONE
+        };
+        let one = JointRates {
+            velocity: Folded::runtime_if(rates.moves, qd[I]) * unit,
+            omega_products: Folded::runtime_if(rates.accelerates, qd[I]) * unit,
+            accel: Folded::runtime_if(rates.accelerates, qdd[I]) * unit,
+        };
+        parent.across::<C, I>(&at, one)
     };
-    field.pose = parent.pose.transformed_by(joint, turn, slide);
+    field.pose = parent.pose.transformed_by::<C, I>(&at);
     field
+}
+
+/// The rates of all joints, and which of them a pass needs; what it does not need is a known zero.
+#[derive(Clone, Copy)]
+pub(super) struct Rates<'a, R, const V: usize> {
+    pub(super) qd: &'a [R; V],
+    pub(super) qdd: &'a [R; V],
+    /// Bodies have velocities.
+    pub(super) moves: bool,
+    /// Bodies have accelerations.
+    pub(super) accelerates: bool,
 }

@@ -3,7 +3,9 @@
 //! As in [`crate::algorithms`], m, |h| and ∫ r² dm of a joint and its descendants, as if they lay in one line away from
 //! it. Turns do not change them, so that they are constants of the robot; slides and a payload add to them.
 
-use super::compile::{Compiled, CompiledJoint, JointPair, is_ancestor, joint, place, supports};
+use super::compile::{
+    Compiled, CompiledJoint, JointMotion, JointPair, is_slide_beyond, place, supports,
+};
 use super::{Index, only_if};
 use crate::effects::{Declared, Effect, RegroupedInertia, call_hook};
 use crate::model::{BASE, JointCoordinate, JointKind, Link};
@@ -54,7 +56,11 @@ const fn sizes<const B: usize, const V: usize>(links: &[Link<f64>]) -> [Size; V]
         size.second +=
             0.5 * (own.rotational.x_axis.x + own.rotational.y_axis.y + own.rotational.z_axis.z);
         if !matches!(link.joint.kind, JointKind::Fixed) {
-            joints[link.idx_v] = size;
+            let mut k = 0;
+            while k < link.joint.kind.coordinates().1 {
+                joints[link.idx_v + k] = size;
+                k += 1;
+            }
         }
         if link.parent != BASE {
             let (r, parent) = (length(link.placement.pos), &mut bodies[link.parent]);
@@ -72,7 +78,7 @@ const fn reach(links: &[Link<f64>], i: usize, mut body: usize) -> f64 {
     let mut sum = 0.0;
     while body < links.len() {
         let link = &links[body];
-        if link.idx_v == i && !matches!(link.joint.kind, JointKind::Fixed) {
+        if link.idx_v <= i && i < link.idx_v + link.joint.kind.coordinates().1 {
             break;
         }
         sum += length(link.placement.pos);
@@ -151,7 +157,7 @@ where
     if !prismatic {
         for_each_joint!(K, {
             if JointPair::<C, I, K>::IS_SLIDE_BEYOND {
-                slides += turns[K].q.abs();
+                slides += slide::<R, C, Q, K>(turns);
             }
         });
         if const { slides_beyond::<C>(I) } {
@@ -169,6 +175,22 @@ where
         size = loaded(effects, size, slides);
     }
     size
+}
+
+/// How far coordinate I has moved its body's origin, m.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn slide<R: Real, C: Compiled, const Q: usize, const I: usize>(
+    turns: &[JointCoordinate<R>; Q],
+) -> R {
+    let joint = CompiledJoint::<C, I>::JOINT;
+    let q = match CompiledJoint::<C, I>::POSITION {
+        Some(position) => turns[position].q.abs(),
+        None => R::ZERO,
+    };
+    match CompiledJoint::<C, I>::MOTION {
+        JointMotion::Screw => q * R::from_f64((joint.pitch * C::LENGTH).abs()),
+        _ => q,
+    }
 }
 
 /// Adds the payloads that joint I moves to the inertia that it could move.
@@ -214,11 +236,11 @@ fn of_load<R: Real>(load: &SpatialInertia<R>, reach: R) -> R {
     (x[0] + y[1] + z[2]) * R::from_f64(0.5) + reach * (moment + moment + reach * load.mass)
 }
 
-/// Whether joint `i` has a prismatic descendant.
+/// Whether joint `i` has a descendant that slides.
 const fn slides_beyond<C: Compiled>(i: usize) -> bool {
     let mut k = 0;
     while k < C::JOINTS.len() {
-        if is_ancestor::<C>(i, k) && joint::<C>(k).prismatic {
+        if is_slide_beyond::<C>(i, k) {
             return true;
         }
         k += 1;

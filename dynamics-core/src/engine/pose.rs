@@ -1,9 +1,9 @@
 //! The pose of a body in the base, for effects that read it.
 
-use super::compile::{BodyPlacement, Joint};
+use super::compile::{BodyPlacement, Compiled, CompiledJoint};
+use super::displacement::Displacement;
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
-use crate::model::JointCoordinate;
 use crate::scalar::{Matrix, Real};
 use crate::spatial::Xform;
 
@@ -34,28 +34,16 @@ impl<R: Real> Pose<R> {
         }
     };
 
-    /// The pose of a child behind `joint`.
+    /// The pose of a child behind joint I.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn transformed_by(
-        &self,
-        joint: &Joint,
-        turn: JointCoordinate<R>,
-        slide: Folded<R>,
-    ) -> Self {
-        let rot = Mat3::constant(&joint.rot);
-        let [x, y, z] = rot.0;
-        let [x, y, z] = [self.axes.mul(x), self.axes.mul(y), self.axes.mul(z)];
+    pub(crate) fn transformed_by<C: Compiled, const I: usize>(&self, at: &Displacement<R>) -> Self {
+        let joint = CompiledJoint::<C, I>::JOINT;
+        let [x, y, z] = Mat3::constant(&joint.rot).0;
+        let axes = Mat3([self.axes.mul(x), self.axes.mul(y), self.axes.mul(z)]);
         let origin = self.origin + self.axes.mul(Vec3::constant(joint.pos));
-        if joint.prismatic {
-            return Self {
-                axes: Mat3([x, y, z]),
-                origin: origin + z.scale(slide),
-            };
-        }
-        let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
         Self {
-            axes: Mat3([x.scale(cos) + y.scale(sin), y.scale(cos) - x.scale(sin), z]),
-            origin,
+            axes: at.axes::<C, I>(&axes),
+            origin: origin + at.along::<C, I>(&axes),
         }
     }
 

@@ -1,13 +1,13 @@
 //! Inverse dynamics by one recursion over the bodies: the outward pass on entering a joint, the inward pass on returning from
 //! its children, so that intermediate values stay in registers.
 
-use super::acceleration_field::{AccelerationField, Inertia, JointRates, Wrench};
+use super::acceleration_field::{AccelerationField, Inertia, Wrench};
 use super::base::base;
-use super::compile::{
-    BodyPlacement, Compiled, CompiledJoint, Joint, JointPair, load, loads, place,
-};
+use super::compile::{BodyPlacement, Compiled, CompiledJoint, JointPair, last, load, loads, place};
+use super::displacement::Displacement;
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
+use super::joint_rates::{JointRates, SeveralRates, Twist};
 use super::only_if;
 use super::subtree::{has_subtree_functions, root_subtree, visit_child};
 use crate::effects::{
@@ -51,20 +51,20 @@ where
         tau: &mut tau,
     };
     for_each_joint!(J, {
-        if const { CompiledJoint::<C, J>::IS_ON_BASE && !has_subtree_functions(V) }
+        if const { CompiledJoint::<C, J>::IS_ON_BASE && !has_subtree_functions::<C>() }
             && let Some(visit) = const {
                 only_if(
-                    CompiledJoint::<C, J>::IS_ON_BASE && !has_subtree_functions(V),
+                    CompiledJoint::<C, J>::IS_ON_BASE && !has_subtree_functions::<C>(),
                     visit::<R, C, E, B, Q, V, J> as Visit<R, E, Q, V>,
                 )
             }
         {
             visit(&mut task, &base);
         }
-        if const { CompiledJoint::<C, J>::IS_ON_BASE && has_subtree_functions(V) }
+        if const { CompiledJoint::<C, J>::IS_ON_BASE && has_subtree_functions::<C>() }
             && let Some(visit) = const {
                 only_if(
-                    CompiledJoint::<C, J>::IS_ON_BASE && has_subtree_functions(V),
+                    CompiledJoint::<C, J>::IS_ON_BASE && has_subtree_functions::<C>(),
                     root_subtree::<R, C, E, B, Q, V, J> as fn(&mut Task<'_, R, E, Q, V>),
                 )
             }
@@ -90,32 +90,10 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    let joint = CompiledJoint::<C, I>::JOINT;
-    let (at, qdd) = (
-        JointState::new(task.state.q[I], task.state.qd[I]),
-        task.state.qdd[I],
-    );
-    let turn = task.turns[I];
-    let length_inv = Folded::constant(C::LENGTH_INV);
-    let slide = Folded::runtime(turn.q) * length_inv;
-    let unit = if joint.prismatic {
-        length_inv
-    } else {
-        Folded::constant(1.0)
-    };
-    let rates = JointRates {
-        velocity: Folded::runtime_if(E::BODY_VELOCITY, at.qd) * unit,
-        omega_products: Folded::runtime_if(E::VELOCITY_PRODUCTS, at.qd) * unit,
-        accel: Folded::runtime_if(E::ACCELERATIONS, qdd) * unit,
-    };
-
-    let mut field = if joint.prismatic {
-        parent.across_prismatic(joint, slide, rates)
-    } else {
-        parent.across_revolute(joint, turn, rates)
-    };
+    let at = Displacement::of::<C, Q, I>(task.turns);
+    let mut field = across::<R, C, E, B, Q, V, I>(task, parent, &at);
     if E::BODY_POSE {
-        field.pose = parent.pose.transformed_by(joint, turn, slide);
+        field.pose = parent.pose.transformed_by::<C, I>(&at);
     }
     let mut total = field.wrench(&inertia::<R, C, E, B, Q, V, I>(
         task.effects,
@@ -126,10 +104,10 @@ where
     }
 
     for_each_joint!(J, {
-        if JointPair::<C, I, J>::IS_PARENT
+        if JointPair::<C, I, J>::IS_CHILD
             && let Some(visit) = const {
                 only_if(
-                    JointPair::<C, I, J>::IS_PARENT,
+                    JointPair::<C, I, J>::IS_CHILD,
                     visit_child::<R, C, E, B, Q, V, I, J> as Visit<R, E, Q, V>,
                 )
             }
@@ -142,20 +120,115 @@ where
         }
     });
 
-    let mut tau = total.along(joint.prismatic, length_inv).get();
+    if CompiledJoint::<C, I>::COUNT == 1 {
+        drive::<R, C, E, B, Q, V, I>(task, &total);
+    } else if let Some(drive) = const {
+        only_if(
+            CompiledJoint::<C, I>::COUNT > 1,
+            drive_several::<R, C, E, B, Q, V, I> as fn(&mut Task<'_, R, E, Q, V>, &Wrench<R>),
+        )
+    } {
+        drive(task, &total);
+    }
+
+    let turn = if C::LOADS_SINES_AGAIN {
+        task.back[CompiledJoint::<C, I>::Q]
+    } else {
+        at.turn
+    };
+    total.to_parent::<C, I>(&at.with_turn(turn))
+}
+
+/// The field of the body behind joint I, from that of its parent.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn across<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    task: &Task<'_, R, E, Q, V>,
+    parent: &AccelerationField<R>,
+    at: &Displacement<R>,
+) -> AccelerationField<R>
+where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    let joint = CompiledJoint::<C, I>::JOINT;
+    let (qd, qdd) = (&task.state.qd, &task.state.qdd);
+    if CompiledJoint::<C, I>::COUNT > 1 {
+        let rates = SeveralRates {
+            velocity: Twist::of::<C, V, I>(qd, E::BODY_VELOCITY),
+            products: Twist::of::<C, V, I>(qd, E::VELOCITY_PRODUCTS),
+            accel: Twist::of::<C, V, I>(qdd, E::ACCELERATIONS),
+        };
+        return parent.across_several::<C, I>(at, &rates);
+    }
+    let unit = if joint.prismatic {
+        Folded::constant(C::LENGTH_INV)
+    } else {
+        Folded::constant(1.0)
+    };
+    let rates = JointRates {
+        velocity: Folded::runtime_if(E::BODY_VELOCITY, qd[I]) * unit,
+        omega_products: Folded::runtime_if(E::VELOCITY_PRODUCTS, qd[I]) * unit,
+        accel: Folded::runtime_if(E::ACCELERATIONS, qdd[I]) * unit,
+    };
+    parent.across::<C, I>(at, rates)
+}
+
+/// The torque of the motor of coordinate I, which carries `total`.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn drive<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    task: &mut Task<'_, R, E, Q, V>,
+    total: &Wrench<R>,
+) where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    let at = joint_state::<R, C, Q, V, I>(task.state);
+    let length_inv = Folded::constant(C::LENGTH_INV);
+    let mut tau = total.along(CompiledJoint::<C, I>::JOINT, length_inv).get();
     task.effects.torque(I, at, &mut tau);
     if let Some(inertia) = task.effects.inertia(I) {
-        tau += inertia * qdd;
+        tau += inertia * task.state.qdd[I];
     }
     load_friction(task.effects, I, at, &mut tau);
     task.tau[I] = tau;
+}
 
-    let turn = if C::LOADS_SINES_AGAIN {
-        task.back[I]
-    } else {
-        turn
+/// The same of all coordinates of a joint.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn drive_several<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    task: &mut Task<'_, R, E, Q, V>,
+    total: &Wrench<R>,
+) where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    for_each_joint!(K, {
+        if JointPair::<C, I, K>::IS_COORDINATE
+            && let Some(drive) = const {
+                only_if(
+                    JointPair::<C, I, K>::IS_COORDINATE,
+                    drive::<R, C, E, B, Q, V, K> as fn(&mut Task<'_, R, E, Q, V>, &Wrench<R>),
+                )
+            }
+        {
+            drive(task, total);
+        }
+    });
+}
+
+/// What effects at coordinate I read.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn joint_state<R: Real, C: Compiled, const Q: usize, const V: usize, const I: usize>(
+    state: &State<R, Q, V>,
+) -> JointState<R> {
+    let q = match CompiledJoint::<C, I>::POSITION {
+        Some(position) => state.q[position],
+        None => R::ZERO,
     };
-    total.to_parent::<C, I>(turn, slide)
+    JointState::new(q, state.qd[I])
 }
 
 /// The inertia of the body behind joint I, with its payloads; all of Σ if the base moves.
@@ -169,11 +242,10 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    let joint = CompiledJoint::<C, I>::JOINT;
-    let body = own_inertia::<R, C, E, B, Q, V, I>(effects, joint, base_moves);
+    let body = own_inertia::<R, C, E, B, Q, V, I>(effects, base_moves);
     match const {
         only_if(
-            loads::<C>(I, &E::PAYLOAD) > 0,
+            loads::<C>(last::<C>(I), &E::PAYLOAD) > 0,
             loaded::<R, C, E, B, Q, V, I> as fn(&E, Inertia<R>) -> Inertia<R>,
         )
     } {
@@ -186,17 +258,22 @@ where
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn own_inertia<R: Real, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
-    joint: &'static Joint,
     base_moves: bool,
 ) -> Inertia<R>
 where
     C: Compiled,
     E: Effect<R, B, V>,
 {
+    let joint = CompiledJoint::<C, I>::BODY;
     if const { E::BASE_PARAMETERS > 0 } {
         let mut body = RegroupedInertia::default();
-        call_hook!(E::REGROUPED.load, effects, I, &mut body);
-        Inertia::loaded(&body, joint, base_moves)
+        call_hook!(
+            E::REGROUPED.load,
+            effects,
+            CompiledJoint::<C, I>::LAST,
+            &mut body
+        );
+        Inertia::loaded(&body, CompiledJoint::<C, I>::FIRST, base_moves)
     } else if base_moves {
         Inertia::second_moment_only(joint)
     } else {
@@ -217,15 +294,15 @@ where
 {
     const {
         assert!(
-            loads::<C>(I, &E::PAYLOAD) <= 32,
+            loads::<C>(last::<C>(I), &E::PAYLOAD) <= 32,
             "the engine takes up to 32 bodies with payloads on one joint; use `Core`"
         )
     };
     for_each_joint!(K, {
-        if const { K < loads::<C>(I, &E::PAYLOAD) } {
-            let of = const { load::<C>(I, K, &E::PAYLOAD) };
+        if const { K < loads::<C>(last::<C>(I), &E::PAYLOAD) } {
+            let of = const { load::<C>(last::<C>(I), K, &E::PAYLOAD) };
             let place = const {
-                let of = load::<C>(I, K, &E::PAYLOAD);
+                let of = load::<C>(last::<C>(I), K, &E::PAYLOAD);
                 &place::<C>(of)
             };
             let length = C::LENGTH;

@@ -6,7 +6,7 @@
 
 use super::acceleration_field::{AccelerationField, Wrench};
 use super::base::base;
-use super::compile::{Compiled, is_parent};
+use super::compile::{Compiled, is_parent, last};
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::pose::Pose;
@@ -17,8 +17,15 @@ use crate::scalar::{Real, Vector};
 /// Robots of up to this number of joints are one function.
 const WHOLE: usize = 16;
 
-/// Whether a robot of this number of joints is split.
-pub(crate) const fn has_subtree_functions(joints: usize) -> bool {
+/// Whether a robot is split.
+pub(crate) const fn has_subtree_functions<C: Compiled>() -> bool {
+    let (mut joints, mut i) = (0, 0);
+    while i < C::JOINTS.len() {
+        if C::JOINTS[i].first == i {
+            joints += 1;
+        }
+        i += 1;
+    }
     joints > WHOLE
 }
 
@@ -26,12 +33,12 @@ pub(crate) const fn has_subtree_functions(joints: usize) -> bool {
 const fn is_subtree_root<C: Compiled>(i: usize) -> bool {
     let (mut children, mut j) = (0, 0);
     while j < C::JOINTS.len() {
-        if is_parent::<C>(i, j) {
+        if is_parent::<C>(last::<C>(i), j) {
             children += 1;
         }
         j += 1;
     }
-    has_subtree_functions(C::JOINTS.len()) && children > 1
+    has_subtree_functions::<C>() && children > 1
 }
 
 /// Joint I on the base and its descendants.

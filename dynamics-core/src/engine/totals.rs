@@ -7,14 +7,15 @@
 use core::marker::PhantomData;
 use core::ops::Add;
 
-use super::acceleration_field::{AccelerationField, Inertia, JointRates, Wrench};
-use super::compile::{Compiled, Distribution, Remainder};
+use super::acceleration_field::{AccelerationField, Inertia, Wrench};
+use super::compile::{Compiled, Distribution, JointPair, Remainder};
+use super::displacement::Displacement;
 use super::folding::{Folded, Mat3, Sym3, Vec3};
 use super::momentum::momentum;
-use super::pass::{Pass, moved, sweep};
+use super::pass::{Pass, Rates, moved, sweep};
 use super::pose::Pose;
 use super::rnea::inertia;
-use crate::effects::{Declared, Effect, add_inertia, base_given};
+use crate::effects::{Declared, Effect, base_given};
 use crate::model::JointCoordinate;
 use crate::scalar::Real;
 
@@ -146,15 +147,14 @@ where
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn enter<const I: usize>(&mut self, parent: &AccelerationField<R>) -> AccelerationField<R> {
-        let rates = JointRates {
-            velocity: match self.qd {
-                Some(qd) => Folded::runtime(qd[I]),
-                None => Folded::ZERO,
-            },
-            omega_products: Folded::ZERO,
-            accel: Folded::ZERO,
+        let none = [R::ZERO; V];
+        let rates = Rates {
+            qd: self.qd.unwrap_or(&none),
+            qdd: &none,
+            moves: self.qd.is_some(),
+            accelerates: false,
         };
-        moved::<R, C, Q, I>(parent, self.turns, rates)
+        moved::<R, C, Q, V, I>(parent, self.turns, &rates)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -166,23 +166,40 @@ where
         let own = inertia::<R, C, E, B, Q, V, I>(self.effects, WHOLE | E::BASE_MOTION);
         let mut here = of_body(body, &own) + inner;
         if let Some(qd) = self.qd {
-            let mut rotor = R::ZERO;
-            add_inertia(self.effects, I, &mut rotor);
-            here.twice = here.twice + Folded::runtime(rotor * qd[I] * qd[I]);
+            here.twice = here.twice + rotors::<R, C, E, B, V, I>(self.effects, qd);
         }
-        let turn = self.turns[I];
-        let slide = Folded::runtime(turn.q) * Folded::constant(C::LENGTH_INV);
+        let at = Displacement::of::<C, Q, I>(self.turns);
         let mass = Inertia {
             mass: here.mass,
             moment: here.moment,
             second: Sym3::ZERO,
         };
-        let mass = mass.to_parent::<C, I>(turn, slide);
+        let mass = mass.to_parent::<C, I>(&at);
         Totals {
             mass: mass.mass,
             moment: mass.moment,
-            momentum: here.momentum.to_parent::<C, I>(turn, slide),
+            momentum: here.momentum.to_parent::<C, I>(&at),
             twice: here.twice,
         }
     }
+}
+
+/// Twice the energy of what stands at the coordinates of joint I.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn rotors<R: Real, C: Compiled, E, const B: usize, const V: usize, const I: usize>(
+    effects: &E,
+    qd: &[R; V],
+) -> Folded<R>
+where
+    E: Effect<R, B, V>,
+{
+    let mut twice = R::ZERO;
+    for_each_joint!(K, {
+        if JointPair::<C, I, K>::IS_COORDINATE
+            && let Some(inertia) = effects.inertia(K)
+        {
+            twice += inertia * qd[K] * qd[K];
+        }
+    });
+    Folded::runtime(twice)
 }

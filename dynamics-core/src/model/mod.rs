@@ -85,6 +85,7 @@ pub use floating_base::attach_to;
 pub use inertia::BodyInertia;
 pub use joint::Joint;
 pub use joint_coordinate::JointCoordinate;
+pub(crate) use joint_coordinate::{near_unit, rotation};
 pub use joint_kind::{JointKind, JointKinds};
 pub use link_view::LinkView;
 pub use named::{Bodies, BodyNumber, OnBody};

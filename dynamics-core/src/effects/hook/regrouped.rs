@@ -4,12 +4,12 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[doc(hidden)]
 pub struct RegroupedInertia<R> {
-    /// m L², zero behind a revolute joint.
+    /// m L², zero behind a revolute or spherical joint.
     pub(crate) mass: R,
     /// h L, in parts; its z is zero behind a revolute joint.
     pub(crate) moment: [R; 3],
-    /// Σ: xx, xy, xz, yy, yz; its zz is zero.
-    pub(crate) second: [R; 5],
+    /// Σ: xx, xy, xz, yy, yz, zz; zz is zero but behind a spherical or free joint.
+    pub(crate) second: [R; 6],
     /// The largest mass, first moment and second moment that the joint could move: those of its body and of its descendants, as
     /// if they lay in one line.
     pub(crate) size: [R; 3],

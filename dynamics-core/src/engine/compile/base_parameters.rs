@@ -3,10 +3,15 @@
 //! A rotation about z does not move what lies on z, so that mass m, h_z and Σ_zz of a link go to its parent as a thin rod;
 //! Σ = ∫ r rᵀ dm is the second moment. Behind a prismatic joint the whole Σ goes there. τ and M are unchanged; the
 //! regrouped internal forces are not the physical ones.
+//!
+//! Joints of several degrees of freedom, all exactly: of a universal and of a cylindrical joint each step regroups as a
+//! joint of its own, over the massless body between them. A screw and a planar joint move the body's origin along or across
+//! z, so that only Σ_zz goes to the parent. A spherical joint keeps its centre in the parent, which receives the mass there;
+//! h and Σ stay. A free joint passes nothing.
 
 use glam::{DMat3, DVec3};
 
-use super::tree::Joint;
+use super::tree::{Joint, JointMotion};
 use crate::math::const_eval::{add, mul, scale, transpose};
 use crate::model::BASE;
 
@@ -16,38 +21,69 @@ pub(super) const fn regroup<const V: usize>(joints: &mut [Joint; V]) {
     while i > 0 {
         i -= 1;
         let child = joints[i];
-        let (mut mass, mut rod_h, mut spread) = (0.0, 0.0, child.second);
-        if child.prismatic {
-            joints[i].second = DMat3::ZERO;
-        } else {
-            (mass, rod_h) = (child.mass, child.moment.z);
-            let zz = child.second.z_axis.z;
-            spread = DMat3::from_cols(DVec3::ZERO, DVec3::ZERO, DVec3::new(0.0, 0.0, zz));
-            joints[i].mass = 0.0;
-            joints[i].moment = DVec3::new(child.moment.x, child.moment.y, 0.0);
-            let (x, y, z) = (
-                child.second.x_axis,
-                child.second.y_axis,
-                child.second.z_axis,
-            );
-            joints[i].second = DMat3::from_cols(x, y, DVec3::new(z.x, z.y, 0.0));
+        if i + 1 < child.first + child.count {
+            // The body is behind the last coordinate.
+            continue;
         }
+        // The coordinate that moves the body.
+        let by = joints[child.first];
+        let passed = passed(&mut joints[i], by.motion);
         joints[i].second_moment_only = joints[i].second;
-        if child.parent != BASE {
-            let parent = &mut joints[child.parent];
-            let (p, h) = (child.pos, scale(child.rot.z_axis, rod_h));
-            let second = mul(&mul(&child.rot, &spread), &transpose(&child.rot));
+        if by.parent != BASE {
+            let parent = &mut joints[by.parent];
+            let (p, h) = (by.pos, scale(by.rot.z_axis, passed.rod));
+            let second = mul(&mul(&by.rot, &passed.spread), &transpose(&by.rot));
             let second = mat_add(&second, &mat_add(&outer(p, h), &outer(h, p)));
-            parent.second = mat_add(&parent.second, &mat_add(&second, &outer(p, scale(p, mass))));
-            parent.moment = add(parent.moment, add(scale(p, mass), h));
-            parent.mass += mass;
-        } else if !child.prismatic {
+            let whole = mat_add(&second, &outer(p, scale(p, passed.mass)));
+            parent.second = mat_add(&parent.second, &whole);
+            parent.moment = add(parent.moment, add(scale(p, passed.mass), h));
+            parent.mass += passed.mass;
+        } else if matches!(
+            by.motion,
+            JointMotion::Turn | JointMotion::Screw | JointMotion::Planar
+        ) {
             // A base at rest leaves one rotation, about z, which depends on Σ_xx + Σ_yy alone.
             let sum = child.second.x_axis.x + child.second.y_axis.y;
             let x = DVec3::new(sum, 0.0, 0.0);
             joints[i].second = DMat3::from_cols(x, DVec3::ZERO, DVec3::ZERO);
         }
     }
+}
+
+/// What a parent receives at the joint's origin: a mass, the first moment of a rod along z, and a second moment.
+struct Passed {
+    mass: f64,
+    rod: f64,
+    spread: DMat3,
+}
+
+/// Takes from a body what its joint passes to the parent.
+const fn passed(body: &mut Joint, motion: JointMotion) -> Passed {
+    let mut passed = Passed {
+        mass: 0.0,
+        rod: 0.0,
+        spread: DMat3::ZERO,
+    };
+    if matches!(motion, JointMotion::Slide) {
+        passed.spread = body.second;
+        body.second = DMat3::ZERO;
+    }
+    if matches!(motion, JointMotion::Turn | JointMotion::Spherical) {
+        passed.mass = body.mass;
+        body.mass = 0.0;
+    }
+    if matches!(motion, JointMotion::Turn) {
+        passed.rod = body.moment.z;
+        body.moment.z = 0.0;
+    }
+    if matches!(
+        motion,
+        JointMotion::Turn | JointMotion::Screw | JointMotion::Planar
+    ) {
+        passed.spread.z_axis.z = body.second.z_axis.z;
+        body.second.z_axis.z = 0.0;
+    }
+    passed
 }
 
 /// Σ = ½ tr(Ī) 1 − Ī.

@@ -1,8 +1,8 @@
 //! The constants of the engine from the description: evaluated at compile time, in f64, from the tips to the base.
 //!
 //! 1. A fixed body becomes part of its parent.
-//! 2. Each frame is rotated until the joint's axis is z, and moved along it until the offset p from the parent is
-//!    perpendicular to it ([`tree`]).
+//! 2. A joint becomes one coordinate for each degree of freedom. Each frame is rotated until the joint's axis is z, and
+//!    moved along it until the offset p from the parent is perpendicular to it ([`tree`]).
 //! 3. Entries that miss −1, 0 or 1 by rounding become exact ([`snap`]).
 //! 4. Inertias are regrouped to base parameters ([`base_parameters`]).
 //! 5. Parameters below the robot's negligible share of torque become zero ([`mod@prune`]).
@@ -18,10 +18,10 @@ mod tree;
 
 pub(crate) use remainder::{Distribution, Remainder};
 pub(crate) use topology::{
-    Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair, is_ancestor, is_parent, joint,
-    load, loads, place, supports,
+    Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair, is_parent, is_slide_beyond,
+    last, load, loads, place, supports,
 };
-pub(crate) use tree::{BodyPlacement, CompiledTree, Joint};
+pub(crate) use tree::{BodyPlacement, CompiledTree, Joint, JointMotion};
 
 use glam::{DMat3, DVec3};
 
@@ -30,7 +30,7 @@ use self::prune::prune;
 use self::snap::{snap_small, snapped};
 use self::tree::{AT_BASE, PADDING_JOINT};
 use crate::math::const_eval::{add, dot, mul, mul_vec, scale, transpose};
-use crate::model::{BASE, JointKind, Model};
+use crate::model::{BASE, JointKind, Link, Model};
 
 const fn compile<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
@@ -55,24 +55,7 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
                 pos,
             };
         } else {
-            let rot = snapped(&rot);
-            let prismatic = match link.joint.kind {
-                JointKind::Prismatic => true,
-                JointKind::Revolute | JointKind::Continuous => false,
-                _ => panic!("the engine takes revolute, prismatic and fixed joints; use `Core`"),
-            };
-            let slide = -dot(pos, rot.z_axis);
-            let joint = &mut joints[link.idx_v];
-            joint.parent = parent.joint;
-            joint.prismatic = prismatic;
-            joint.near = link.limits.within_two_turns();
-            joint.rot = rot;
-            joint.pos = snap_small(add(pos, scale(rot.z_axis, slide)));
-            places[i] = BodyPlacement {
-                joint: link.idx_v,
-                rot: DMat3::IDENTITY,
-                pos: DVec3::new(0.0, 0.0, -slide),
-            };
+            places[i] = attach(&mut joints, link, parent.joint, &rot, pos);
         }
         if places[i].joint != BASE {
             let joint = &mut joints[places[i].joint];
@@ -98,6 +81,7 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
         joint.pos = divide(joint.pos, length);
         joint.moment = scale(joint.moment, length);
         joint.mass *= length * length;
+        joint.pitch /= length;
         i += 1;
     }
     i = 0;
@@ -111,6 +95,126 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
         joints,
         places,
         length,
+    }
+}
+
+/// Writes the coordinates of a joint whose frame is `rot` and `pos` in that of `parent`; returns where its body is.
+const fn attach<const V: usize>(
+    joints: &mut [Joint; V],
+    link: &Link<f64>,
+    parent: usize,
+    rot: &DMat3,
+    pos: DVec3,
+) -> BodyPlacement {
+    use JointKind::*;
+    let (v, q) = (link.idx_v, link.idx_q);
+    let single = Joint {
+        parent,
+        first: v,
+        q,
+        position: Some(q),
+        near: link.joint.kind.coordinates().1 == 1 && link.limits.within_two_turns(),
+        rot: snapped(rot),
+        pos,
+        ..PADDING_JOINT
+    };
+    let (motion, pitch) = match link.joint.kind {
+        Prismatic => (JointMotion::Slide, 0.0),
+        Helical => (JointMotion::Screw, link.joint.pitch),
+        Planar => return at_once(joints, &single, JointMotion::Planar),
+        Spherical => return at_once(joints, &single, JointMotion::Spherical),
+        Free => return at_once(joints, &single, JointMotion::Free),
+        _ => (JointMotion::Turn, 0.0),
+    };
+    let mut first = Joint {
+        motion,
+        pitch,
+        prismatic: matches!(motion, JointMotion::Slide),
+        ..single
+    };
+    // The frame of a universal joint's first rotation, which is about x, in that of the body; a cyclic permutation.
+    let turned = DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X);
+    if matches!(link.joint.kind, Universal) {
+        first.rot = mul(&first.rot, &turned);
+    }
+    let place = along_axis(joints, first);
+    let (motion, rot) = match link.joint.kind {
+        Universal => (JointMotion::Turn, transpose(&turned)),
+        Cylindrical => (JointMotion::Slide, DMat3::IDENTITY),
+        _ => return place,
+    };
+    let second = Joint {
+        parent: v,
+        motion,
+        prismatic: matches!(motion, JointMotion::Slide),
+        first: v + 1,
+        q: q + 1,
+        position: Some(q + 1),
+        rot,
+        pos: place.pos,
+        ..single
+    };
+    along_axis(joints, second)
+}
+
+/// Moves a joint's frame along its axis z until the offset from the parent is perpendicular to it.
+const fn along_axis<const V: usize>(joints: &mut [Joint; V], joint: Joint) -> BodyPlacement {
+    let slide = -dot(joint.pos, joint.rot.z_axis);
+    joints[joint.first] = Joint {
+        pos: snap_small(add(joint.pos, scale(joint.rot.z_axis, slide))),
+        ..joint
+    };
+    BodyPlacement {
+        joint: joint.first,
+        rot: DMat3::IDENTITY,
+        pos: DVec3::new(0.0, 0.0, -slide),
+    }
+}
+
+/// Writes the coordinates that move a body at once, `first` the first of them.
+const fn at_once<const V: usize>(
+    joints: &mut [Joint; V],
+    first: &Joint,
+    motion: JointMotion,
+) -> BodyPlacement {
+    // How many there are, the axis of the first rotation, and the position of the first translation.
+    let (count, turns, shift) = match motion {
+        JointMotion::Planar => (3, 2, 1),
+        JointMotion::Spherical => (3, 0, 0),
+        _ => (6, 0, 4),
+    };
+    let rotations = 3 - turns;
+    let mut k = 0;
+    while k < count {
+        let prismatic = k >= rotations;
+        let joint = &mut joints[first.first + k];
+        *joint = Joint {
+            motion: JointMotion::Still,
+            count,
+            prismatic,
+            axis: if prismatic { k - rotations } else { turns + k },
+            position: if prismatic {
+                Some(first.q + shift + k - rotations)
+            } else if matches!(motion, JointMotion::Planar) {
+                Some(first.q)
+            } else {
+                None
+            },
+            ..*first
+        };
+        if k == 0 {
+            joint.motion = motion;
+            joint.pos = snap_small(first.pos);
+        } else {
+            joint.parent = first.first + k - 1;
+            (joint.rot, joint.pos) = (DMat3::IDENTITY, DVec3::ZERO);
+        }
+        k += 1;
+    }
+    BodyPlacement {
+        joint: first.first + count - 1,
+        rot: DMat3::IDENTITY,
+        pos: DVec3::ZERO,
     }
 }
 
@@ -140,7 +244,11 @@ const fn divide(v: DVec3, s: f64) -> DVec3 {
 }
 
 const fn offset(joint: &Joint, k: usize) -> f64 {
-    if joint.parent == BASE || joint.prismatic {
+    let constant = matches!(
+        joint.motion,
+        JointMotion::Turn | JointMotion::Spherical | JointMotion::Still
+    );
+    if joint.parent == BASE || !constant {
         return 0.0;
     }
     match k {

@@ -3,10 +3,12 @@
 use core::marker::PhantomData;
 
 use super::compile;
-use super::tree::{AT_BASE, BodyPlacement, CompiledTree, Joint, PADDING_JOINT};
+use super::tree::{AT_BASE, BodyPlacement, CompiledTree, Joint, JointMotion, PADDING_JOINT};
 use crate::model::{BASE, Link, Robot};
 
 /// A robot as the engine computes with it: one type in place of the robot, the number of its bodies, and those of its coordinates.
+///
+/// A joint is named by its velocity coordinate; one of several coordinates is a chain of them ([`Joint`]).
 pub(crate) trait Compiled {
     /// The bodies of the description.
     const LINKS: &'static [Link<f64>];
@@ -19,13 +21,17 @@ pub(crate) trait Compiled {
     /// Its reciprocal, 1/m.
     const LENGTH_INV: f64 = 1.0 / Self::LENGTH;
     /// The joints that support each joint, itself among them, as bits.
-    const SUPPORT: &'static [u32];
+    const SUPPORT: &'static [u64];
     /// Whether some chain of joints is too long for its sines and cosines to stay in registers: measured on chains of 3 (slower
     /// by 1 % if they are loaded again), 6 and 7 (faster by 1 %).
     const LOADS_SINES_AGAIN: bool = {
         let (mut longest, mut j) = (0, 0);
-        while j < Self::SUPPORT.len() {
-            let depth = Self::SUPPORT[j].count_ones();
+        while j < Self::JOINTS.len() {
+            let (mut depth, mut i) = (0, j);
+            while i != BASE {
+                depth += 1;
+                i = Self::JOINTS[Self::JOINTS[i].first].parent;
+            }
             if depth > longest {
                 longest = depth;
             }
@@ -42,7 +48,7 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
     const TREE: &'static CompiledTree<B, V> = &{
         assert!(
             V <= 32,
-            "the engine takes up to 32 moving bodies; use `Core`"
+            "the engine takes up to 32 velocity coordinates; use `Core`"
         );
         compile(&T::MODEL, T::NEGLIGIBLE)
     };
@@ -55,7 +61,7 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
     const JOINTS: &'static [Joint] = &Self::TREE.joints;
     const PLACES: &'static [BodyPlacement] = &Self::TREE.places;
     const LENGTH: f64 = Self::TREE.length;
-    const SUPPORT: &'static [u32] = &{
+    const SUPPORT: &'static [u64] = &{
         let (mut support, mut i) = ([0; V], 0);
         while i < V {
             let parent = Self::TREE.joints[i].parent;
@@ -85,6 +91,16 @@ pub(crate) const fn is_ancestor<C: Compiled>(k: usize, i: usize) -> bool {
     k != i && supports::<C>(k, i)
 }
 
+/// Whether joint `k` supports joint `i`, another one, which moves its body's origin in the parent's frame.
+pub(crate) const fn is_slide_beyond<C: Compiled>(k: usize, i: usize) -> bool {
+    if !is_ancestor::<C>(k, i) {
+        return false;
+    }
+    let joint = &C::JOINTS[i];
+    joint.first != C::JOINTS[k].first
+        && (joint.prismatic || matches!(joint.motion, JointMotion::Screw))
+}
+
 /// The placement of a body of the description; beyond the last one, the base.
 pub(crate) const fn place<C: Compiled>(body: usize) -> BodyPlacement {
     if body < C::PLACES.len() {
@@ -92,6 +108,12 @@ pub(crate) const fn place<C: Compiled>(body: usize) -> BodyPlacement {
     } else {
         AT_BASE
     }
+}
+
+/// The last coordinate of the joint of coordinate `i`: that of its body.
+pub(crate) const fn last<C: Compiled>(i: usize) -> usize {
+    let joint = joint::<C>(i);
+    joint.first + joint.count - 1
 }
 
 /// How many of the bodies that are `loaded` move with joint `i`.
@@ -164,14 +186,35 @@ pub(crate) struct CompiledJoint<C, const I: usize>(PhantomData<C>);
 impl<C: Compiled, const I: usize> CompiledJoint<C, I> {
     /// The joint; beyond the last one, the padding joint.
     pub(crate) const JOINT: &'static Joint = &joint::<C>(I);
-    /// Whether it is prismatic.
+    /// Whether its velocity is that of a translation.
     pub(crate) const PRISMATIC: bool = Self::JOINT.prismatic;
-    /// Its parent, or the padding joint.
+    /// How it moves the body.
+    pub(crate) const MOTION: JointMotion = Self::JOINT.motion;
+    /// Whether it is revolute: only the sine and cosine of its position matter.
+    pub(crate) const IS_TURN: bool = matches!(Self::MOTION, JointMotion::Turn);
+    /// Whether it moves the body's origin in the parent's frame.
+    pub(crate) const SHIFTS: bool = matches!(
+        Self::MOTION,
+        JointMotion::Slide | JointMotion::Screw | JointMotion::Planar | JointMotion::Free
+    );
+    /// How many coordinates move the body at once.
+    pub(crate) const COUNT: usize = Self::JOINT.count;
+    /// Where their positions begin.
+    pub(crate) const Q: usize = Self::JOINT.q;
+    /// The position that belongs to the velocity, if any.
+    pub(crate) const POSITION: Option<usize> = Self::JOINT.position;
+    /// The first of them.
+    pub(crate) const FIRST: &'static Joint = &joint::<C>(Self::JOINT.first);
+    /// The last of them, by whose number the body is known.
+    pub(crate) const LAST: usize = if I < C::JOINTS.len() { last::<C>(I) } else { I };
+    /// The same, with the inertia of the body.
+    pub(crate) const BODY: &'static Joint = &joint::<C>(Self::LAST);
+    /// The parent, or the padding joint.
     pub(crate) const PARENT: &'static Joint = &joint::<C>(Self::JOINT.parent);
     /// Whether its parent is the base.
     pub(crate) const IS_ON_BASE: bool = is_parent::<C>(BASE, I);
     /// How many bodies move with it as one.
-    pub(crate) const BODIES: usize = bodies_on::<C>(I);
+    pub(crate) const BODIES: usize = bodies_on::<C>(Self::LAST);
 }
 
 /// Joints I and J of a compiled robot.
@@ -180,16 +223,22 @@ pub(crate) struct JointPair<C, const I: usize, const J: usize>(PhantomData<C>);
 impl<C: Compiled, const I: usize, const J: usize> JointPair<C, I, J> {
     /// Whether I is the parent of J.
     pub(crate) const IS_PARENT: bool = is_parent::<C>(I, J);
+    /// Whether the body of joint I is the parent of J.
+    pub(crate) const IS_CHILD: bool = is_parent::<C>(CompiledJoint::<C, I>::LAST, J);
+    /// Whether J is one of the coordinates that move the body of joint I at once.
+    pub(crate) const IS_COORDINATE: bool =
+        I < C::JOINTS.len() && J < C::JOINTS.len() && C::JOINTS[I].first == C::JOINTS[J].first;
     /// Whether I is J or supports it.
     pub(crate) const SUPPORTS: bool = supports::<C>(I, J);
     /// Whether I supports J.
     pub(crate) const IS_ANCESTOR: bool = is_ancestor::<C>(I, J);
-    /// Whether I supports J, which is prismatic.
-    pub(crate) const IS_SLIDE_BEYOND: bool = Self::IS_ANCESTOR && CompiledJoint::<C, J>::PRISMATIC;
+    /// Whether I supports J, which moves its body's origin in the frame of I.
+    pub(crate) const IS_SLIDE_BEYOND: bool = is_slide_beyond::<C>(I, J);
     /// Whether more than J bodies move with joint I.
     pub(crate) const HAS_BODY: bool = Self::BODY.0 < C::PLACES.len();
     /// The J-th body that moves with joint I, and its placement; beyond the last one, the base.
-    pub(crate) const BODY: &'static (usize, BodyPlacement) = &body_on::<C>(I, J);
+    pub(crate) const BODY: &'static (usize, BodyPlacement) =
+        &body_on::<C>(CompiledJoint::<C, I>::LAST, J);
 }
 
 /// Joint I of a compiled robot, and a body of the description.

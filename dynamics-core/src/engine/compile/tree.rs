@@ -4,12 +4,48 @@ use glam::{DMat3, DVec3};
 
 use crate::model::BASE;
 
-/// A joint with the inertia that is left to its body.
+/// How a joint moves its body on the parent side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum JointMotion {
+    /// A rotation about z.
+    Turn,
+    /// A translation along z.
+    Slide,
+    /// A rotation about z with a translation along it.
+    Screw,
+    /// A rotation about z and a translation in the x-y plane; velocities in the body's frame.
+    Planar,
+    /// Any rotation, a unit quaternion; velocities in the body's frame.
+    Spherical,
+    /// Any motion, a unit quaternion and a translation; velocities in the body's frame.
+    Free,
+    /// None: a coordinate of a planar, spherical or free joint but the first, whose frame is the body's already.
+    Still,
+}
+
+/// One velocity coordinate of a joint, with the inertia that is left to the body behind it.
+///
+/// A joint of several coordinates is a chain of them, whose bodies between are massless. Those of a universal and of a
+/// cylindrical joint are joints of their own, since their rates are derivatives of their positions. Those of a planar,
+/// spherical and free joint are not: the first moves the body by all of its positions at once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Joint {
-    /// The parent joint, or [`BASE`].
+    /// The parent coordinate, or [`BASE`].
     pub(crate) parent: usize,
+    pub(crate) motion: JointMotion,
+    /// The coordinates that move the body at once: the first, and how many there are.
+    pub(crate) first: usize,
+    pub(crate) count: usize,
+    /// Whether the velocity is that of a translation.
     pub(crate) prismatic: bool,
+    /// The axis of the velocity in the body's frame: 0 for x, 1 for y, 2 for z.
+    pub(crate) axis: usize,
+    /// Where the positions of these coordinates begin.
+    pub(crate) q: usize,
+    /// The position that belongs to the velocity; nothing for ω beside a quaternion.
+    pub(crate) position: Option<usize>,
+    /// Translation per rotation of a screw, in units of length per rad; else zero.
+    pub(crate) pitch: f64,
     /// Its limits keep it within ±4π.
     pub(crate) near: bool,
     /// Coordinates of the body at q = 0 to the parent's.
@@ -44,7 +80,14 @@ pub(crate) struct CompiledTree<const B: usize, const V: usize> {
 /// Fills the constants of branches that are not compiled in, which the compiler evaluates all the same.
 pub(super) const PADDING_JOINT: Joint = Joint {
     parent: BASE,
+    motion: JointMotion::Turn,
+    first: 0,
+    count: 1,
     prismatic: false,
+    axis: 2,
+    q: 0,
+    position: Some(0),
+    pitch: 0.0,
     near: false,
     rot: DMat3::IDENTITY,
     pos: DVec3::ZERO,

@@ -2,6 +2,7 @@
 //! remove the others as well, but in ten times the time.
 
 use crate::engine::compile::{Compiled, CompiledJoint, Joint};
+use crate::engine::displacement::Displacement;
 use crate::engine::folding::Folded;
 use crate::engine::folding::{Mat3, Sym3, Vec3};
 use crate::scalar::Real;
@@ -22,14 +23,13 @@ where
 
 /// p × v, p the offset from the origin of joint I's parent to its own.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn offset_cross<R: Real, C, const I: usize>(v: Vec3<R>, slide: Folded<R>) -> Vec3<R>
+pub(crate) fn offset_cross<R: Real, C, const I: usize>(v: Vec3<R>, at: &Displacement<R>) -> Vec3<R>
 where
     C: Compiled,
 {
     let mut sum = product::<R, C, CROSS, I>(v);
-    if CompiledJoint::<C, I>::PRISMATIC {
-        let axis = Vec3::constant(CompiledJoint::<C, I>::JOINT.rot.z_axis);
-        sum = sum + axis.scale(slide).cross(v);
+    if CompiledJoint::<C, I>::SHIFTS {
+        sum = sum + at.shift::<C, I>().cross(v);
     }
     sum
 }
@@ -38,15 +38,15 @@ where
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn cross_offset<R: Real, C, const I: usize>(
     Mat3([x, y, z]): Mat3<R>,
-    slide: Folded<R>,
+    at: &Displacement<R>,
 ) -> Mat3<R>
 where
     C: Compiled,
 {
     Mat3([
-        offset_cross::<R, C, I>(x, slide),
-        offset_cross::<R, C, I>(y, slide),
-        offset_cross::<R, C, I>(z, slide),
+        offset_cross::<R, C, I>(x, at),
+        offset_cross::<R, C, I>(y, at),
+        offset_cross::<R, C, I>(z, at),
     ])
 }
 

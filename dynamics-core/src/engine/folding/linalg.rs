@@ -46,6 +46,17 @@ impl<R: Real> Vec3<R> {
         Self([x * s, y * s, z * s])
     }
 
+    /// The component of the axis of this number.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn along_axis(self, axis: usize) -> Folded<R> {
+        let [x, y, z] = self.0;
+        match axis {
+            0 => x,
+            1 => y,
+            _ => z,
+        }
+    }
+
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn dot(self, o: Self) -> Folded<R> {
         let ([ax, ay, az], [bx, by, bz]) = (self.0, o.0);

@@ -1,0 +1,74 @@
+//! The rates of a joint as its body's field needs them.
+
+use super::compile::{Compiled, CompiledJoint, JointMotion};
+use super::folding::{Folded, Vec3};
+use crate::scalar::Real;
+
+/// Rates of a joint, in units of length; zero where no effect needs them.
+#[derive(Clone, Copy)]
+pub(crate) struct JointRates<R> {
+    pub(crate) velocity: Folded<R>,
+    /// The velocity in the velocity products.
+    pub(crate) omega_products: Folded<R>,
+    pub(crate) accel: Folded<R>,
+}
+
+/// Rates of a planar, spherical or free joint, rotations and translations, in units of length; zero where no effect needs
+/// them.
+#[derive(Clone, Copy)]
+pub(crate) struct SeveralRates<R> {
+    pub(crate) velocity: Twist<R>,
+    /// The velocity in the velocity products.
+    pub(crate) products: Twist<R>,
+    pub(crate) accel: Twist<R>,
+}
+
+/// Components of a motion along the axes of a body, in units of length.
+#[derive(Clone, Copy)]
+pub(crate) struct Twist<R> {
+    pub(crate) ang: Vec3<R>,
+    pub(crate) lin: Vec3<R>,
+}
+
+impl<R: Real> Twist<R> {
+    pub(crate) const ZERO: Self = Self {
+        ang: Vec3::ZERO,
+        lin: Vec3::ZERO,
+    };
+
+    /// The motion of joint I, a planar, spherical or free one, of all `rates`; zero unless it is needed.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn of<C: Compiled, const V: usize, const I: usize>(
+        rates: &[R; V],
+        needed: bool,
+    ) -> Self {
+        let zero = Folded::ZERO;
+        let length_inv = Folded::constant(C::LENGTH_INV);
+        let (ang, lin) = match CompiledJoint::<C, I>::MOTION {
+            JointMotion::Planar => (
+                [zero, zero, rate(rates, I, needed)],
+                [rate(rates, I + 1, needed), rate(rates, I + 2, needed), zero],
+            ),
+            JointMotion::Spherical => (three(rates, I, needed), [zero; 3]),
+            _ => (three(rates, I, needed), three(rates, I + 3, needed)),
+        };
+        Self {
+            ang: Vec3(ang),
+            lin: Vec3(lin).scale(length_inv),
+        }
+    }
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn three<R: Real, const V: usize>(rates: &[R; V], first: usize, needed: bool) -> [Folded<R>; 3] {
+    [
+        rate(rates, first, needed),
+        rate(rates, first + 1, needed),
+        rate(rates, first + 2, needed),
+    ]
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn rate<R: Real, const V: usize>(rates: &[R; V], k: usize, needed: bool) -> Folded<R> {
+    Folded::runtime_if(needed, rates[k])
+}

@@ -8,9 +8,10 @@ use core::marker::PhantomData;
 
 use super::acceleration_field::AccelerationField;
 use super::base::carried;
-use super::compile::{BodyPlacement, Compiled, CompiledJoint, CompiledRobot, place};
+use super::compile::{BodyPlacement, Compiled, CompiledRobot};
 use super::folding::{Folded, Mat3, Vec3};
 use super::gate::EngineScene;
+use super::named::{AllBodies, Named, joints};
 use super::pass::{Nothing, Pass, Rates, moved, sweep};
 use super::{Engine, Specialised};
 use crate::algorithms::{Frame, Kinematics, Pose};
@@ -242,21 +243,6 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-/// All bodies of a robot.
-#[derive(Clone, Copy)]
-struct AllBodies;
-
-impl<const N: usize> Bodies<N> for AllBodies {
-    const NUMBERS: [usize; N] = {
-        let (mut numbers, mut i) = ([0; N], 0);
-        while i < N {
-            numbers[i] = i;
-            i += 1;
-        }
-        numbers
-    };
-}
-
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn poses<R: Real, C: Compiled, L, const N: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,
@@ -339,8 +325,9 @@ where
         let rates = Rates {
             qd: &self.state.qd,
             qdd: &self.state.qdd,
-            moves: RATES,
-            accelerates: RATES,
+            velocity: RATES,
+            products: RATES,
+            accel: RATES,
         };
         let field = moved::<R, C, Q, V, I>(parent, self.turns, &rates);
         self.see::<I>(&field);
@@ -361,12 +348,7 @@ where
     /// Writes the poses and motions of the bodies L that move with joint I, or stand on the base.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn see<const I: usize>(&mut self, field: &AccelerationField<R>) {
-        const {
-            assert!(
-                count_on::<C>(&L::NUMBERS, CompiledJoint::<C, I>::LAST) <= 32,
-                "the engine takes up to 32 named bodies that move with one joint; use `Core`"
-            )
-        };
+        const { Named::<C, L, N, I, 0>::ARE_FEW };
         for_each_joint!(K, {
             if Named::<C, L, N, I, K>::IS_SOME {
                 let (at, place) = Named::<C, L, N, I, K>::BODY;
@@ -406,61 +388,4 @@ fn motion_of<R: Real>(
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn own<R: Real>(rot: &Mat3<R>, ang: Vec3<R>, lin: Vec3<R>) -> Motion<R> {
     Motion::new(rot.transpose_mul(ang).get(), rot.transpose_mul(lin).get())
-}
-
-/// The K-th of the bodies L that move with joint I, or stand on the base.
-struct Named<C, L, const N: usize, const I: usize, const K: usize>(PhantomData<(C, L)>);
-
-impl<C: Compiled, L: Bodies<N>, const N: usize, const I: usize, const K: usize>
-    Named<C, L, N, I, K>
-{
-    const IS_SOME: bool = K < count_on::<C>(&L::NUMBERS, CompiledJoint::<C, I>::LAST);
-    /// Its place in L, and on the joint.
-    const BODY: &'static (usize, BodyPlacement) =
-        &nth_on::<C>(&L::NUMBERS, CompiledJoint::<C, I>::LAST, K);
-}
-
-/// The joints that move some of these bodies, as bits.
-const fn joints<C: Compiled>(bodies: &[usize]) -> u64 {
-    let (mut joints, mut k) = (0, 0);
-    while k < bodies.len() {
-        assert!(
-            bodies[k] < C::PLACES.len(),
-            "a named body is one that the robot does not have: bodies are numbered from 0"
-        );
-        let joint = C::PLACES[bodies[k]].joint;
-        if joint != BASE {
-            joints |= C::SUPPORT[joint];
-        }
-        k += 1;
-    }
-    joints
-}
-
-/// How many of these bodies move with joint `i`.
-const fn count_on<C: Compiled>(bodies: &[usize], i: usize) -> usize {
-    let (mut count, mut k) = (0, 0);
-    while k < bodies.len() {
-        if place::<C>(bodies[k]).joint == i {
-            count += 1;
-        }
-        k += 1;
-    }
-    count
-}
-
-/// The `n`-th of them: its place in the list, and on the joint. Without one, the first of the list.
-const fn nth_on<C: Compiled>(bodies: &[usize], i: usize, mut n: usize) -> (usize, BodyPlacement) {
-    let mut k = 0;
-    while k < bodies.len() {
-        let place = place::<C>(bodies[k]);
-        if place.joint == i {
-            if n == 0 {
-                return (k, place);
-            }
-            n -= 1;
-        }
-        k += 1;
-    }
-    (0, place::<C>(BASE))
 }

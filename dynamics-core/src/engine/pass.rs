@@ -106,9 +106,9 @@ pub(super) fn moved<R: Real, C: Compiled, const Q: usize, const V: usize, const 
     let (qd, qdd) = (rates.qd, rates.qdd);
     let mut field = if CompiledJoint::<C, I>::COUNT > 1 {
         let several = SeveralRates {
-            velocity: Twist::of::<C, V, I>(qd, rates.moves),
-            products: Twist::of::<C, V, I>(qd, rates.accelerates),
-            accel: Twist::of::<C, V, I>(qdd, rates.accelerates),
+            velocity: Twist::of::<C, V, I>(qd, rates.velocity),
+            products: Twist::of::<C, V, I>(qd, rates.products),
+            accel: Twist::of::<C, V, I>(qdd, rates.accel),
         };
         parent.across_several::<C, I>(&at, &several)
     } else {
@@ -118,9 +118,9 @@ pub(super) fn moved<R: Real, C: Compiled, const Q: usize, const V: usize, const 
             Folded::ONE
         };
         let one = JointRates {
-            velocity: Folded::runtime_if(rates.moves, qd[I]) * unit,
-            omega_products: Folded::runtime_if(rates.accelerates, qd[I]) * unit,
-            accel: Folded::runtime_if(rates.accelerates, qdd[I]) * unit,
+            velocity: Folded::runtime_if(rates.velocity, qd[I]) * unit,
+            omega_products: Folded::runtime_if(rates.products, qd[I]) * unit,
+            accel: Folded::runtime_if(rates.accel, qdd[I]) * unit,
         };
         parent.across::<C, I>(&at, one)
     };
@@ -133,8 +133,8 @@ pub(super) fn moved<R: Real, C: Compiled, const Q: usize, const V: usize, const 
 pub(super) struct Rates<'a, R, const V: usize> {
     pub(super) qd: &'a [R; V],
     pub(super) qdd: &'a [R; V],
-    /// Bodies have velocities.
-    pub(super) moves: bool,
-    /// Bodies have accelerations.
-    pub(super) accelerates: bool,
+    pub(super) velocity: bool,
+    /// Of the velocity, its products.
+    pub(super) products: bool,
+    pub(super) accel: bool,
 }

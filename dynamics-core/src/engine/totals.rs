@@ -151,8 +151,9 @@ where
         let rates = Rates {
             qd: self.qd.unwrap_or(&none),
             qdd: &none,
-            moves: self.qd.is_some(),
-            accelerates: false,
+            velocity: self.qd.is_some(),
+            products: false,
+            accel: false,
         };
         moved::<R, C, Q, V, I>(parent, self.turns, &rates)
     }

@@ -55,13 +55,13 @@ impl<const TIP: usize> Bodies<2> for Ends<TIP> {
     const NUMBERS: [usize; 2] = [TIP, 0];
 }
 
-fn of_engine<R: Real, T, E, const B: usize, const N: usize, const TIP: usize>(
-    state: &State<R, N, N>,
+fn of_engine<R: Real, T, E, const B: usize, const Q: usize, const V: usize, const TIP: usize>(
+    state: &State<R, Q, V>,
     scene: &E,
 ) -> Quantities
 where
-    T: Robot<B, N, N>,
-    E: Effect<R, B, N>,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
 {
     let all = Engine::<T>::kinematics(state, scene);
     assert_eq!(all.poses, Engine::<T>::poses(&state.q));
@@ -123,7 +123,63 @@ where
                 .collect(),
         ),
     ]);
+    found.extend(parameters(&regressor::<R, T, E, B, Q, V, TIP>(
+        state, scene,
+    )));
     found
+}
+
+/// The regressor, which its columns and rows repeat.
+fn regressor<R: Real, T, E, const B: usize, const Q: usize, const V: usize, const TIP: usize>(
+    state: &State<R, Q, V>,
+    scene: &E,
+) -> [[[R; 10]; B]; V]
+where
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let y = Engine::<T>::regressor(state, scene);
+    let columns = Engine::<T>::regressor_columns(state, scene, OnBody::<TIP>);
+    assert_eq!(columns, y.map(|row| row[TIP]));
+    for (k, whole) in y.iter().enumerate() {
+        let row = Engine::<T>::regressor_row(state, scene, k);
+        let largest =
+            |rows: &[[R; 10]; B]| largest(rows.as_flattened().iter().map(|x| x.to_f64().abs()));
+        let mut difference = *whole;
+        for (difference, row) in difference.iter_mut().zip(row) {
+            for (difference, row) in difference.iter_mut().zip(row) {
+                *difference -= row;
+            }
+        }
+        assert!(largest(&difference) <= 16.0 * R::EPSILON.to_f64() * (largest(whole) + 1.0));
+    }
+    let nowhere = Engine::<T>::regressor_row(state, scene, V);
+    assert_eq!(nowhere, [[R::ZERO; 10]; B]);
+    y
+}
+
+const PARAMETERS: [&str; 10] = [
+    "Y of m",
+    "Y of h_x",
+    "Y of h_y",
+    "Y of h_z",
+    "Y of I_xx",
+    "Y of I_xy",
+    "Y of I_yy",
+    "Y of I_xz",
+    "Y of I_yz",
+    "Y of I_zz",
+];
+
+/// The entries of each parameter, which differ in their units.
+fn parameters<R: Real, const B: usize, const V: usize>(y: &[[[R; 10]; B]; V]) -> Quantities {
+    let of = |k: usize| {
+        y.as_flattened()
+            .iter()
+            .map(|body| body[k].to_f64())
+            .collect()
+    };
+    (0..10).map(|k| (PARAMETERS[k], of(k))).collect()
 }
 
 const JACOBIANS: [&str; 3] = [
@@ -167,20 +223,20 @@ fn of_bodies<R: Real, const B: usize>(all: &Kinematics<R, B>, tip: usize) -> Qua
     ]
 }
 
-fn of_core<T, E, const B: usize, const N: usize>(
-    state: &State<f64, N, N>,
+fn of_core<T, E, const B: usize, const Q: usize, const V: usize>(
+    state: &State<f64, Q, V>,
     scene: &E,
     tip: usize,
 ) -> Quantities
 where
-    T: Robot<B, N, N>,
-    E: Effect<f64, B, N>,
+    T: Robot<B, Q, V>,
+    E: Effect<f64, B, V>,
 {
-    fn both<F: Frame, T: Robot<B, N, N>, const B: usize, const N: usize>(
-        state: &State<f64, N, N>,
+    fn both<F: Frame, T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
+        state: &State<f64, Q, V>,
         tip: usize,
         frame: F,
-    ) -> ([Motion<f64>; N], Motion<f64>) {
+    ) -> ([Motion<f64>; V], Motion<f64>) {
         (
             Core::<T>::jacobian(&state.q, tip, frame),
             Core::<T>::bias_acceleration(state, tip, frame),
@@ -188,9 +244,9 @@ where
     }
     let robot = &Static::<T>::NEW;
     let frames = [
-        both::<_, T, B, N>(state, tip, Local),
-        both::<_, T, B, N>(state, tip, World),
-        both::<_, T, B, N>(state, tip, LocalWorldAligned),
+        both::<_, T, B, Q, V>(state, tip, Local),
+        both::<_, T, B, Q, V>(state, tip, World),
+        both::<_, T, B, Q, V>(state, tip, LocalWorldAligned),
     ];
     let centre = center_of_mass(robot, state, scene);
     let h = [
@@ -201,6 +257,7 @@ where
     let flat = |ang, lin| pair::<f64>(ang, lin);
     let mut found = of_frames(|j| frames[j].0, |j| frames[j].1);
     found.extend(of_bodies(&Core::<T>::kinematics(state, scene), tip));
+    found.extend(parameters(&Core::<T>::regressor(state, scene)));
     let mobility = Core::<T>::osim_inverse(&state.q, tip, World, scene);
     found.push((MOBILITIES[1], triangle(mobility)));
     found.extend([
@@ -243,21 +300,26 @@ impl Errors {
         }
     }
 
-    /// Holds the largest error of all, relative to its full scale, against the table.
-    fn judge<R>(&self, robot: &str, quantity: &str) {
+    /// Holds the largest error of all, relative to its full scale, against the table; that of mobilities, which grows with the
+    /// condition of M, apart.
+    fn judge<R>(&self, robot: &str) {
         let relative = |(name, [scale, error]): (&&str, &[f64; 2])| {
             println!("{robot} {name}: {:.1e} of {scale:.2}", error / scale);
             error / scale
         };
-        let worst = largest(self.0.iter().map(relative));
+        let of_m = |(name, _): &(&&str, &[f64; 2])| MOBILITIES.contains(*name);
         let scalar = core::any::type_name::<R>();
-        tolerances::check(robot, quantity, scalar, worst).unwrap_or_else(|e| panic!("{e}"));
+        let (mobilities, bodies): (Vec<_>, Vec<_>) = self.0.iter().partition(of_m);
+        for (all, quantity) in [(bodies, "engine bodies"), (mobilities, "engine mobility")] {
+            let worst = largest(all.into_iter().map(relative));
+            tolerances::check(robot, quantity, scalar, worst).unwrap_or_else(|e| panic!("{e}"));
+        }
     }
 }
 
 /// The recorded quantities of state `i`; of the centre of mass its position alone.
 fn recorded(r: &Recording, i: usize) -> Quantities {
-    [
+    let mut all = [
         ("tip pose", &r.tip_pose),
         ("tip velocity", &r.tip_velocity),
         ("tip acceleration", &r.tip_acceleration),
@@ -276,37 +338,47 @@ fn recorded(r: &Recording, i: usize) -> Quantities {
         (MOBILITIES[0], &r.operational_inverse),
     ]
     .map(|(name, rows)| (name, rows[i].clone()))
-    .to_vec()
+    .to_vec();
+    // Of fewer states.
+    if let Some(row) = r.regressor.get(i) {
+        let of = |k: usize| row.chunks(10).map(|body| body[k]).collect();
+        all.extend((0..10).map(|k| (PARAMETERS[k], of(k))));
+    }
+    all
 }
 
-fn pinocchio<R: Real, T, const B: usize, const N: usize, const TIP: usize>()
+fn pinocchio<R: Real, T, const B: usize, const Q: usize, const V: usize, const TIP: usize>()
 where
-    T: Robot<B, N, N>,
+    T: Robot<B, Q, V>,
 {
     let (r, mut errors) = (load(T::MODEL.name), Errors::default());
     for i in 0..r.first_states() {
-        let cast = |rows| row::<N>(rows, i).map(R::from_f64);
+        let cast = |rows| row::<V>(rows, i).map(R::from_f64);
         let state = State {
-            q: cast(&r.q),
+            q: row::<Q>(&r.q, i).map(R::from_f64),
             qd: cast(&r.qd),
             qdd: cast(&r.qdd),
         };
-        let found = of_engine::<R, T, _, B, N, TIP>(&state, &RIGID_BODY);
+        let found = of_engine::<R, T, _, B, Q, V, TIP>(&state, &RIGID_BODY);
         errors.see(&found, &recorded(&r, i));
     }
-    errors.judge::<R>(T::MODEL.name, "engine bodies");
+    errors.judge::<R>(T::MODEL.name);
 }
 
 #[test]
 fn bodies_agree_with_pinocchio_within_the_table() {
-    pinocchio::<f64, Ur5e, 6, 6, 5>();
+    pinocchio::<f64, Ur5e, 6, 6, 6, 5>();
     #[cfg(feature = "full")]
     {
-        use dynamics_core::robots::{A1, Panda};
-        pinocchio::<f32, Ur5e, 6, 6, 5>();
-        pinocchio::<f64, Panda, 7, 7, 6>();
-        pinocchio::<f64, A1, 16, 12, 15>();
-        pinocchio::<f32, A1, 16, 12, 15>();
+        use dynamics_core::robots::{A1, A1Free, Panda};
+        use host_tests::trees::{TreeA, TreeB};
+        pinocchio::<f32, Ur5e, 6, 6, 6, 5>();
+        pinocchio::<f64, Panda, 7, 7, 7, 6>();
+        pinocchio::<f64, A1, 16, 12, 12, 15>();
+        pinocchio::<f32, A1, 16, 12, 12, 15>();
+        pinocchio::<f64, A1Free, 17, 19, 18, 16>();
+        pinocchio::<f64, TreeA, 17, 35, 32, 16>();
+        pinocchio::<f64, TreeB, 17, 35, 32, 16>();
     }
 }
 
@@ -331,11 +403,14 @@ fn odd_tree<R: Real>() {
         };
         let rotors = dynamics_core::effects::Armature(ROTORS.0.map(R::from_f64));
         let scene = (field, Inertia, ship::<R>(), rotors, payload::<R, 10>());
-        let found = of_engine::<R, StressRobot, _, 11, 7, 8>(&state, &scene);
+        let found = of_engine::<R, StressRobot, _, 11, 7, 7, 8>(&state, &scene);
         let scene = (field, Inertia, ship::<f64>(), ROTORS, payload::<f64, 10>());
-        errors.see(&found, &of_core::<StressRobot, _, 11, 7>(&exact, &scene, 8));
+        errors.see(
+            &found,
+            &of_core::<StressRobot, _, 11, 7, 7>(&exact, &scene, 8),
+        );
     }
-    errors.judge::<R>("odd", "engine bodies");
+    errors.judge::<R>("odd");
 }
 
 #[test]

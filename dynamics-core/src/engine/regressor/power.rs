@@ -28,7 +28,8 @@ impl<R: Real> BodyPower<R> {
     ) -> Self {
         let (rot, pos) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
         let length = Folded::constant(length);
-        let [x, y, z] = rot.0.map(|axis| field.u.mul(axis));
+        let [x, y, z] = rot.0;
+        let (x, y, z) = (field.u.mul(x), field.u.mul(y), field.u.mul(z));
         let point = field.a + field.u.mul(pos);
         Self {
             omega: rot.transpose_mul(field.omega_products),

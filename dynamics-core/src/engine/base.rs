@@ -8,20 +8,6 @@ use crate::effects::{Declared, Effect, Scene, base_given, call_hook, field_axes}
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
 
-/// The engine has no rotors that spin as bodies.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) const fn no_gyroscopic_rotors<R: Real, E, const B: usize, const V: usize>()
-where
-    E: Effect<R, B, V>,
-{
-    const {
-        assert!(
-            !E::GYROSCOPIC_ROTORS,
-            "the engine has no rotors that spin as bodies; use `Core`"
-        )
-    };
-}
-
 /// The base without its acceleration: a = −g, its velocity if it moves, and its pose, in units of length; all other values are
 /// known zeros.
 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -32,7 +18,6 @@ pub(crate) fn unaccelerated<R: Real, E, const B: usize, const V: usize>(
 where
     E: Effect<R, B, V>,
 {
-    no_gyroscopic_rotors::<R, E, B, V>();
     const { Scene::<R, E, B, V>::MEANING };
     let mut g = R::Vec3::ZERO;
     call_hook!(E::GRAVITY_FIELD.add, effects, &mut g);

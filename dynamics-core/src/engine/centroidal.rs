@@ -18,7 +18,7 @@ use super::rnea::inertia;
 use super::totals::{Totals, centre, fixed, totals};
 use super::{Engine, Specialised};
 use crate::algorithms::CenterOfMass;
-use crate::effects::Effect;
+use crate::effects::{Declared, Effect};
 use crate::model::{JointCoordinate, Robot};
 use crate::scalar::{Real, Vector};
 use crate::spatial::Force;
@@ -184,6 +184,12 @@ impl<T, K> Engine<T, K> {
     {
         const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
         const { WithMasses::<R, E, B, V>::KNOWN };
+        const {
+            assert!(
+                !E::GYROSCOPIC_ROTORS,
+                "no rotors that spin as bodies here; name `Armature`"
+            )
+        };
         let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
         matrix::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(&trig.borrow().coordinates, effects)
     }

@@ -6,13 +6,13 @@
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 
-use super::acceleration_field::Inertia;
-use super::base::no_gyroscopic_rotors;
+use super::acceleration_field::{Inertia, along_z};
 use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointPair};
 use super::displacement::Displacement;
 use super::folding::Folded;
 use super::gate::EngineScene;
 use super::rnea::inertia;
+use super::rotors::{borne, coupling};
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::MassMatrix;
 use crate::effects::{Effect, add_inertia};
@@ -85,7 +85,6 @@ pub(crate) fn mass_matrix<R, C, E, const B: usize, const Q: usize, const V: usiz
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    no_gyroscopic_rotors::<R, E, B, V>();
     let mut task = Task { turns, effects, m };
     for_each_joint!(J, {
         if CompiledJoint::<C, J>::IS_ON_BASE
@@ -155,6 +154,8 @@ fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usiz
     let mut diagonal = wrench.along(joint, length_inv).get();
     add_inertia(task.effects, I, &mut diagonal);
     task.m.rows[I][I] = diagonal;
+    let spin = along_z(coupling::<R, C, E, B, V, I>(task.effects));
+    wrench = borne::<R, E, B, V>(task.effects, wrench, spin);
     // From joint I to the base: parents come before their children.
     for_each_joint_reversed!(K, {
         if JointPair::<C, K, I>::SUPPORTS {

@@ -76,6 +76,7 @@ mod pivot_noise;
 mod pose;
 mod regressor;
 mod rnea;
+mod rotors;
 mod subtree;
 mod totals;
 

@@ -7,7 +7,7 @@
 use core::marker::PhantomData;
 use core::ops::Add;
 
-use super::acceleration_field::{AccelerationField, Inertia, Wrench};
+use super::acceleration_field::{AccelerationField, Inertia, Wrench, along_z};
 use super::compile::{Compiled, Distribution, JointPair, Remainder};
 use super::displacement::Displacement;
 use super::folding::{Folded, Mat3, Sym3, Vec3};
@@ -15,6 +15,7 @@ use super::momentum::momentum;
 use super::pass::{Pass, Rates, moved, sweep};
 use super::pose::Pose;
 use super::rnea::inertia;
+use super::rotors::coupling;
 use crate::effects::{Declared, Effect, base_given};
 use crate::model::JointCoordinate;
 use crate::scalar::Real;
@@ -27,6 +28,8 @@ pub(super) struct Totals<R> {
     pub(super) momentum: Wrench<R>,
     /// Twice the kinetic energy.
     pub(super) twice: Folded<R>,
+    /// The angular momentum of the rotors on the parent itself, beyond what its inertia includes.
+    spin: Vec3<R>,
 }
 
 impl<R: Real> Add for Totals<R> {
@@ -38,11 +41,23 @@ impl<R: Real> Add for Totals<R> {
             moment: self.moment + o.moment,
             momentum: self.momentum + o.momentum,
             twice: self.twice + o.twice,
+            spin: self.spin + o.spin,
         }
     }
 }
 
 impl<R: Real> Totals<R> {
+    /// With those of the children, whose rotors turn with the body of the angular velocity ω.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn carrying(self, inner: Self, omega: Vec3<R>) -> Self {
+        let along = omega.dot(inner.spin);
+        let sum = self + inner;
+        Self {
+            twice: sum.twice + along + along,
+            ..sum
+        }
+    }
+
     /// The centre of mass, m; the base's origin if there is no mass. And 1/m, 1/kg; then zero.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn centre(&self, length: f64) -> (R::Vec3, R) {
@@ -99,7 +114,7 @@ where
         robot: PhantomData,
     };
     let moving = sweep::<R, C, _>(&mut pass, &base);
-    moving + of_body(&base, &fixed(Remainder::<C, B, V>::AT_BASE))
+    of_body(&base, &fixed(Remainder::<C, B, V>::AT_BASE)).carrying(moving, base.omega)
 }
 
 /// What is fixed to the base.
@@ -121,6 +136,7 @@ fn of_body<R: Real>(body: &AccelerationField<R>, own: &Inertia<R>) -> Totals<R> 
         moment: own.moment,
         momentum: h,
         twice: h.f.dot(body.v) + h.n.dot(body.omega),
+        spin: Vec3::ZERO,
     }
 }
 
@@ -143,6 +159,7 @@ where
         moment: Vec3::ZERO,
         momentum: Wrench::ZERO,
         twice: Folded::ZERO,
+        spin: Vec3::ZERO,
     };
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -165,9 +182,12 @@ where
         inner: Totals<R>,
     ) -> Totals<R> {
         let own = inertia::<R, C, E, B, Q, V, I>(self.effects, WHOLE | E::BASE_MOTION);
-        let mut here = of_body(body, &own) + inner;
+        let mut here = of_body(body, &own).carrying(inner, body.omega);
+        let mut rotor = Wrench::ZERO;
         if let Some(qd) = self.qd {
             here.twice = here.twice + rotors::<R, C, E, B, V, I>(self.effects, qd);
+            let spin = coupling::<R, C, E, B, V, I>(self.effects) * Folded::runtime(qd[I]);
+            rotor.n = along_z(spin);
         }
         let at = Displacement::of::<C, Q, I>(self.turns);
         let mass = Inertia {
@@ -175,12 +195,13 @@ where
             moment: here.moment,
             second: Sym3::ZERO,
         };
-        let mass = mass.to_parent::<C, I>(&at);
+        let (mass, rotor) = (mass.to_parent::<C, I>(&at), rotor.to_parent::<C, I>(&at));
         Totals {
             mass: mass.mass,
             moment: mass.moment,
-            momentum: here.momentum.to_parent::<C, I>(&at),
+            momentum: here.momentum.to_parent::<C, I>(&at) + rotor,
             twice: here.twice,
+            spin: rotor.n,
         }
     }
 }

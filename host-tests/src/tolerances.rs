@@ -151,6 +151,7 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("tree_b", "engine mobility", 2e-14, NONE),
     ("odd", "engine mobility", 6e-15, 8e-7),
     ("odd", "engine operational space", 1e-12, NONE),
+    ("fork", "engine spinning rotors", 2e-14, NONE),
     ("odd", "engine hybrid dynamics", 1e-14, NONE),
     ("fork", "engine jacobian", 2e-14, NONE),
     ("fork", "engine aba of rnea", 1e-14, NONE),

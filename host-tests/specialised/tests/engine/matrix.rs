@@ -127,7 +127,7 @@ fn forward_dynamics_inverts_rnea_on_an_odd_tree() {
 }
 
 /// A smaller odd tree, since articulated bodies take the compiler long.
-struct Fork;
+pub(super) struct Fork;
 
 impl Robot<4, 4, 4> for Fork {
     const MODEL: Model<f64, 4, 4, 4> = Model::new(

@@ -2,17 +2,19 @@
 
 use dynamics_core::algorithms::frame::LocalWorldAligned;
 use dynamics_core::algorithms::{
-    Conditioning, Damping, OperationalSpace, Prescribed, operational_space, task_jacobian,
+    Conditioning, Damping, OperationalSpace, Prescribed, momentum, operational_space, task_jacobian,
 };
-use dynamics_core::effects::{Coulomb, Gravity, LoadFriction, RIGID_BODY, Viscous, Width};
+use dynamics_core::effects::{
+    Coulomb, Gravity, GyroscopicRotors, LoadFriction, MovingBase, RIGID_BODY, Viscous, Width,
+};
 use dynamics_core::model::{OnBody, Static};
-use dynamics_core::spatial::Force;
+use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::{Core, Engine};
 use glam::DVec3;
 use host_tests::measured::largest;
 use host_tests::stress_robot::StressRobot;
 
-use super::matrix::{ROTORS, Random, check};
+use super::matrix::{Fork, ROTORS, Random, check};
 use super::{Aslant, Drag, Push, payload};
 
 /// The largest difference of two sets of numbers, relative to the largest number.
@@ -115,4 +117,70 @@ fn hybrid_dynamics_are_those_of_the_core() {
         worst = largest([worst, errors[0], errors[1]]);
     }
     check("odd", "engine hybrid dynamics", "f64", worst);
+}
+
+/// Every function of the engine that takes rotors that spin as bodies, on a tree with revolute and prismatic joints and a base that
+/// moves; the core's agree with a tree that has the rotors as bodies.
+#[test]
+fn rotors_that_spin_act_as_in_the_core() {
+    let (mut random, mut worst) = (Random::new(), 0.0);
+    let rotors = GyroscopicRotors {
+        inertia: [2e-3, 1.5e-3, 1e-3, 6e-4],
+        ratio: [6.0, -4.0, 9.0, 40.0],
+    };
+    let ship = MovingBase {
+        velocity: Motion::new(DVec3::new(0.3, -0.5, 0.7), DVec3::new(0.1, 0.2, -0.3)),
+        acceleration: Motion::new(DVec3::new(-1.0, 2.0, 0.5), DVec3::new(0.4, 1.0, -2.0)),
+    };
+    let scene = (RIGID_BODY, rotors, ship);
+    let robot = &Static::<Fork>::NEW;
+    for _ in 0..200 {
+        let state = random.state::<f64, 4>();
+        let tau = Core::<Fork>::rnea(&state, &scene);
+        let rigid = Core::<Fork>::rnea(&state, &(RIGID_BODY, ship));
+        assert!(difference(&tau, &rigid) > 1e-3);
+        let mut given = tau.map(Prescribed::Torque);
+        given[1] = Prescribed::Acceleration(state.qdd[1]);
+        let hybrid = Engine::<Fork>::hybrid_dynamics(&state, &given, &scene);
+        let hybrid = hybrid.expect("M is positive");
+        let forward = Engine::<Fork>::forward_dynamics(&state, &tau, &scene);
+        let [m, want] = [
+            Engine::<Fork>::crba(&state.q, &scene),
+            Core::<Fork>::crba(&state.q, &scene),
+        ];
+        let rows = |m: &dynamics_core::MassMatrix<f64, 4>| -> Vec<f64> {
+            (0..16).map(|k| m.get(k / 4, k % 4)).collect()
+        };
+        let [p, wanted] = [
+            Engine::<Fork>::momentum_and_coriolis(&state, &scene),
+            Core::<Fork>::momentum_and_coriolis(&state, &scene),
+        ];
+        let drift = [
+            Engine::<Fork>::momentum_and_drift(&state, &scene).beta,
+            Core::<Fork>::momentum_and_drift(&state, &scene).beta,
+        ];
+        let h = [
+            Engine::<Fork>::momentum(&state, &scene),
+            momentum(robot, &state, &scene),
+        ];
+        let h = h.map(|h| [h.ang.to_array(), h.lin.to_array()]);
+        let energy = [
+            Engine::<Fork>::kinetic_energy(&state, &scene),
+            Core::<Fork>::kinetic_energy(&state, &scene),
+        ];
+        worst = largest([
+            worst,
+            difference(&Engine::<Fork>::rnea(&state, &scene), &tau),
+            difference(&rows(&m), &rows(&want)),
+            difference(&forward.expect("M is positive"), &state.qdd) * 0.1,
+            difference(&hybrid.qdd, &state.qdd) * 0.1,
+            difference(&hybrid.tau, &tau) * 0.1,
+            difference(&p.p, &wanted.p),
+            difference(&p.ct_qd, &wanted.ct_qd),
+            difference(&drift[0], &drift[1]),
+            difference(h[0].as_flattened(), h[1].as_flattened()),
+            difference(&energy[..1], &energy[1..]),
+        ]);
+    }
+    check("fork", "engine spinning rotors", "f64", worst);
 }

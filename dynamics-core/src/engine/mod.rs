@@ -62,6 +62,7 @@ mod displacement;
 mod energy;
 mod folding;
 mod forward_dynamics;
+mod free_base;
 mod gate;
 mod hybrid_dynamics;
 mod jacobian;

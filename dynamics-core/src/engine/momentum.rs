@@ -137,7 +137,7 @@ impl<T, K> Engine<T, K> {
 
 /// The recursion of p and β; `back` is `trig` as it is loaded on returning.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn momenta<R, C, E, const B: usize, const Q: usize, const V: usize, const DRIFT: bool>(
+pub(crate) fn momenta<R, C, E, const B: usize, const Q: usize, const V: usize, const DRIFT: bool>(
     trig: &JointTrig<R, Q>,
     back: &JointTrig<R, Q>,
     state: &State<R, Q, V>,

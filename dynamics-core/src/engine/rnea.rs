@@ -91,8 +91,7 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    let at = Displacement::of::<C, Q, I>(task.turns);
-    let mut field = across::<R, C, E, B, Q, V, I>(task, parent, &at);
+    let (at, mut field) = across::<R, C, E, B, Q, V, I>(task, parent);
     if E::BODY_POSE {
         field.pose = parent.pose.transformed_by::<C, I>(&at);
     }
@@ -143,13 +142,12 @@ where
     total.to_parent::<C, I>(&at.with_turn(turn))
 }
 
-/// The field of the body behind joint I, from that of its parent.
+/// The displacement of joint I, and the field of the body behind it from that of the parent.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn across<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &Task<'_, R, E, Q, V>,
     parent: &AccelerationField<R>,
-    at: &Displacement<R>,
-) -> AccelerationField<R>
+) -> (Displacement<R>, AccelerationField<R>)
 where
     R: Real,
     C: Compiled,
@@ -163,19 +161,23 @@ where
             products: Twist::of::<C, V, I>(qd, E::VELOCITY_PRODUCTS),
             accel: Twist::of::<C, V, I>(qdd, E::ACCELERATIONS),
         };
-        return parent.across_several::<C, I>(at, &rates);
+        let at = Displacement::of::<C, Q, I>(task.turns);
+        return (at, parent.across_several::<C, I>(&at, &rates));
     }
+    // Rates are loaded before sines and cosines.
+    let (qd, qdd) = (qd[I], qdd[I]);
     let unit = if joint.prismatic {
         Folded::constant(C::LENGTH_INV)
     } else {
         Folded::constant(1.0)
     };
     let rates = JointRates {
-        velocity: Folded::runtime_if(E::BODY_VELOCITY, qd[I]) * unit,
-        omega_products: Folded::runtime_if(E::VELOCITY_PRODUCTS, qd[I]) * unit,
-        accel: Folded::runtime_if(E::ACCELERATIONS, qdd[I]) * unit,
+        velocity: Folded::runtime_if(E::BODY_VELOCITY, qd) * unit,
+        omega_products: Folded::runtime_if(E::VELOCITY_PRODUCTS, qd) * unit,
+        accel: Folded::runtime_if(E::ACCELERATIONS, qdd) * unit,
     };
-    parent.across::<C, I>(at, rates)
+    let at = Displacement::of::<C, Q, I>(task.turns);
+    (at, parent.across::<C, I>(&at, rates))
 }
 
 /// ρ I (q̈ z + q̇ ω × z): the couple that the parent exerts on the rotor of joint I.

@@ -1,8 +1,7 @@
 //! Scene `space_arm`: an arm on a satellite that floats free reaches out; what the satellite gives way is in
 //! the feed-forward. The plant's step conserves momentum, down to rounding: it does not drift.
 
-use dynamics_core::Core;
-use dynamics_core::algorithms::Prescribed;
+use dynamics_core::Engine;
 use dynamics_core::effects::{Armature, Coriolis, Coulomb, Effect, Inertia, Viscous, Width};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
@@ -86,20 +85,16 @@ impl Scene<7, 13, 12, 6> for ReachOut {
         effects: &E,
     ) -> [f32; 6] {
         let state = SpaceArm::floating(reference);
-        let trig = Core::<SpaceArm>::joint_trig(&state.q);
-        let mut given = [Prescribed::Torque(0.0); 12];
-        for (given, &qdd) in given.iter_mut().zip(&state.qdd).skip(6) {
-            *given = Prescribed::Acceleration(qdd);
-        }
+        let trig = Engine::<SpaceArm>::joint_trig(&state.q);
         let rates = if E::VELOCITY_PRODUCTS {
-            Core::<SpaceArm>::base_velocity_from_momentum(trig.with(&state), Force::ZERO, &())
+            Engine::<SpaceArm>::base_velocity_from_momentum(trig.with(&state), Force::ZERO, &())
         } else {
             Ok(state.qd)
         };
         rates
             .and_then(|qd| {
                 let state = State { qd, ..state };
-                Core::<SpaceArm>::hybrid_dynamics(trig.with(&state), &given, effects)
+                Engine::<SpaceArm>::free_base_inverse_dynamics(trig.with(&state), effects)
             })
             // Only what is not a number has no solution: the gate stops it.
             .map_or([f32::NAN; 6], |response| last(&response.tau))
@@ -123,7 +118,7 @@ pub struct FixedBase;
 
 impl Law<6> for FixedBase {
     fn feedforward(reference: &State<f32, 6, 6>, (): &()) -> [f32; 6] {
-        last(&Core::<SpaceArm>::rnea(
+        last(&Engine::<SpaceArm>::rnea(
             &SpaceArm::floating(reference),
             &EFFECTS,
         ))

@@ -10,7 +10,7 @@ use crate::algorithms::{
     MomentumAndCoriolis, MomentumAndDrift, NotPositiveDefinite, OsimInverse, Pose, Prescribed,
 };
 use crate::effects::{Effect, Scene};
-use crate::model::{RobotModel, Static};
+use crate::model::{BodyNumber, RobotModel, Static};
 use crate::scalar::{Native, Real};
 use crate::spatial::{Force, Motion};
 use crate::state::{Configuration, JointTrig, RobotState};
@@ -181,26 +181,26 @@ impl<T, K> Core<T, K> {
     #[inline(never)]
     pub fn jacobian<R: Real, F: Frame, const B: usize, const Q: usize, const V: usize>(
         q: &impl Configuration<R, Q>,
-        body: usize,
+        body: impl BodyNumber,
         frame: F,
     ) -> [Motion<R>; V]
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
     {
-        algorithms::jacobian(&Static::<T, K>::NEW, q, body, frame)
+        algorithms::jacobian(&Static::<T, K>::NEW, q, body.number(), frame)
     }
 
     /// J̇ q̇ of a body, see [`algorithms::bias_acceleration`].
     #[inline(never)]
     pub fn bias_acceleration<R: Real, F: Frame, const B: usize, const Q: usize, const V: usize>(
         state: impl RobotState<R, Q, V>,
-        body: usize,
+        body: impl BodyNumber,
         frame: F,
     ) -> Motion<R>
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
     {
-        algorithms::bias_acceleration(&Static::<T, K>::NEW, state, body, frame)
+        algorithms::bias_acceleration(&Static::<T, K>::NEW, state, body.number(), frame)
     }
 
     /// Λ⁻¹ of a body, see [`algorithms::osim_inverse`].
@@ -210,7 +210,7 @@ impl<T, K> Core<T, K> {
     #[inline(never)]
     pub fn osim_inverse<R: Real, E, F: Frame, const B: usize, const Q: usize, const V: usize>(
         q: &impl Configuration<R, Q>,
-        body: usize,
+        body: impl BodyNumber,
         frame: F,
         effects: &E,
     ) -> Result<OsimInverse<R>, NotPositiveDefinite>
@@ -219,7 +219,7 @@ impl<T, K> Core<T, K> {
         E: Effect<R, B, V>,
     {
         const { Scene::<R, E, B, V>::OF_CORE };
-        algorithms::osim_inverse(&Static::<T, K>::NEW, q, body, frame, effects)
+        algorithms::osim_inverse(&Static::<T, K>::NEW, q, body.number(), frame, effects)
     }
 
     /// q̇ with the base's rates for which the momentum of all bodies is h, see

@@ -47,7 +47,7 @@ impl<A, R: Real, const B: usize, const Q: usize, const V: usize> TreeAlgorithms<
 {
 }
 
-mod sealed {
+pub(super) mod sealed {
     use super::{ClusteredRobot, Effect, JointCoordinate, JointTrig, Kernel, Real, Robot, State};
 
     /// The functions of core and engine that robots with clusters need.

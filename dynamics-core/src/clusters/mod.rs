@@ -58,6 +58,7 @@ mod articulated;
 mod cluster;
 mod clustered;
 mod description;
+mod forward_dynamics;
 mod inward;
 mod layout;
 mod linkages;

@@ -20,7 +20,7 @@ use super::pivot_noise::{Singular, of_joint};
 use super::rnea::inertia;
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::NotPositiveDefinite;
-use crate::effects::{Effect, add_inertia};
+use crate::effects::{Declared, Effect, add_inertia};
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::{Real, Vector};
 use crate::state::{Configuration, JointTrig, RobotState, State};
@@ -54,6 +54,12 @@ impl<T, K> Engine<T, K> {
         E: Effect<R, B, V>,
     {
         const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const {
+            assert!(
+                !E::GYROSCOPIC_ROTORS,
+                "the engine's articulated bodies carry no rotors that spin as bodies; use `forward_dynamics`"
+            )
+        };
         let trig = state
             .configuration()
             .trig_or(Specialised::<T, K, B, V>(PhantomData));

@@ -292,6 +292,17 @@ impl<R: Real> Add for Inertia<R> {
 }
 
 impl<R: Real> AccelerationField<R> {
+    /// That of a base at rest, in its pose.
+    pub(crate) const RESTING: Self = Self {
+        omega: Vec3::ZERO,
+        omega_products: Vec3::ZERO,
+        alpha: Vec3::ZERO,
+        u: Mat3::ZERO,
+        a: Vec3::ZERO,
+        v: Vec3::ZERO,
+        pose: Pose::BASE,
+    };
+
     /// The field of a child behind joint I of one coordinate.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn across<C: Compiled, const I: usize>(

@@ -4,23 +4,9 @@ use super::acceleration_field::AccelerationField;
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::pose::Pose;
-use crate::effects::{Declared, Effect, Scene, call_hook, field_axes};
+use crate::effects::{Declared, Effect, Scene, base_given, call_hook, field_axes};
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
-
-/// The engine has no rotors that spin as bodies.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) const fn no_gyroscopic_rotors<R: Real, E, const B: usize, const V: usize>()
-where
-    E: Effect<R, B, V>,
-{
-    const {
-        assert!(
-            !E::GYROSCOPIC_ROTORS,
-            "the engine has no rotors that spin as bodies; use `Core`"
-        )
-    };
-}
 
 /// The base without its acceleration: a = −g, its velocity if it moves, and its pose, in units of length; all other values are
 /// known zeros.
@@ -32,7 +18,6 @@ pub(crate) fn unaccelerated<R: Real, E, const B: usize, const V: usize>(
 where
     E: Effect<R, B, V>,
 {
-    no_gyroscopic_rotors::<R, E, B, V>();
     const { Scene::<R, E, B, V>::MEANING };
     let mut g = R::Vec3::ZERO;
     call_hook!(E::GRAVITY_FIELD.add, effects, &mut g);
@@ -76,33 +61,64 @@ where
 {
     let mut field = unaccelerated::<R, E, B, V>(effects, length);
     if E::BASE_MOTION {
-        let (mut v, mut a) = (Motion::ZERO, Motion::ZERO);
-        call_hook!(E::BASE.add, effects, &mut v, &mut a);
-        let (omega, velocity, alpha) = (field.omega, field.v, Vec3::runtime(a.ang));
-        let ([ax, ay, az], zero) = (alpha.0, Folded::ZERO);
-        field.alpha = alpha;
-        field.u = Mat3([
-            Vec3([zero, az, -ay]),
-            Vec3([-az, zero, ax]),
-            Vec3([ay, -ax, zero]),
-        ]);
-        field.a = field.a + Vec3::runtime(a.lin).scale(Folded::constant(1.0 / length));
-        if E::VELOCITY_PRODUCTS {
-            field.omega_products = omega;
-            // [ω]×[ω]× r = ω × (ω × r), and the origin's own ω × v.
-            let one = Folded::ONE;
-            let centripetal = |axis| omega.cross(omega.cross(Vec3(axis)));
-            field.u = field.u
-                + Mat3([
-                    centripetal([one, zero, zero]),
-                    centripetal([zero, one, zero]),
-                    centripetal([zero, zero, one]),
-                ]);
-            field.a = field.a + omega.cross(velocity);
-        }
+        let (_, a) = base_given(effects);
+        field = accelerated(field, a, E::VELOCITY_PRODUCTS, length);
         if !E::BODY_VELOCITY {
             (field.omega, field.v) = (Vec3::ZERO, Vec3::ZERO);
         }
+    }
+    field
+}
+
+/// The field of a base of the velocity of `field`, with its spatial acceleration, and with the products of its velocity if they
+/// are asked for.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn accelerated<R: Real>(
+    mut field: AccelerationField<R>,
+    a: Motion<R>,
+    products: bool,
+    length: f64,
+) -> AccelerationField<R> {
+    let (omega, velocity, alpha) = (field.omega, field.v, Vec3::runtime(a.ang));
+    let ([ax, ay, az], zero) = (alpha.0, Folded::ZERO);
+    field.alpha = alpha;
+    field.u = Mat3([
+        Vec3([zero, az, -ay]),
+        Vec3([-az, zero, ax]),
+        Vec3([ay, -ax, zero]),
+    ]);
+    field.a = field.a + Vec3::runtime(a.lin).scale(Folded::constant(1.0 / length));
+    if products {
+        field.omega_products = omega;
+        // [ω]×[ω]× r = ω × (ω × r), and the origin's own ω × v.
+        let one = Folded::ONE;
+        let centripetal = |axis| omega.cross(omega.cross(Vec3(axis)));
+        field.u = field.u
+            + Mat3([
+                centripetal([one, zero, zero]),
+                centripetal([zero, one, zero]),
+                centripetal([zero, zero, one]),
+            ]);
+        field.a = field.a + omega.cross(velocity);
+    }
+    field
+}
+
+/// The motion of the base without gravity, and its pose: all of it, whatever the effects need.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn carried<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+    length: f64,
+) -> AccelerationField<R>
+where
+    E: Effect<R, B, V>,
+{
+    let mut field = AccelerationField::RESTING;
+    if E::BASE_MOTION {
+        let (v, a) = base_given(effects);
+        field.omega = Vec3::runtime(v.ang);
+        field.v = Vec3::runtime(v.lin).scale(Folded::constant(1.0 / length));
+        field = accelerated(field, a, true, length);
     }
     field
 }

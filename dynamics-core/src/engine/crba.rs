@@ -6,13 +6,13 @@
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 
-use super::acceleration_field::{Inertia, Wrench};
-use super::base::no_gyroscopic_rotors;
+use super::acceleration_field::{Inertia, Wrench, along_z};
 use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointMotion, JointPair};
 use super::displacement::Displacement;
 use super::folding::Folded;
 use super::gate::EngineScene;
 use super::rnea::matrix_inertia;
+use super::rotors::{borne, coupling};
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::MassMatrix;
 use crate::effects::{Effect, add_inertia};
@@ -85,7 +85,6 @@ pub(crate) fn mass_matrix<R, C, E, const B: usize, const Q: usize, const V: usiz
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    no_gyroscopic_rotors::<R, E, B, V>();
     let mut task = Task { turns, effects, m };
     for_each_joint!(J, {
         if CompiledJoint::<C, J>::IS_ON_BASE
@@ -114,14 +113,14 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    let (mut body, mut rotor) = (Inertia::NONE, Folded::ZERO);
+    let (mut body, mut spin) = (Inertia::NONE, Folded::ZERO);
     if let Some(inertia) = const {
         only_if(
             CompiledJoint::<C, I>::LAST == I,
             matrix_inertia::<R, C, E, B, Q, V, I> as fn(&E) -> (Inertia<R>, Folded<R>),
         )
     } {
-        (body, rotor) = inertia(task.effects);
+        (body, spin) = inertia(task.effects);
     }
     for_each_joint!(J, {
         if JointPair::<C, I, J>::IS_PARENT
@@ -143,7 +142,7 @@ where
         // Of the turned body, so that column I and the composite of the parent share the turn's products.
         let mut wrench = turned.wrench_of(joint, length_inv);
         if !joint.prismatic {
-            wrench.n.0[2] = body.second.xx + body.second.yy + rotor;
+            wrench.n.0[2] = body.second.xx + body.second.yy + spin;
         }
         column::<R, C, E, B, Q, V, I>(task, wrench.along(joint, length_inv), &wrench);
     } else {
@@ -179,6 +178,8 @@ fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usiz
     let length_inv = Folded::constant(C::LENGTH_INV);
     add_inertia(task.effects, I, &mut diagonal);
     task.m.rows[I][I] = diagonal;
+    let couple = along_z(coupling::<R, C, E, B, V, I>(task.effects));
+    wrench = borne::<R, E, B, V>(task.effects, wrench, couple);
     // From joint I to the base: parents come before their children.
     for_each_joint_reversed!(K, {
         if JointPair::<C, K, I>::SUPPORTS {

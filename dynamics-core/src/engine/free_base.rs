@@ -17,7 +17,7 @@ use super::momentum::momenta;
 use super::rnea::{inertia, torques};
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::{JointResult, NotPositiveDefinite};
-use crate::effects::{Effect, OfBodies};
+use crate::effects::{Declared, Effect, OfBodies};
 use crate::model::{JointCoordinate, Robot};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::inertia::CompositeInertia;
@@ -76,6 +76,7 @@ impl<T, K> Engine<T, K> {
         E: Effect<R, B, V>,
     {
         const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { FreeScene::<R, E, B, V>::TAKEN };
         let trig = state
             .configuration()
             .trig_or(Specialised::<T, K, B, V>(PhantomData));
@@ -138,6 +139,7 @@ impl<T, K> Engine<T, K> {
         E: Effect<R, B, V>,
     {
         const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { FreeScene::<R, E, B, V>::TAKEN };
         let trig = state
             .configuration()
             .trig_or(Specialised::<T, K, B, V>(PhantomData));
@@ -156,6 +158,16 @@ impl<T, K> Engine<T, K> {
         }
         Ok(JointResult { qdd, tau })
     }
+}
+
+/// A scene that a base which nothing holds may have.
+struct FreeScene<R, E, const B: usize, const V: usize>(PhantomData<(R, E)>);
+
+impl<R: Real, E: Effect<R, B, V>, const B: usize, const V: usize> FreeScene<R, E, B, V> {
+    const TAKEN: () = assert!(
+        !E::GYROSCOPIC_ROTORS,
+        "no rotors that spin as bodies here; name `Armature`"
+    );
 }
 
 /// The force on the base whose components are the first coordinates.

@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use super::Engine;
-use crate::effects::{Declared, Effect, Scene, are_of, meaning};
+use crate::effects::{Effect, Scene, are_of, meaning};
 use crate::model::Robot;
 use crate::scalar::Real;
 
@@ -32,10 +32,6 @@ where
     E: Effect<R, B, V>,
 {
     meaning::<R, E, B, V>();
-    assert!(
-        !E::GYROSCOPIC_ROTORS,
-        "the engine has no rotors that spin as bodies; use `Core`"
-    );
     are_of::<R, E, B, V>(T::MODEL.name);
     assert!(
         V <= 32,

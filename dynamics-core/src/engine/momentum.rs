@@ -9,14 +9,15 @@ use core::borrow::Borrow;
 use core::hint::black_box;
 use core::marker::PhantomData;
 
-use super::acceleration_field::{AccelerationField, Inertia, Wrench};
-use super::base::{no_gyroscopic_rotors, unaccelerated};
+use super::acceleration_field::{AccelerationField, Inertia, Wrench, along_z};
+use super::base::unaccelerated;
 use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion, JointPair};
 use super::displacement::Displacement;
 use super::folding::{Folded, Vec3};
 use super::gate::EngineScene;
 use super::joint_rates::{JointRates, SeveralRates, Twist};
 use super::rnea::{environment, inertia, joint_state};
+use super::rotors::{borne, coupling, felt};
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::{MomentumAndCoriolis, MomentumAndDrift};
 use crate::effects::{Declared, Effect};
@@ -147,7 +148,6 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    no_gyroscopic_rotors::<R, E, B, V>();
     let mut result = MomentumAndDrift {
         p: [R::ZERO; V],
         beta: [R::ZERO; V],
@@ -256,7 +256,10 @@ where
         }
         load = load + inner.load;
     }
-    let carried = Carried { h, load };
+    let carried = Carried {
+        h: felt::<R, C, E, B, V, I>(task.effects, h, parent.omega),
+        load,
+    };
     if CompiledJoint::<C, I>::COUNT == 1 {
         entries::<R, C, E, B, Q, V, DRIFT, I>(task, &body, &carried);
     } else if let Some(entries) = const {
@@ -269,6 +272,8 @@ where
     }
     let turn = task.back[CompiledJoint::<C, I>::Q];
     let at = at.with_turn(turn);
+    let spin = coupling::<R, C, E, B, V, I>(task.effects) * Folded::runtime(task.state.qd[I]);
+    let h = borne::<R, E, B, V>(task.effects, h, along_z(spin));
     Carried {
         h: h.to_parent::<C, I>(&at),
         load: load.to_parent::<C, I>(&at),
@@ -377,7 +382,7 @@ fn several_entries<
 
 /// The momentum I v of a body: m v + ω × h, and h × v + tr(Σ) ω − Σ ω.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn momentum<R: Real>(body: &AccelerationField<R>, inertia: &Inertia<R>) -> Wrench<R> {
+pub(super) fn momentum<R: Real>(body: &AccelerationField<R>, inertia: &Inertia<R>) -> Wrench<R> {
     let (s, [wx, wy, wz]) = (&inertia.second, body.omega.0);
     let (xy, xz, yz) = (s.xx + s.yy, s.xx + s.zz, s.yy + s.zz);
     let spin = Vec3([

@@ -1,7 +1,7 @@
 //! Inverse dynamics by one recursion over the bodies: the outward pass on entering a joint, the inward pass on returning from
 //! its children, so that intermediate values stay in registers.
 
-use super::acceleration_field::{AccelerationField, Inertia, Wrench};
+use super::acceleration_field::{AccelerationField, Inertia, Wrench, along_z};
 use super::base::base;
 use super::compile::{BodyPlacement, Compiled, CompiledJoint, JointPair, last, load, loads, place};
 use super::displacement::Displacement;
@@ -9,6 +9,7 @@ use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
 use super::joint_rates::{JointRates, SeveralRates, Twist};
 use super::only_if;
+use super::rotors::{borne, coupling, felt};
 use super::subtree::{has_subtree_functions, root_subtree, visit_child};
 use crate::effects::{
     BodyState, Declared, Effect, JointState, RegroupedInertia, call_hook, hook, load_friction,
@@ -120,7 +121,10 @@ where
     });
 
     if CompiledJoint::<C, I>::COUNT == 1 {
-        drive::<R, C, E, B, Q, V, I>(task, &total);
+        let felt = felt::<R, C, E, B, V, I>(task.effects, total, parent.alpha);
+        drive::<R, C, E, B, Q, V, I>(task, &felt);
+        let couple = spin::<R, C, E, B, Q, V, I>(task, &field);
+        total = borne::<R, E, B, V>(task.effects, total, couple);
     } else if let Some(drive) = const {
         only_if(
             CompiledJoint::<C, I>::COUNT > 1,
@@ -174,6 +178,23 @@ where
     };
     let at = Displacement::of::<C, Q, I>(task.turns);
     (at, parent.across::<C, I>(&at, rates))
+}
+
+/// ρ I (q̈ z + q̇ ω × z): the couple that the parent exerts on the rotor of joint I.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn spin<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    task: &Task<'_, R, E, Q, V>,
+    field: &AccelerationField<R>,
+) -> Vec3<R>
+where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    let coupling = coupling::<R, C, E, B, V, I>(task.effects);
+    let qd = Folded::runtime_if(E::VELOCITY_PRODUCTS, task.state.qd[I]);
+    let qdd = Folded::runtime_if(E::ACCELERATIONS, task.state.qdd[I]);
+    along_z(coupling * qdd) + field.omega_products.cross(along_z(coupling * qd))
 }
 
 /// The torque of the motor of coordinate I, which carries `total`.
@@ -248,7 +269,7 @@ where
     with_payloads::<R, C, E, B, Q, V, I>(effects, body)
 }
 
-/// The same in M, and the inertia of the rotor that is separated from it.
+/// The same in M, and the inertia that only the rotation of its own joint feels.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn matrix_inertia<
     R,
@@ -266,15 +287,15 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    // Rotors are separated at compile time only.
-    let (body, rotor) = if const { E::BASE_PARAMETERS > 0 } {
+    // Those of M are known at compile time only.
+    let (body, spin) = if const { E::BASE_PARAMETERS > 0 } {
         let body = own_inertia::<R, C, E, B, Q, V, I>(effects, false);
         (body, Folded::ZERO)
     } else {
         let joint = CompiledJoint::<C, I>::BODY;
-        (Inertia::in_matrix(joint), Folded::constant(joint.rotor))
+        (Inertia::in_matrix(joint), Folded::constant(joint.spin))
     };
-    (with_payloads::<R, C, E, B, Q, V, I>(effects, body), rotor)
+    (with_payloads::<R, C, E, B, Q, V, I>(effects, body), spin)
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]

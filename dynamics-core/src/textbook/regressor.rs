@@ -3,7 +3,7 @@
 use super::Core;
 use crate::algorithms;
 use crate::effects::{Effect, Scene};
-use crate::model::{RobotModel, Static};
+use crate::model::{BodyNumber, RobotModel, Static};
 use crate::scalar::Real;
 use crate::state::RobotState;
 
@@ -27,14 +27,14 @@ impl<T, K> Core<T, K> {
     pub fn regressor_columns<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: impl RobotState<R, Q, V>,
         effects: &E,
-        body: usize,
+        body: impl BodyNumber,
     ) -> [[R; 10]; V]
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
         E: Effect<R, B, V>,
     {
         const { Scene::<R, E, B, V>::OF_CORE };
-        algorithms::regressor_columns(&Static::<T, K>::NEW, state, effects, body)
+        algorithms::regressor_columns(&Static::<T, K>::NEW, state, effects, body.number())
     }
 
     /// The row of Y of one coordinate, by bodies, see [`algorithms::regressor_row`].

@@ -198,3 +198,35 @@ fn the_engine_agrees_with_the_core_and_f32_with_f64() {
     hold("engine", worst(0), 2e-14);
     hold("f32", worst(1), 1e-5);
 }
+
+/// The largest errors of the engine's ÿ: of FD of the torques of ID, and of the core's articulated bodies.
+fn engine_forward<T, const B: usize, const N: usize, const Y: usize>(
+    states: &[State<f64, Y, Y>],
+) -> f64
+where
+    T: ClusteredRobot<B, N, N, Y, Y>,
+{
+    let scene = (RIGID_BODY, AtJoints);
+    let error = |y: &State<f64, Y, Y>| {
+        let tau = Clustered::<Core<T>>::rnea(y, &scene).expect("it closes");
+        let engine = Clustered::<Engine<T>>::forward_dynamics(y, &tau, &scene);
+        let engine = engine.expect("it moves inertia");
+        let core = Clustered::<Core<T>>::aba(y, &tau, &scene).expect("it moves inertia");
+        (apart(&engine, &y.qdd).max(apart(&engine, &core))) / 10.0
+    };
+    states.iter().map(error).fold(0.0, f64::max)
+}
+
+#[test]
+fn the_engines_forward_dynamics_invert_inverse_dynamics() {
+    let all = [
+        engine_forward::<FourBarLeg, 5, 5, 3>(&four_bar_states()),
+        engine_forward::<AnkleLeg, 9, 9, 3>(&ankle_states()),
+        engine_forward::<DeltaRobot, 12, 12, 3>(&delta_states()),
+    ];
+    hold(
+        "engine's FD",
+        all.iter().copied().fold(0.0, f64::max),
+        2e-13,
+    );
+}

@@ -313,6 +313,8 @@ fn massless_links_are_accepted_but_massless_clusters_are_not() {
     assert!(apart(&again, &y.qdd) < 1e-12);
     let none =
         Clustered::<Core<Light<0>>>::aba(&y, &[0.0; 2], &RIGID_BODY).expect_err("no inertia");
+    let engine = Clustered::<Engine<Light<0>>>::forward_dynamics(&y, &[0.0; 2], &RIGID_BODY);
+    assert_eq!(engine, Err(none));
     let ForwardError::Cluster(error) = none else {
         panic!("{none:?}")
     };

@@ -32,11 +32,12 @@ pub struct TipWrenchConfig<R, const V: usize> {
 ///
 /// ```
 /// use motion_control::{TipWrench, TipWrenchConfig};
-/// use dynamics_core::{Engine, model::Robot, robots::Ur5e, spatial::Force};
+/// use dynamics_core::{Engine, algorithms::frame::LocalWorldAligned, robots::Ur5e, spatial::Force};
+/// use dynamics_core::model::{OnBody, Robot};
 /// use dynamics_core::glam::DVec3;
 /// const TIP: usize = Ur5e::MODEL.body("wrist_3");
 /// let at_a_point = TipWrench::try_new(TipWrenchConfig { noise: [0.1; 6], force: 100.0, couple: 0.0 })?;
-/// let jacobian = Engine::<Ur5e>::jacobian::<TIP, f64, _, _, _>(&[0.0, -1.2, 1.5, 0.3, 0.7, 0.0]);
+/// let jacobian = Engine::<Ur5e>::jacobian(&[0.0, -1.2, 1.5, 0.3, 0.7, 0.0], OnBody::<TIP>, LocalWorldAligned);
 /// let push = Force::new(DVec3::ZERO, DVec3::new(10.0, 0.0, -20.0));
 /// let external = jacobian.map(|column| column.dot(push));
 /// let found = at_a_point.estimate(&jacobian, &external)?;

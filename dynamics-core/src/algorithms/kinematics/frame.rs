@@ -88,6 +88,8 @@ pub trait Frame: sealed::Sealed + Copy {
     fn express<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R>;
     /// The transform that [`Frame::express`] applies.
     fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R>;
+    /// Transforms a motion of the body at `pose` from [`LocalWorldAligned`] to this frame.
+    fn from_aligned<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R>;
     /// The difference of the acceleration in this frame and the spatial one; v is the velocity in this frame.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn classical_term<R: Real>(v: Motion<R>) -> Motion<R> {
@@ -118,13 +120,16 @@ impl Frame for Local {
     fn from_body<R: Real>(_: &Pose<R>) -> Xform<R> {
         Xform::IDENTITY
     }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn from_aligned<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
+        Motion::new(pose.rot.transpose_mul(m.ang), pose.rot.transpose_mul(m.lin))
+    }
 }
 
 impl Frame for World {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn express<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
-        let m = LocalWorldAligned::express(pose, m);
-        Motion::new(m.ang, m.lin + pose.pos.cross(m.ang))
+        Self::from_aligned(pose, LocalWorldAligned::express(pose, m))
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R> {
@@ -132,6 +137,10 @@ impl Frame for World {
             rot: pose.rot,
             pos: -pose.rot.transpose_mul(pose.pos),
         }
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn from_aligned<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
+        Motion::new(m.ang, m.lin + pose.pos.cross(m.ang))
     }
 }
 
@@ -146,6 +155,10 @@ impl Frame for LocalWorldAligned {
             rot: pose.rot,
             pos: R::Vec3::ZERO,
         }
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn from_aligned<R: Real>(_: &Pose<R>, m: Motion<R>) -> Motion<R> {
+        m
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn classical_term<R: Real>(v: Motion<R>) -> Motion<R> {

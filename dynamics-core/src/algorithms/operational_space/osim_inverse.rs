@@ -63,7 +63,7 @@ impl<R: Real> Mul<Force<R>> for OsimInverse<R> {
 
 impl<R: Real> OsimInverse<R> {
     /// The mobility of a body that cannot move.
-    const ZERO: Self = Self {
+    pub(crate) const ZERO: Self = Self {
         ang: Symmetric::ZERO,
         coupling: R::Mat3::ZERO,
         lin: Symmetric::ZERO,
@@ -76,6 +76,17 @@ impl<R: Real> OsimInverse<R> {
             let a = *self * f;
             directions.map(|direction| a.dot(direction))
         })
+    }
+
+    /// Λ⁻¹ + w s sᵀ. 63 flops.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn plus_square(&self, s: Motion<R>, w: R) -> Self {
+        let scaled = s * w;
+        Self {
+            ang: self.ang.minus_outer(-scaled.ang, s.ang),
+            coupling: self.coupling + outer::<R>(scaled.ang, s.lin),
+            lin: self.lin.minus_outer(-scaled.lin, s.lin),
+        }
     }
 
     /// X Λ⁻¹ Xᵀ: the same in another frame. 300 flops.

@@ -16,14 +16,14 @@ use crate::state::entry;
 /// The parent's own inertia counts the whole rotor, as if it were locked; so do data sheets that give
 /// a link's mass with its motor. For joints of one degree of freedom (a slide's rotor spins about its
 /// direction). Cost: 25 flops a joint. Matters at low ratios: relative to the diagonal the coupling is 1/ρ.
-/// Served by the core: dynamics, M and its factors, energies, momenta, the centre of mass. In the engine it does not compile:
+/// Part of dynamics, M and its factors, energies, momenta and the centre of mass. The engine's articulated bodies do not have it:
 ///
 /// ```compile_fail,E0080
 /// use dynamics_core::effects::{Gravity, Inertia, GyroscopicRotors};
 /// use dynamics_core::{Engine, robots::Ur5e, state::State};
 /// let rotors = GyroscopicRotors { inertia: [1e-4_f32; 6], ratio: [5.0; 6] };
-/// let _ = Engine::<Ur5e>::rnea(&State::at([0.0; 6]), &(Gravity::EARTH, Inertia, rotors));
-/// // error: the engine has no rotors that spin as bodies; use `Core`
+/// let _ = Engine::<Ur5e>::aba(&State::at([0.0; 6]), &[0.0; 6], &(Gravity::EARTH, Inertia, rotors));
+/// // error: the engine's articulated bodies carry no rotors that spin as bodies; use `forward_dynamics`
 /// ```
 ///
 /// ```

@@ -6,17 +6,19 @@
 //! 3. Entries that miss −1, 0 or 1 by rounding become exact ([`snap`]).
 //! 4. Inertias are regrouped to base parameters ([`base_parameters`]).
 //! 5. Parameters below the robot's negligible share of torque become zero ([`mod@prune`]).
-//! 6. Of those of M, rotors are separated ([`rotors`]).
+//! 6. Those of M are regrouped further ([`matrix_parameters`]).
 //! 7. The unit of length becomes a joint offset, so that this offset is 1, and the unit of mass such that Σ keeps its
 //!    numbers: p/L, h·L, m·L².
 
 mod base_parameters;
+mod matrix_parameters;
 mod prune;
-mod rotors;
+mod remainder;
 mod snap;
 mod topology;
 mod tree;
 
+pub(crate) use remainder::{Distribution, Remainder};
 pub(crate) use topology::{
     Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair, is_parent, is_slide_beyond,
     last, load, loads, place, supports,
@@ -26,8 +28,8 @@ pub(crate) use tree::{BodyPlacement, CompiledTree, Joint, JointMotion};
 use glam::{DMat3, DVec3};
 
 use self::base_parameters::{mat_add, outer, regroup, second_moment};
+use self::matrix_parameters::regroup_for_matrix;
 use self::prune::prune;
-use self::rotors::separate_rotors;
 use self::snap::{snap_small, snapped};
 use self::tree::{AT_BASE, PADDING_JOINT};
 use crate::math::const_eval::{add, dot, mul, mul_vec, scale, transpose};
@@ -75,7 +77,7 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
     }
     regroup(&mut joints);
     prune(&mut joints, negligible);
-    separate_rotors(&mut joints);
+    regroup_for_matrix(&mut joints);
     let length = unit_of_length(&joints);
     i = 0;
     while i < V {

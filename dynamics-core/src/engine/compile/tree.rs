@@ -57,9 +57,9 @@ pub(crate) struct Joint {
     pub(crate) second: DMat3,
     /// Σ where the base moves: regrouping then keeps all of it.
     pub(crate) second_moment_only: DMat3,
-    /// Σ in M, which [`super::rotors`] leaves to it, and the inertia of its rotor.
+    /// Σ in M, which [`super::matrix_parameters`] leaves to it, and the inertia that only its own joint's rotation feels.
     pub(crate) matrix_second: DMat3,
-    pub(crate) rotor: f64,
+    pub(crate) spin: f64,
 }
 
 /// The placement of a body of the description: x_engine = rot x_user + pos on `joint`.
@@ -99,7 +99,7 @@ pub(super) const PADDING_JOINT: Joint = Joint {
     second: DMat3::ZERO,
     second_moment_only: DMat3::ZERO,
     matrix_second: DMat3::ZERO,
-    rotor: 0.0,
+    spin: 0.0,
 };
 
 /// The base itself.

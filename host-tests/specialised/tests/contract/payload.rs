@@ -3,7 +3,7 @@
 use super::*;
 use dynamics_core::algorithms::{crba, frame, rnea};
 use dynamics_core::effects::{Effect, Payload, RIGID_BODY, hook};
-use dynamics_core::model::BodyInertia;
+use dynamics_core::model::{BodyInertia, OnBody};
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::{Core, Engine, MassMatrix};
 use glam::DMat3;
@@ -109,7 +109,7 @@ fn a_users_effect_loads_only_the_bodies_it_names() {
 /// The engine's Jacobian of one body, against the core's.
 #[track_caller]
 fn jacobian<const BODY: usize>() {
-    let engine = Engine::<TwoHands>::jacobian::<BODY, _, _, _, _>(&MOVING.q);
+    let engine = Engine::<TwoHands>::jacobian(&MOVING.q, OnBody::<BODY>, frame::LocalWorldAligned);
     let core = Core::<TwoHands>::jacobian(&MOVING.q, BODY, frame::LocalWorldAligned);
     let flat = |j: [dynamics_core::spatial::Motion<f64>; 3]| {
         j.map(|s| [s.ang.to_array(), s.lin.to_array()])

@@ -3,7 +3,7 @@
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::algorithms::frame::LocalWorldAligned;
 use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, Inertia, Payload, RIGID_BODY};
-use dynamics_core::model::{BASE, Body, BodyInertia, Joint, Model, Robot};
+use dynamics_core::model::{BASE, Body, BodyInertia, Joint, Model, OnBody, Robot};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::state::State;
@@ -14,21 +14,21 @@ use host_tests::tolerances;
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
-const ROTORS: Armature<f64, 7> = Armature([0.2, 0.1, 0.3, 0.05, 0.15, 0.4, 0.25]);
+pub(super) const ROTORS: Armature<f64, 7> = Armature([0.2, 0.1, 0.3, 0.05, 0.15, 0.4, 0.25]);
 
 /// Random numbers from −1 to 1, times the requested scale.
-struct Random(TestRng);
+pub(super) struct Random(TestRng);
 
 impl Random {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self(TestRng::deterministic_rng(RngAlgorithm::ChaCha))
     }
 
-    fn array<R: Real, const N: usize>(&mut self, bound: f64) -> [R; N] {
+    pub(super) fn array<R: Real, const N: usize>(&mut self, bound: f64) -> [R; N] {
         core::array::from_fn(|_| R::from_f64(self.0.random_range(-bound..bound)))
     }
 
-    fn state<R: Real, const N: usize>(&mut self) -> State<R, N, N> {
+    pub(super) fn state<R: Real, const N: usize>(&mut self) -> State<R, N, N> {
         State {
             q: self.array(3.0),
             qd: self.array(3.0),
@@ -46,7 +46,7 @@ fn payload<R: Real, const BODY: usize>() -> Payload<R, BODY> {
     })
 }
 
-fn check(robot: &str, quantity: &str, scalar: &str, error: f64) {
+pub(super) fn check(robot: &str, quantity: &str, scalar: &str, error: f64) {
     if let Err(e) = tolerances::check(robot, quantity, scalar, error) {
         panic!("{e}");
     }
@@ -127,7 +127,7 @@ fn forward_dynamics_inverts_rnea_on_an_odd_tree() {
 }
 
 /// A smaller odd tree, since articulated bodies take the compiler long.
-struct Fork;
+pub(super) struct Fork;
 
 impl Robot<4, 4, 4> for Fork {
     const MODEL: Model<f64, 4, 4, 4> = Model::new(
@@ -193,7 +193,7 @@ where
     let (mut random, mut worst) = (Random::new(), 0.0_f64);
     for _ in 0..200 {
         let q: [R; N] = random.array(3.0);
-        let found = Engine::<T>::jacobian::<BODY, _, _, _, _>(&q);
+        let found = Engine::<T>::jacobian(&q, OnBody::<BODY>, LocalWorldAligned);
         let want = Core::<T>::jacobian(&q.map(R::to_f64), BODY, LocalWorldAligned);
         for (found, want) in found.iter().zip(want) {
             for (found, want) in [(found.ang, want.ang), (found.lin, want.lin)] {

@@ -16,12 +16,14 @@ use host_tests::stress_robot::StressRobot;
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
+mod bodies;
 mod elastic;
 mod large;
 mod loaded;
 mod matrix;
 mod momentum;
 mod recorded;
+mod tasks;
 /// Pushes the plinth, the rail, the bracket (a weld in mid-tree), the tool (a weld at a tip) and
 /// the jib, each in its own frame.
 struct Push;

@@ -75,7 +75,6 @@ pub const F4: (Lugre<f32, 6>, Lugre<f32, 6>) = Engine::<Ur5e>::scene_f32((BRISTL
 pub const F5: (LoadFriction<f32, 6>, LoadFriction<f32, 6>) = Engine::<Ur5e>::scene_f32((GEARS, GEARS)); //~ contains LoadFriction twice
 pub const A: (Armature<f32, 6>, Armature<f32, 6>) = Engine::<Ur5e>::scene_f32((Armature([0.5; 6]), Armature([0.1; 6]))); //~ write one Armature([..]) with the sums of the inertias
 pub const R: (GyroscopicRotors<f32, 6>, GyroscopicRotors<f32, 6>) = Core::<Ur5e>::scene_f32((ROTORS, ROTORS)); //~ contains GyroscopicRotors twice
-pub const SPIN: (Gravity, GyroscopicRotors<f32, 6>) = Engine::<Ur5e>::scene_f32((Gravity::EARTH, ROTORS)); //~ the engine has no rotors that spin as bodies; use `Core`
 pub const FREE: Gravity = Engine::<A1Free>::scene_f32(Gravity::EARTH); //~ the engine takes revolute, prismatic and fixed joints; use `Core`
 
 const TOOL: Payload<f32, 9> = Payload::f32(dynamics_core::model::BodyInertia { mass: 1.0, com: [0.0; 3], inertia: [0.0; 6] });

@@ -6,9 +6,10 @@ mod costs;
 
 use costs::row::Row;
 use costs::{Ask, STATES};
+use dynamics_core::algorithms::frame::LocalWorldAligned;
 use dynamics_core::algorithms::jacobian_rows;
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::model::Static;
+use dynamics_core::model::{OnBody, Static};
 use dynamics_core::state::{ArmState, State};
 use dynamics_core::trig::sin_cos;
 use dynamics_core::{Core, Engine};
@@ -56,7 +57,7 @@ fn detected(detector: &mut ContactDetector<f32, 6>, at: &ArmState<f32, 6>) -> bo
 /// All of a Cartesian impedance: inverse dynamics, Jacobian, M with its factors and the law.
 #[inline(never)]
 fn impedance(law: &mut CartesianImpedance<f32, 6>, ask: &Ask<6>) -> [f32; 6] {
-    let columns = Engine::<robots::Ur5e>::jacobian::<TIP, _, _, _, _>(&ask.trig);
+    let columns = Engine::<robots::Ur5e>::jacobian(&ask.trig, OnBody::<TIP>, LocalWorldAligned);
     let rows = jacobian_rows(&columns);
     let m = Engine::<robots::Ur5e>::crba(&ask.trig, &RIGID_BODY);
     let Ok(factors) = Engine::<robots::Ur5e>::ltdl(&m) else {

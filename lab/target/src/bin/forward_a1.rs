@@ -4,4 +4,4 @@
 
 mod costs;
 
-costs::main!(costs::forward::core::<robots::A1, 16, 12>());
+costs::main!(costs::forward::core::<robots::A1, 16, 12, 15>());

@@ -1,9 +1,9 @@
 //! M, what solves with it, and the tip's Jacobian, form by form.
 
-use dynamics_core::algorithms::{NotPositiveDefinite, frame};
+use dynamics_core::algorithms::{NotPositiveDefinite, frame::LocalWorldAligned};
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
 
-use dynamics_core::model::Robot;
+use dynamics_core::model::{OnBody, Robot};
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::{JointTrig, State, StateWithTrig};
 use dynamics_core::{Core, Engine, MassMatrix};
@@ -18,7 +18,7 @@ type Precomputed<'a, const N: usize> =
     fn(StateWithTrig<'a, f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 
 /// The functions of core or engine, each with sines and cosines computed inside and before.
-struct Forms<'a, const N: usize> {
+struct Forms<'a, const N: usize, const TIP: usize> {
     name: &'static str,
     crba: fn(&[f32; N], &Scene) -> MassMatrix<f32, N>,
     crba_before: fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>,
@@ -27,11 +27,12 @@ struct Forms<'a, const N: usize> {
     forward_before: Precomputed<'a, N>,
     aba: Forward<'a, N>,
     aba_before: Precomputed<'a, N>,
-    jacobian: fn(&[f32; N]) -> [Motion<f32>; N],
-    jacobian_before: fn(&JointTrig<f32, N>) -> [Motion<f32>; N],
+    jacobian: fn(&[f32; N], OnBody<TIP>, LocalWorldAligned) -> [Motion<f32>; N],
+    jacobian_before: fn(&JointTrig<f32, N>, OnBody<TIP>, LocalWorldAligned) -> [Motion<f32>; N],
 }
 
-fn of_core<'a, T: Robot<B, N, N>, const B: usize, const N: usize>() -> Forms<'a, N> {
+fn of_core<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>()
+-> Forms<'a, N, TIP> {
     Forms {
         name: "core",
         crba: Core::<T>::crba,
@@ -41,13 +42,13 @@ fn of_core<'a, T: Robot<B, N, N>, const B: usize, const N: usize>() -> Forms<'a,
         forward_before: Core::<T>::forward_dynamics,
         aba: Core::<T>::aba,
         aba_before: Core::<T>::aba,
-        jacobian: tip_jacobian::<T, B, N>,
-        jacobian_before: tip_jacobian_before::<T, B, N>,
+        jacobian: Core::<T>::jacobian,
+        jacobian_before: Core::<T>::jacobian,
     }
 }
 
 fn of_engine<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>()
--> Forms<'a, N> {
+-> Forms<'a, N, TIP> {
     Forms {
         name: "engine",
         crba: Engine::<T>::crba,
@@ -57,23 +58,26 @@ fn of_engine<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: u
         forward_before: Engine::<T>::forward_dynamics,
         aba: Engine::<T>::aba,
         aba_before: Engine::<T>::aba,
-        jacobian: Engine::<T>::jacobian::<TIP, _, _, _, _>,
-        jacobian_before: Engine::<T>::jacobian::<TIP, _, _, _, _>,
+        jacobian: Engine::<T>::jacobian,
+        jacobian_before: Engine::<T>::jacobian,
     }
 }
 
 pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> ! {
     let asks = &asks::<T, B, N, STATES>();
-    run::<T, B, N>(asks, &[of_core::<T, B, N>(), of_engine::<T, B, N, TIP>()]);
+    run::<T, B, N, TIP>(
+        asks,
+        &[of_core::<T, B, N, TIP>(), of_engine::<T, B, N, TIP>()],
+    );
     momentum::both::<T, B, N>(asks);
     loaded::engine::<T, B, N>(asks);
     estimators::payload::<T, B, N>(asks);
     done()
 }
 
-pub fn core<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
+pub fn core<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> ! {
     let asks = &asks::<T, B, N, STATES>();
-    run::<T, B, N>(asks, &[of_core::<T, B, N>()]);
+    run::<T, B, N, TIP>(asks, &[of_core::<T, B, N, TIP>()]);
     done()
 }
 
@@ -93,29 +97,14 @@ fn core_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
     Ok(Core::<T>::solve(&Core::<T>::ltdl(m)?, tau))
 }
 
-/// The engine's: of the last body, along the axes of the base.
-#[inline(never)]
-fn tip_jacobian<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    q: &[f32; N],
-) -> [Motion<f32>; N] {
-    Core::<T>::jacobian(q, const { B - 1 }, frame::LocalWorldAligned)
-}
-
-#[inline(never)]
-fn tip_jacobian_before<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    trig: &JointTrig<f32, N>,
-) -> [Motion<f32>; N] {
-    Core::<T>::jacobian(trig, const { B - 1 }, frame::LocalWorldAligned)
-}
-
 /// Measures the rows of these forms. Torques are the states' accelerations: any will do, since the work
 /// does not depend on what they move.
-fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize>(
+fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>(
     asks: &'a [Ask<N>; STATES],
-    forms: &[Forms<'a, N>],
+    forms: &[Forms<'a, N, TIP>],
 ) {
     let scene = &RIGID_BODY;
-    let row = |form: &Forms<'_, N>, algorithm, trig| {
+    let row = |form: &Forms<'_, N, TIP>, algorithm, trig| {
         Row::of::<T, B, N>(algorithm, form.name, "full", trig)
     };
     for form in forms {
@@ -146,8 +135,11 @@ fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize>(
     }
     for form in forms {
         let (inside, precomputed) = (form.jacobian, form.jacobian_before);
-        row(form, "jacobian", true).measure(inside as usize, asks, |ask| inside(&ask.state.q));
-        row(form, "jacobian", false)
-            .measure(precomputed as usize, asks, |ask| precomputed(&ask.trig));
+        row(form, "jacobian", true).measure(inside as usize, asks, |ask| {
+            inside(&ask.state.q, OnBody, LocalWorldAligned)
+        });
+        row(form, "jacobian", false).measure(precomputed as usize, asks, |ask| {
+            precomputed(&ask.trig, OnBody, LocalWorldAligned)
+        });
     }
 }

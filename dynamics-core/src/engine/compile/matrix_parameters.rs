@@ -1,8 +1,8 @@
 //! Base parameters of M, fewer than those of τ: the part of Σ that is the same along x and y goes to the parent.
 //!
 //! A turn about z does not change diag(a, a, 0), so that in M it may be the parent's, except that it spins with its own joint:
-//! M_ii, and the couple along z of column i, have 2a more, as if of a rotor. In τ it may not, because the velocity products of
-//! this spin are not the parent's.
+//! M_ii, and the couple along z of column i, have 2a more. In τ it may not, because the velocity products of this spin are not
+//! the parent's.
 
 use glam::{DMat3, DVec3};
 
@@ -11,8 +11,8 @@ use super::tree::Joint;
 use crate::math::const_eval::{mul, scale, transpose};
 use crate::model::BASE;
 
-/// From the last joint to the first, separates rotors from the second moments that regrouping left.
-pub(super) const fn separate_rotors<const V: usize>(joints: &mut [Joint; V]) {
+/// From the last joint to the first, moves what M allows of the second moments that regrouping left.
+pub(super) const fn regroup_for_matrix<const V: usize>(joints: &mut [Joint; V]) {
     let mut i = 0;
     while i < V {
         joints[i].matrix_second = joints[i].second;
@@ -36,7 +36,7 @@ pub(super) const fn separate_rotors<const V: usize>(joints: &mut [Joint; V]) {
             };
             // What the descendants left along z goes on, too.
             moved = DMat3::from_diagonal(DVec3::new(a, a, second.z_axis.z));
-            joints[i].rotor = a + a;
+            joints[i].spin = a + a;
         }
         joints[i].matrix_second = mat_add(&second, &negative(&moved));
         let parent = &mut joints[child.parent];

@@ -1,0 +1,188 @@
+//! Hybrid dynamics: the torque of some coordinates is given, and the acceleration of the others.
+//!
+//! Featherstone, RBDA (2008), section 9.2, by bias and M: rows and columns of coordinates of given acceleration are those of the
+//! identity, so that the factors of M keep their zeros and the instructions do not depend on which coordinates these are.
+
+use core::borrow::Borrow;
+use core::hint::black_box;
+use core::marker::PhantomData;
+
+use super::compile::{Compiled, CompiledRobot, JointPair};
+use super::crba::mass_matrix;
+use super::gate::EngineScene;
+use super::ltdl::{decompose, substitute};
+use super::pivot_noise::noise;
+use super::rnea::{joint_state, torques};
+use super::{Engine, Index, Specialised, only_if};
+use crate::algorithms::{JointResult, MassMatrix, NotPositiveDefinite, Prescribed};
+use crate::effects::{Bias, Effect, load_friction, transmitted};
+use crate::model::Robot;
+use crate::scalar::Real;
+use crate::state::{Configuration, JointTrig, RobotState, State};
+use crate::trig::Kernel;
+
+impl<T, K> Engine<T, K> {
+    /// Torques and accelerations of all coordinates, of which one is given for each, N·m or N and rad/s² or m/s², as
+    /// [`crate::algorithms::hybrid_dynamics`] computes them.
+    ///
+    /// `state.qdd` is not read.
+    ///
+    /// # Cost
+    /// That of [`Engine::forward_dynamics`], and 4 V² flops for a chain of V joints, less on a tree; the same instructions for all
+    /// data.
+    ///
+    /// # Source
+    /// Featherstone, RBDA (2008), section 9.2.
+    ///
+    /// # Example
+    /// ```
+    /// use dynamics_core::algorithms::Prescribed::*;
+    /// use dynamics_core::{Engine, effects::RIGID_BODY, robots::Ur5e, state::State};
+    /// let state = State::at([0.0_f64, -1.2, 1.5, 0.3, 0.0, 0.0]);
+    /// // The base is held; the other joints are let go.
+    /// let given = [Acceleration(0.0), Torque(0.0), Torque(0.0), Torque(0.0), Torque(0.0), Torque(0.0)];
+    /// let response = Engine::<Ur5e>::hybrid_dynamics(&state, &given, &RIGID_BODY)?;
+    /// assert!(response.qdd[0] == 0.0 && response.tau[1] == 0.0 && response.qdd[1] > 5.0);
+    /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Engine::forward_dynamics`], of the coordinates of given torque.
+    #[doc(alias = "HD")]
+    #[inline(never)]
+    pub fn hybrid_dynamics<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
+        state: S,
+        given: &[Prescribed<R>; V],
+        effects: &E,
+    ) -> Result<JointResult<R, V>, NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        S: RobotState<R, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const {
+            assert!(
+                E::ACCELERATIONS,
+                "forward dynamics needs `Inertia` in the scene"
+            )
+        };
+        let configuration = state.configuration();
+        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
+        hybrid::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(
+            trig.borrow(),
+            state.state(),
+            given,
+            effects,
+        )
+    }
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn hybrid<R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize>(
+    trig: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    given: &[Prescribed<R>; V],
+    effects: &E,
+) -> Result<JointResult<R, V>, NotPositiveDefinite>
+where
+    E: Effect<R, B, V>,
+{
+    // One phase after the other: as one block they would need more registers than there are.
+    let mut bias = torques::<R, C, _, B, Q, V>(trig, trig, state, &Bias(effects));
+    black_box(&mut bias);
+    let mut m = MassMatrix::ZERO;
+    mass_matrix::<R, C, E, B, Q, V>(&trig.coordinates, effects, &mut m);
+    black_box(&mut m);
+
+    let (mut free, mut tau, mut qdd) = ([true; V], [R::ZERO; V], [R::ZERO; V]);
+    let mut pivots = noise::<R, C, E, B, Q, V>(&trig.coordinates, effects);
+    for_each_joint!(J, {
+        if Index::<J, V>::IS_BELOW {
+            (free[J], tau[J], qdd[J]) = match given[J] {
+                Prescribed::Torque(tau) => (true, tau, R::ZERO),
+                Prescribed::Acceleration(qdd) => (false, R::ZERO, qdd),
+            };
+            pivots[J] = R::either(free[J], pivots[J], R::ZERO);
+        }
+    });
+    let mut rows = m.rows;
+    let held = times::<R, C, V>(&m, &qdd);
+    for_each_joint!(J, {
+        if Index::<J, V>::IS_BELOW {
+            let at = joint_state::<R, C, Q, V, J>(state);
+            let rest = transmitted(effects, J, at, tau[J]) - bias[J] - held[J];
+            qdd[J] = R::either(free[J], rest, qdd[J]);
+            if let Some(hold) = const {
+                only_if(
+                    J < V,
+                    hold::<R, C, V, J> as fn(&mut [[R; V]; V], &[bool; V]),
+                )
+            } {
+                hold(&mut rows, &free);
+            }
+        }
+    });
+    let d_inv = decompose::<R, C, V>(&mut rows, &pivots)?;
+    substitute::<R, C, V>(&rows, &d_inv, &mut qdd);
+
+    let moved = times::<R, C, V>(&m, &qdd);
+    for_each_joint!(J, {
+        if Index::<J, V>::IS_BELOW {
+            let at = joint_state::<R, C, Q, V, J>(state);
+            let mut motor = bias[J] + moved[J];
+            load_friction(effects, J, at, &mut motor);
+            tau[J] = R::either(free[J], tau[J], motor);
+        }
+    });
+    Ok(JointResult { tau, qdd })
+}
+
+/// Row J of M up to its diagonal, with the entries of the identity where J or the column's coordinate is not free.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn hold<R: Real, C: Compiled, const V: usize, const J: usize>(
+    rows: &mut [[R; V]; V],
+    free: &[bool; V],
+) {
+    for_each_joint!(I, {
+        if JointPair::<C, I, J>::SUPPORTS {
+            let fixed = if I == J { R::ONE } else { R::ZERO };
+            rows[J][I] = R::either(free[I] & free[J], rows[J][I], fixed);
+        }
+    });
+}
+
+/// M x, without what is zero by the branches of the tree.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn times<R: Real, C: Compiled, const V: usize>(m: &MassMatrix<R, V>, x: &[R; V]) -> [R; V] {
+    let mut product = [R::ZERO; V];
+    for_each_joint!(J, {
+        if Index::<J, V>::IS_BELOW
+            && let Some(row) = const {
+                only_if(
+                    J < V,
+                    row::<R, C, V, J> as fn(&MassMatrix<R, V>, &[R; V]) -> R,
+                )
+            }
+        {
+            product[J] = row(m, x);
+        }
+    });
+    product
+}
+
+/// Row J of M times x.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn row<R: Real, C: Compiled, const V: usize, const J: usize>(
+    m: &MassMatrix<R, V>,
+    x: &[R; V],
+) -> R {
+    let mut sum = m.rows[J][J] * x[J];
+    for_each_joint!(I, {
+        if JointPair::<C, I, J>::IS_ANCESTOR || JointPair::<C, J, I>::IS_ANCESTOR {
+            sum += m.rows[J][I] * x[I];
+        }
+    });
+    sum
+}

@@ -1,0 +1,309 @@
+//! The regressor Y of inverse dynamics, which is linear in the inertial parameters: τ = Y(q, q̇, q̈) φ.
+//!
+//! Atkeson, An & Hollerbach, "Estimation of inertial parameters of manipulator loads and links" (1986). Each entry is the power
+//! per parameter as the body moves at unit rate of the coordinate; with the field of a body go outward its motions at unit rate
+//! of each coordinate that moves it.
+
+mod power;
+mod row;
+
+use core::borrow::Borrow;
+use core::marker::PhantomData;
+
+use self::power::BodyPower;
+use super::acceleration_field::AccelerationField;
+use super::base::base;
+use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion, JointPair};
+use super::displacement::Displacement;
+use super::folding::{Folded, Mat3, Vec3};
+use super::gate::EngineScene;
+use super::joint_rates::Twist;
+use super::named::{AllBodies, Named, joints};
+use super::pass::{Nothing, Pass, Rates, moved, sweep};
+use super::{Engine, Specialised, only_if};
+use crate::effects::Effect;
+use crate::model::{Bodies, JointCoordinate, OnBody, Robot};
+use crate::scalar::Real;
+use crate::state::{Configuration, JointTrig, RobotState, State};
+use crate::trig::Kernel;
+
+impl<T, K> Engine<T, K> {
+    /// The regressor Y of the joints' torques, by coordinates, bodies and parameters, N·m or N per unit of each parameter, as
+    /// [`crate::algorithms::regressor`] computes it.
+    ///
+    /// # Cost
+    /// Some 40 flops for each body, and 60 for each pair of a body and a coordinate that moves it; the same instructions for all
+    /// data.
+    ///
+    /// # Source
+    /// Atkeson, An & Hollerbach (1986), (11) to (17).
+    ///
+    /// # Example
+    /// ```
+    /// use dynamics_core::algorithms::inertial_parameters;
+    /// use dynamics_core::{Engine, effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
+    /// let state = State { qd: [0.5; 6], qdd: [1.0; 6], ..State::at([0.3_f64; 6]) };
+    /// let y = Engine::<Ur5e>::regressor(&state, &RIGID_BODY);
+    /// let phi = inertial_parameters(&Ur5e::MODEL, &());
+    /// let tau = y.map(|row| row.iter().flatten().zip(phi.iter().flatten()).map(|(y, phi)| y * phi).sum::<f64>());
+    /// let same = Engine::<Ur5e>::rnea(&state, &RIGID_BODY);
+    /// assert!(tau.iter().zip(same).all(|(tau, same)| (tau - same).abs() < 1e-12));
+    /// ```
+    #[doc(alias = "parameter identification")]
+    #[inline(never)]
+    #[must_use]
+    pub fn regressor<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
+        state: S,
+        effects: &E,
+    ) -> [[[R; 10]; B]; V]
+    where
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        S: RobotState<R, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        let configuration = state.configuration();
+        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
+        columns::<R, CompiledRobot<T, B, Q, V>, AllBodies, E, B, B, Q, V>(
+            trig.borrow(),
+            state.state(),
+            effects,
+        )
+    }
+
+    /// The columns of the regressor of one body, by coordinates: the torques of the joints per unit of its parameters, as
+    /// [`crate::algorithms::regressor_columns`] computes them.
+    ///
+    /// A body that the robot does not have does not compile.
+    ///
+    /// # Cost
+    /// Some 80 flops for each coordinate that moves the body; the same instructions for all data.
+    ///
+    /// # Source
+    /// As [`Engine::regressor`].
+    ///
+    /// # Example
+    /// ```
+    /// use dynamics_core::{Core, Engine, effects::RIGID_BODY, model::{OnBody, Robot}, robots::Ur5e, state::State};
+    /// const WRIST: usize = Ur5e::MODEL.body("wrist_3");
+    /// let state = State { qd: [0.5; 6], qdd: [1.0; 6], ..State::at([0.3_f64; 6]) };
+    /// let a = Core::<Ur5e>::regressor_columns(&state, &RIGID_BODY, OnBody::<WRIST>);
+    /// let b = Engine::<Ur5e>::regressor_columns(&state, &RIGID_BODY, OnBody::<WRIST>);
+    /// assert!(a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-12));
+    /// ```
+    #[doc(alias = "payload identification")]
+    #[inline(never)]
+    #[must_use]
+    pub fn regressor_columns<
+        R: Real,
+        S,
+        E,
+        const BODY: usize,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
+        state: S,
+        effects: &E,
+        body: OnBody<BODY>,
+    ) -> [[R; 10]; V]
+    where
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        S: RobotState<R, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        let _ = body;
+        let configuration = state.configuration();
+        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
+        columns::<R, CompiledRobot<T, B, Q, V>, OnBody<BODY>, E, 1, B, Q, V>(
+            trig.borrow(),
+            state.state(),
+            effects,
+        )
+        .map(|[columns]| columns)
+    }
+}
+
+/// The columns of the bodies L.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn columns<
+    R: Real,
+    C: Compiled,
+    L: Bodies<N>,
+    E,
+    const N: usize,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+>(
+    trig: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    effects: &E,
+) -> [[[R; 10]; N]; V]
+where
+    E: Effect<R, B, V>,
+{
+    let mut y = [[[R::ZERO; 10]; N]; V];
+    let mut pass = Columns::<R, C, L, E, N, B, Q, V> {
+        turns: &trig.coordinates,
+        state,
+        y: &mut y,
+        types: PhantomData,
+    };
+    let at_base = Moving {
+        field: base::<R, E, B, V>(effects, C::LENGTH),
+        by: [Twist::ZERO; V],
+    };
+    let Nothing = sweep::<R, C, _>(&mut pass, &at_base);
+    y
+}
+
+/// A body's field, and its motion at unit rate of each coordinate, in its joint's frame.
+#[derive(Clone, Copy)]
+struct Moving<R, const V: usize> {
+    field: AccelerationField<R>,
+    by: [Twist<R>; V],
+}
+
+struct Columns<'a, R, C, L, E, const N: usize, const B: usize, const Q: usize, const V: usize> {
+    turns: &'a [JointCoordinate<R>; Q],
+    state: &'a State<R, Q, V>,
+    y: &'a mut [[[R; 10]; N]; V],
+    types: PhantomData<(C, L, E)>,
+}
+
+impl<
+    R: Real,
+    C: Compiled,
+    L: Bodies<N>,
+    E,
+    const N: usize,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+> Pass<R, C> for Columns<'_, R, C, L, E, N, B, Q, V>
+where
+    E: Effect<R, B, V>,
+{
+    type Outward = Moving<R, V>;
+    type Inward = Nothing;
+    const NOTHING: Nothing = Nothing;
+    const JOINTS: u64 = joints::<C>(&L::NUMBERS);
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn enter<const I: usize>(&mut self, parent: &Moving<R, V>) -> Moving<R, V> {
+        let field = field_of::<R, C, E, B, Q, V, I>(&parent.field, self.turns, self.state);
+        let at = Displacement::of::<C, Q, I>(self.turns);
+        let mut body = Moving {
+            field,
+            by: parent.by,
+        };
+        for_each_joint!(K, {
+            if JointPair::<C, I, K>::IS_COORDINATE {
+                body.by[K] = unit(CompiledJoint::<C, K>::JOINT, C::LENGTH_INV, Folded::ONE);
+            } else if JointPair::<C, K, I>::IS_ANCESTOR {
+                body.by[K] = carried::<R, C, I>(&parent.by[K], &at);
+            }
+        });
+        const { Named::<C, L, N, I, 0>::ARE_FEW };
+        for_each_joint!(N_TH, {
+            if let Some(see) = const {
+                only_if(
+                    Named::<C, L, N, I, N_TH>::IS_SOME,
+                    see::<R, C, L, N, V, I, N_TH> as See<R, N, V>,
+                )
+            } {
+                see(self.y, &body);
+            }
+        });
+        body
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn leave<const I: usize>(&mut self, _: &Moving<R, V>, _: Nothing) -> Nothing {
+        Nothing
+    }
+}
+
+type See<R, const N: usize, const V: usize> = fn(&mut [[[R; 10]; N]; V], &Moving<R, V>);
+
+/// Writes the columns of the K-th of the bodies L that move with joint I.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn see<
+    R: Real,
+    C: Compiled,
+    L: Bodies<N>,
+    const N: usize,
+    const V: usize,
+    const I: usize,
+    const K: usize,
+>(
+    y: &mut [[[R; 10]; N]; V],
+    body: &Moving<R, V>,
+) {
+    let (at, place) = Named::<C, L, N, I, K>::BODY;
+    let power = BodyPower::of(&body.field, place, C::LENGTH);
+    for_each_joint!(J, {
+        if JointPair::<C, I, J>::IS_COORDINATE || JointPair::<C, J, I>::IS_ANCESTOR {
+            y[J][*at] = power.per_parameter(&body.by[J]);
+        }
+    });
+}
+
+/// The field of the body behind joint I, as far as the effects need it.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn field_of<
+    R: Real,
+    C: Compiled,
+    E,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const I: usize,
+>(
+    parent: &AccelerationField<R>,
+    turns: &[JointCoordinate<R>; Q],
+    state: &State<R, Q, V>,
+) -> AccelerationField<R>
+where
+    E: Effect<R, B, V>,
+{
+    let rates = Rates {
+        qd: &state.qd,
+        qdd: &state.qdd,
+        velocity: false,
+        products: E::VELOCITY_PRODUCTS,
+        accel: E::ACCELERATIONS,
+    };
+    moved::<R, C, Q, V, I>(parent, turns, &rates)
+}
+
+/// The motion of a joint's body at this rate of its coordinate.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn unit<R: Real>(joint: &'static Joint, length_inv: f64, rate: Folded<R>) -> Twist<R> {
+    let mut motion = Twist::ZERO;
+    if joint.prismatic {
+        motion.lin.0[joint.axis] = rate * Folded::constant(length_inv);
+    } else {
+        motion.ang.0[joint.axis] = rate;
+    }
+    if matches!(joint.motion, JointMotion::Screw) {
+        motion.lin.0[2] = rate * Folded::constant(joint.pitch);
+    }
+    motion
+}
+
+/// A motion of the parent as one of the body behind joint I.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn carried<R: Real, C: Compiled, const I: usize>(s: &Twist<R>, at: &Displacement<R>) -> Twist<R> {
+    let joint = CompiledJoint::<C, I>::JOINT;
+    let rot = Mat3::constant(&joint.rot);
+    let p = Vec3::constant(joint.pos) + at.shift::<C, I>();
+    Twist {
+        ang: at.enter::<C, I>(&rot, s.ang),
+        lin: at.enter::<C, I>(&rot, s.lin + s.ang.cross(p)),
+    }
+}

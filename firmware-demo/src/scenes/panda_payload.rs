@@ -3,11 +3,12 @@
 
 use core::cell::Cell;
 
+use dynamics_core::algorithms::frame::LocalWorldAligned;
 use dynamics_core::algorithms::jacobian_rows;
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, InvalidPayload, Payload, Viscous, Width,
 };
-use dynamics_core::model::{BodyInertia, Robot};
+use dynamics_core::model::{BodyInertia, OnBody, Robot};
 use dynamics_core::robots::Panda;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
@@ -251,7 +252,8 @@ impl Law<7, Held<'_>> for Impedance {
         let mut bias = Self::feedforward(reference, held);
         let posture = feedback(gains, reference, estimate);
         let trig = Core::<Panda>::joint_trig(&estimate.q);
-        let rows = jacobian_rows(&Engine::<Panda>::jacobian::<HAND, _, _, _, _>(&trig));
+        let columns = Engine::<Panda>::jacobian(&trig, OnBody::<HAND>, LocalWorldAligned);
+        let rows = jacobian_rows(&columns);
         let m = Engine::<Panda>::crba(&trig, &Carry::current(held.borne));
         if let (Ok(factors), Some(mut spring)) = (Engine::<Panda>::ltdl(&m), held.spring.get()) {
             // The goal is a posture, mrad away: its tip is off by J (q_d − q), but for the square of that.

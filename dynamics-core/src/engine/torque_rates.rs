@@ -194,14 +194,15 @@ impl<R: Real> Field<R> {
         accel: Series<Folded<R>>,
     ) -> Self {
         let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
-        let a = turn.into((self.a + self.u.mul(Series::constant(p))).times_transposed(&rot));
+        let a = turn.enter((self.a + self.u.mul(Series::constant(p))).times_transposed(&rot));
         // Points on the joint's axis move with both links: U's column along it is the parent's.
         let axis = Series::constant(rot.0[2]);
-        let along = turn.into(self.u.mul(axis).times_transposed(&rot));
+        let along = turn.enter(self.u.mul(axis).times_transposed(&rot));
         let az = self.alpha.times_transposed(&rot).z() + accel;
         let half = Folded::constant(0.5);
         // α of each order is the next coefficient of ω, which the products of the next order need.
-        let w0 = turn.into_now(rot.transpose_mul(self.omega.0[0])) + along_z(Folded::runtime(rate));
+        let w0 =
+            turn.enter_now(rot.transpose_mul(self.omega.0[0])) + along_z(Folded::runtime(rate));
         let s0 = Sym3::square(w0, Folded::ONE);
         let (w1, u0) = completed(&s0, az.0[0], along.0[0]);
         let s1 = Sym3::both(w0, w1);
@@ -329,7 +330,7 @@ impl<R: Real> WrenchSeries<R> {
     ) -> Self {
         let (mut f, mut n) = (self.f, self.n);
         if !CompiledJoint::<C, I>::PRISMATIC {
-            (f, n) = (turn.out_of(f), turn.out_of(n));
+            (f, n) = (turn.leave(f), turn.leave(n));
         }
         let ([f0, f1, f2], [n0, n1, n2]) = (f.0, n.0);
         let f = Series([

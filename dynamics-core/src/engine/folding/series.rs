@@ -117,15 +117,15 @@ impl<R: Real> Turn<R> {
 
     /// Rzᵀ v at t = 0.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn into_now(&self, v: Vec3<R>) -> Vec3<R> {
+    pub(crate) fn enter_now(&self, v: Vec3<R>) -> Vec3<R> {
         v.turn_back(self.sin, self.cos)
     }
 
     /// Rzᵀ v: into the body's frame. Of y = Rzᵀ x the derivative is Rzᵀ ẋ − q̇ z × y.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn into(&self, v: Series<Vec3<R>>) -> Series<Vec3<R>> {
+    pub(crate) fn enter(&self, v: Series<Vec3<R>>) -> Series<Vec3<R>> {
         let [a, b, c] = v.0;
-        let (a, b, c) = (self.into_now(a), self.into_now(b), self.into_now(c));
+        let (a, b, c) = (self.enter_now(a), self.enter_now(b), self.enter_now(c));
         let once = b - about_z(self.rate, a);
         let twice = c - about_z(self.half_rate, b + once) - about_z(self.half_accel, a);
         Series([a, once, twice])
@@ -133,7 +133,7 @@ impl<R: Real> Turn<R> {
 
     /// Rz v: out of the body's frame.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn out_of(&self, v: Series<Vec3<R>>) -> Series<Vec3<R>> {
+    pub(crate) fn leave(&self, v: Series<Vec3<R>>) -> Series<Vec3<R>> {
         let [a, b, c] = v.0;
         let once = b + about_z(self.rate, a);
         let twice = c + about_z(self.half_rate, b + once) + about_z(self.half_accel, a);

@@ -38,8 +38,8 @@ where
     );
     are_of::<R, E, B, V>(T::MODEL.name);
     assert!(
-        V <= 32,
-        "the engine takes up to 32 velocity coordinates; use `Core`"
+        V <= 64,
+        "the engine takes up to 64 velocity coordinates; use `Core`"
     );
 }
 

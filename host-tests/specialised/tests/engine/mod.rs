@@ -16,6 +16,7 @@ use host_tests::stress_robot::StressRobot;
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
+mod joints;
 mod large;
 mod loaded;
 mod matrix;

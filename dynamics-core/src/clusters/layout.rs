@@ -9,7 +9,7 @@ pub(super) const CLUSTERS: usize = 8;
 pub(super) const INDEPENDENT: usize = 6;
 
 /// How often [`for_each_joint`](crate::engine::for_each_joint) expands its block.
-pub(super) const EXPANDED: usize = 32;
+pub(super) const EXPANDED: usize = 64;
 
 /// No cluster, or no place.
 pub(super) const NONE: usize = usize::MAX;

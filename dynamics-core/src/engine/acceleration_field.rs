@@ -176,35 +176,41 @@ impl<R: Real> Inertia<R> {
     /// known zero.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn loaded(body: &RegroupedInertia<R>, by: &Joint, base_moves: bool) -> Self {
-        let ([x, y, z], [xx, xy, xz, yy, yz, zz]) = (
+        let ([x, y, z], [xx, xy, xz, yy, yz]) = (
             body.moment.map(Folded::runtime),
             body.second.map(Folded::runtime),
         );
         let (zero, mut second) = (Folded::ZERO, Sym3::ZERO);
-        let (mut mass, mut z) = (Folded::runtime(body.mass), z);
+        if by.prismatic {
+            return Self {
+                mass: Folded::runtime(body.mass),
+                moment: Vec3([x, y, z]),
+                second,
+            };
+        }
         use JointMotion::*;
-        match by.motion {
-            Slide => {}
-            Turn | Screw | Planar if by.parent == BASE && !base_moves => {
-                // A base at rest leaves one rotation, about z, which depends on Σ_xx + Σ_yy alone.
-                second.xx = xx + yy;
-            }
-            _ => {
-                (second.xx, second.yy) = (xx, yy);
-                (second.xy, second.xz, second.yz) = (xy, xz, yz);
-            }
+        if matches!(by.motion, Turn | Screw | Planar) && by.parent == BASE && !base_moves {
+            // A base at rest leaves one rotation, about z, which depends on Σ_xx + Σ_yy alone.
+            second.xx = xx + yy;
+        } else {
+            (second.xx, second.yy) = (xx, yy);
+            (second.xy, second.xz, second.yz) = (xy, xz, yz);
         }
-        match by.motion {
-            Turn => (mass, z) = (zero, zero),
-            Spherical => (mass, second.zz) = (zero, zz),
-            Free => second.zz = zz,
-            _ => {}
-        }
-        Self {
-            mass,
-            moment: Vec3([x, y, z]),
+        let mut left = Self {
+            mass: zero,
+            moment: Vec3([x, y, zero]),
             second,
+        };
+        if matches!(by.motion, Screw | Planar | Free) {
+            left.mass = Folded::runtime(body.mass);
         }
+        if !matches!(by.motion, Turn) {
+            left.moment = Vec3([x, y, z]);
+        }
+        if matches!(by.motion, Spherical | Free) {
+            left.second.zz = Folded::runtime(body.second_zz);
+        }
+        left
     }
 
     /// The same in the frame of joint I's parent and about its origin.

@@ -79,7 +79,8 @@ impl<T, K> Engine<T, K> {
                 parent.inertia += passed.at_parent(&x);
             }
             kept.size = entry(&sizes, i);
-            let numbers = [&[kept.mass][..], &kept.moment, &kept.second, &kept.size];
+            let single = [kept.mass, kept.second_zz];
+            let numbers = [&single[..], &kept.moment, &kept.second, &kept.size];
             if !numbers.into_iter().all(all_finite) {
                 let mut links = robot.links();
                 let moved = links.find(|link| link.coordinates().any(|k| k == i));
@@ -222,18 +223,19 @@ fn split<R: Real>(
     let mut kept = RegroupedInertia {
         mass: mass * length * length,
         moment: [hx, hy, hz].map(|h| h * length),
-        second: [trace - xx, -xy, -xz, trace - yy, -yz, trace - zz],
+        second: [trace - xx, -xy, -xz, trace - yy, -yz],
+        second_zz: trace - zz,
         ..RegroupedInertia::default()
     };
     let mut passed = [zero; 10];
     match motion {
         Slide => {
-            kept.second = [zero; 6];
+            (kept.second, kept.second_zz) = ([zero; 5], zero);
             passed = [zero, zero, zero, zero, xx, xy, yy, xz, yz, zz];
         }
         Turn | Screw | Planar => {
             let rod = trace - zz;
-            kept.second[5] = zero;
+            kept.second_zz = zero;
             (passed[4], passed[6]) = (rod, rod);
         }
         Spherical | Free | Still => {}

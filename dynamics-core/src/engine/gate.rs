@@ -34,8 +34,8 @@ where
     meaning::<R, E, B, V>();
     are_of::<R, E, B, V>(T::MODEL.name);
     assert!(
-        V <= 32,
-        "the engine takes up to 32 velocity coordinates; use `Core`"
+        V <= 64,
+        "the engine takes up to 64 velocity coordinates; use `Core`"
     );
 }
 

@@ -8,14 +8,15 @@
 //! Functions are inlined by force unless debug assertions are on: the folding needs it where code is optimised, and an
 //! unoptimised build of forced inlining has twenty times the code.
 //!
-//! Joints: all kinds ([`crate::model::JointKind`]), on trees of up to 32 velocity coordinates.
+//! Joints: all kinds ([`crate::model::JointKind`]), on trees of up to 64 velocity coordinates.
 
 /// Expands a block once for each joint that there may be, its number a constant: loops are not
 /// unrolled at every opt-level, and a constant can be a const generic argument.
 macro_rules! for_each_joint {
     ($j:ident, $body:block) => {
         for_each_joint!(@ $j $body 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15
-            16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31);
+            16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32 33 34 35 36 37 38 39 40 41 42 43 44 45 46 47
+            48 49 50 51 52 53 54 55 56 57 58 59 60 61 62 63);
     };
     (@ $j:ident $body:block $($n:literal)*) => {$({
         const $j: usize = $n;
@@ -29,7 +30,7 @@ pub(crate) use for_each_joint;
 macro_rules! for_each_joint_reversed {
     ($j:ident, $body:block) => {
         for_each_joint!(N, {
-            const $j: usize = 31 - N;
+            const $j: usize = 63 - N;
             $body
         })
     };
@@ -44,7 +45,7 @@ impl<const I: usize, const N: usize> Index<I, N> {
 }
 
 /// The function if the condition holds, for an inline `const`. A call in a branch that is never taken would still make the
-/// compiler visit its function and all that this calls: 32 × 32 pairs of joints in place of those that exist. The condition
+/// compiler visit its function and all that this calls: 64 × 64 pairs of joints in place of those that exist. The condition
 /// stands before it, too: without optimisation that alone keeps the branch out of the machine code.
 const fn only_if<F: Copy>(condition: bool, function: F) -> Option<F> {
     if condition { Some(function) } else { None }
@@ -98,7 +99,7 @@ pub(crate) use subtree::has_subtree_functions;
 
 /// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel `K`.
 ///
-/// Robots: trees of up to 32 velocity coordinates on joints of any kind. Any number of bodies may be welded to one moving
+/// Robots: trees of up to 64 velocity coordinates on joints of any kind. Any number of bodies may be welded to one moving
 /// body, but at most 32 in a scene with wrenches ([`crate::effects::Contact`], [`crate::effects::BodyWrench`] and others that
 /// act on a body). Others do not compile; use [`crate::Core`] for them.
 ///
@@ -125,11 +126,11 @@ pub(crate) use subtree::has_subtree_functions;
 /// ```compile_fail,E0080
 /// use dynamics_core::{Engine, model::{ArmModel, BASE, Body, Joint, Model, Robot}};
 /// struct Comb;
-/// impl Robot<33, 33, 33> for Comb {
-///     const MODEL: ArmModel<f64, 33> = Model::new("comb", [Body::new("tooth", BASE, Joint::prismatic([1.0, 0.0, 0.0])); 33]);
+/// impl Robot<65, 65, 65> for Comb {
+///     const MODEL: ArmModel<f64, 65> = Model::new("comb", [Body::new("tooth", BASE, Joint::prismatic([1.0, 0.0, 0.0])); 65]);
 /// }
-/// let _ = Engine::<Comb>::joint_trig(&[0.1_f32; 33]);
-/// // error: the engine takes up to 32 velocity coordinates; use `Core`
+/// let _ = Engine::<Comb>::joint_trig(&[0.1_f32; 65]);
+/// // error: the engine takes up to 64 velocity coordinates; use `Core`
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Engine<T, K = Native>(PhantomData<(T, K)>);

@@ -8,11 +8,13 @@ pub struct RegroupedInertia<R> {
     pub(crate) mass: R,
     /// h L, in parts; its z is zero behind a revolute joint.
     pub(crate) moment: [R; 3],
-    /// Σ: xx, xy, xz, yy, yz, zz; zz is zero but behind a spherical or free joint.
-    pub(crate) second: [R; 6],
+    /// Σ: xx, xy, xz, yy, yz.
+    pub(crate) second: [R; 5],
     /// The largest mass, first moment and second moment that the joint could move: those of its body and of its descendants, as
     /// if they lay in one line.
     pub(crate) size: [R; 3],
+    /// Σ_zz, zero but behind a spherical or free joint.
+    pub(crate) second_zz: R,
 }
 
 /// Writes what is left to the body behind one joint.

@@ -47,8 +47,8 @@ pub(crate) struct CompiledRobot<T, const B: usize, const Q: usize, const V: usiz
 impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> CompiledRobot<T, B, Q, V> {
     const TREE: &'static CompiledTree<B, V> = &{
         assert!(
-            V <= 32,
-            "the engine takes up to 32 velocity coordinates; use `Core`"
+            V <= 64,
+            "the engine takes up to 64 velocity coordinates; use `Core`"
         );
         compile(&T::MODEL, T::NEGLIGIBLE)
     };

@@ -17,6 +17,7 @@ use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
 mod bodies;
+mod joints;
 mod large;
 mod loaded;
 mod matrix;

@@ -3,7 +3,7 @@
 use dynamics_core::delegate_effect;
 use dynamics_core::effects::*;
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
-use dynamics_core::robots::{A1Free, Iiwa14, Panda, Ur5e};
+use dynamics_core::robots::{Iiwa14, Panda, Ur5e};
 use dynamics_core::scalar::Real;
 use dynamics_core::{Core, Engine};
 
@@ -75,7 +75,12 @@ pub const F4: (Lugre<f32, 6>, Lugre<f32, 6>) = Engine::<Ur5e>::scene_f32((BRISTL
 pub const F5: (LoadFriction<f32, 6>, LoadFriction<f32, 6>) = Engine::<Ur5e>::scene_f32((GEARS, GEARS)); //~ contains LoadFriction twice
 pub const A: (Armature<f32, 6>, Armature<f32, 6>) = Engine::<Ur5e>::scene_f32((Armature([0.5; 6]), Armature([0.1; 6]))); //~ write one Armature([..]) with the sums of the inertias
 pub const R: (GyroscopicRotors<f32, 6>, GyroscopicRotors<f32, 6>) = Core::<Ur5e>::scene_f32((ROTORS, ROTORS)); //~ contains GyroscopicRotors twice
-pub const FREE: Gravity = Engine::<A1Free>::scene_f32(Gravity::EARTH); //~ the engine takes revolute, prismatic and fixed joints; use `Core`
+pub const WIDE: Gravity = Engine::<Comb>::scene_f32(Gravity::EARTH); //~ the engine takes up to 64 velocity coordinates; use `Core`
+/// One coordinate more than the engine takes.
+pub struct Comb;
+impl Robot<65, 65, 65> for Comb {
+    const MODEL: ArmModel<f64, 65> = Model::new("comb", [ROD; 65]);
+}
 
 const TOOL: Payload<f32, 9> = Payload::f32(dynamics_core::model::BodyInertia { mass: 1.0, com: [0.0; 3], inertia: [0.0; 6] });
 pub const P1: (Rigid, Payload<f32, 9>) = Engine::<Ur5e>::scene_f32((RIGID_BODY, TOOL)); //~ a payload is on body 9 of a robot of 6 bodies, which are numbered from 0

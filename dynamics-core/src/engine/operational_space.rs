@@ -142,12 +142,13 @@ impl<T, K> Engine<T, K> {
     /// # Example
     /// ```
     /// use dynamics_core::{Engine, algorithms::frame, effects::RIGID_BODY, model::{OnBody, Robot}, robots::Ur5e};
-    /// use dynamics_core::{glam::DVec3, spatial::Force};
+    /// use dynamics_core::{glam::DVec3, spatial::{Force, Motion}};
     /// const WRIST: usize = Ur5e::MODEL.body("wrist_3");
     /// let q = [0.0, -1.2, 1.5, 0.3, 0.0, 0.0];
     /// let push = Force::new(DVec3::ZERO, DVec3::X * 10.0);
     /// let hand = Engine::<Ur5e>::osim_inverse(&q, OnBody::<WRIST>, frame::LocalWorldAligned, &RIGID_BODY)?;
-    /// assert!((hand * push).lin.x > 0.0);
+    /// let a: Motion<f64> = hand * push;
+    /// assert!(a.lin.x > 0.0);
     /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
     /// ```
     ///

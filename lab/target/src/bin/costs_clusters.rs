@@ -129,5 +129,10 @@ fn main() -> ! {
     row.measure(aba as *const () as usize, &leg, |y| {
         aba(y, &y.qdd, &RIGID_BODY)
     });
+    let forward = Clustered::<Engine<FourBarLeg>>::forward_dynamics::<f32, _, 5, 5, 5, 3, 3>;
+    let row = Row::of::<FourBarLeg, 5, 5>("forward_clusters", "engine", "full", true);
+    row.measure(forward as *const () as usize, &leg, |y| {
+        forward(y, &y.qdd, &RIGID_BODY)
+    });
     done()
 }

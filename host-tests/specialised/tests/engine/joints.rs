@@ -33,7 +33,7 @@ fn see<R: Real>(errors: &mut Errors, quantity: &'static str, got: &[R], want: &[
 fn every_effect<R: Real, const B: usize, const V: usize>()
 -> impl dynamics_core::effects::Effect<R, B, V> {
     let rising = |k: f64| std::array::from_fn(|i| R::from_f64(k * (1.0 + 0.1 * i as f64)));
-    let vector = |[x, y, z]: [f64; 3]| R::Vec3::from_f64(glam::DVec3::new(x, y, z));
+    let vector = |[x, y, z]: [f64; 3]| R::Vec3::new(R::from_f64(x), R::from_f64(y), R::from_f64(z));
     let carried = MovingBase {
         velocity: Motion::new(vector([0.5, -0.3, 0.8]), vector([0.2, 0.4, -0.6])),
         acceleration: Motion::new(vector([-1.0, 2.0, 0.7]), vector([1.5, -2.0, 0.9])),

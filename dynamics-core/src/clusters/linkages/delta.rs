@@ -24,7 +24,7 @@ use crate::trig::Kernel;
 /// At zero a crank points outwards, and positive angles lower its end; the rods hang from it along −z. The rods of a
 /// crank are one body, between them: of the sum of their masses and of their inertias about their own centres. Their
 /// ends on the platform are at the radius `platform`; the loops are cut there. Two axes that meet are a universal
-/// joint, or two revolute joints with a body without mass between them, which the engine takes.
+/// joint, or two revolute joints with a body without mass between them.
 ///
 /// The one body is exact: parallel rods have the same angular velocity, and the vector between their centres is
 /// parallel to the axis of the crank, so that on a base that does not turn both centres have the same velocity. On a

@@ -37,8 +37,7 @@ pub struct Rod {
 /// | 5 | second crank on the shank | y |
 /// | 6, 7 | second rod on the second crank | y, x |
 ///
-/// where a pair is a universal joint, or two revolute ones with a body without mass between them, which the engine
-/// takes too. At zero all frames have the shank's axes, and a rod hangs from its crank along −z. The loops are cut at
+/// where a pair is a universal joint, or two revolute ones with a body without mass between them. At zero all frames have the shank's axes, and a rod hangs from its crank along −z. The loops are cut at
 /// the ball joints of the rods on the foot. The rods are bodies with an inertia of their own; they do not spin about
 /// themselves.
 ///

@@ -332,20 +332,32 @@ impl<R: Real> AccelerationField<R> {
         turn: JointCoordinate<R>,
         rates: JointRates<R>,
     ) -> Self {
+        self.across_turn::<true>(joint, turn, rates)
+    }
+
+    /// The same in the axes of the child, or in those that it has at q = 0.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn across_turn<const TURNED: bool>(
+        &self,
+        joint: &Joint,
+        turn: JointCoordinate<R>,
+        rates: JointRates<R>,
+    ) -> Self {
         let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
-        let omega_products = enter(&rot, turn, self.omega_products) + along_z(rates.omega_products);
+        let omega_products = enter_axes::<R, TURNED>(&rot, turn, self.omega_products)
+            + along_z(rates.omega_products);
         let az = rot.transpose_mul(self.alpha).0[2] + rates.accel;
         // Points on the joint's axis move with both links: U's column along it is the parent's.
-        let along = enter(&rot, turn, self.u.mul(rot.0[2]));
-        let a = enter(&rot, turn, self.a + self.u.mul(p));
+        let along = enter_axes::<R, TURNED>(&rot, turn, self.u.mul(rot.0[2]));
+        let a = enter_axes::<R, TURNED>(&rot, turn, self.a + self.u.mul(p));
         let (ax, ay, u) = complete(omega_products, az, along);
         Self {
-            omega: enter(&rot, turn, self.omega) + along_z(rates.velocity),
+            omega: enter_axes::<R, TURNED>(&rot, turn, self.omega) + along_z(rates.velocity),
             omega_products,
             alpha: Vec3([ax, ay, az]),
             u,
             a,
-            v: enter(&rot, turn, self.v + self.omega.cross(p)),
+            v: enter_axes::<R, TURNED>(&rot, turn, self.v + self.omega.cross(p)),
             pose: Pose::UNKNOWN,
         }
     }
@@ -480,6 +492,20 @@ fn complete<R: Real>(
 pub(crate) fn enter<R: Real>(rot: &Mat3<R>, turn: JointCoordinate<R>, v: Vec3<R>) -> Vec3<R> {
     rot.transpose_mul(v)
         .turn_back(Folded::runtime(turn.sin), Folded::runtime(turn.cos))
+}
+
+/// The same, or Rᵀ v.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn enter_axes<R: Real, const TURNED: bool>(
+    rot: &Mat3<R>,
+    turn: JointCoordinate<R>,
+    v: Vec3<R>,
+) -> Vec3<R> {
+    if TURNED {
+        enter(rot, turn, v)
+    } else {
+        rot.transpose_mul(v)
+    }
 }
 
 /// A vector along the joint's axis.

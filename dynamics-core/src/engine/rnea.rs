@@ -95,10 +95,11 @@ where
     if E::BODY_POSE {
         field.pose = parent.pose.transformed_by::<C, I>(&at);
     }
-    let mut total = field.wrench(&inertia::<R, C, E, B, Q, V, I>(
-        task.effects,
-        E::BASE_MOTION,
-    ));
+    let body = inertia::<R, C, E, B, Q, V, I>(task.effects, E::BASE_MOTION);
+    let mut total = field.wrench(&body);
+    if const { is_round::<R, C, E, B, V, I>() } {
+        total.n.0[2] = field.alpha.0[2] * (body.second.xx + body.second.yy);
+    }
     if E::WRENCH {
         total = environment::<R, C, E, B, Q, V, I>(task.effects, &field, total);
     }
@@ -134,6 +135,9 @@ where
         drive(task, &total);
     }
 
+    if const { is_round::<R, C, E, B, V, I>() } {
+        return total.turned_to_parent::<C, I>(&at);
+    }
     let turn = if C::LOADS_SINES_AGAIN {
         task.back[CompiledJoint::<C, I>::Q]
     } else {
@@ -177,7 +181,22 @@ where
         accel: Folded::runtime_if(E::ACCELERATIONS, qdd) * unit,
     };
     let at = Displacement::of::<C, Q, I>(task.turns);
+    if const { is_round::<R, C, E, B, V, I>() } {
+        // No turn changes what this body does to the others.
+        return (at, parent.across_turn::<false>(joint, at.turn, rates));
+    }
     (at, parent.across::<C, I>(&at, rates))
+}
+
+/// Whether nothing in the scene feels how far the last body behind joint I has turned.
+const fn is_round<R: Real, C: Compiled, E, const B: usize, const V: usize, const I: usize>() -> bool
+where
+    E: Effect<R, B, V>,
+{
+    CompiledJoint::<C, I>::IS_ROUND
+        && !(E::WRENCH || E::GYROSCOPIC_ROTORS)
+        && E::BASE_PARAMETERS == 0
+        && loads::<C>(I, &E::PAYLOAD) == 0
 }
 
 /// ρ I (q̈ z + q̇ ω × z): the couple that the parent exerts on the rotor of joint I.

@@ -11,7 +11,7 @@ use core::marker::PhantomData;
 
 use super::acceleration_field::{AccelerationField, Inertia, Wrench, along_z};
 use super::base::unaccelerated;
-use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion, JointPair};
+use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointMotion, JointPair};
 use super::displacement::Displacement;
 use super::folding::{Folded, Vec3};
 use super::gate::EngineScene;
@@ -248,6 +248,17 @@ where
     // After the children: until then the velocity takes fewer registers than the momentum beside it.
     let own = inertia::<R, C, E, B, Q, V, I>(task.effects, E::BASE_MOTION);
     let h = momentum(&body, &own) + inner.h;
+    let driven = felt::<R, C, E, B, V, I>(task.effects, h, parent.omega);
+    if CompiledJoint::<C, I>::COUNT == 1 {
+        entries::<R, C, E, B, Q, V, I>(task, &body, &driven);
+    } else if let Some(entries) = const {
+        only_if(
+            CompiledJoint::<C, I>::COUNT > 1,
+            several_entries::<R, C, E, B, Q, V, I> as Entries<R, E, Q, V>,
+        )
+    } {
+        entries(task, &body, &driven);
+    }
     let mut load = Wrench::ZERO;
     if DRIFT {
         load = body.wrench(&own);
@@ -255,20 +266,16 @@ where
             load = environment::<R, C, E, B, Q, V, I>(task.effects, &body, load);
         }
         load = load + inner.load;
-    }
-    let carried = Carried {
-        h: felt::<R, C, E, B, V, I>(task.effects, h, parent.omega),
-        load,
-    };
-    if CompiledJoint::<C, I>::COUNT == 1 {
-        entries::<R, C, E, B, Q, V, DRIFT, I>(task, &body, &carried);
-    } else if let Some(entries) = const {
-        only_if(
-            CompiledJoint::<C, I>::COUNT > 1,
-            several_entries::<R, C, E, B, Q, V, DRIFT, I> as Entries<R, E, Q, V>,
-        )
-    } {
-        entries(task, &body, &carried);
+        if CompiledJoint::<C, I>::COUNT == 1 {
+            hold::<R, C, E, B, Q, V, I>(task, &load);
+        } else if let Some(hold) = const {
+            only_if(
+                CompiledJoint::<C, I>::COUNT > 1,
+                hold_several::<R, C, E, B, Q, V, I> as Hold<R, E, Q, V>,
+            )
+        } {
+            hold(task, &load);
+        }
     }
     let turn = task.back[CompiledJoint::<C, I>::Q];
     let at = at.with_turn(turn);
@@ -307,23 +314,15 @@ fn across<R: Real, C: Compiled, const V: usize, const I: usize>(
 }
 
 type Entries<R, E, const Q: usize, const V: usize> =
-    fn(&mut Task<'_, R, E, Q, V>, &AccelerationField<R>, &Carried<R>);
+    fn(&mut Task<'_, R, E, Q, V>, &AccelerationField<R>, &Wrench<R>);
+type Hold<R, E, const Q: usize, const V: usize> = fn(&mut Task<'_, R, E, Q, V>, &Wrench<R>);
 
-/// The entries of coordinate I, whose body moves as `body` and carries `carried`.
+/// The entries of p and of Cᵀ q̇ of coordinate I, whose body moves as `body` and has with its descendants the momentum `h`.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn entries<
-    R,
-    C,
-    E,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const DRIFT: bool,
-    const I: usize,
->(
+fn entries<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     body: &AccelerationField<R>,
-    carried: &Carried<R>,
+    h: &Wrench<R>,
 ) where
     R: Real,
     C: Compiled,
@@ -331,36 +330,20 @@ fn entries<
 {
     let joint = CompiledJoint::<C, I>::JOINT;
     let length_inv = Folded::constant(C::LENGTH_INV);
-    let at = joint_state::<R, C, Q, V, I>(task.state);
-    let mut p = carried.h.along(joint, length_inv).get();
+    let mut p = h.along(joint, length_inv).get();
     if let Some(armature) = task.effects.inertia(I) {
-        p += armature * at.qd;
+        p += armature * task.state.qd[I];
     }
     task.result.p[I] = p;
-    let mut beta = rate(body, &carried.h, joint, length_inv).get();
-    if DRIFT {
-        let mut held = carried.load.along(joint, length_inv).get();
-        task.effects.torque(I, at, &mut held);
-        beta -= held;
-    }
-    task.result.beta[I] = beta;
+    task.result.beta[I] = rate::<R, C, I>(body, h).get();
 }
 
 /// The same of all coordinates of a joint.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn several_entries<
-    R,
-    C,
-    E,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const DRIFT: bool,
-    const I: usize,
->(
+fn several_entries<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     body: &AccelerationField<R>,
-    carried: &Carried<R>,
+    h: &Wrench<R>,
 ) where
     R: Real,
     C: Compiled,
@@ -371,11 +354,52 @@ fn several_entries<
             && let Some(entries) = const {
                 only_if(
                     JointPair::<C, I, K>::IS_COORDINATE,
-                    entries::<R, C, E, B, Q, V, DRIFT, K> as Entries<R, E, Q, V>,
+                    entries::<R, C, E, B, Q, V, K> as Entries<R, E, Q, V>,
                 )
             }
         {
-            entries(task, body, carried);
+            entries(task, body, h);
+        }
+    });
+}
+
+/// Subtracts from the entry of coordinate I what carries `load` and what the effects at the joint need.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn hold<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    task: &mut Task<'_, R, E, Q, V>,
+    load: &Wrench<R>,
+) where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    let length_inv = Folded::constant(C::LENGTH_INV);
+    let at = joint_state::<R, C, Q, V, I>(task.state);
+    let mut held = load.along(CompiledJoint::<C, I>::JOINT, length_inv).get();
+    task.effects.torque(I, at, &mut held);
+    task.result.beta[I] -= held;
+}
+
+/// The same of all coordinates of a joint.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn hold_several<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    task: &mut Task<'_, R, E, Q, V>,
+    load: &Wrench<R>,
+) where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    for_each_joint!(K, {
+        if JointPair::<C, I, K>::IS_COORDINATE
+            && let Some(hold) = const {
+                only_if(
+                    JointPair::<C, I, K>::IS_COORDINATE,
+                    hold::<R, C, E, B, Q, V, K> as Hold<R, E, Q, V>,
+                )
+            }
+        {
+            hold(task, load);
         }
     });
 }
@@ -398,16 +422,18 @@ pub(super) fn momentum<R: Real>(body: &AccelerationField<R>, inertia: &Inertia<R
 
 /// The entry of Cᵀ q̇ of a coordinate: (v × S)ᵀ h = −Sᵀ (v ×* h).
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn rate<R: Real>(
+fn rate<R: Real, C: Compiled, const I: usize>(
     body: &AccelerationField<R>,
     h: &Wrench<R>,
-    joint: &Joint,
-    length_inv: Folded<R>,
 ) -> Folded<R> {
-    if joint.axis == 2 && !matches!(joint.motion, JointMotion::Screw) {
+    let length_inv = Folded::constant(C::LENGTH_INV);
+    if matches!(
+        CompiledJoint::<C, I>::MOTION,
+        JointMotion::Turn | JointMotion::Slide
+    ) {
         let ([wx, wy, _], [vx, vy, _]) = (body.omega.0, body.v.0);
         let ([fx, fy, _], [nx, ny, _]) = (h.f.0, h.n.0);
-        return if joint.prismatic {
+        return if CompiledJoint::<C, I>::PRISMATIC {
             (wy * fx - wx * fy) * length_inv
         } else {
             wy * nx - wx * ny + (vy * fx - vx * fy)
@@ -417,5 +443,5 @@ fn rate<R: Real>(
         f: h.f.cross(body.omega),
         n: h.n.cross(body.omega) + h.f.cross(body.v),
     };
-    back.along(joint, length_inv)
+    back.along(CompiledJoint::<C, I>::JOINT, length_inv)
 }

@@ -98,7 +98,8 @@ where
     let body = inertia::<R, C, E, B, Q, V, I>(task.effects, E::BASE_MOTION);
     let mut total = field.wrench(&body);
     if const { is_round::<R, C, E, B, V, I>() } {
-        total.n.0[2] = field.alpha.0[2] * (body.second.xx + body.second.yy);
+        let second = &CompiledJoint::<C, I>::JOINT.second;
+        total.n.0[2] = field.alpha.0[2] * Folded::constant(second.x_axis.x + second.y_axis.y);
     }
     if E::WRENCH {
         total = environment::<R, C, E, B, Q, V, I>(task.effects, &field, total);
@@ -183,7 +184,7 @@ where
     let at = Displacement::of::<C, Q, I>(task.turns);
     if const { is_round::<R, C, E, B, V, I>() } {
         // No turn changes what this body does to the others.
-        return (at, parent.across_turn::<false>(joint, at.turn, rates));
+        return (at, parent.across_revolute::<false>(joint, at.turn, rates));
     }
     (at, parent.across::<C, I>(&at, rates))
 }

@@ -231,8 +231,8 @@ fn outward<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usi
         )
     } else {
         (
-            enter(&rot, turn, alpha),
-            enter(&rot, turn, a + alpha.cross(p)),
+            enter::<R, true>(&rot, turn, alpha),
+            enter::<R, true>(&rot, turn, a + alpha.cross(p)),
         )
     };
     let [nx, ny, nz, fx, fy, fz] = task.u[I].map(Folded::runtime);

@@ -238,28 +238,29 @@ impl<R: Real> Add for Inertia<R> {
 }
 
 impl<R: Real> AccelerationField<R> {
-    /// The field of a child behind a revolute joint.
+    /// The field of a child behind a revolute joint: in the axes of the child, or in those that it has at q = 0.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn across_revolute(
+    pub(crate) fn across_revolute<const TURNED: bool>(
         &self,
         joint: &Joint,
         turn: JointCoordinate<R>,
         rates: JointRates<R>,
     ) -> Self {
         let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
-        let omega_products = enter(&rot, turn, self.omega_products) + along_z(rates.omega_products);
+        let omega_products =
+            enter::<R, TURNED>(&rot, turn, self.omega_products) + along_z(rates.omega_products);
         let az = rot.transpose_mul(self.alpha).0[2] + rates.accel;
         // Points on the joint's axis move with both links: U's column along it is the parent's.
-        let along = enter(&rot, turn, self.u.mul(rot.0[2]));
-        let a = enter(&rot, turn, self.a + self.u.mul(p));
+        let along = enter::<R, TURNED>(&rot, turn, self.u.mul(rot.0[2]));
+        let a = enter::<R, TURNED>(&rot, turn, self.a + self.u.mul(p));
         let (ax, ay, u) = complete(omega_products, az, along);
         Self {
-            omega: enter(&rot, turn, self.omega) + along_z(rates.velocity),
+            omega: enter::<R, TURNED>(&rot, turn, self.omega) + along_z(rates.velocity),
             omega_products,
             alpha: Vec3([ax, ay, az]),
             u,
             a,
-            v: enter(&rot, turn, self.v + self.omega.cross(p)),
+            v: enter::<R, TURNED>(&rot, turn, self.v + self.omega.cross(p)),
             pose: Pose::UNKNOWN,
         }
     }
@@ -334,12 +335,20 @@ fn complete<R: Real>(
     (ax, ay, u)
 }
 
-/// Rz(q)ᵀ Rᵀ v: from the parent's frame into the body's. A function, not a closure: closures are
-/// inlined too late for the tags to fold.
+/// Rz(q)ᵀ Rᵀ v: from the parent's frame into the body's, or Rᵀ v. A function, not a closure: closures are inlined too late
+/// for the tags to fold.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn enter<R: Real>(rot: &Mat3<R>, turn: JointCoordinate<R>, v: Vec3<R>) -> Vec3<R> {
-    rot.transpose_mul(v)
-        .turn_back(Folded::runtime(turn.sin), Folded::runtime(turn.cos))
+pub(crate) fn enter<R: Real, const TURNED: bool>(
+    rot: &Mat3<R>,
+    turn: JointCoordinate<R>,
+    v: Vec3<R>,
+) -> Vec3<R> {
+    let v = rot.transpose_mul(v);
+    if TURNED {
+        v.turn_back(Folded::runtime(turn.sin), Folded::runtime(turn.cos))
+    } else {
+        v
+    }
 }
 
 /// A vector along the joint's axis.

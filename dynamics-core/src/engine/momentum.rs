@@ -232,7 +232,7 @@ where
         rates.velocity = rates.velocity * length_inv;
         parent.across_prismatic(joint, slide, rates)
     } else {
-        parent.across_revolute(joint, turn, rates)
+        parent.across_revolute::<true>(joint, turn, rates)
     };
     if DRIFT && E::BODY_POSE {
         body.pose = parent.pose.transformed_by(joint, turn, slide);

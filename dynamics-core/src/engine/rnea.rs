@@ -109,10 +109,19 @@ where
         accel: Folded::runtime_if(E::ACCELERATIONS, qdd) * unit,
     };
 
-    let mut field = if joint.prismatic {
+    let is_round = const {
+        CompiledJoint::<C, I>::IS_ROUND
+            && !E::WRENCH
+            && E::BASE_PARAMETERS == 0
+            && loads::<C>(I, &E::PAYLOAD) == 0
+    };
+    let mut field = if is_round {
+        // No turn changes what this body does to the others.
+        parent.across_revolute::<false>(joint, turn, rates)
+    } else if joint.prismatic {
         parent.across_prismatic(joint, slide, rates)
     } else {
-        parent.across_revolute(joint, turn, rates)
+        parent.across_revolute::<true>(joint, turn, rates)
     };
     if E::BODY_POSE {
         field.pose = parent.pose.transformed_by(joint, turn, slide);
@@ -121,6 +130,10 @@ where
         task.effects,
         E::BASE_MOTION,
     ));
+    if is_round {
+        let about_z = joint.second.x_axis.x + joint.second.y_axis.y;
+        total.n.0[2] = field.alpha.0[2] * Folded::constant(about_z);
+    }
     if E::WRENCH {
         total = environment::<R, C, E, B, Q, V, I>(task.effects, &field, total);
     }
@@ -150,6 +163,9 @@ where
     load_friction(task.effects, I, at, &mut tau);
     task.tau[I] = tau;
 
+    if is_round {
+        return total.turned_to_parent::<C, I>(slide);
+    }
     let turn = if C::LOADS_SINES_AGAIN {
         task.back[I]
     } else {

@@ -85,6 +85,30 @@ pub(crate) const fn is_ancestor<C: Compiled>(k: usize, i: usize) -> bool {
     k != i && supports::<C>(k, i)
 }
 
+/// Whether joint `i` is revolute and has no children, and the inertia left to its body is Σ = diag(a, a, 0) alone.
+const fn is_round<C: Compiled>(i: usize) -> bool {
+    let mut k = 0;
+    while k < C::JOINTS.len() {
+        if is_parent::<C>(i, k) {
+            return false;
+        }
+        k += 1;
+    }
+    let Joint {
+        moment: h, second, ..
+    } = joint::<C>(i);
+    let (x, y) = (second.x_axis, second.y_axis);
+    let sides = [h.x, h.y, x.y, x.z, y.z, x.x - y.y];
+    // Of a body on the base, Σ is not all that is left if the base moves.
+    let mut all = !joint::<C>(i).prismatic && joint::<C>(i).parent != BASE;
+    k = 0;
+    while k < sides.len() {
+        all &= sides[k] == 0.0;
+        k += 1;
+    }
+    all
+}
+
 /// The placement of a body of the description; beyond the last one, the base.
 pub(crate) const fn place<C: Compiled>(body: usize) -> BodyPlacement {
     if body < C::PLACES.len() {
@@ -172,6 +196,8 @@ impl<C: Compiled, const I: usize> CompiledJoint<C, I> {
     pub(crate) const IS_ON_BASE: bool = is_parent::<C>(BASE, I);
     /// How many bodies move with it as one.
     pub(crate) const BODIES: usize = bodies_on::<C>(I);
+    /// Whether it is a last joint, and what regrouping left to its body is the same after any turn.
+    pub(crate) const IS_ROUND: bool = is_round::<C>(I);
 }
 
 /// Joints I and J of a compiled robot.

@@ -8,10 +8,11 @@ use core::borrow::Borrow;
 
 use heapless::Vec;
 
-use super::tree_pass::inward;
+use super::tree_pass::{inward, sum_of_children};
 use crate::algorithms::MassMatrix;
+use crate::algorithms::mass_matrix::RowsFromLast;
 use crate::effects::{Declared, Effect, Scene, add_inertia, body_inertia, rotor_force};
-use crate::model::{LinkView, RobotModel};
+use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::spatial::Xform;
 use crate::spatial::inertia::CompositeInertia;
@@ -68,13 +69,6 @@ where
     }
 }
 
-/// The results of the outward pass for the inward one.
-struct Body<'a, R: Real> {
-    link: LinkView<'a, R>,
-    x: Xform<R>,
-    ic: CompositeInertia<R>,
-}
-
 /// The two passes.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
@@ -87,42 +81,66 @@ where
     E: Effect<R, B, V>,
 {
     let turns = &trig.coordinates;
-    let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
-    for i in 0..B {
+    let mut rotations: Vec<R::Mat3, B> = Vec::new();
+    for link in robot.links() {
+        let _ = rotations.push(link.xform(turns).rot);
+    }
+
+    let mut rows = RowsFromLast::new();
+    let mut children = sum_of_children(robot, CompositeInertia::ZERO);
+    let mut pass = inward(&mut rotations);
+    while let Some((&mut rot, inner)) = pass.next() {
+        let i = inner.len();
         let Some(link) = robot.link(i) else {
             break;
         };
-        let ic = body_inertia(effects, i, &link).into();
-        let x = link.xform(turns);
-        let _ = bodies.push(Body { link, x, ic });
-    }
-
-    let mut m = MassMatrix::ZERO;
-    let mut pass = inward(&mut bodies);
-    while let Some((body, inner)) = pass.next() {
-        if let Some(parent) = inner.get_mut(body.link.parent) {
-            parent.ic += body.ic.at_parent(&body.x);
+        let mut ic = CompositeInertia::from(body_inertia(effects, i, &link));
+        ic += children.of(i);
+        // The origin is a constant of most joints, so that storing it costs more than computing it.
+        let pos = link.origin(turns);
+        let x = Xform { rot, pos };
+        if !inner.is_empty() {
+            children.add(link.parent, ic.at_parent(&x));
         }
-        for (k, joint) in body.link.coordinates().enumerate() {
-            let mut f = body.ic.along(&body.link.subspace(turns, k));
-            for (l, earlier) in body.link.coordinates().enumerate().take(k + 1) {
-                m.set(joint, earlier, body.link.subspace(turns, l).dot(f));
+        for (k, joint) in link.coordinates().enumerate().rev() {
+            let Some(row) = rows.next() else {
+                break;
+            };
+            let mut f = ic.along(&link.subspace(turns, k));
+            for (l, earlier) in link.coordinates().enumerate().take(k + 1) {
+                set(row, earlier, link.subspace(turns, l).dot(f));
             }
-            if let Some(diagonal) = m.diagonal_mut(joint) {
+            if let Some(diagonal) = row.get_mut(joint) {
                 add_inertia(effects, joint, diagonal);
             }
             if E::GYROSCOPIC_ROTORS {
-                f += rotor_force(effects, &body.link);
+                f += rotor_force(effects, &link);
             }
-            let mut child = &*body;
-            while let Some(parent) = inner.get(child.link.parent) {
-                f = child.x.transpose_mul(f);
-                for (l, ancestor) in parent.link.coordinates().enumerate() {
-                    m.set(joint, ancestor, parent.link.subspace(turns, l).dot(f));
+            let (mut child, mut x, mut inner) = (link, x, &*inner);
+            while let Some((&rot, rest)) = up_to(inner, child.parent).split_last() {
+                let Some(parent) = robot.link(rest.len()) else {
+                    break;
+                };
+                f = x.transpose_mul(f);
+                for (l, ancestor) in parent.coordinates().enumerate() {
+                    set(row, ancestor, parent.subspace(turns, l).dot(f));
                 }
-                child = parent;
+                let pos = parent.origin(turns);
+                (x, child, inner) = (Xform { rot, pos }, parent, rest);
             }
         }
     }
-    m
+    rows.matrix()
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn up_to<A>(all: &[A], last: usize) -> &[A] {
+    all.get(..=last).unwrap_or_default()
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn set<R>(row: &mut [R], at: usize, value: R) {
+    if let Some(entry) = row.get_mut(at) {
+        *entry = value;
+    }
 }

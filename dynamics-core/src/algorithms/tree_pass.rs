@@ -1,6 +1,7 @@
 //! The two passes over a tree: outward, from the base to the tips, and inward.
 
 use core::marker::PhantomData;
+use core::ops::AddAssign;
 
 use heapless::Vec;
 
@@ -87,5 +88,52 @@ impl<'a, A> Inward<'a, A> {
         let (body, before) = core::mem::take(&mut self.0).split_last_mut()?;
         self.0 = before;
         Some((body, self.0))
+    }
+}
+
+/// The sum of a quantity over the children of each body, which the inward pass adds to.
+///
+/// For a chain only that of the next body is stored.
+pub(crate) struct SumOfChildren<A, T, const B: usize> {
+    next: A,
+    all: [A; B],
+    topology: PhantomData<T>,
+}
+
+/// Sums that are `zero` as yet, for the bodies of `robot`.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn sum_of_children<A: Copy, D, R: Real, const B: usize, const Q: usize, const V: usize>(
+    _: &D,
+    zero: A,
+) -> SumOfChildren<A, Tree<D, R, B, Q, V>, B>
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    SumOfChildren {
+        next: zero,
+        all: [zero; B],
+        topology: PhantomData,
+    }
+}
+
+impl<A: Copy + Default + AddAssign, T: Topology, const B: usize> SumOfChildren<A, T, B> {
+    /// That of body `i`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn of(&self, i: usize) -> A {
+        if T::CHAIN {
+            self.next
+        } else {
+            self.all.get(i).copied().unwrap_or_default()
+        }
+    }
+
+    /// Adds that of a child of body `parent`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn add(&mut self, parent: usize, value: A) {
+        if T::CHAIN {
+            self.next = value;
+        } else if let Some(sum) = self.all.get_mut(parent) {
+            *sum += value;
+        }
     }
 }

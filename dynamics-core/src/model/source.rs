@@ -38,7 +38,7 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
         R: 'a,
     {
         let links = self.model().links.iter().enumerate();
-        links.map(|(i, link)| LinkView::new(i, link, Self::KINDS, Self::SINGLE))
+        links.map(|(i, link)| LinkView::new::<Self, B, Q, V>(i, link))
     }
 
     /// Link `i`.
@@ -48,7 +48,7 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
         R: 'a,
     {
         let link = self.model().links.get(i)?;
-        Some(LinkView::new(i, link, Self::KINDS, Self::SINGLE))
+        Some(LinkView::new::<Self, B, Q, V>(i, link))
     }
 }
 

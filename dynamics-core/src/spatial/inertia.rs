@@ -26,6 +26,12 @@ impl<R: Real> From<SpatialInertia<R>> for CompositeInertia<R> {
     }
 }
 
+impl<R: Real> Default for CompositeInertia<R> {
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
+
 impl<R: Real> AddAssign for CompositeInertia<R> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_assign(&mut self, o: Self) {
@@ -36,6 +42,13 @@ impl<R: Real> AddAssign for CompositeInertia<R> {
 }
 
 impl<R: Real> CompositeInertia<R> {
+    /// That of no body.
+    pub(crate) const ZERO: Self = Self {
+        mass: R::ZERO,
+        first_moment: R::Vec3::ZERO,
+        inertia: Symmetric::ZERO,
+    };
+
     /// The ten parameters, in the order of [`SpatialInertia::parameters`].
     pub(crate) fn parameters(&self) -> [R; 10] {
         let Symmetric {

@@ -89,7 +89,7 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let given = |joint| Prescribed::Torque(entry(tau, joint));
-    let response = match robot.as_all_revolute() {
+    let response = match robot.as_revolute_chain() {
         Some(robot) => sweep(&robot, trig, state, effects, given)?,
         None => sweep(robot, trig, state, effects, given)?,
     };

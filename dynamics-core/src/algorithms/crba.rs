@@ -8,11 +8,11 @@ use core::borrow::Borrow;
 
 use heapless::Vec;
 
-use super::tree_pass::{inward, sum_of_children};
+use super::tree_pass::sum_of_children;
 use crate::algorithms::MassMatrix;
 use crate::algorithms::mass_matrix::RowsFromLast;
 use crate::effects::{Declared, Effect, Scene, add_inertia, body_inertia, rotor_force};
-use crate::model::RobotModel;
+use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
 use crate::spatial::Xform;
 use crate::spatial::inertia::CompositeInertia;
@@ -63,7 +63,7 @@ where
     const { Scene::<R, E, B, V>::OF_CORE };
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
-    match robot.as_all_revolute() {
+    match robot.as_revolute_chain() {
         Some(robot) => sweep(&robot, trig, effects),
         None => sweep(robot, trig, effects),
     }
@@ -88,8 +88,8 @@ where
 
     let mut rows = RowsFromLast::new();
     let mut children = sum_of_children(robot, CompositeInertia::ZERO);
-    let mut pass = inward(&mut rotations);
-    while let Some((&mut rot, inner)) = pass.next() {
+    let mut outer = rotations.as_slice();
+    while let Some((rot, inner)) = outer.split_last() {
         let i = inner.len();
         let Some(link) = robot.link(i) else {
             break;
@@ -97,8 +97,7 @@ where
         let mut ic = CompositeInertia::from(body_inertia(effects, i, &link));
         ic += children.of(i);
         // The origin is a constant of most joints, so that storing it costs more than computing it.
-        let pos = link.origin(turns);
-        let x = Xform { rot, pos };
+        let x = Xform { rot: *rot, pos: link.origin(turns) };
         if !inner.is_empty() {
             children.add(link.parent, ic.at_parent(&x));
         }
@@ -116,26 +115,41 @@ where
             if E::GYROSCOPIC_ROTORS {
                 f += rotor_force(effects, &link);
             }
-            let (mut child, mut x, mut inner) = (link, x, &*inner);
-            while let Some((&rot, rest)) = up_to(inner, child.parent).split_last() {
-                let Some(parent) = robot.link(rest.len()) else {
+            let (mut child, mut rot) = (link, rot);
+            let mut left = up_to_parent(robot, inner, &link);
+            while let Some((rot_parent, inner)) = left.split_last() {
+                let Some(parent) = robot.link(inner.len()) else {
                     break;
                 };
-                f = x.transpose_mul(f);
+                let x = Xform { rot: *rot, pos: child.origin(turns) };
+                let f_parent = x.transpose_mul(f);
                 for (l, ancestor) in parent.coordinates().enumerate() {
-                    set(row, ancestor, parent.subspace(turns, l).dot(f));
+                    set(row, ancestor, parent.subspace(turns, l).dot(f_parent));
                 }
-                let pos = parent.origin(turns);
-                (x, child, inner) = (Xform { rot, pos }, parent, rest);
+                left = up_to_parent(robot, inner, &parent);
+                (child, rot, f) = (parent, rot_parent, f_parent);
             }
         }
+        outer = inner;
     }
     rows.matrix()
 }
 
+/// The bodies before one, as far as its parent.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn up_to<A>(all: &[A], last: usize) -> &[A] {
-    all.get(..=last).unwrap_or_default()
+fn up_to_parent<'a, A, R: Real, D, const B: usize, const Q: usize, const V: usize>(
+    _: &D,
+    inner: &'a [A],
+    link: &LinkView<'_, R>,
+) -> &'a [A]
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    if D::CHAIN {
+        inner
+    } else {
+        inner.get(..=link.parent).unwrap_or_default()
+    }
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]

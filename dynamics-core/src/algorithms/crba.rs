@@ -8,13 +8,12 @@ use core::borrow::Borrow;
 
 use heapless::Vec;
 
-use super::tree_pass::sum_of_children;
+use super::tree_pass::{sum_of_children, up_to_parent};
 use crate::algorithms::MassMatrix;
-use crate::algorithms::mass_matrix::RowsFromLast;
+use crate::algorithms::mass_matrix::{RowsFromLast, set};
 use crate::effects::{Declared, Effect, Scene, add_inertia, body_inertia, rotor_force};
-use crate::model::{LinkView, RobotModel};
+use crate::model::RobotModel;
 use crate::scalar::Real;
-use crate::spatial::Xform;
 use crate::spatial::inertia::CompositeInertia;
 use crate::state::{Configuration, JointTrig};
 
@@ -96,10 +95,8 @@ where
         };
         let mut ic = CompositeInertia::from(body_inertia(effects, i, &link));
         ic += children.of(i);
-        // The origin is a constant of most joints, so that storing it costs more than computing it.
-        let x = Xform { rot: *rot, pos: link.origin(turns) };
         if !inner.is_empty() {
-            children.add(link.parent, ic.at_parent(&x));
+            children.add(link.parent, ic.at_parent(&link.xform_of(*rot, turns)));
         }
         for (k, joint) in link.coordinates().enumerate().rev() {
             let Some(row) = rows.next() else {
@@ -115,46 +112,20 @@ where
             if E::GYROSCOPIC_ROTORS {
                 f += rotor_force(effects, &link);
             }
-            let (mut child, mut rot) = (link, rot);
-            let mut left = up_to_parent(robot, inner, &link);
-            while let Some((rot_parent, inner)) = left.split_last() {
-                let Some(parent) = robot.link(inner.len()) else {
+            let (mut child, mut rot, mut inner) = (link, rot, up_to_parent(robot, inner, &link));
+            while let Some((parent_rot, before)) = inner.split_last() {
+                let Some(parent) = robot.link(before.len()) else {
                     break;
                 };
-                let x = Xform { rot: *rot, pos: child.origin(turns) };
-                let f_parent = x.transpose_mul(f);
+                f = child.xform_of(*rot, turns).transpose_mul(f);
                 for (l, ancestor) in parent.coordinates().enumerate() {
-                    set(row, ancestor, parent.subspace(turns, l).dot(f_parent));
+                    set(row, ancestor, parent.subspace(turns, l).dot(f));
                 }
-                left = up_to_parent(robot, inner, &parent);
-                (child, rot, f) = (parent, rot_parent, f_parent);
+                inner = up_to_parent(robot, before, &parent);
+                (child, rot) = (parent, parent_rot);
             }
         }
         outer = inner;
     }
     rows.matrix()
-}
-
-/// The bodies before one, as far as its parent.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn up_to_parent<'a, A, R: Real, D, const B: usize, const Q: usize, const V: usize>(
-    _: &D,
-    inner: &'a [A],
-    link: &LinkView<'_, R>,
-) -> &'a [A]
-where
-    D: RobotModel<R, B, Q, V>,
-{
-    if D::CHAIN {
-        inner
-    } else {
-        inner.get(..=link.parent).unwrap_or_default()
-    }
-}
-
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn set<R>(row: &mut [R], at: usize, value: R) {
-    if let Some(entry) = row.get_mut(at) {
-        *entry = value;
-    }
 }

@@ -137,3 +137,20 @@ impl<A: Copy + Default + AddAssign, T: Topology, const B: usize> SumOfChildren<A
         }
     }
 }
+
+/// Of what stands for the bodies before `link`, that of its parent and of those before it.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn up_to_parent<'a, A, D, R: Real, const B: usize, const Q: usize, const V: usize>(
+    _: &D,
+    before: &'a [A],
+    link: &LinkView<'_, R>,
+) -> &'a [A]
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    if D::CHAIN {
+        before
+    } else {
+        before.get(..=link.parent).unwrap_or_default()
+    }
+}

@@ -53,6 +53,14 @@ impl<R: Real> LinkView<'_, R> {
         Xform { rot, pos }
     }
 
+    /// The same, of which the rotation is given: the origin is a constant of most joints, so that storing it costs more than
+    /// computing it.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn xform_of(&self, rot: R::Mat3, turns: &[JointCoordinate<R>]) -> Xform<R> {
+        let pos = self.origin(turns);
+        Xform { rot, pos }
+    }
+
     /// The origin of the body in its parent's aligned frame, m.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn origin(&self, turns: &[JointCoordinate<R>]) -> R::Vec3 {

@@ -16,6 +16,8 @@ pub struct LinkView<'a, R: Real> {
     pub(super) kind: JointKind,
     pub(super) idx_q: usize,
     pub(super) idx_v: usize,
+    /// Whether it is known to have one coordinate.
+    single: bool,
 }
 
 impl<R: Real> Deref for LinkView<'_, R> {
@@ -52,6 +54,7 @@ impl<'a, R: Real> LinkView<'a, R> {
             kind: D::KINDS.of(link.joint.kind),
             idx_q,
             idx_v,
+            single: D::SINGLE,
         }
     }
 
@@ -76,7 +79,11 @@ impl<'a, R: Real> LinkView<'a, R> {
     /// Its velocity coordinates, as indices of q̇.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn coordinates(&self) -> core::ops::Range<usize> {
-        let (_, count) = self.kind.coordinates();
+        let count = if self.single {
+            1
+        } else {
+            self.kind.coordinates().1
+        };
         if count == 0 {
             return 0..0;
         }

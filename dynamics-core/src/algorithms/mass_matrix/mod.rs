@@ -148,6 +148,14 @@ impl<R: Real, const V: usize> RowsFromLast<R, V> {
     }
 }
 
+/// Sets an entry of a row.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn set<R>(row: &mut [R], joint: usize, value: R) {
+    if let Some(entry) = row.get_mut(joint) {
+        *entry = value;
+    }
+}
+
 /// M = Lᵀ D L: L lower triangular with a unit diagonal, D diagonal and positive.
 ///
 /// Featherstone, RBDA (2008), section 6.5: L is zero wherever M is.

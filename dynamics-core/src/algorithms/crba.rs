@@ -8,7 +8,7 @@ use core::borrow::Borrow;
 
 use heapless::Vec;
 
-use super::tree_pass::{sum_of_children, up_to_parent};
+use super::tree_pass::{inward_sums, up_to_parent};
 use crate::algorithms::MassMatrix;
 use crate::algorithms::mass_matrix::{RowsFromLast, set};
 use crate::effects::{Declared, Effect, Scene, add_inertia, body_inertia, rotor_force};
@@ -86,17 +86,16 @@ where
     }
 
     let mut rows = RowsFromLast::new();
-    let mut children = sum_of_children(robot, CompositeInertia::ZERO);
+    let mut sums = inward_sums(robot);
     let mut outer = rotations.as_slice();
     while let Some((rot, inner)) = outer.split_last() {
         let i = inner.len();
         let Some(link) = robot.link(i) else {
             break;
         };
-        let mut ic = CompositeInertia::from(body_inertia(effects, i, &link));
-        ic += children.of(i);
+        let ic = sums.of(i, CompositeInertia::from(body_inertia(effects, i, &link)));
         if !inner.is_empty() {
-            children.add(link.parent, ic.at_parent(&link.xform_of(*rot, turns)));
+            sums.add(link.parent, ic.at_parent(&link.xform_of(*rot, turns)));
         }
         for (k, joint) in link.coordinates().enumerate().rev() {
             let Some(row) = rows.next() else {

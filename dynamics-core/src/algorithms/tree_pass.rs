@@ -91,49 +91,50 @@ impl<'a, A> Inward<'a, A> {
     }
 }
 
-/// The sum of a quantity over the children of each body, which the inward pass adds to.
+/// A quantity of each body and the bodies behind it, which the inward pass sums.
 ///
-/// For a chain only that of the next body is stored.
-pub(crate) struct SumOfChildren<A, T, const B: usize> {
+/// For a chain only what the next body has added is stored.
+pub(crate) struct InwardSums<A, T, const B: usize> {
     next: A,
     all: [A; B],
     topology: PhantomData<T>,
 }
 
-/// Sums that are `zero` as yet, for the bodies of `robot`.
+/// The sums over `robot`, zero as yet.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn sum_of_children<A: Copy, D, R: Real, const B: usize, const Q: usize, const V: usize>(
+pub(crate) fn inward_sums<A: Copy + Default, D, R: Real, const B: usize, const Q: usize, const V: usize>(
     _: &D,
-    zero: A,
-) -> SumOfChildren<A, Tree<D, R, B, Q, V>, B>
+) -> InwardSums<A, Tree<D, R, B, Q, V>, B>
 where
     D: RobotModel<R, B, Q, V>,
 {
-    SumOfChildren {
-        next: zero,
-        all: [zero; B],
+    InwardSums {
+        next: A::default(),
+        all: [A::default(); B],
         topology: PhantomData,
     }
 }
 
-impl<A: Copy + Default + AddAssign, T: Topology, const B: usize> SumOfChildren<A, T, B> {
-    /// That of body `i`.
+impl<A: Copy + Default + AddAssign, T: Topology, const B: usize> InwardSums<A, T, B> {
+    /// The sum of body `i`, of which `own` is its own.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn of(&self, i: usize) -> A {
-        if T::CHAIN {
+    pub(crate) fn of(&self, i: usize, own: A) -> A {
+        let mut sum = own;
+        sum += if T::CHAIN {
             self.next
         } else {
             self.all.get(i).copied().unwrap_or_default()
-        }
+        };
+        sum
     }
 
-    /// Adds that of a child of body `parent`.
+    /// Adds to the sum of body `parent` that of a child.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn add(&mut self, parent: usize, value: A) {
+    pub(crate) fn add(&mut self, parent: usize, child: A) {
         if T::CHAIN {
-            self.next = value;
+            self.next = child;
         } else if let Some(sum) = self.all.get_mut(parent) {
-            *sum += value;
+            *sum += child;
         }
     }
 }

@@ -13,8 +13,8 @@ use crate::effects::{
     Declared, Effect, Scene, base_motion, body_inertia, body_wrench, joint_torques, load_frictions,
 };
 use crate::model::{JointCoordinate, LinkView, RobotModel};
-use crate::scalar::{Matrix, Real};
-use crate::spatial::{Force, Motion, Xform};
+use crate::scalar::{Matrix, Real, Vector};
+use crate::spatial::{AccelerationField, Force, Motion, Xform};
 use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 
 /// The torque of each motor, τ = ID(q, q̇, q̈), N·m or N, under the effects of the scene.
@@ -98,6 +98,11 @@ where
     let (v_0, a_0) = base_motion(effects);
     // With one pattern for both, or with `v.push` after (5) or `a.push` before it, the A1 takes 2 % more cycles.
     let mut v = per_body(robot, v_0);
+    let a_0 = if const { E::VELOCITY_PRODUCTS & E::BASE_MOTION } {
+        Motion::new(a_0.ang, a_0.lin + v_0.ang.cross(v_0.lin))
+    } else {
+        a_0
+    };
     let mut a = per_body(robot, a_0);
     let mut poses = per_body(robot, Xform::IDENTITY);
     let mut bodies: Vec<Body<R>, B> = Vec::new();
@@ -107,11 +112,31 @@ where
             break;
         };
         let x = link.xform(turns);
-        let v_i = velocity(effects, &link, x * v.parent(&link), turns, state); // (3)
+        let v_parent = v.parent(&link);
+        let v_at = if const { E::BODY_VELOCITY | !E::VELOCITY_PRODUCTS } {
+            x * v_parent
+        } else {
+            Motion::new(x.rot * v_parent.ang, R::Vec3::ZERO)
+        };
+        let v_i = velocity(effects, &link, v_at, turns, state); // (3)
         v.push(v_i);
-        let a_parent = x * a.parent(&link);
-        let a_i = acceleration(effects, &link, a_parent, v_i, turns, state); // (4)
-        let mut f_i = net_force(effects, i, &link, a_i, v_i); // (5)
+        let (a_parent, a_i);
+        let mut f_i;
+        if E::VELOCITY_PRODUCTS {
+            a_parent = AccelerationField::moved(&x, v_parent.ang, a.parent(&link));
+            let mut a = a_parent;
+            if E::ACCELERATIONS {
+                a = link.plus_motion(a, turns, &state.qdd);
+            }
+            a_i = link.plus_point_product(a, turns, &state.qd, v_i.ang);
+            let field = AccelerationField::new(v_i.ang, a_i);
+            f_i = body_inertia(effects, i, &link).force_in(&field, v_i.ang);
+        } else {
+            a_parent = x * a.parent(&link);
+            a_i = acceleration(effects, &link, a_parent, v_i, turns, state); // (4)
+            f_i = net_force(effects, i, &link, a_i, v_i); // (5)
+        }
+        a.push(a_i);
         f_i -= external_force(effects, i, &link, &x, &mut poses, v_i); // (6)
         if E::GYROSCOPIC_ROTORS {
             let (couple, tau) = rotor(effects, &link, a_parent, v_i, state);
@@ -122,7 +147,6 @@ where
                 *rotor_tau = tau;
             }
         }
-        a.push(a_i);
         let _ = bodies.push(Body { rot: x.rot, f: f_i });
     }
 

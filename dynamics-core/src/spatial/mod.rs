@@ -11,12 +11,14 @@
 //! let _ = v + f; // a velocity is not a force
 //! ```
 
+mod acceleration_field;
 mod body_coriolis;
 pub(crate) mod inertia;
 mod motion_subspace;
 pub(crate) mod rotation;
 pub(crate) mod symmetric;
 
+pub(crate) use acceleration_field::AccelerationField;
 pub(crate) use body_coriolis::BodyCoriolis;
 pub(crate) use motion_subspace::{MotionSubspace, raised};
 

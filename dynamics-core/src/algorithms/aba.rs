@@ -191,10 +191,7 @@ fn outward_velocities<R: Real, D, E, const B: usize, const Q: usize, const V: us
     // Not in one pattern, which costs the A1 1.5 % of its cycles.
     let mut v = per_body(robot, v_0);
     let mut poses = per_body(robot, Xform::IDENTITY);
-    for i in 0..B {
-        let Some(link) = robot.link(i) else {
-            break;
-        };
+    for (i, link) in robot.links().enumerate() {
         let x = link.xform(turns);
         let v_i = link.plus_motion(x * v.parent(&link), turns, &state.qd);
         let inertia = body_inertia(effects, i, &link);
@@ -215,7 +212,9 @@ fn outward_velocities<R: Real, D, E, const B: usize, const Q: usize, const V: us
             parent.pa.ang += x.rot.transpose_mul(couple);
         }
         v.push(v_i);
-        let _ = bodies.push(Body { rot: x.rot, c, pa });
+        if bodies.push(Body { rot: x.rot, c, pa }).is_err() && D::CHAIN {
+            break;
+        }
     }
 }
 
@@ -243,16 +242,14 @@ where
             break;
         };
         let inertia = body_inertia(effects, i, &link);
-        let own = Articulated {
-            ia: inertia.into(),
-            pa: body.pa,
-            magnitude: Magnitude::from(&inertia),
-        };
         let Articulated {
             mut ia,
             mut pa,
-            magnitude,
-        } = sums.of(i, own);
+            mut magnitude,
+        } = sums.of(i);
+        ia += inertia;
+        pa += body.pa;
+        magnitude += Magnitude::from(&inertia);
         let mut pivots = PivotCheck::of(magnitude);
         let mut free = None;
         for (k, joint) in link.coordinates().enumerate().rev() {

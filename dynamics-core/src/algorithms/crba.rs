@@ -93,7 +93,8 @@ where
         let Some(link) = robot.link(i) else {
             break;
         };
-        let ic = sums.of(i, CompositeInertia::from(body_inertia(effects, i, &link)));
+        let mut ic = CompositeInertia::from(body_inertia(effects, i, &link));
+        ic += sums.of(i);
         if !inner.is_empty() {
             sums.add(link.parent, ic.at_parent(&link.xform_of(*rot, turns)));
         }

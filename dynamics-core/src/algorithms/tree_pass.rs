@@ -91,7 +91,7 @@ impl<'a, A> Inward<'a, A> {
     }
 }
 
-/// A quantity of each body and the bodies behind it, which the inward pass sums.
+/// The sum of a quantity over the children of each body, which the inward pass adds to.
 ///
 /// For a chain only what the next body has added is stored.
 pub(crate) struct InwardSums<A, T, const B: usize> {
@@ -116,19 +116,17 @@ where
 }
 
 impl<A: Copy + Default + AddAssign, T: Topology, const B: usize> InwardSums<A, T, B> {
-    /// The sum of body `i`, of which `own` is its own.
+    /// The sum over the children of body `i`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn of(&self, i: usize, own: A) -> A {
-        let mut sum = own;
-        sum += if T::CHAIN {
+    pub(crate) fn of(&self, i: usize) -> A {
+        if T::CHAIN {
             self.next
         } else {
             self.all.get(i).copied().unwrap_or_default()
-        };
-        sum
+        }
     }
 
-    /// Adds to the sum of body `parent` that of a child.
+    /// Adds to the sum of body `parent` the quantity of a child.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn add(&mut self, parent: usize, child: A) {
         if T::CHAIN {

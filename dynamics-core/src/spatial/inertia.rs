@@ -175,6 +175,24 @@ impl<R: Real> AddAssign for ArticulatedInertia<R> {
     }
 }
 
+/// Adds the inertia of a rigid body. 15 flops.
+impl<R: Real> AddAssign<SpatialInertia<R>> for ArticulatedInertia<R> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn add_assign(&mut self, o: SpatialInertia<R>) {
+        let [hx, hy, hz] = o.first_moment.array();
+        let [[xx, yx, zx], [xy, yy, zy], [xz, yz, zz]] = self.coupling.cols().map(Vector::array);
+        self.inertia += Symmetric::of(&o.rotational);
+        self.coupling = R::Mat3::from_cols(
+            R::Vec3::new(xx, yx + hz, zx - hy),
+            R::Vec3::new(xy - hz, yy, zy + hx),
+            R::Vec3::new(xz + hy, yz - hx, zz),
+        );
+        self.mass.xx += o.mass;
+        self.mass.yy += o.mass;
+        self.mass.zz += o.mass;
+    }
+}
+
 impl<R: Real> ArticulatedInertia<R> {
     /// Iᴬ m. 66 flops.
     #[cfg_attr(not(debug_assertions), inline(always))]

@@ -1,0 +1,7 @@
+//! Proven rounding errors of machine code over a whole box of states: what `cargo xtask certify` runs.
+pub mod decode;
+pub mod error;
+pub mod graph;
+pub mod image;
+pub mod interval;
+pub mod walk;

@@ -195,6 +195,11 @@ fn single(first: u16, second: u16) -> Option<Instruction> {
         0xf850 if n == PC => word(-offset, true),
         // Offsets downwards, without a change of the base.
         0xf850 | 0xf840 if second & 0xf00 == 0xc00 => word(-(offset & 0xff), first & 0x10 != 0),
+        // PUSH and POP of one register: A7.7.99, A7.7.101.
+        0xf840 | 0xf850 if n == SP && [0xd04, 0xb04][usize::from(first >> 4 & 1)] == second & 0xfff => {
+            let load = first & 0x10 != 0;
+            Instruction::Words { n, registers: 1 << t, load, down: !load, writes_back: true }
+        }
         _ => return None,
     })
 }

@@ -5,3 +5,7 @@ pub mod graph;
 pub mod image;
 pub mod interval;
 pub mod walk;
+pub mod bound;
+pub mod branch;
+pub mod search;
+pub mod state_box;

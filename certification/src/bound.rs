@@ -12,9 +12,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::forms::{self, Form, Rotation, Sum};
 use crate::graph::{Graph, Node};
 use crate::interval::{Interval, half_ulp};
-use crate::state_box::{Leaf, Robot, cosine, sine};
+use crate::state_box::{Leaf, Robot, Sector, cosine, sine};
 
 /// The error of a kernel of sines: the most by which a sine or cosine differs from the true one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -51,6 +52,11 @@ pub struct Bounder {
     /// What each input is, by node.
     leaves: Vec<Option<Leaf>>,
     sines: SineErrors,
+    /// Sums that are bounded better when they are written out, and all adjoints.
+    sums: Vec<Option<Form>>,
+    uses: Vec<Form>,
+    /// The sectors of the joints' angles.
+    sectors: Vec<Sector>,
     /// The values and the adjoints of the nodes, and the greatest error of each.
     pub values: Vec<Interval>,
     /// See `values`.
@@ -67,9 +73,11 @@ impl Bounder {
             Node::Input(input) => robot.leaf(*input).map(Some),
             _ => Some(None),
         };
-        let leaves = graph.nodes.iter().map(leaf).collect::<Option<_>>()?;
+        let leaves: Vec<Option<Leaf>> = graph.nodes.iter().map(leaf).collect::<Option<_>>()?;
         let zero = vec![Interval::default(); graph.nodes.len()];
-        Some(Self { leaves, sines, values: zero.clone(), adjoints: zero, errors: vec![0.0; graph.nodes.len()], graph })
+        let (sums, uses) = (forms::of_values(&graph, &leaves), forms::of_adjoints(&graph, &leaves));
+        let sectors = vec![Sector::default(); robot.joints.len()];
+        Some(Self { leaves, sines, sums, uses, sectors, values: zero.clone(), adjoints: zero, errors: vec![0.0; graph.nodes.len()], graph })
     }
 
     /// The graph of the output alone.
@@ -106,6 +114,9 @@ impl Bounder {
 
     /// The range of each node, exact and computed, and the error that it adds.
     fn forward(&mut self, states: &[Interval]) {
+        for (sector, angles) in self.sectors.iter_mut().zip(states) {
+            *sector = Sector::new(*angles);
+        }
         for (k, node) in self.graph.nodes.iter().enumerate() {
             let values = &self.values;
             let (exact, error) = match *node {
@@ -127,6 +138,8 @@ impl Bounder {
                         Node::Mul(a, b) => values[a] * values[b],
                         _ => Interval::default(),
                     };
+                    let written_out = self.sums[k].as_ref().map(|form| self.evaluate(form, values));
+                    let exact = written_out.map_or(exact, |other| exact.and(other));
                     (exact, half_ulp(exact.magnitude()))
                 }
             };
@@ -135,39 +148,55 @@ impl Bounder {
         }
     }
 
+    /// The range of a form over values or adjoints.
+    fn evaluate(&self, form: &Form, of: &[Interval]) -> Interval {
+        let mut range = sum(&form.plain, of);
+        for (value, scaled) in &form.scaled {
+            range = range + self.values[*value] * sum(scaled, of);
+        }
+        for rotation in &form.rotations {
+            range = range + self.rotation(rotation, of);
+        }
+        if form.errors.is_empty() {
+            return range;
+        }
+        let errors: f64 = form.errors.iter().map(|(k, factor)| self.errors[*k] * factor.abs()).sum();
+        range.widened(errors * (1.0 + 1e-12))
+    }
+
+    /// The range of c a + s b, whose sine and cosine have errors.
+    fn rotation(&self, rotation: &Rotation, of: &[Interval]) -> Interval {
+        let (a, b) = (sum(&rotation.cosine, of), sum(&rotation.sine, of));
+        let errors = self.sines.cosine * a.magnitude() + self.sines.sine * b.magnitude();
+        self.sectors[rotation.joint].rotated(a, b).widened(errors * (1.0 + 1e-12))
+    }
+
     /// The derivatives of the output by each node, and the sum of the errors that they carry to it.
     fn reverse(&mut self) -> Bound {
-        let Self { graph, values, adjoints, errors, .. } = self;
-        adjoints.fill(Interval::default());
-        if let Some(last) = adjoints.last_mut() {
-            *last = Interval::point(1.0);
-        }
         let mut bound = Bound::default();
-        for (k, node) in graph.nodes.iter().enumerate().rev() {
-            let adjoint = adjoints[k];
+        for k in (0..self.graph.nodes.len()).rev() {
+            let is_last = k + 1 == self.graph.nodes.len();
+            let adjoint = if is_last { Interval::point(1.0) } else { self.evaluate(&self.uses[k], &self.adjoints) };
+            self.adjoints[k] = adjoint;
             // Rounded up: each sum has a relative error of 2⁻⁵³, which the factor exceeds for all of them.
-            let term = errors[k] * adjoint.magnitude() * (1.0 + 1e-12);
-            match *node {
+            let term = self.errors[k] * adjoint.magnitude() * (1.0 + 1e-12);
+            match self.graph.nodes[k] {
                 Node::Input(_) => bound.sines += term,
                 Node::Literal(_) => bound.literals += term,
-                Node::Neg(a) => adjoints[a] = adjoints[a] - adjoint,
-                Node::Add(a, b) => {
-                    adjoints[a] = adjoints[a] + adjoint;
-                    adjoints[b] = adjoints[b] + adjoint;
-                }
-                Node::Sub(a, b) => {
-                    adjoints[a] = adjoints[a] + adjoint;
-                    adjoints[b] = adjoints[b] - adjoint;
-                }
-                Node::Mul(a, b) => {
-                    adjoints[a] = adjoints[a] + adjoint * values[b];
-                    adjoints[b] = adjoints[b] + adjoint * values[a];
-                }
-            }
-            if matches!(node, Node::Add(..) | Node::Sub(..) | Node::Mul(..)) {
-                bound.operations += term;
+                _ => bound.operations += term,
             }
         }
         bound
     }
+}
+
+fn sum(of: &Sum, values: &[Interval]) -> Interval {
+    let term = |(k, factor): &(usize, f64)| match *factor {
+        1.0 => values[*k],
+        -1.0 => -values[*k],
+        factor => values[*k].times(factor),
+    };
+    let mut terms = of.iter().map(term);
+    let first = terms.next().unwrap_or_default();
+    terms.fold(first, |sum, term| sum + term)
 }

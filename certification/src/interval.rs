@@ -47,6 +47,17 @@ impl Interval {
         self.low <= other.low && other.high <= self.high
     }
 
+    /// What lies in both; each holds the number in question, so that they meet.
+    pub fn and(self, other: Self) -> Self {
+        Self::new(self.low.max(other.low), self.high.min(other.high))
+    }
+
+    /// x times a number
+    pub fn times(self, factor: f64) -> Self {
+        let (a, b) = (self.low * factor, self.high * factor);
+        Self::new(down(a.min(b)), up(a.max(b)))
+    }
+
     /// x²
     pub fn square(self) -> Self {
         let (a, b) = (self.low * self.low, self.high * self.high);

@@ -9,3 +9,6 @@ pub mod bound;
 pub mod branch;
 pub mod search;
 pub mod state_box;
+pub mod gappa;
+pub mod sines;
+pub mod forms;

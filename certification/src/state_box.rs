@@ -152,3 +152,40 @@ fn extremes(x: Interval, f: fn(f64) -> f64, top: f64) -> Interval {
     let low = if holds(top + PI) { -1.0 } else { (a.min(b) - LIBM).max(-1.0) };
     Interval::new(low, high)
 }
+
+/// A sector of angles, and the points of the circle at its ends.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sector {
+    /// Cosine and sine at the least and the greatest angle.
+    ends: [(f64, f64); 2],
+    /// Whether it is at least half a turn.
+    is_wide: bool,
+}
+
+impl Sector {
+    /// The sector of these angles.
+    pub fn new(angles: Interval) -> Self {
+        let at = |angle: f64| (angle.cos(), angle.sin());
+        Self { ends: [at(angles.low), at(angles.high)], is_wide: angles.high - angles.low > 3.1 }
+    }
+
+    /// a cos θ + b sin θ for every θ of the sector: linear in a and b, so that its extremes are at their ends.
+    pub fn rotated(&self, a: Interval, b: Interval) -> Interval {
+        let corners = [(a.low, b.low), (a.low, b.high), (a.high, b.low), (a.high, b.high)];
+        let most = |sign: f64| corners.map(|(a, b)| self.most(sign * a, sign * b)).into_iter().fold(f64::NEG_INFINITY, f64::max);
+        // Far more than the errors of these few operations, and of the host's sines.
+        Interval::new(-most(-1.0), most(1.0)).widened(4.0 * LIBM * (a.magnitude() + b.magnitude()))
+    }
+
+    /// The most of a cos θ + b sin θ: the length of (a, b) if its direction may be in the sector, else at an end.
+    fn most(&self, a: f64, b: f64) -> f64 {
+        let [(c1, s1), (c2, s2)] = self.ends;
+        let slack = 1e-14 * (a.abs() + b.abs());
+        let rises_first = b * c1 - a * s1 > -slack;
+        let falls_last = b * c2 - a * s2 < slack;
+        if self.is_wide || rises_first && falls_last {
+            return (a * a + b * b).sqrt();
+        }
+        (a * c1 + b * s1).max(a * c2 + b * s2)
+    }
+}

@@ -16,7 +16,7 @@ fn main() {
         };
         println!("{f} {} nodes {} ops {} outputs {} executed {}", w.graph.nodes.len(), w.graph.operations(), w.graph.outputs.len(), w.executed, image.hash(&w.visited));
         let t = Instant::now();
-        let o = search(&w.graph, &robot, Effort { random: 400_000, generations: 96, children: 1500 }, 1);
+        let o = search(&w.graph, &robot, Effort { random: 100_000, generations: 48, children: 500 }, 1);
         println!("search {:?}", t.elapsed());
         for k in 0..w.graph.outputs.len() {
             let t = Instant::now();

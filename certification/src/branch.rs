@@ -49,18 +49,13 @@ pub struct Proven {
 
 /// Bounds an output over a box by that many parts.
 pub fn prove(bounder: &mut Bounder, whole: &[Interval], most: usize) -> Proven {
-    let axes = bounder.axes();
-    let part = |bounder: &mut Bounder, states: Vec<Interval>| {
-        let bound = bounder.bound(&states);
-        Part { range: bounder.range(), states, bound }
-    };
-    let mut queue = BinaryHeap::from([part(bounder, whole.to_vec())]);
-    let mut reached = 0.0_f64;
+    let mut queue = BinaryHeap::from([bounded(bounder, whole.to_vec())]);
+    let (mut reached, mut gains) = (0.0_f64, Gains::new(bounder.axes()));
     while queue.len() < most {
         let Some(worst) = queue.pop() else { break };
-        let centre: Vec<Interval> = worst.states.iter().map(|x| Interval::point(0.5 * (x.low + x.high))).collect();
-        reached = reached.max(bounder.bound(&centre).total());
-        let Some(halves) = split(bounder, &worst, whole, &axes, &part) else {
+        let state: Vec<Interval> = worst.states.iter().map(|x| Interval::point(outermost(*x))).collect();
+        reached = reached.max(bounder.bound(&state).total());
+        let Some(halves) = split(bounder, &worst, whole, &mut gains) else {
             queue.push(worst);
             break;
         };
@@ -73,19 +68,61 @@ pub fn prove(bounder: &mut Bounder, whole: &[Interval], most: usize) -> Proven {
     Proven { bound, range, reached, parts }
 }
 
+fn bounded(bounder: &mut Bounder, states: Vec<Interval>) -> Part {
+    let bound = bounder.bound(&states);
+    Part { range: bounder.range(), states, bound }
+}
+
+/// The end of a range that is further from zero: speeds and accelerations at their limits have the largest errors.
+fn outermost(x: Interval) -> f64 {
+    if x.high.abs() >= x.low.abs() { x.high } else { x.low }
+}
+
+/// What a split along each coordinate has gained so far.
+struct Gains {
+    axes: Vec<usize>,
+    /// The mean share of the bound that was left, by place in `axes` and number of splits of it before.
+    left: Vec<[Option<f64>; DEEPEST]>,
+}
+
+/// Splits of one coordinate within each other.
+const DEEPEST: usize = 14;
+/// Coordinates tried at each split: those that gained most before.
+const TRIED: usize = 3;
+
+impl Gains {
+    fn new(axes: Vec<usize>) -> Self {
+        Self { left: vec![[None; DEEPEST]; axes.len()], axes }
+    }
+
+    /// The coordinates to try, as places in `axes` with their depths; those never tried at their depth come first.
+    fn candidates(&self, part: &Part, whole: &[Interval]) -> Vec<(usize, usize)> {
+        let width = |x: Interval| x.high - x.low;
+        let depth = |axis: usize| (width(whole[axis]) / width(part.states[axis])).log2().round();
+        let places = self.axes.iter().enumerate().map(|(place, axis)| (place, depth(*axis)));
+        let mut open: Vec<(usize, usize)> = places.filter(|(_, depth)| *depth < DEEPEST as f64).map(|(place, depth)| (place, depth as usize)).collect();
+        open.sort_by(|a, b| {
+            let left = |(place, depth): &(usize, usize)| self.left[*place][*depth].unwrap_or(0.0);
+            left(a).total_cmp(&left(b))
+        });
+        open.truncate(TRIED);
+        open
+    }
+
+    fn note(&mut self, (place, depth): (usize, usize), left: f64) {
+        let mean = &mut self.left[place][depth];
+        *mean = Some(mean.map_or(left, |mean| mean + 0.1 * (left - mean)));
+    }
+}
+
 /// A part's halves along the coordinate that lowers their bounds most; no halves of a part too small to have any.
-fn split(
-    bounder: &mut Bounder,
-    part: &Part,
-    whole: &[Interval],
-    axes: &[usize],
-    bounded: &impl Fn(&mut Bounder, Vec<Interval>) -> Part,
-) -> Option<[Part; 2]> {
+fn split(bounder: &mut Bounder, part: &Part, whole: &[Interval], gains: &mut Gains) -> Option<[Part; 2]> {
     let mut best: Option<(f64, [Part; 2])> = None;
-    for &axis in axes {
+    for candidate in gains.candidates(part, whole) {
+        let axis = gains.axes[candidate.0];
         let Interval { low, high } = part.states[axis];
         let middle = 0.5 * (low + high);
-        if high - low < 1e-3 * (whole[axis].high - whole[axis].low) || !(low < middle && middle < high) {
+        if !(low < middle && middle < high) {
             continue;
         }
         let halves = [Interval::new(low, middle), Interval::new(middle, high)].map(|half| {
@@ -93,9 +130,11 @@ fn split(
             states[axis] = half;
             bounded(bounder, states)
         });
-        let sum: f64 = halves.iter().map(|half| half.bound.total().powi(2)).sum();
-        if best.as_ref().is_none_or(|(least, _)| sum < *least) {
-            best = Some((sum, halves));
+        // The share of the bound that both halves leave.
+        let left = halves.iter().map(|half| half.bound.total() / part.bound.total()).sum::<f64>() / 2.0;
+        gains.note(candidate, left);
+        if best.as_ref().is_none_or(|(least, _)| left < *least) {
+            best = Some((left, halves));
         }
     }
     best.map(|(_, halves)| halves)

@@ -38,7 +38,7 @@ pub struct Form {
 }
 
 /// Longer sums are not written out.
-const LONGEST: usize = 24;
+const LONGEST: usize = 8;
 
 /// The form of each sum of a graph that says more than the sum itself.
 pub fn of_values(graph: &Graph, leaves: &[Option<Leaf>]) -> Vec<Option<Form>> {

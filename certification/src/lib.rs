@@ -12,3 +12,8 @@ pub mod state_box;
 pub mod gappa;
 pub mod sines;
 pub mod forms;
+pub mod certificate;
+pub mod check;
+pub mod page;
+pub mod picture;
+pub mod program;

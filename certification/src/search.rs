@@ -3,10 +3,10 @@
 //! No gradients: rounding errors have none. Random states first, then for each output the worst of them, changed at random by less and
 //! less.
 
-use dynamics_core::trig;
 use fastrand::Rng;
 
 use crate::graph::{Graph, Input};
+use crate::sines;
 use crate::state_box::{Leaf, Robot};
 
 /// How far a search goes.
@@ -18,6 +18,13 @@ pub struct Effort {
     pub generations: usize,
     /// States of a generation.
     pub children: usize,
+}
+
+impl Effort {
+    /// The states that a search of so many outputs tries.
+    pub fn states(self, outputs: usize) -> usize {
+        self.random + outputs * self.generations * self.children
+    }
 }
 
 /// The worst error of one output that was found, and where.
@@ -51,7 +58,7 @@ impl<'a> Evaluation<'a> {
     /// The outputs in f32 and in f64 at a state whose numbers are those of f32.
     pub fn at(&mut self, state: &[f64]) -> impl Iterator<Item = (f32, f64)> {
         let n = self.robot.joints.len();
-        let pairs: Vec<((f32, f32), (f64, f64))> = state[..n].iter().map(|q| (trig::sin_cos_near(*q as f32), q.sin_cos())).collect();
+        let pairs: Vec<((f32, f32), (f64, f64))> = state[..n].iter().zip(&self.robot.joints).map(|(q, joint)| (sines::pair(joint, *q as f32), q.sin_cos())).collect();
         let Self { leaves, .. } = self;
         let leaf = |input: Input| leaves.get(&input).copied();
         let single = |input| match leaf(input) {

@@ -1,29 +1,129 @@
-use certification::{image::Image, walk::walk, state_box::Robot, bound::*, branch::prove, search::*};
+//! The proven rounding errors of a robot's functions: what `cargo xtask certify` runs.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::time::Instant;
-fn main() {
-    let a: Vec<String> = std::env::args().collect();
-    let image = Image::read(&std::fs::read(&a[1]).unwrap()).unwrap();
-    let most: usize = a[2].parse().unwrap();
-    let (effects, _) = image.variable("CERTIFIED_EFFECTS").unwrap();
-    let robot = Robot::read(&image, 10.0, None, None).unwrap();
-    let sines = SineErrors { sine: 1e-7, cosine: 1e-7 };
-    for f in a[3].split(',') {
-        let pointer = image.variable(&format!("CERTIFIED_{f}")).unwrap().1[0];
-        let arguments = if f == "CRBA" { [None, None, Some(effects), None] } else { [None, None, None, Some(effects)] };
-        let w = match walk(&image, pointer, arguments) {
-            Ok(w) => w,
-            Err(e) => { println!("{f} {e}"); continue }
-        };
-        println!("{f} {} nodes {} ops {} outputs {} executed {}", w.graph.nodes.len(), w.graph.operations(), w.graph.outputs.len(), w.executed, image.hash(&w.visited));
-        let t = Instant::now();
-        let o = search(&w.graph, &robot, Effort { random: 100_000, generations: 48, children: 500 }, 1);
-        println!("search {:?}", t.elapsed());
-        for k in 0..w.graph.outputs.len() {
-            let t = Instant::now();
-            let mut b = Bounder::new(&w.graph, k, &robot, sines).unwrap();
-            let p0 = b.bound(&robot.whole());
-            let p = prove(&mut b, &robot.whole(), most);
-            println!("{k} axes {} whole {:.2e} bound {:.3e} (op {:.2e} lit {:.2e} sin {:.2e}) reached {:.3e} observed {:.3e} ratio {:.1} best-possible {:.1} parts {} {:?}", b.axes().len(), p0.total(), p.bound.total(), p.bound.operations, p.bound.literals, p.bound.sines, p.reached, o[k].error, p.bound.total()/o[k].error, p.reached/o[k].error, p.parts.len(), t.elapsed());
+
+use certification::certificate::{self, Certificate, Function, Spent};
+use certification::error::{Error, Result};
+use certification::image::Image;
+use certification::program::{self, LIBRARY};
+use certification::search::Effort;
+use certification::state_box::Robot;
+use certification::{check, page, picture, sines};
+use clap::Parser;
+
+/// Proven rounding errors of a robot's functions over the whole box of its joints
+#[derive(Parser)]
+#[command(name = "certify")]
+struct Args {
+    /// A robot of docs/certificates.md, or a URDF or MJCF file; all of that page if not given
+    #[arg(long, value_name = "NAME|FILE")]
+    robot: Option<String>,
+    /// The functions
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "rnea,gravity")]
+    function: Vec<Function>,
+    /// The greatest acceleration of each joint, rad/s² or m/s²
+    #[arg(long, value_name = "A", default_value_t = 10.0)]
+    acceleration: f64,
+    /// The greatest speed of joints whose description has none, rad/s or m/s
+    #[arg(long, value_name = "V")]
+    speed: Option<f64>,
+    /// The greatest |q| of joints that slide and whose description has no limits, m
+    #[arg(long, value_name = "Q")]
+    range: Option<f64>,
+    /// Into how many parts the box of each result is split: more time, tighter bounds
+    #[arg(long, value_name = "N", default_value_t = 6000)]
+    parts: usize,
+    /// States of the search for the worst error, for each result
+    #[arg(long, value_name = "N", default_value_t = 200_000)]
+    states: usize,
+    /// Print JSON instead of text
+    #[arg(long)]
+    json: bool,
+    /// Write the picture to this file
+    #[arg(long, value_name = "SVG")]
+    picture: Option<PathBuf>,
+    /// Let Gappa check so many parts of each result
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    gappa: usize,
+    /// Rewrite docs/certificates.md with its picture
+    #[arg(long, conflicts_with_all = ["robot", "json"])]
+    write_docs: bool,
+    /// Only compare the hashes in docs/certificates.md with today's machine code
+    #[arg(long, conflicts_with_all = ["robot", "write_docs"])]
+    hashes: bool,
+    #[command(flatten)]
+    options: robot_import::import::Options,
+}
+
+const PAGE: &str = "docs/certificates.md";
+const PICTURE: &str = "docs/certificates.svg";
+
+fn main() -> ExitCode {
+    match run(&Args::parse()) {
+        Ok(text) => {
+            println!("{text}");
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("error: {}", robot_import::text::visible(&error.to_string()));
+            ExitCode::FAILURE
         }
     }
+}
+
+fn run(args: &Args) -> Result<String> {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let written = || {
+        let path = docs.join(PAGE);
+        std::fs::read_to_string(&path).map_err(|source| Error::File { path, source })
+    };
+    let robots: Vec<&str> = match &args.robot {
+        Some(robot) => vec![robot],
+        None => LIBRARY.map(|(name, _)| name).to_vec(),
+    };
+    let mut certificates = Vec::new();
+    for robot in robots {
+        let program = program::build(robot, &args.options)?;
+        let image = Image::read(&program.elf)?;
+        if args.hashes {
+            check::hashes(&image, &args.function, robot, &written()?)?;
+            continue;
+        }
+        let joints = Robot::read(&image, args.acceleration, args.speed, args.range)?;
+        let sines = sines::enumerate(&joints.joints);
+        for function in &args.function {
+            let start = Instant::now();
+            let one = certificate::certify(&program, *function, &joints, sines, spent(args))?;
+            eprintln!("{}: {}: {:.0} s", one.robot, function.name(), start.elapsed().as_secs_f64());
+            check::by_gappa(&image, *function, &joints, sines, &one, args.gappa)?;
+            certificates.push(one);
+        }
+    }
+    if args.hashes {
+        return Ok(format!("{PAGE} has the hashes of today's machine code"));
+    }
+    finish(args, &docs, &certificates, written)
+}
+
+fn spent(args: &Args) -> Spent {
+    // A third of the states at random, the rest in generations.
+    let children = args.states / 3 * 2 / 96;
+    Spent { parts: args.parts, search: Effort { random: args.states / 3, generations: 96, children } }
+}
+
+fn finish(args: &Args, docs: &Path, certificates: &[Certificate], written: impl Fn() -> Result<String>) -> Result<String> {
+    if let Some(path) = &args.picture {
+        program::write(path, &picture::svg(certificates))?;
+    }
+    if args.write_docs {
+        program::write(&docs.join(PICTURE), &picture::svg(certificates))?;
+        program::write(&docs.join(PAGE), &check::page(&written()?, &page::tables(certificates))?)?;
+        return Ok(format!("written: {PAGE}"));
+    }
+    if args.json {
+        return serde_json::to_string_pretty(certificates).map_err(|e| Error::Robot(e.to_string()));
+    }
+    Ok(page::tables(certificates))
 }

@@ -45,6 +45,15 @@ impl Bound {
     }
 }
 
+/// How values are enclosed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Enclosure {
+    /// Operation by operation, as Gappa does.
+    Plain,
+    /// With sums written out: [`crate::forms`].
+    WrittenOut,
+}
+
 /// The function of one output, ready to be bounded over many boxes.
 #[derive(Clone, Debug)]
 pub struct Bounder {
@@ -67,7 +76,7 @@ pub struct Bounder {
 
 impl Bounder {
     /// The bounder of a graph's output, whose inputs are the robot's; `None` if one is not.
-    pub fn new(graph: &Graph, output: usize, robot: &Robot, sines: SineErrors) -> Option<Self> {
+    pub fn new(graph: &Graph, output: usize, robot: &Robot, sines: SineErrors, enclosure: Enclosure) -> Option<Self> {
         let graph = graph.of_output(output);
         let leaf = |node: &Node| match node {
             Node::Input(input) => robot.leaf(*input).map(Some),
@@ -75,7 +84,10 @@ impl Bounder {
         };
         let leaves: Vec<Option<Leaf>> = graph.nodes.iter().map(leaf).collect::<Option<_>>()?;
         let zero = vec![Interval::default(); graph.nodes.len()];
-        let (sums, uses) = (forms::of_values(&graph, &leaves), forms::of_adjoints(&graph, &leaves));
+        let (sums, uses) = match enclosure {
+            Enclosure::Plain => (vec![None; graph.nodes.len()], forms::of_adjoints(&graph, &vec![None; graph.nodes.len()])),
+            Enclosure::WrittenOut => (forms::of_values(&graph, &leaves), forms::of_adjoints(&graph, &leaves)),
+        };
         let sectors = vec![Sector::default(); robot.joints.len()];
         Some(Self { leaves, sines, sums, uses, sectors, values: zero.clone(), adjoints: zero, errors: vec![0.0; graph.nodes.len()], graph })
     }

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use serde::{Deserialize, Serialize};
 
-use crate::bound::{Bound, Bounder, SineErrors};
+use crate::bound::{Bound, Bounder, Enclosure, SineErrors};
 use crate::branch::{Proven, prove};
 use crate::error::{Error, Result};
 use crate::image::Image;
@@ -139,7 +139,7 @@ pub fn certify(program: &Program, function: Function, robot: &Robot, sines: Sine
     }
     let observed = search(&graph, robot, spent.search, 1);
     let proven = in_parallel(graph.outputs.len(), |output| {
-        Bounder::new(&graph, output, robot, sines).map(|mut bounder| prove(&mut bounder, &robot.whole(), spent.parts))
+        Bounder::new(&graph, output, robot, sines, Enclosure::WrittenOut).map(|mut bounder| prove(&mut bounder, &robot.whole(), spent.parts))
     });
     let mut outputs = Vec::new();
     for (output, ((offset, _), (observed, proven))) in graph.outputs.iter().zip(observed.into_iter().zip(proven)).enumerate() {

@@ -6,6 +6,7 @@
 //! the sum. Each takes the ranges of what it uses as given, and is given by those before it. What is left to trust is the mean value
 //! theorem that joins them, and that the instructions are those of the program.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::process::{Command, Stdio};
@@ -115,21 +116,42 @@ impl Script {
         self
     }
 
-    /// The script's text.
-    pub fn text(&self) -> String {
-        format!("@r = float<ieee_32, ne>;\n{{\n{}\n->\n{}\n}}\n", self.given.join(" /\\\n"), self.proven.join(" /\\\n"))
+    /// The text of some statements, with the ranges of what they name.
+    fn text(&self, proven: &[String]) -> String {
+        let names: BTreeSet<&str> = proven.iter().flat_map(|one| one.split(|c: char| !c.is_ascii_alphanumeric())).collect();
+        let named = |given: &&String| given.split(' ').next().is_some_and(|name| names.contains(name));
+        let given: Vec<&str> = self.given.iter().filter(named).map(String::as_str).collect();
+        let arrow = if given.is_empty() { "" } else { "\n->\n" };
+        format!("@r = float<ieee_32, ne>;\n{{\n{}{arrow}{}\n}}\n", given.join(" /\\\n"), proven.join(" /\\\n"))
     }
 
-    /// Whether Gappa proves it; `backend` are options such as `-Bcoq`.
+    /// The scripts: some tens of statements each, since Gappa's time grows with their square.
+    pub fn texts(&self) -> impl Iterator<Item = String> {
+        self.proven.chunks(BLOCK).map(|block| self.text(block))
+    }
+
+    /// Whether Gappa proves all of them.
     ///
     /// # Errors
     /// [`Error::Program`] if Gappa cannot be started.
     pub fn is_proven(&self) -> Result<bool> {
-        let failed = |e: std::io::Error| Error::Program { program: "gappa".to_owned(), said: e.to_string() };
-        let mut gappa = Command::new("gappa").stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().map_err(failed)?;
-        let written = gappa.stdin.take().map_or(Ok(()), |mut stdin| stdin.write_all(self.text().as_bytes()));
-        let status = gappa.wait().map_err(failed)?;
-        // One that stops reading has refused what it read.
-        Ok(written.is_ok() && status.success())
+        for text in self.texts() {
+            if !is_accepted(&text)? {
+                return Ok(false);
+            }
+        }
+        Ok(!self.proven.is_empty())
     }
+}
+
+/// Statements of a script.
+const BLOCK: usize = 40;
+
+fn is_accepted(text: &str) -> Result<bool> {
+    let failed = |e: std::io::Error| Error::Program { program: "gappa".to_owned(), said: e.to_string() };
+    let mut gappa = Command::new("gappa").stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().map_err(failed)?;
+    let written = gappa.stdin.take().map_or(Ok(()), |mut stdin| stdin.write_all(text.as_bytes()));
+    let status = gappa.wait().map_err(failed)?;
+    // One that stops reading has refused what it read.
+    Ok(written.is_ok() && status.success())
 }

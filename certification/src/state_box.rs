@@ -170,6 +170,7 @@ impl Sector {
     }
 
     /// a cos θ + b sin θ for every θ of the sector: linear in a and b, so that its extremes are at their ends.
+    #[inline]
     pub fn rotated(&self, a: Interval, b: Interval) -> Interval {
         let corners = [(a.low, b.low), (a.low, b.high), (a.high, b.low), (a.high, b.high)];
         let most = |sign: f64| corners.map(|(a, b)| self.most(sign * a, sign * b)).into_iter().fold(f64::NEG_INFINITY, f64::max);
@@ -178,6 +179,7 @@ impl Sector {
     }
 
     /// The most of a cos θ + b sin θ: the length of (a, b) if its direction may be in the sector, else at an end.
+    #[inline]
     fn most(&self, a: f64, b: f64) -> f64 {
         let [(c1, s1), (c2, s2)] = self.ends;
         let slack = 1e-14 * (a.abs() + b.abs());

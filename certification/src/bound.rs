@@ -97,6 +97,11 @@ impl Bounder {
         &self.graph
     }
 
+    /// The sum that a node's adjoint is.
+    pub fn adjoint_form(&self, node: usize) -> &Form {
+        &self.uses[node]
+    }
+
     /// What a node is, if it is an input.
     pub fn leaf(&self, node: usize) -> Option<Leaf> {
         self.leaves[node]

@@ -7,12 +7,12 @@
 //! theorem that joins them, and that the instructions are those of the program.
 
 use std::collections::BTreeSet;
-use std::fmt::Write as _;
 use std::io::Write as _;
 use std::process::{Command, Stdio};
 
 use crate::bound::Bounder;
 use crate::error::{Error, Result};
+use crate::forms::Sum;
 use crate::graph::Node;
 use crate::interval::Interval;
 
@@ -45,7 +45,6 @@ pub struct Script {
 pub fn script(bounder: &Bounder) -> Script {
     let graph = bounder.graph();
     let mut script = Script::default();
-    let mut uses: Vec<String> = vec![String::new(); graph.nodes.len()];
     for (k, node) in graph.nodes.iter().enumerate() {
         let v = format!("v{k}");
         let (operation, rounds) = match *node {
@@ -75,33 +74,30 @@ pub fn script(bounder: &Bounder) -> Script {
         } else {
             script.proven.push(range(&format!("({operation})"), bounder.values[k]));
         }
-        // What the result's adjoint adds to those of its operands.
-        let mut carry = |to: usize, term: String| {
-            let joint = if uses[to].is_empty() { "" } else { " + " };
-            let _ = write!(uses[to], "{joint}{term}");
-        };
-        match *node {
-            Node::Neg(a) => carry(a, format!("(-w{k})")),
-            Node::Add(a, b) => [a, b].into_iter().for_each(|to| carry(to, format!("w{k}"))),
-            Node::Sub(a, b) => {
-                carry(a, format!("w{k}"));
-                carry(b, format!("(-w{k})"));
-            }
-            Node::Mul(a, b) => {
-                carry(a, format!("w{k} * v{b}"));
-                carry(b, format!("w{k} * v{a}"));
-            }
-            Node::Input(_) | Node::Literal(_) => {}
-        }
     }
-    for (k, uses) in uses.iter().enumerate() {
-        let uses = if uses.is_empty() { "1" } else { uses };
-        // A name alone is given already.
-        if uses.contains(' ') || uses.contains('-') {
-            script.proven.push(range(&format!("({uses})"), bounder.adjoints[k]));
+    for k in 0..graph.nodes.len() {
+        let form = bounder.adjoint_form(k);
+        let mut terms = Vec::new();
+        if !form.plain.is_empty() {
+            terms.push(weighted(&form.plain));
+        }
+        terms.extend(form.scaled.iter().map(|(value, sum)| format!("v{value} * ({})", weighted(sum))));
+        // The output's own adjoint is one, by its range.
+        if !terms.is_empty() {
+            script.proven.push(range(&format!("({})", terms.join(" + ")), bounder.adjoints[k]));
         }
     }
     script
+}
+
+/// A sum of adjoints with their factors.
+fn weighted(sum: &Sum) -> String {
+    let term = |(k, factor): &(usize, f64)| match *factor {
+        1.0 => format!("w{k}"),
+        -1.0 => format!("(-w{k})"),
+        factor => format!("({} * w{k})", exact(factor)),
+    };
+    sum.iter().map(term).collect::<Vec<_>>().join(" + ")
 }
 
 impl Script {

@@ -44,7 +44,7 @@ pub fn build(robot: &str, options: &import::Options) -> Result<Program> {
     write(&included, &text)?;
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let cargo = || Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    let words = ["build", "--quiet", "--release", "--package", PACKAGE, "--target", TARGET];
+    let words = ["build", "--quiet", "--release", "--package", PACKAGE, "--features", "firmware", "--target", TARGET];
     capture(cargo().args(words).current_dir(&root).env("CERTIFIED_ROBOT", &included))?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
     let path = target.join(TARGET).join("release").join(PACKAGE);

@@ -1,7 +1,8 @@
 //! The error of the library's sines over the ranges of a robot's joints, by trying every angle.
 //!
 //! The same source computes the same bits on host and target (`cargo xtask test bits`), and an angle is one of at most 2³² numbers, so
-//! that nothing needs to be argued about the kernel: each angle's sine and cosine are compared with f64's.
+//! that little needs to be argued about the kernel: each angle's sine and cosine are compared with f64's. Below [`TINY`] the kernel's
+//! step is zero, its square is lost beside one, and what it returns is the angle itself and one.
 
 use std::ops::RangeInclusive;
 
@@ -12,6 +13,8 @@ use crate::state_box::Joint;
 
 /// More than the error of the reference: that of this host's libm, and of the series of small angles.
 const REFERENCE: f64 = 1e-15;
+/// Angles below it are not tried: their sine is the angle within 2⁻⁹⁰, their cosine is one within 2⁻⁶¹.
+const TINY: f32 = 1.0 / 1_073_741_824.0;
 /// Below it the series of sine and cosine are exact enough with two terms.
 const SMALL: f32 = 1.0 / 4096.0;
 
@@ -34,7 +37,7 @@ pub fn enumerate(joints: &[Joint]) -> SineErrors {
         let most = |end: fn(&Joint) -> f64| mine().map(end).fold(0.0_f64, f64::max) as f32;
         for (sign, most) in [(1.0, most(|joint| joint.position.high)), (-1.0, most(|joint| -joint.position.low))] {
             // One beyond, if the limit was rounded down.
-            let of_sign = over(0..=most.to_bits() + 1, &|x: f32| kernel(sign * x), f64::from(sign));
+            let of_sign = over(TINY.to_bits()..=most.to_bits() + 1, &|x: f32| kernel(sign * x), f64::from(sign));
             worst = larger(worst, of_sign);
         }
     }
@@ -48,7 +51,7 @@ fn larger(a: SineErrors, b: SineErrors) -> SineErrors {
 /// The errors over numbers of f32 by their bits, on all cores. The kernel is of the angle with its sign, the angle without.
 fn over(bits: RangeInclusive<u32>, kernel: &(impl Fn(f32) -> (f32, f32) + Sync), sign: f64) -> SineErrors {
     let threads = std::thread::available_parallelism().map_or(1, usize::from) as u32;
-    let (first, last) = (*bits.start(), *bits.end());
+    let (first, last) = (*bits.start(), (*bits.end()).max(*bits.start()));
     let share = (last - first) / threads + 1;
     std::thread::scope(|scope| {
         let parts = (0..threads).map(|i| {

@@ -50,7 +50,7 @@ pub struct Robot {
     /// Its joints, in the order of q̇.
     pub joints: Vec<Joint>,
     /// Bytes between coordinates, and to sine, cosine and position in each.
-    trig: [u32; 4],
+    pub trig: [u32; 4],
 }
 
 impl Robot {

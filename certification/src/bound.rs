@@ -76,7 +76,13 @@ pub struct Bounder {
 
 impl Bounder {
     /// The bounder of a graph's output, whose inputs are the robot's; `None` if one is not.
-    pub fn new(graph: &Graph, output: usize, robot: &Robot, sines: SineErrors, enclosure: Enclosure) -> Option<Self> {
+    pub fn new(
+        graph: &Graph,
+        output: usize,
+        robot: &Robot,
+        sines: SineErrors,
+        enclosure: Enclosure,
+    ) -> Option<Self> {
         let graph = graph.of_output(output);
         let leaf = |node: &Node| match node {
             Node::Input(input) => robot.leaf(*input).map(Some),
@@ -85,11 +91,27 @@ impl Bounder {
         let leaves: Vec<Option<Leaf>> = graph.nodes.iter().map(leaf).collect::<Option<_>>()?;
         let zero = vec![Interval::default(); graph.nodes.len()];
         let (sums, uses) = match enclosure {
-            Enclosure::Plain => (vec![None; graph.nodes.len()], forms::of_adjoints(&graph, &vec![None; graph.nodes.len()])),
-            Enclosure::WrittenOut => (forms::of_values(&graph, &leaves), forms::of_adjoints(&graph, &leaves)),
+            Enclosure::Plain => (
+                vec![None; graph.nodes.len()],
+                forms::of_adjoints(&graph, &vec![None; graph.nodes.len()]),
+            ),
+            Enclosure::WrittenOut => (
+                forms::of_values(&graph, &leaves),
+                forms::of_adjoints(&graph, &leaves),
+            ),
         };
         let sectors = vec![Sector::default(); robot.joints.len()];
-        Some(Self { leaves, sines, sums, uses, sectors, values: zero.clone(), adjoints: zero, errors: vec![0.0; graph.nodes.len()], graph })
+        Some(Self {
+            leaves,
+            sines,
+            sums,
+            uses,
+            sectors,
+            values: zero.clone(),
+            adjoints: zero,
+            errors: vec![0.0; graph.nodes.len()],
+            graph,
+        })
     }
 
     /// The graph of the output alone.
@@ -155,12 +177,18 @@ impl Bounder {
                         Node::Mul(a, b) => values[a] * values[b],
                         _ => Interval::default(),
                     };
-                    let written_out = self.sums[k].as_ref().map(|form| self.evaluate(form, values));
+                    let written_out = self.sums[k]
+                        .as_ref()
+                        .map(|form| self.evaluate(form, values));
                     let exact = written_out.map_or(exact, |other| exact.and(other));
                     (exact, half_ulp(exact.magnitude()))
                 }
             };
-            self.values[k] = if error > 0.0 { exact.widened(error) } else { exact };
+            self.values[k] = if error > 0.0 {
+                exact.widened(error)
+            } else {
+                exact
+            };
             self.errors[k] = error;
         }
     }
@@ -177,7 +205,11 @@ impl Bounder {
         if form.errors.is_empty() {
             return range;
         }
-        let errors: f64 = form.errors.iter().map(|(k, factor)| self.errors[*k] * factor.abs()).sum();
+        let errors: f64 = form
+            .errors
+            .iter()
+            .map(|(k, factor)| self.errors[*k] * factor.abs())
+            .sum();
         range.widened(errors * (1.0 + 1e-12))
     }
 
@@ -185,7 +217,9 @@ impl Bounder {
     fn rotation(&self, rotation: &Rotation, of: &[Interval]) -> Interval {
         let (a, b) = (sum(&rotation.cosine, of), sum(&rotation.sine, of));
         let errors = self.sines.cosine * a.magnitude() + self.sines.sine * b.magnitude();
-        self.sectors[rotation.joint].rotated(a, b).widened(errors * (1.0 + 1e-12))
+        self.sectors[rotation.joint]
+            .rotated(a, b)
+            .widened(errors * (1.0 + 1e-12))
     }
 
     /// The derivatives of the output by each node, and the sum of the errors that they carry to it.
@@ -193,7 +227,11 @@ impl Bounder {
         let mut bound = Bound::default();
         for k in (0..self.graph.nodes.len()).rev() {
             let is_last = k + 1 == self.graph.nodes.len();
-            let adjoint = if is_last { Interval::point(1.0) } else { self.evaluate(&self.uses[k], &self.adjoints) };
+            let adjoint = if is_last {
+                Interval::point(1.0)
+            } else {
+                self.evaluate(&self.uses[k], &self.adjoints)
+            };
             self.adjoints[k] = adjoint;
             // Rounded up: each sum has a relative error of 2⁻⁵³, which the factor exceeds for all of them.
             let term = self.errors[k] * adjoint.magnitude() * (1.0 + 1e-12);

@@ -128,29 +128,64 @@ pub fn expression(image: &Image, function: Function) -> Result<Walked> {
 ///
 /// # Errors
 /// [`Error::Declined`] of code that is not followed, [`Error::Contradicted`] if the search finds more than the bound.
-pub fn certify(program: &Program, function: Function, robot: &Robot, sines: SineErrors, spent: Spent) -> Result<Certificate> {
+pub fn certify(
+    program: &Program,
+    function: Function,
+    robot: &Robot,
+    sines: SineErrors,
+    spent: Spent,
+) -> Result<Certificate> {
     let image = Image::read(&program.elf)?;
     let walked = expression(&image, function)?;
     let n = robot.joints.len();
     let mut graph = walked.graph.clone();
     if function == Function::Crba {
         // Symmetric: the upper triangle.
-        graph.outputs.retain(|(offset, _)| (*offset as usize / 4) / n <= (*offset as usize / 4) % n);
+        graph
+            .outputs
+            .retain(|(offset, _)| (*offset as usize / 4) / n <= (*offset as usize / 4) % n);
     }
     let observed = search(&graph, robot, spent.search, 1);
     let proven = in_parallel(graph.outputs.len(), |output| {
-        Bounder::new(&graph, output, robot, sines, Enclosure::WrittenOut).map(|mut bounder| prove(&mut bounder, &robot.whole(), spent.parts))
+        Bounder::new(&graph, output, robot, sines, Enclosure::WrittenOut)
+            .map(|mut bounder| prove(&mut bounder, &robot.whole(), spent.parts))
     });
     let mut outputs = Vec::new();
-    for (output, ((offset, _), (observed, proven))) in graph.outputs.iter().zip(observed.into_iter().zip(proven)).enumerate() {
+    for (output, ((offset, _), (observed, proven))) in graph
+        .outputs
+        .iter()
+        .zip(observed.into_iter().zip(proven))
+        .enumerate()
+    {
         let place = *offset as usize / 4;
-        let name = if function == Function::Crba { format!("{},{}", place / n + 1, place % n + 1) } else { (place + 1).to_string() };
-        let Proven { bound, range, parts, .. } = proven.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
+        let name = if function == Function::Crba {
+            format!("{},{}", place / n + 1, place % n + 1)
+        } else {
+            (place + 1).to_string()
+        };
+        let Proven {
+            bound,
+            range,
+            parts,
+            ..
+        } = proven.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
         let total = bound.total();
         if total < observed.error {
-            return Err(Error::Contradicted { output: output + 1, bound: total, observed: observed.error });
+            return Err(Error::Contradicted {
+                output: output + 1,
+                bound: total,
+                observed: observed.error,
+            });
         }
-        outputs.push(Output { name, bound: total, of: bound, observed: observed.error, state: observed.state, range, parts: parts.len() });
+        outputs.push(Output {
+            name,
+            bound: total,
+            of: bound,
+            observed: observed.error,
+            state: observed.state,
+            range,
+            parts: parts.len(),
+        });
     }
     Ok(Certificate {
         robot: program.robot.clone(),
@@ -168,15 +203,23 @@ pub fn certify(program: &Program, function: Function, robot: &Robot, sines: Sine
 
 /// The results of some tasks, on all cores.
 fn in_parallel<T: Send>(tasks: usize, run: impl Fn(usize) -> Option<T> + Sync) -> Vec<Option<T>> {
-    let (next, threads) = (AtomicUsize::new(0), std::thread::available_parallelism().map_or(1, usize::from));
+    let (next, threads) = (
+        AtomicUsize::new(0),
+        std::thread::available_parallelism().map_or(1, usize::from),
+    );
     let mut results: Vec<Option<T>> = (0..tasks).map(|_| None).collect();
     std::thread::scope(|scope| {
         let work = || {
-            let mine = std::iter::from_fn(|| Some(next.fetch_add(1, Ordering::Relaxed)).filter(|task| *task < tasks));
+            let mine = std::iter::from_fn(|| {
+                Some(next.fetch_add(1, Ordering::Relaxed)).filter(|task| *task < tasks)
+            });
             mine.map(|task| (task, run(task))).collect::<Vec<_>>()
         };
         let threads: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        for (task, result) in threads.into_iter().flat_map(|thread| thread.join().unwrap_or_default()) {
+        for (task, result) in threads
+            .into_iter()
+            .flat_map(|thread| thread.join().unwrap_or_default())
+        {
             results[task] = result;
         }
     });

@@ -30,7 +30,10 @@ pub fn hashes(image: &Image, functions: &[Function], robot: &str, page: &str) ->
     for function in functions {
         let hash = image.hash(&expression(image, *function)?.visited);
         if !page.contains(&hash) {
-            let what = format!("certificate of today's {} of {robot}: run `cargo xtask certify --write-docs`", function.name());
+            let what = format!(
+                "certificate of today's {} of {robot}: run `cargo xtask certify --write-docs`",
+                function.name()
+            );
             return Err(Error::Missing(what));
         }
     }
@@ -42,17 +45,46 @@ pub fn hashes(image: &Image, functions: &[Function], robot: &str, page: &str) ->
 ///
 /// # Errors
 /// [`Error::Program`] if Gappa rejects a part, [`Error::Contradicted`].
-pub fn by_gappa(image: &Image, function: Function, robot: &Robot, sines: SineErrors, of: &Certificate, share: f64) -> Result<()> {
+pub fn by_gappa(
+    image: &Image,
+    function: Function,
+    robot: &Robot,
+    sines: SineErrors,
+    of: &Certificate,
+    share: f64,
+) -> Result<()> {
     let graph = expression(image, function)?.graph;
-    for (number, output) in of.outputs.iter().enumerate().filter(|(_, output)| output.observed > 0.0) {
-        let Some(mut bounder) = Bounder::new(&graph, number, robot, sines, Enclosure::Plain) else { continue };
-        let bound = bounder.bound(&around(&output.state, &robot.whole(), share)).total();
+    for (number, output) in of
+        .outputs
+        .iter()
+        .enumerate()
+        .filter(|(_, output)| output.observed > 0.0)
+    {
+        let Some(mut bounder) = Bounder::new(&graph, number, robot, sines, Enclosure::Plain) else {
+            continue;
+        };
+        let bound = bounder
+            .bound(&around(&output.state, &robot.whole(), share))
+            .total();
         if bound < output.observed {
-            return Err(Error::Contradicted { output: number + 1, bound, observed: output.observed });
+            return Err(Error::Contradicted {
+                output: number + 1,
+                bound,
+                observed: output.observed,
+            });
         }
-        if !gappa::script(&bounder).bounded(&bounder, bound).is_proven()? {
-            let said = format!("a part around the worst state of joint {} of {} is not proven", output.name, of.robot);
-            return Err(Error::Program { program: "gappa".to_owned(), said });
+        if !gappa::script(&bounder)
+            .bounded(&bounder, bound)
+            .is_proven()?
+        {
+            let said = format!(
+                "a part around the worst state of joint {} of {} is not proven",
+                output.name, of.robot
+            );
+            return Err(Error::Program {
+                program: "gappa".to_owned(),
+                said,
+            });
         }
     }
     Ok(())

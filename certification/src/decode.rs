@@ -33,7 +33,12 @@ pub enum Instruction {
     /// Nothing.
     Nop,
     /// d = n + operand, and whether flags are set.
-    Add { d: u8, n: u8, by: Operand, flags: bool },
+    Add {
+        d: u8,
+        n: u8,
+        by: Operand,
+        flags: bool,
+    },
     /// d = n − m, and the flags; d is 16 of a comparison.
     Sub { d: u8, n: u8, by: Operand },
     /// d = a constant
@@ -43,13 +48,37 @@ pub enum Instruction {
     /// d = m
     Move { d: u8, m: u8 },
     /// One word between t and n + offset; n may be the program counter.
-    Word { t: u8, n: u8, offset: i32, load: bool },
+    Word {
+        t: u8,
+        n: u8,
+        offset: i32,
+        load: bool,
+    },
     /// Words between registers, a bit each, and n upward; `before` n of a store that decrements. Whether n moves.
-    Words { n: u8, registers: u16, load: bool, down: bool, writes_back: bool },
+    Words {
+        n: u8,
+        registers: u16,
+        load: bool,
+        down: bool,
+        writes_back: bool,
+    },
     /// Words of the floating-point registers from `first` on.
-    Reals { first: u8, count: u8, n: u8, offset: i32, load: bool },
+    Reals {
+        first: u8,
+        count: u8,
+        n: u8,
+        offset: i32,
+        load: bool,
+    },
     /// The same at n, which moves.
-    RealsMoving { first: u8, count: u8, n: u8, load: bool, down: bool, writes_back: bool },
+    RealsMoving {
+        first: u8,
+        count: u8,
+        n: u8,
+        load: bool,
+        down: bool,
+        writes_back: bool,
+    },
     /// d = n op m
     Arithmetic { op: Arithmetic, d: u8, n: u8, m: u8 },
     /// d = −m
@@ -61,7 +90,11 @@ pub enum Instruction {
     /// Bits between a core register and a floating-point one.
     Transfer { core: u8, real: u8, to_core: bool },
     /// Goes on elsewhere, relative to the address plus four; `link` of a call.
-    Branch { offset: i32, condition: Condition, link: bool },
+    Branch {
+        offset: i32,
+        condition: Condition,
+        link: bool,
+    },
     /// Goes on elsewhere if a register is zero, or not.
     BranchIfZero { n: u8, offset: i32, if_not: bool },
     /// Goes on at a register's address.
@@ -98,29 +131,95 @@ pub fn short(code: u16) -> Option<Instruction> {
     let (third, byte) = (field(8, 3) as u8, field(0, 8));
     let high = (field(7, 1) << 3 | field(0, 3)) as u8;
     let m = field(3, 4) as u8;
-    let word = |t, n, words: u32, load| Word { t, n, offset: 4 * words as i32, load };
+    let word = |t, n, words: u32, load| Word {
+        t,
+        n,
+        offset: 4 * words as i32,
+        load,
+    };
     Some(match code >> 8 {
-        0x18 | 0x19 => Add { d: low(0), n: low(3), by: Operand::Register(low(6), 0), flags: true },
-        0x1a | 0x1b => Sub { d: low(0), n: low(3), by: Operand::Register(low(6), 0) },
-        0x1c | 0x1d => Add { d: low(0), n: low(3), by: by(field(6, 3)), flags: true },
-        0x1e | 0x1f => Sub { d: low(0), n: low(3), by: by(field(6, 3)) },
-        0x20..=0x27 => Constant { d: third, value: byte },
-        0x28..=0x2f => Sub { d: NOWHERE, n: third, by: by(byte) },
-        0x30..=0x37 => Add { d: third, n: third, by: by(byte), flags: true },
-        0x38..=0x3f => Sub { d: third, n: third, by: by(byte) },
-        0x42 if field(6, 2) == 2 => Sub { d: NOWHERE, n: low(0), by: Operand::Register(low(3), 0) },
-        0x44 if high != PC && m != PC => Add { d: high, n: high, by: Operand::Register(m, 0), flags: false },
-        0x45 => Sub { d: NOWHERE, n: high, by: Operand::Register(m, 0) },
+        0x18 | 0x19 => Add {
+            d: low(0),
+            n: low(3),
+            by: Operand::Register(low(6), 0),
+            flags: true,
+        },
+        0x1a | 0x1b => Sub {
+            d: low(0),
+            n: low(3),
+            by: Operand::Register(low(6), 0),
+        },
+        0x1c | 0x1d => Add {
+            d: low(0),
+            n: low(3),
+            by: by(field(6, 3)),
+            flags: true,
+        },
+        0x1e | 0x1f => Sub {
+            d: low(0),
+            n: low(3),
+            by: by(field(6, 3)),
+        },
+        0x20..=0x27 => Constant {
+            d: third,
+            value: byte,
+        },
+        0x28..=0x2f => Sub {
+            d: NOWHERE,
+            n: third,
+            by: by(byte),
+        },
+        0x30..=0x37 => Add {
+            d: third,
+            n: third,
+            by: by(byte),
+            flags: true,
+        },
+        0x38..=0x3f => Sub {
+            d: third,
+            n: third,
+            by: by(byte),
+        },
+        0x42 if field(6, 2) == 2 => Sub {
+            d: NOWHERE,
+            n: low(0),
+            by: Operand::Register(low(3), 0),
+        },
+        0x44 if high != PC && m != PC => Add {
+            d: high,
+            n: high,
+            by: Operand::Register(m, 0),
+            flags: false,
+        },
+        0x45 => Sub {
+            d: NOWHERE,
+            n: high,
+            by: Operand::Register(m, 0),
+        },
         0x46 if high != PC && m != PC => Move { d: high, m },
         0x47 if code & 0x87 == 0 => BranchTo { m },
         0x48..=0x4f => word(third, PC, byte, true),
         0x60..=0x6f => word(low(0), low(3), field(6, 5), code & 0x800 != 0),
         0x90..=0x9f => word(third, SP, byte, code & 0x800 != 0),
-        0xa8..=0xaf => Add { d: third, n: SP, by: by(4 * byte), flags: false },
+        0xa8..=0xaf => Add {
+            d: third,
+            n: SP,
+            by: by(4 * byte),
+            flags: false,
+        },
         0xb0 => {
             let bytes = 4 * field(0, 7);
-            let by = by(if code & 0x80 == 0 { bytes } else { bytes.wrapping_neg() });
-            Add { d: SP, n: SP, by, flags: false }
+            let by = by(if code & 0x80 == 0 {
+                bytes
+            } else {
+                bytes.wrapping_neg()
+            });
+            Add {
+                d: SP,
+                n: SP,
+                by,
+                flags: false,
+            }
         }
         0xb1 | 0xb3 | 0xb9 | 0xbb => BranchIfZero {
             n: low(0),
@@ -149,8 +248,16 @@ pub fn short(code: u16) -> Option<Instruction> {
             down: false,
             writes_back: code & 0x800 == 0 || byte & 1 << third == 0,
         },
-        0xd0..=0xdd => Branch { offset: signed(byte << 1, 9), condition: field(8, 4) as u8, link: false },
-        0xe0..=0xe7 => Branch { offset: signed(field(0, 11) << 1, 12), condition: ALWAYS, link: false },
+        0xd0..=0xdd => Branch {
+            offset: signed(byte << 1, 9),
+            condition: field(8, 4) as u8,
+            link: false,
+        },
+        0xe0..=0xe7 => Branch {
+            offset: signed(field(0, 11) << 1, 12),
+            condition: ALWAYS,
+            link: false,
+        },
         _ => return None,
     })
 }
@@ -180,7 +287,12 @@ fn multiple_or_shifted(first: u16, second: u16) -> Option<Instruction> {
             down: first & 0x100 != 0,
             writes_back: first & 0x20 != 0,
         },
-        0xeb00 if second & 0x8030 == 0 && n != PC => Instruction::Add { d, n, by: Operand::Register(m, shift), flags: false },
+        0xeb00 if second & 0x8030 == 0 && n != PC => Instruction::Add {
+            d,
+            n,
+            by: Operand::Register(m, shift),
+            flags: false,
+        },
         _ => return None,
     })
 }
@@ -196,9 +308,17 @@ fn single(first: u16, second: u16) -> Option<Instruction> {
         // Offsets downwards, without a change of the base.
         0xf850 | 0xf840 if second & 0xf00 == 0xc00 => word(-(offset & 0xff), first & 0x10 != 0),
         // PUSH and POP of one register: A7.7.99, A7.7.101.
-        0xf840 | 0xf850 if n == SP && [0xd04, 0xb04][usize::from(first >> 4 & 1)] == second & 0xfff => {
+        0xf840 | 0xf850
+            if n == SP && [0xd04, 0xb04][usize::from(first >> 4 & 1)] == second & 0xfff =>
+        {
             let load = first & 0x10 != 0;
-            Instruction::Words { n, registers: 1 << t, load, down: !load, writes_back: true }
+            Instruction::Words {
+                n,
+                registers: 1 << t,
+                load,
+                down: !load,
+                writes_back: true,
+            }
         }
         _ => return None,
     })
@@ -228,13 +348,45 @@ fn immediate_or_branch(first: u16, second: u16) -> Option<Instruction> {
     let by = Operand::Constant;
     let to = if d == PC { NOWHERE } else { d };
     Some(match first & 0xfbf0 {
-        0xf040 | 0xf050 if n == PC => Constant { d, value: expanded(code) },
-        0xf100 => Add { d, n, by: by(expanded(code)), flags: false },
-        0xf110 => Add { d: to, n, by: by(expanded(code)), flags: true },
-        0xf1a0 => Add { d, n, by: by(expanded(code).wrapping_neg()), flags: false },
-        0xf1b0 => Sub { d: to, n, by: by(expanded(code)) },
-        0xf200 if n != PC => Add { d, n, by: by(code), flags: false },
-        0xf2a0 if n != PC => Add { d, n, by: by(code.wrapping_neg()), flags: false },
+        0xf040 | 0xf050 if n == PC => Constant {
+            d,
+            value: expanded(code),
+        },
+        0xf100 => Add {
+            d,
+            n,
+            by: by(expanded(code)),
+            flags: false,
+        },
+        0xf110 => Add {
+            d: to,
+            n,
+            by: by(expanded(code)),
+            flags: true,
+        },
+        0xf1a0 => Add {
+            d,
+            n,
+            by: by(expanded(code).wrapping_neg()),
+            flags: false,
+        },
+        0xf1b0 => Sub {
+            d: to,
+            n,
+            by: by(expanded(code)),
+        },
+        0xf200 if n != PC => Add {
+            d,
+            n,
+            by: by(code),
+            flags: false,
+        },
+        0xf2a0 if n != PC => Add {
+            d,
+            n,
+            by: by(code.wrapping_neg()),
+            flags: false,
+        },
         0xf240 => Constant { d, value: half },
         0xf2c0 => Upper { d, value: half },
         _ => return None,
@@ -249,9 +401,21 @@ fn branch(one: u32, two: u32) -> Option<Instruction> {
     let near = s << 20 | j2 << 19 | j1 << 18 | (one & 0x3f) << 12 | (two & 0x7ff) << 1;
     let condition = (one >> 6 & 15) as u8;
     Some(match two >> 12 & 5 {
-        0 if condition < ALWAYS => Instruction::Branch { offset: signed(near, 21), condition, link: false },
-        1 => Instruction::Branch { offset: signed(far, 25), condition: ALWAYS, link: false },
-        5 => Instruction::Branch { offset: signed(far, 25), condition: ALWAYS, link: true },
+        0 if condition < ALWAYS => Instruction::Branch {
+            offset: signed(near, 21),
+            condition,
+            link: false,
+        },
+        1 => Instruction::Branch {
+            offset: signed(far, 25),
+            condition: ALWAYS,
+            link: false,
+        },
+        5 => Instruction::Branch {
+            offset: signed(far, 25),
+            condition: ALWAYS,
+            link: true,
+        },
         _ => return None,
     })
 }
@@ -272,21 +436,33 @@ fn real_memory(first: u16, second: u16) -> Option<Instruction> {
         _ => return None,
     };
     let d = first >> 6;
-    let first = if is_double { ((d & 1) << 4 | second >> 12) as u8 * 2 } else { real(second >> 12, d) };
+    let first = if is_double {
+        ((d & 1) << 4 | second >> 12) as u8 * 2
+    } else {
+        real(second >> 12, d)
+    };
     if before && !writes_back {
         let offset = 4 * i32::from(words) * if up { 1 } else { -1 };
         let count = 1 + u8::from(is_double);
-        return Some(Instruction::Reals { first, count, n, offset, load });
+        return Some(Instruction::Reals {
+            first,
+            count,
+            n,
+            offset,
+            load,
+        });
     }
     // Upwards after, or downwards before.
-    (before != up && words > 0 && words % 2 <= u8::from(!is_double)).then_some(Instruction::RealsMoving {
-        first,
-        count: words,
-        n,
-        load,
-        down: before,
-        writes_back,
-    })
+    (before != up && words > 0 && words % 2 <= u8::from(!is_double)).then_some(
+        Instruction::RealsMoving {
+            first,
+            count: words,
+            n,
+            load,
+            down: before,
+            writes_back,
+        },
+    )
 }
 
 fn real_data(first: u16, second: u16) -> Option<Instruction> {
@@ -299,7 +475,11 @@ fn real_data(first: u16, second: u16) -> Option<Instruction> {
     if second & 0x10 != 0 {
         let core = (second >> 12) as u8;
         let is_move = first & 0xe0 == 0 && second & 0x7f == 0x10 && core < SP;
-        return is_move.then_some(Transfer { core, real: n, to_core: first & 0x10 != 0 });
+        return is_move.then_some(Transfer {
+            core,
+            real: n,
+            to_core: first & 0x10 != 0,
+        });
     }
     let op = |op| Some(Instruction::Arithmetic { op, d, n, m });
     match (first & 0xb0, second & 0x40 != 0) {
@@ -310,7 +490,10 @@ fn real_data(first: u16, second: u16) -> Option<Instruction> {
         (0xb0, false) if second & 0xa0 == 0 => {
             let byte = u32::from((first & 15) << 4 | second & 15);
             let exponent = if byte & 0x40 != 0 { 0x7c } else { 0x80 } | byte >> 4 & 3;
-            Some(Real { d, value: f32::from_bits((byte & 0x80) << 24 | exponent << 23 | (byte & 15) << 19) })
+            Some(Real {
+                d,
+                value: f32::from_bits((byte & 0x80) << 24 | exponent << 23 | (byte & 15) << 19),
+            })
         }
         (0xb0, true) => match (first & 15, second >> 7 & 1) {
             (0, 0) => Some(Copy { d, m }),

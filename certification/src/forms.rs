@@ -43,7 +43,15 @@ const LONGEST: usize = 8;
 /// The form of each sum of a graph that says more than the sum itself.
 pub fn of_values(graph: &Graph, leaves: &[Option<Leaf>]) -> Vec<Option<Form>> {
     let is_sum = |k: usize| matches!(graph.nodes[k], Node::Add(..) | Node::Sub(..));
-    (0..graph.nodes.len()).map(|k| if is_sum(k) { value(graph, leaves, k) } else { None }).collect()
+    (0..graph.nodes.len())
+        .map(|k| {
+            if is_sum(k) {
+                value(graph, leaves, k)
+            } else {
+                None
+            }
+        })
+        .collect()
 }
 
 fn value(graph: &Graph, leaves: &[Option<Leaf>], sum: usize) -> Option<Form> {
@@ -76,7 +84,11 @@ fn value(graph: &Graph, leaves: &[Option<Leaf>], sum: usize) -> Option<Form> {
         if let Some((is_sine, joint, other)) = turned(graph, leaves, k) {
             let turn = turns.entry(joint).or_default();
             turn.joint = joint;
-            let side = if is_sine { &mut turn.sine } else { &mut turn.cosine };
+            let side = if is_sine {
+                &mut turn.sine
+            } else {
+                &mut turn.cosine
+            };
             side.push((other, factor));
         }
     }
@@ -92,13 +104,18 @@ fn value(graph: &Graph, leaves: &[Option<Leaf>], sum: usize) -> Option<Form> {
         }
     }
     form.rotations = turns.into_values().collect();
-    form.errors = errors.into_iter().filter(|(_, factor)| *factor != 0.0).collect();
+    form.errors = errors
+        .into_iter()
+        .filter(|(_, factor)| *factor != 0.0)
+        .collect();
     Some(form)
 }
 
 /// Whether a node is a product with a sine or cosine: whether with the sine, of which joint, and the other factor.
 fn turned(graph: &Graph, leaves: &[Option<Leaf>], k: usize) -> Option<(bool, usize, usize)> {
-    let Node::Mul(a, b) = graph.nodes[k] else { return None };
+    let Node::Mul(a, b) = graph.nodes[k] else {
+        return None;
+    };
     let side = |leaf: usize, other: usize| match leaves[leaf] {
         Some(Leaf::Sine(joint)) => Some((true, joint, other)),
         Some(Leaf::Cosine(joint)) => Some((false, joint, other)),
@@ -141,7 +158,10 @@ pub fn of_adjoints(graph: &Graph, leaves: &[Option<Leaf>]) -> Vec<Form> {
             Node::Input(_) | Node::Literal(_) => {}
         }
     }
-    terms.into_iter().map(|terms| adjoint(terms, leaves)).collect()
+    terms
+        .into_iter()
+        .map(|terms| adjoint(terms, leaves))
+        .collect()
 }
 
 fn adjoint(terms: BTreeMap<(Option<usize>, usize), f64>, leaves: &[Option<Leaf>]) -> Form {
@@ -153,16 +173,31 @@ fn adjoint(terms: BTreeMap<(Option<usize>, usize), f64>, leaves: &[Option<Leaf>]
             None => form.plain.push((adjoint, factor)),
         }
     }
-    let side = |sine: bool, joint: usize| leaves.iter().position(|leaf| *leaf == Some(if sine { Leaf::Sine(joint) } else { Leaf::Cosine(joint) }));
+    let side = |sine: bool, joint: usize| {
+        leaves.iter().position(|leaf| {
+            *leaf
+                == Some(if sine {
+                    Leaf::Sine(joint)
+                } else {
+                    Leaf::Cosine(joint)
+                })
+        })
+    };
     let joints = leaves.iter().filter_map(|leaf| match leaf {
         Some(Leaf::Sine(joint)) => Some(*joint),
         _ => None,
     });
     for joint in joints {
-        let (Some(sine), Some(cosine)) = (side(true, joint), side(false, joint)) else { continue };
+        let (Some(sine), Some(cosine)) = (side(true, joint), side(false, joint)) else {
+            continue;
+        };
         if scaled.contains_key(&sine) && scaled.contains_key(&cosine) {
             let mut take = |value| scaled.remove(&value).unwrap_or_default();
-            form.rotations.push(Rotation { joint, sine: take(sine), cosine: take(cosine) });
+            form.rotations.push(Rotation {
+                joint,
+                sine: take(sine),
+                cosine: take(cosine),
+            });
         }
     }
     form.scaled = scaled.into_iter().collect();

@@ -56,23 +56,36 @@ pub fn script(bounder: &Bounder) -> Script {
         };
         let error = bounder.errors[k];
         script.given.push(range(&v, bounder.values[k]));
-        script.given.push(range(&format!("w{k}"), bounder.adjoints[k]));
+        script
+            .given
+            .push(range(&format!("w{k}"), bounder.adjoints[k]));
         if error > 0.0 {
-            script.given.push(range(&format!("e{k}"), Interval::new(-error, error)));
+            script
+                .given
+                .push(range(&format!("e{k}"), Interval::new(-error, error)));
         }
         if let Node::Literal(x) = *node {
-            script.proven.push(range(&format!("{} + e{k}", exact(x.into())), bounder.values[k]));
+            script.proven.push(range(
+                &format!("{} + e{k}", exact(x.into())),
+                bounder.values[k],
+            ));
             if error == 0.0 {
                 script.proven.pop();
             }
         }
         let Some(operation) = operation else { continue };
         if rounds {
-            script.proven.push(range(&format!("r({operation})"), bounder.values[k]));
+            script
+                .proven
+                .push(range(&format!("r({operation})"), bounder.values[k]));
             let rounding = format!("r({operation}) - ({operation})");
-            script.proven.push(range(&rounding, Interval::new(-error, error)));
+            script
+                .proven
+                .push(range(&rounding, Interval::new(-error, error)));
         } else {
-            script.proven.push(range(&format!("({operation})"), bounder.values[k]));
+            script
+                .proven
+                .push(range(&format!("({operation})"), bounder.values[k]));
         }
     }
     for k in 0..graph.nodes.len() {
@@ -81,10 +94,17 @@ pub fn script(bounder: &Bounder) -> Script {
         if !form.plain.is_empty() {
             terms.push(weighted(&form.plain));
         }
-        terms.extend(form.scaled.iter().map(|(value, sum)| format!("v{value} * ({})", weighted(sum))));
+        terms.extend(
+            form.scaled
+                .iter()
+                .map(|(value, sum)| format!("v{value} * ({})", weighted(sum))),
+        );
         // The output's own adjoint is one, by its range.
         if !terms.is_empty() {
-            script.proven.push(range(&format!("({})", terms.join(" + ")), bounder.adjoints[k]));
+            script.proven.push(range(
+                &format!("({})", terms.join(" + ")),
+                bounder.adjoints[k],
+            ));
         }
     }
     script
@@ -107,18 +127,38 @@ impl Script {
         let errors = (0..bounder.errors.len()).filter(|k| bounder.errors[*k] > 0.0);
         let terms: Vec<String> = errors.map(|k| format!("e{k} * w{k}")).collect();
         if !terms.is_empty() {
-            self.proven.push(range(&format!("({})", terms.join(" + ")), Interval::new(-bound, bound)));
+            self.proven.push(range(
+                &format!("({})", terms.join(" + ")),
+                Interval::new(-bound, bound),
+            ));
         }
         self
     }
 
     /// The text of some statements, with the ranges of what they name.
     fn text(&self, proven: &[String]) -> String {
-        let names: BTreeSet<&str> = proven.iter().flat_map(|one| one.split(|c: char| !c.is_ascii_alphanumeric())).collect();
-        let named = |given: &&String| given.split(' ').next().is_some_and(|name| names.contains(name));
-        let given: Vec<&str> = self.given.iter().filter(named).map(String::as_str).collect();
+        let names: BTreeSet<&str> = proven
+            .iter()
+            .flat_map(|one| one.split(|c: char| !c.is_ascii_alphanumeric()))
+            .collect();
+        let named = |given: &&String| {
+            given
+                .split(' ')
+                .next()
+                .is_some_and(|name| names.contains(name))
+        };
+        let given: Vec<&str> = self
+            .given
+            .iter()
+            .filter(named)
+            .map(String::as_str)
+            .collect();
         let arrow = if given.is_empty() { "" } else { "\n->\n" };
-        format!("@r = float<ieee_32, ne>;\n{{\n{}{arrow}{}\n}}\n", given.join(" /\\\n"), proven.join(" /\\\n"))
+        format!(
+            "@r = float<ieee_32, ne>;\n{{\n{}{arrow}{}\n}}\n",
+            given.join(" /\\\n"),
+            proven.join(" /\\\n")
+        )
     }
 
     /// The scripts: some tens of statements each, since Gappa's time grows with their square.
@@ -144,9 +184,20 @@ impl Script {
 const BLOCK: usize = 40;
 
 fn is_accepted(text: &str) -> Result<bool> {
-    let failed = |e: std::io::Error| Error::Program { program: "gappa".to_owned(), said: e.to_string() };
-    let mut gappa = Command::new("gappa").stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().map_err(failed)?;
-    let written = gappa.stdin.take().map_or(Ok(()), |mut stdin| stdin.write_all(text.as_bytes()));
+    let failed = |e: std::io::Error| Error::Program {
+        program: "gappa".to_owned(),
+        said: e.to_string(),
+    };
+    let mut gappa = Command::new("gappa")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .map_err(failed)?;
+    let written = gappa
+        .stdin
+        .take()
+        .map_or(Ok(()), |mut stdin| stdin.write_all(text.as_bytes()));
     let status = gappa.wait().map_err(failed)?;
     // One that stops reading has refused what it read.
     Ok(written.is_ok() && status.success())

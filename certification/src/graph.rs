@@ -91,7 +91,10 @@ impl Graph {
         used[node] = true;
         for at in (0..=node).rev() {
             if used[at] {
-                operands(self.nodes[at]).into_iter().flatten().for_each(|a| used[a] = true);
+                operands(self.nodes[at])
+                    .into_iter()
+                    .flatten()
+                    .for_each(|a| used[a] = true);
             }
         }
         let mut places = vec![usize::MAX; node + 1];
@@ -107,7 +110,10 @@ impl Graph {
             });
         }
         let last = nodes.len() - 1;
-        Self { nodes, outputs: vec![(offset, last)] }
+        Self {
+            nodes,
+            outputs: vec![(offset, last)],
+        }
     }
 
     /// The number of rounded operations.

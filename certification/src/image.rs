@@ -26,7 +26,8 @@ impl Image {
             matches!(kind, Text | ReadOnlyData | ReadOnlyString)
         };
         let flash = file.sections().filter(|section| is_flash(section.kind()));
-        let sections = flash.filter_map(|one| Some((one.address() as u32, one.data().ok()?.to_vec())));
+        let sections =
+            flash.filter_map(|one| Some((one.address() as u32, one.data().ok()?.to_vec())));
         let sized = file.symbols().filter(|symbol| symbol.size() > 0);
         let symbols = sized.map(|symbol| {
             let name = symbol.name().unwrap_or_default().to_owned();
@@ -35,7 +36,10 @@ impl Image {
         });
         let mut symbols: Vec<_> = symbols.collect();
         symbols.sort_by_key(|symbol| symbol.1);
-        Ok(Self { sections: sections.collect(), symbols })
+        Ok(Self {
+            sections: sections.collect(),
+            symbols,
+        })
     }
 
     /// An image of these bytes from an address on, for tests of code that is written by hand.
@@ -74,7 +78,10 @@ impl Image {
         let (_, address, size) = found.ok_or_else(|| Error::Missing(name.to_owned()))?;
         let words = (0..size / 4).map(|i| self.word(address + 4 * i));
         let words: Option<Vec<u32>> = words.collect();
-        Ok((*address, words.ok_or_else(|| Error::Missing(name.to_owned()))?))
+        Ok((
+            *address,
+            words.ok_or_else(|| Error::Missing(name.to_owned()))?,
+        ))
     }
 
     /// SHA-256 of the functions that hold these addresses, each from its first instruction to its last literal.
@@ -82,15 +89,24 @@ impl Image {
         let mut hash = Sha256::new();
         let holds = |(_, start, size): &&(String, u32, u32)| {
             let first = visited.partition_point(|address| address < start);
-            visited.get(first).is_some_and(|address| address - start < *size)
+            visited
+                .get(first)
+                .is_some_and(|address| address - start < *size)
         };
         let mut last = None;
         for (_, start, size) in self.symbols.iter().filter(holds) {
             if last.replace(*start) == Some(*start) {
                 continue; // another name of the same function
             }
-            hash.update(self.from(*start).and_then(|bytes| bytes.get(..*size as usize)).unwrap_or_default());
+            hash.update(
+                self.from(*start)
+                    .and_then(|bytes| bytes.get(..*size as usize))
+                    .unwrap_or_default(),
+            );
         }
-        hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+        hash.finalize()
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect()
     }
 }

@@ -11,7 +11,16 @@ fn short(x: f64) -> String {
     }
     let text = format!("{x:.2e}");
     let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
-    let power: String = power.chars().map(|digit| if digit == '-' { '⁻' } else { SUPERSCRIPTS[digit.to_digit(10).unwrap_or(0) as usize] }).collect();
+    let power: String = power
+        .chars()
+        .map(|digit| {
+            if digit == '-' {
+                '⁻'
+            } else {
+                SUPERSCRIPTS[digit.to_digit(10).unwrap_or(0) as usize]
+            }
+        })
+        .collect();
     format!("{digits} · 10{power}")
 }
 
@@ -41,9 +50,16 @@ fn table(one: &Certificate) -> String {
         one.rustc,
         ranges(one),
     );
-    let _ = writeln!(text, "| {what} | proven error, {unit} | worst observed | ratio | of it: operations | literals | sines | range of the result |\n|---|---|---|---|---|---|---|---|");
+    let _ = writeln!(
+        text,
+        "| {what} | proven error, {unit} | worst observed | ratio | of it: operations | literals | sines | range of the result |\n|---|---|---|---|---|---|---|---|"
+    );
     for output in &one.outputs {
-        let ratio = if output.observed > 0.0 { format!("{:.1}", output.ratio()) } else { "–".to_owned() };
+        let ratio = if output.observed > 0.0 {
+            format!("{:.1}", output.ratio())
+        } else {
+            "–".to_owned()
+        };
         let _ = writeln!(
             text,
             "| {} | {} | {} | {ratio} | {} | {} | {} | {:.3} to {:.3} |",
@@ -67,7 +83,11 @@ fn ranges(one: &Certificate) -> String {
         let (q, unit) = (joint.position, if joint.turns { "rad" } else { "m" });
         let mut text = format!("q from {:.2} to {:.2} {unit}", q.low, q.high);
         if one.function == Function::Rnea || one.function == Function::Core {
-            let _ = write!(text, ", |q̇| ≤ {:.2} {unit}/s, |q̈| ≤ {:.2} {unit}/s²", joint.speed, joint.acceleration);
+            let _ = write!(
+                text,
+                ", |q̇| ≤ {:.2} {unit}/s, |q̈| ≤ {:.2} {unit}/s²",
+                joint.speed, joint.acceleration
+            );
         }
         text
     };
@@ -79,6 +99,12 @@ fn ranges(one: &Certificate) -> String {
             None => groups.push((text, vec![number])),
         }
     }
-    let group = |(text, joints): (String, Vec<String>)| format!("joint{} {}: {text}", if joints.len() > 1 { "s" } else { "" }, joints.join(", "));
+    let group = |(text, joints): (String, Vec<String>)| {
+        format!(
+            "joint{} {}: {text}",
+            if joints.len() > 1 { "s" } else { "" },
+            joints.join(", ")
+        )
+    };
     groups.into_iter().map(group).collect::<Vec<_>>().join("; ")
 }

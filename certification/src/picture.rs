@@ -16,11 +16,22 @@ const GAP: f64 = 40.0;
 
 /// The certificates of inverse dynamics and of gravity side by side, a group of rows for each robot.
 pub fn svg(certificates: &[Certificate]) -> String {
-    let of = |function| certificates.iter().filter(move |one| one.function == function);
+    let of = |function| {
+        certificates
+            .iter()
+            .filter(move |one| one.function == function)
+    };
     let panels = [Function::Rnea, Function::Gravity];
     let rows: usize = of(Function::Rnea).map(|one| one.outputs.len() + 1).sum();
-    let (width, height) = (LEFT + 2.0 * WIDE + GAP + 20.0, TOP + ROW * rows as f64 + 46.0);
-    let positive = certificates.iter().flat_map(|one| &one.outputs).flat_map(|output| [output.bound, output.observed]).filter(|x| *x > 0.0);
+    let (width, height) = (
+        LEFT + 2.0 * WIDE + GAP + 20.0,
+        TOP + ROW * rows as f64 + 46.0,
+    );
+    let positive = certificates
+        .iter()
+        .flat_map(|one| &one.outputs)
+        .flat_map(|output| [output.bound, output.observed])
+        .filter(|x| *x > 0.0);
     let (least, most) = positive.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
     let (first, last) = (least.log10().floor(), most.log10().ceil());
     let mut svg = format!(
@@ -34,18 +45,34 @@ pub fn svg(certificates: &[Certificate]) -> String {
     );
     for (panel, function) in panels.into_iter().enumerate() {
         let left = LEFT + (WIDE + GAP) * panel as f64;
-        let title = if function == Function::Rnea { "Inverse dynamics" } else { "Gravity alone" };
-        let _ = writeln!(svg, "<text class=\"t\" x=\"{left}\" y=\"46\">{title}</text>");
+        let title = if function == Function::Rnea {
+            "Inverse dynamics"
+        } else {
+            "Gravity alone"
+        };
+        let _ = writeln!(
+            svg,
+            "<text class=\"t\" x=\"{left}\" y=\"46\">{title}</text>"
+        );
         let across = |x: f64| left + WIDE * (x.log10() - first) / (last - first);
         let bottom = TOP + ROW * rows as f64;
         for power in first as i32..=last as i32 {
             let x = across(10_f64.powi(power));
             let _ = writeln!(svg, "<path class=\"g\" d=\"M{x:.1} {TOP}V{bottom}\"/>");
             if power % 2 == 0 {
-                let _ = writeln!(svg, "<text x=\"{x:.1}\" y=\"{}\" text-anchor=\"middle\">1e{power}</text>", bottom + 16.0);
+                let _ = writeln!(
+                    svg,
+                    "<text x=\"{x:.1}\" y=\"{}\" text-anchor=\"middle\">1e{power}</text>",
+                    bottom + 16.0
+                );
             }
         }
-        let _ = writeln!(svg, "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">N·m</text>", left + WIDE / 2.0, bottom + 36.0);
+        let _ = writeln!(
+            svg,
+            "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">N·m</text>",
+            left + WIDE / 2.0,
+            bottom + 36.0
+        );
         let mut y = TOP;
         for one in of(function) {
             if panel == 0 {
@@ -54,11 +81,20 @@ pub fn svg(certificates: &[Certificate]) -> String {
             for output in &one.outputs {
                 y += ROW;
                 if panel == 0 {
-                    let _ = writeln!(svg, "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">joint {}</text>", LEFT - 12.0, y + 4.0, output.name);
+                    let _ = writeln!(
+                        svg,
+                        "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">joint {}</text>",
+                        LEFT - 12.0,
+                        y + 4.0,
+                        output.name
+                    );
                 }
                 if output.observed > 0.0 {
                     let [a, b] = [output.observed, output.bound].map(across);
-                    let _ = writeln!(svg, "<path class=\"l\" d=\"M{a:.1} {y}H{b:.1}\"/><circle class=\"a\" cx=\"{a:.1}\" cy=\"{y}\" r=\"4\"/><circle class=\"b\" cx=\"{b:.1}\" cy=\"{y}\" r=\"4\"/>");
+                    let _ = writeln!(
+                        svg,
+                        "<path class=\"l\" d=\"M{a:.1} {y}H{b:.1}\"/><circle class=\"a\" cx=\"{a:.1}\" cy=\"{y}\" r=\"4\"/><circle class=\"b\" cx=\"{b:.1}\" cy=\"{y}\" r=\"4\"/>"
+                    );
                 }
             }
             y += ROW;

@@ -35,7 +35,10 @@ pub struct Program {
 /// # Errors
 /// [`Error::Robot`] of a description that is not taken, [`Error::Program`] if cargo fails.
 pub fn build(robot: &str, options: &import::Options) -> Result<Program> {
-    let folder = tempfile::tempdir().map_err(|source| Error::File { path: "a temporary folder".into(), source })?;
+    let folder = tempfile::tempdir().map_err(|source| Error::File {
+        path: "a temporary folder".into(),
+        source,
+    })?;
     let included = folder.path().join("included.rs");
     let (name, text) = match LIBRARY.iter().find(|(name, _)| *name == robot) {
         Some((name, text)) => ((*name).to_owned(), (*text).to_owned()),
@@ -44,19 +47,50 @@ pub fn build(robot: &str, options: &import::Options) -> Result<Program> {
     write(&included, &text)?;
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let cargo = || Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    let words = ["build", "--quiet", "--release", "--package", PACKAGE, "--features", "firmware", "--target", TARGET];
-    capture(cargo().args(words).current_dir(&root).env("CERTIFIED_ROBOT", &included))?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
+    let words = [
+        "build",
+        "--quiet",
+        "--release",
+        "--package",
+        PACKAGE,
+        "--features",
+        "firmware",
+        "--target",
+        TARGET,
+    ];
+    capture(
+        cargo()
+            .args(words)
+            .current_dir(&root)
+            .env("CERTIFIED_ROBOT", &included),
+    )?;
+    let target =
+        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
     let path = target.join(TARGET).join("release").join(PACKAGE);
     let elf = std::fs::read(&path).map_err(|source| Error::File { path, source })?;
-    let rustc = capture(Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into())).arg("--version"))?;
-    Ok(Program { robot: name, elf, rustc: rustc.trim().to_owned() })
+    let rustc = capture(
+        Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into())).arg("--version"),
+    )?;
+    Ok(Program {
+        robot: name,
+        elf,
+        rustc: rustc.trim().to_owned(),
+    })
 }
 
 /// The name of a description's robot and what the firmware includes; the robot's own file is written beside.
-fn of_description(file: &Path, options: &import::Options, beside: &Path) -> Result<(String, String)> {
-    let args = import::Args { file: file.to_owned(), options: options.clone(), ..import::Args::default() };
-    let imported = import::import(&args, "this day").map_err(|e| Error::Robot(format!("{}: {e}", file.display())))?;
+fn of_description(
+    file: &Path,
+    options: &import::Options,
+    beside: &Path,
+) -> Result<(String, String)> {
+    let args = import::Args {
+        file: file.to_owned(),
+        options: options.clone(),
+        ..import::Args::default()
+    };
+    let imported = import::import(&args, "this day")
+        .map_err(|e| Error::Robot(format!("{}: {e}", file.display())))?;
     let robot = imported.robot_file();
     if robot.q != robot.v || !imported.tree.is_single() {
         let what = "certificates are of robots whose joints have one coordinate each, on a base that stands still";
@@ -75,16 +109,24 @@ fn of_description(file: &Path, options: &import::Options, beside: &Path) -> Resu
 /// # Errors
 /// [`Error::File`].
 pub fn write(path: &Path, text: &str) -> Result<()> {
-    std::fs::write(path, text).map_err(|source| Error::File { path: path.to_owned(), source })
+    std::fs::write(path, text).map_err(|source| Error::File {
+        path: path.to_owned(),
+        source,
+    })
 }
 
 /// What a command prints.
 fn capture(command: &mut Command) -> Result<String> {
     let program = command.get_program().to_string_lossy().into_owned();
-    let failed = |said: String| Error::Program { program: program.clone(), said };
+    let failed = |said: String| Error::Program {
+        program: program.clone(),
+        said,
+    };
     let output = command.output().map_err(|e| failed(e.to_string()))?;
     if !output.status.success() {
-        return Err(failed(String::from_utf8_lossy(&output.stderr).trim().to_owned()));
+        return Err(failed(
+            String::from_utf8_lossy(&output.stderr).trim().to_owned(),
+        ));
     }
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }

@@ -52,13 +52,23 @@ impl<'a> Evaluation<'a> {
             crate::graph::Node::Input(input) => Some((*input, robot.leaf(*input)?)),
             _ => None,
         });
-        Self { graph, robot, leaves: inputs.collect(), single: Vec::new(), double: Vec::new() }
+        Self {
+            graph,
+            robot,
+            leaves: inputs.collect(),
+            single: Vec::new(),
+            double: Vec::new(),
+        }
     }
 
     /// The outputs in f32 and in f64 at a state whose numbers are those of f32.
     pub fn at(&mut self, state: &[f64]) -> impl Iterator<Item = (f32, f64)> {
         let n = self.robot.joints.len();
-        let pairs: Vec<((f32, f32), (f64, f64))> = state[..n].iter().zip(&self.robot.joints).map(|(q, joint)| (sines::pair(joint, *q as f32), q.sin_cos())).collect();
+        let pairs: Vec<((f32, f32), (f64, f64))> = state[..n]
+            .iter()
+            .zip(&self.robot.joints)
+            .map(|(q, joint)| (sines::pair(joint, *q as f32), q.sin_cos()))
+            .collect();
         let Self { leaves, .. } = self;
         let leaf = |input: Input| leaves.get(&input).copied();
         let single = |input| match leaf(input) {
@@ -76,7 +86,10 @@ impl<'a> Evaluation<'a> {
         self.graph.evaluate(single, &mut self.single);
         self.graph.evaluate(double, &mut self.double);
         let (single, double) = (&self.single, &self.double);
-        self.graph.outputs.iter().map(|(_, node)| (single[*node], double[*node]))
+        self.graph
+            .outputs
+            .iter()
+            .map(|(_, node)| (single[*node], double[*node]))
     }
 }
 
@@ -84,13 +97,24 @@ impl<'a> Evaluation<'a> {
 fn on_grid(x: f64, low: f64, high: f64) -> f64 {
     let x = f64::from(x.clamp(low, high) as f32);
     // Rounding must not leave the range.
-    if x < low || x > high { f64::from((x * (1.0 - 1e-7)) as f32) } else { x }
+    if x < low || x > high {
+        f64::from((x * (1.0 - 1e-7)) as f32)
+    } else {
+        x
+    }
 }
 
 /// The ranges that states are drawn from: those of the box, but of angles the joint's own.
 fn ranges(robot: &Robot) -> Vec<(f64, f64)> {
-    let q = robot.joints.iter().map(|joint| (joint.position.low, joint.position.high));
-    let rest = robot.whole().into_iter().skip(robot.joints.len()).map(|x| (x.low, x.high));
+    let q = robot
+        .joints
+        .iter()
+        .map(|joint| (joint.position.low, joint.position.high));
+    let rest = robot
+        .whole()
+        .into_iter()
+        .skip(robot.joints.len())
+        .map(|x| (x.low, x.high));
     q.chain(rest).collect()
 }
 
@@ -106,23 +130,44 @@ pub fn search(graph: &Graph, robot: &Robot, effort: Effort, seed: u64) -> Vec<Ob
     for number in 0..effort.random {
         // Every other state has speeds and accelerations at their limits, where errors are largest.
         let draw = |(axis, (low, high)): (usize, &(f64, f64))| {
-            let share = if number % 2 == 0 && axis >= robot.joints.len() { f64::from(u8::from(rng.bool())) } else { rng.f64() };
+            let share = if number % 2 == 0 && axis >= robot.joints.len() {
+                f64::from(u8::from(rng.bool()))
+            } else {
+                rng.f64()
+            };
             on_grid(low + share * (high - low), *low, *high)
         };
         let state: Vec<f64> = ranges.iter().enumerate().map(draw).collect();
-        let errors: Vec<f64> = evaluation.at(&state).map(|(a, b)| (f64::from(a) - b).abs()).collect();
+        let errors: Vec<f64> = evaluation
+            .at(&state)
+            .map(|(a, b)| (f64::from(a) - b).abs())
+            .collect();
         for (kept, error) in kept.iter_mut().zip(errors) {
             keep(kept, error, &state);
         }
     }
-    for output in 0..kept.len() {
-        evolve(&mut kept[output], output, &mut evaluation, &ranges, effort, &mut rng);
+    for (output, kept) in kept.iter_mut().enumerate() {
+        evolve(kept, output, &mut evaluation, &ranges, effort, &mut rng);
     }
     let best = |kept: Vec<(f64, Vec<f64>)>| kept.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
-    kept.into_iter().map(|kept| best(kept).map_or_else(Observed::default, |(error, state)| Observed { error, state })).collect()
+    kept.into_iter()
+        .map(|kept| {
+            best(kept).map_or_else(Observed::default, |(error, state)| Observed {
+                error,
+                state,
+            })
+        })
+        .collect()
 }
 
-fn evolve(kept: &mut Vec<(f64, Vec<f64>)>, output: usize, evaluation: &mut Evaluation<'_>, ranges: &[(f64, f64)], effort: Effort, rng: &mut Rng) {
+fn evolve(
+    kept: &mut Vec<(f64, Vec<f64>)>,
+    output: usize,
+    evaluation: &mut Evaluation<'_>,
+    ranges: &[(f64, f64)],
+    effort: Effort,
+    rng: &mut Rng,
+) {
     for generation in 0..effort.generations {
         // From half of the range down to the grid of f32.
         let reach = 0.5 * 0.7_f64.powi((generation % 48) as i32);
@@ -135,7 +180,10 @@ fn evolve(kept: &mut Vec<(f64, Vec<f64>)>, output: usize, evaluation: &mut Evalu
                     *x = on_grid(*x + step, *low, *high);
                 }
             }
-            let error = evaluation.at(&state).nth(output).map_or(0.0, |(a, b)| (f64::from(a) - b).abs());
+            let error = evaluation
+                .at(&state)
+                .nth(output)
+                .map_or(0.0, |(a, b)| (f64::from(a) - b).abs());
             keep(kept, error, &state);
         }
     }
@@ -144,7 +192,11 @@ fn evolve(kept: &mut Vec<(f64, Vec<f64>)>, output: usize, evaluation: &mut Evalu
 /// Keeps a state if it is among the worst.
 fn keep(kept: &mut Vec<(f64, Vec<f64>)>, error: f64, state: &[f64]) {
     if kept.len() == KEPT {
-        let (least, at) = kept.iter().enumerate().map(|(at, one)| (one.0, at)).fold((f64::INFINITY, 0), |a, b| if b.0 < a.0 { b } else { a });
+        let (least, at) = kept
+            .iter()
+            .enumerate()
+            .map(|(at, one)| (one.0, at))
+            .fold((f64::INFINITY, 0), |a, b| if b.0 < a.0 { b } else { a });
         if error <= least {
             return;
         }

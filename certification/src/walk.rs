@@ -5,7 +5,9 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use crate::decode::{self, ALWAYS, Arithmetic, Condition, Instruction, LR, NOWHERE, Operand, PC, SP};
+use crate::decode::{
+    self, ALWAYS, Arithmetic, Condition, Instruction, LR, NOWHERE, Operand, PC, SP,
+};
 use crate::error::{Error, Result};
 use crate::graph::{Graph, Input, Node};
 use crate::image::Image;
@@ -93,18 +95,31 @@ pub fn walk(image: &Image, function: u32, arguments: [Option<u32>; 4]) -> Result
             return Err(walk.declined("more instructions than are followed"));
         }
     }
-    let mut outputs: Vec<(u32, Word)> = walk.memory.iter().filter_map(|(at, word)| Some((at.checked_sub(ARGUMENTS)?, *word))).filter(|(offset, _)| *offset < RANGE).collect();
+    let mut outputs: Vec<(u32, Word)> = walk
+        .memory
+        .iter()
+        .filter_map(|(at, word)| Some((at.checked_sub(ARGUMENTS)?, *word)))
+        .filter(|(offset, _)| *offset < RANGE)
+        .collect();
     outputs.sort_by_key(|output| output.0);
     for (offset, word) in outputs {
         let node = walk.node(word);
         walk.graph.outputs.push((offset, node));
     }
-    Ok(Walked { graph: walk.graph, visited: visited.into_iter().collect(), executed })
+    Ok(Walked {
+        graph: walk.graph,
+        visited: visited.into_iter().collect(),
+        executed,
+    })
 }
 
 impl Walk<'_> {
     fn declined(&self, reason: &'static str) -> Error {
-        Error::Declined { address: self.here, instruction: self.code, reason }
+        Error::Declined {
+            address: self.here,
+            instruction: self.code,
+            reason,
+        }
     }
 
     fn push(&mut self, node: Node) -> usize {
@@ -131,7 +146,8 @@ impl Walk<'_> {
         if register == PC {
             return Ok(Word::Bits(self.here + 4));
         }
-        self.core[usize::from(register)].ok_or_else(|| self.declined("a core register that nothing has set"))
+        self.core[usize::from(register)]
+            .ok_or_else(|| self.declined("a core register that nothing has set"))
     }
 
     fn bits(&self, register: u8) -> Result<u32> {
@@ -160,7 +176,10 @@ impl Walk<'_> {
         if !(1..4).contains(&argument) {
             return Err(self.declined("memory that nothing has written"));
         }
-        let input = Input { argument: argument as u8, offset: (address - ARGUMENTS) % RANGE };
+        let input = Input {
+            argument: argument as u8,
+            offset: (address - ARGUMENTS) % RANGE,
+        };
         if let Some(node) = self.inputs.get(&input) {
             return Ok(Word::Real(*node));
         }
@@ -172,7 +191,9 @@ impl Walk<'_> {
     fn store(&mut self, address: u32, word: Word) -> Result<()> {
         let is_input = (ARGUMENTS + RANGE..ARGUMENTS + 4 * RANGE).contains(&address);
         if address & 3 != 0 || is_input || self.image.word(address).is_some() {
-            return Err(self.declined("a store to an input, to the program, or beside a word's address"));
+            return Err(
+                self.declined("a store to an input, to the program, or beside a word's address")
+            );
         }
         self.memory.insert(address, word);
         Ok(())
@@ -192,7 +213,11 @@ impl Walk<'_> {
 
     fn step(&mut self) -> Result<()> {
         self.here = self.next;
-        let half = |at| self.image.half(at).ok_or_else(|| self.declined("no code lies here"));
+        let half = |at| {
+            self.image
+                .half(at)
+                .ok_or_else(|| self.declined("no code lies here"))
+        };
         let first = half(self.here)?;
         let instruction = if decode::is_long(first) {
             let second = half(self.here + 2)?;
@@ -204,7 +229,8 @@ impl Walk<'_> {
             self.next = self.here + 2;
             decode::short(first)
         };
-        let instruction = instruction.ok_or_else(|| self.declined("an instruction of which nothing is proven"))?;
+        let instruction = instruction
+            .ok_or_else(|| self.declined("an instruction of which nothing is proven"))?;
         self.execute(instruction)
     }
 
@@ -236,7 +262,8 @@ impl Walk<'_> {
                 self.set(d, word)
             }
             I::Word { t, n, offset, load } => {
-                let address = (self.bits(n)? & if n == PC { !3 } else { !0 }).wrapping_add_signed(offset);
+                let address =
+                    (self.bits(n)? & if n == PC { !3 } else { !0 }).wrapping_add_signed(offset);
                 if load {
                     let word = self.load(address)?;
                     return self.set(t, word);
@@ -244,17 +271,40 @@ impl Walk<'_> {
                 let word = self.core(t)?;
                 self.store(address, word)
             }
-            I::Words { n, registers, load, down, writes_back } => self.words(n, registers, load, down, writes_back),
-            I::Reals { first, count, n, offset, load } => {
-                let address = (self.bits(n)? & if n == PC { !3 } else { !0 }).wrapping_add_signed(offset);
+            I::Words {
+                n,
+                registers,
+                load,
+                down,
+                writes_back,
+            } => self.words(n, registers, load, down, writes_back),
+            I::Reals {
+                first,
+                count,
+                n,
+                offset,
+                load,
+            } => {
+                let address =
+                    (self.bits(n)? & if n == PC { !3 } else { !0 }).wrapping_add_signed(offset);
                 self.reals(first, count, address, load)
             }
-            I::RealsMoving { first, count, n, load, down, writes_back } => {
+            I::RealsMoving {
+                first,
+                count,
+                n,
+                load,
+                down,
+                writes_back,
+            } => {
                 let (base, bytes) = (self.bits(n)?, 4 * u32::from(count));
                 let low = if down { base.wrapping_sub(bytes) } else { base };
                 self.reals(first, count, low, load)?;
                 if writes_back {
-                    self.set(n, Word::Bits(if down { low } else { base.wrapping_add(bytes) }))?;
+                    self.set(
+                        n,
+                        Word::Bits(if down { low } else { base.wrapping_add(bytes) }),
+                    )?;
                 }
                 Ok(())
             }
@@ -274,7 +324,11 @@ impl Walk<'_> {
                 self.real[usize::from(d)] = Some(Word::Bits(value.to_bits()));
                 Ok(())
             }
-            I::Transfer { core, real, to_core } => {
+            I::Transfer {
+                core,
+                real,
+                to_core,
+            } => {
                 if to_core {
                     let word = self.real(real)?;
                     return self.set(core, word);
@@ -282,7 +336,11 @@ impl Walk<'_> {
                 self.real[usize::from(real)] = Some(self.core(core)?);
                 Ok(())
             }
-            I::Branch { offset, condition, link } => {
+            I::Branch {
+                offset,
+                condition,
+                link,
+            } => {
                 if link {
                     self.core[usize::from(LR)] = Some(Word::Bits(self.next | 1));
                 }
@@ -326,7 +384,9 @@ impl Walk<'_> {
         if condition == ALWAYS {
             return Ok(true);
         }
-        let [n, z, c, v] = self.flags.ok_or_else(|| self.declined("a branch by flags that are not followed"))?;
+        let [n, z, c, v] = self
+            .flags
+            .ok_or_else(|| self.declined("a branch by flags that are not followed"))?;
         let holds = match condition >> 1 {
             0 => z,
             1 => c,
@@ -339,11 +399,21 @@ impl Walk<'_> {
         Ok(holds != (condition & 1 != 0))
     }
 
-    fn words(&mut self, n: u8, registers: u16, load: bool, down: bool, writes_back: bool) -> Result<()> {
+    fn words(
+        &mut self,
+        n: u8,
+        registers: u16,
+        load: bool,
+        down: bool,
+        writes_back: bool,
+    ) -> Result<()> {
         let (base, bytes) = (self.bits(n)?, 4 * registers.count_ones());
         let low = if down { base.wrapping_sub(bytes) } else { base };
         if writes_back {
-            self.set(n, Word::Bits(if down { low } else { base.wrapping_add(bytes) }))?;
+            self.set(
+                n,
+                Word::Bits(if down { low } else { base.wrapping_add(bytes) }),
+            )?;
         }
         let named = (0..16).filter(|register| registers >> register & 1 != 0);
         for (address, register) in (low..).step_by(4).zip(named) {

@@ -21,7 +21,12 @@ struct Args {
     #[arg(long, value_name = "NAME|FILE")]
     robot: Option<String>,
     /// The functions
-    #[arg(long, value_enum, value_delimiter = ',', default_value = "rnea,gravity")]
+    #[arg(
+        long,
+        value_enum,
+        value_delimiter = ',',
+        default_value = "rnea,gravity"
+    )]
     function: Vec<Function>,
     /// The greatest acceleration of each joint, rad/s² or m/s²
     #[arg(long, value_name = "A", default_value_t = 10.0)]
@@ -85,17 +90,35 @@ fn run(args: &Args) -> Result<String> {
         Some(robot) => vec![robot],
         None => LIBRARY.map(|(name, _)| name).to_vec(),
     };
-    let programs = robots.iter().map(|robot| program::build(robot, &args.options)).collect::<Result<Vec<_>>>()?;
+    let programs = robots
+        .iter()
+        .map(|robot| program::build(robot, &args.options))
+        .collect::<Result<Vec<_>>>()?;
     if args.hashes {
         for program in &programs {
-            check::hashes(&Image::read(&program.elf)?, &args.function, &program.robot, &written()?)?;
+            check::hashes(
+                &Image::read(&program.elf)?,
+                &args.function,
+                &program.robot,
+                &written()?,
+            )?;
         }
         return Ok(format!("{PAGE} has the hashes of today's machine code"));
     }
-    let boxed = |program: &Program| Robot::read(&Image::read(&program.elf)?, args.acceleration, args.speed, args.range);
+    let boxed = |program: &Program| {
+        Robot::read(
+            &Image::read(&program.elf)?,
+            args.acceleration,
+            args.speed,
+            args.range,
+        )
+    };
     let robots = programs.iter().map(boxed).collect::<Result<Vec<_>>>()?;
     // Once for all robots: what holds over the widest ranges holds over each.
-    let joints: Vec<_> = robots.iter().flat_map(|robot| robot.joints.iter().copied()).collect();
+    let joints: Vec<_> = robots
+        .iter()
+        .flat_map(|robot| robot.joints.iter().copied())
+        .collect();
     let sines = sines::enumerate(&joints);
     let mut certificates = Vec::new();
     for (program, robot) in programs.iter().zip(&robots) {
@@ -103,9 +126,21 @@ fn run(args: &Args) -> Result<String> {
             let start = Instant::now();
             let one = certificate::certify(program, *function, robot, sines, spent(args))?;
             if args.gappa {
-                check::by_gappa(&Image::read(&program.elf)?, *function, robot, sines, &one, PART)?;
+                check::by_gappa(
+                    &Image::read(&program.elf)?,
+                    *function,
+                    robot,
+                    sines,
+                    &one,
+                    PART,
+                )?;
             }
-            eprintln!("{}: {}: {:.0} s", one.robot, function.name(), start.elapsed().as_secs_f64());
+            eprintln!(
+                "{}: {}: {:.0} s",
+                one.robot,
+                function.name(),
+                start.elapsed().as_secs_f64()
+            );
             certificates.push(one);
         }
     }
@@ -115,16 +150,31 @@ fn run(args: &Args) -> Result<String> {
 fn spent(args: &Args) -> Spent {
     // A third of the states at random, the rest in generations.
     let children = args.states / 3 * 2 / 96;
-    Spent { parts: args.parts, search: Effort { random: args.states / 3, generations: 96, children } }
+    Spent {
+        parts: args.parts,
+        search: Effort {
+            random: args.states / 3,
+            generations: 96,
+            children,
+        },
+    }
 }
 
-fn finish(args: &Args, docs: &Path, certificates: &[Certificate], written: impl Fn() -> Result<String>) -> Result<String> {
+fn finish(
+    args: &Args,
+    docs: &Path,
+    certificates: &[Certificate],
+    written: impl Fn() -> Result<String>,
+) -> Result<String> {
     if let Some(path) = &args.picture {
         program::write(path, &picture::svg(certificates))?;
     }
     if args.write_docs {
         program::write(&docs.join(PICTURE), &picture::svg(certificates))?;
-        program::write(&docs.join(PAGE), &check::page(&written()?, &page::tables(certificates))?)?;
+        program::write(
+            &docs.join(PAGE),
+            &check::page(&written()?, &page::tables(certificates))?,
+        )?;
         return Ok(format!("written: {PAGE}"));
     }
     if args.json {

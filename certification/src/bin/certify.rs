@@ -38,10 +38,10 @@ struct Args {
     #[arg(long, value_name = "Q")]
     range: Option<f64>,
     /// Into how many parts the box of each result is split: more time, tighter bounds
-    #[arg(long, value_name = "N", default_value_t = 20_000)]
+    #[arg(long, value_name = "N", default_value_t = 4000)]
     parts: usize,
     /// States of the search for the worst error, for each result
-    #[arg(long, value_name = "N", default_value_t = 500_000)]
+    #[arg(long, value_name = "N", default_value_t = 240_000)]
     states: usize,
     /// Print JSON instead of text
     #[arg(long)]

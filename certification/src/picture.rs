@@ -37,8 +37,8 @@ pub fn svg(certificates: &[Certificate]) -> String {
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\"><style>{STYLE}</style>\
          <rect class=\"p\" width=\"{width}\" height=\"{height}\"/>\n\
-         <circle class=\"a\" cx=\"{LEFT}\" cy=\"16\" r=\"4\"/><text x=\"{}\" y=\"20\">worst error observed</text>\
-         <circle class=\"b\" cx=\"{}\" cy=\"16\" r=\"4\"/><text x=\"{}\" y=\"20\">proven bound</text>\n",
+         <circle class=\"a\" cx=\"{LEFT}\" cy=\"16\" r=\"4\"/><text font-size=\"12\" x=\"{}\" y=\"20\">worst error observed</text>\
+         <circle class=\"b\" cx=\"{}\" cy=\"16\" r=\"4\"/><text font-size=\"12\" x=\"{}\" y=\"20\">proven bound</text>\n",
         LEFT + 10.0,
         LEFT + 170.0,
         LEFT + 180.0,
@@ -52,7 +52,7 @@ pub fn svg(certificates: &[Certificate]) -> String {
         };
         let _ = writeln!(
             svg,
-            "<text class=\"t\" x=\"{left}\" y=\"46\">{title}</text>"
+            "<text class=\"t\" font-size=\"14\" x=\"{left}\" y=\"46\">{title}</text>"
         );
         let across = |x: f64| left + WIDE * (x.log10() - first) / (last - first);
         let bottom = TOP + ROW * rows as f64;
@@ -62,28 +62,33 @@ pub fn svg(certificates: &[Certificate]) -> String {
             if power % 2 == 0 {
                 let _ = writeln!(
                     svg,
-                    "<text x=\"{x:.1}\" y=\"{}\" text-anchor=\"middle\">1e{power}</text>",
+                    "<text font-size=\"12\" x=\"{x:.1}\" y=\"{}\" text-anchor=\"middle\">1e{power}</text>",
                     bottom + 16.0
                 );
             }
         }
         let _ = writeln!(
             svg,
-            "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">N·m</text>",
+            "<text font-size=\"12\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">N·m</text>",
             left + WIDE / 2.0,
             bottom + 36.0
         );
         let mut y = TOP;
         for one in of(function) {
             if panel == 0 {
-                let _ = writeln!(svg, "<text x=\"8\" y=\"{}\">{}</text>", y + 17.0, one.robot);
+                let _ = writeln!(
+                    svg,
+                    "<text font-size=\"12\" x=\"8\" y=\"{}\">{}</text>",
+                    y + 17.0,
+                    one.robot
+                );
             }
             for output in &one.outputs {
                 y += ROW;
                 if panel == 0 {
                     let _ = writeln!(
                         svg,
-                        "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">joint {}</text>",
+                        "<text font-size=\"12\" x=\"{}\" y=\"{}\" text-anchor=\"end\">joint {}</text>",
                         LEFT - 12.0,
                         y + 4.0,
                         output.name

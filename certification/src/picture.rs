@@ -6,7 +6,7 @@ use crate::certificate::{Certificate, Function};
 
 /// Colours on a light and on a dark page; colour-blind readers can distinguish them.
 const STYLE: &str = "text{font:12px system-ui,Helvetica,Arial,sans-serif;fill:#2d323a}.t{font-size:14px}.p{fill:#fff}.g{stroke:#e4e7eb}.l{stroke:#b4bac4;stroke-width:2}\
-.a{fill:#1b50a2}.b{fill:#e69100}@media(prefers-color-scheme:dark){text{fill:#e6edf3}.p{fill:#0d1117}.g{stroke:#2a313c}.l{stroke:#6b7480}.a{fill:#4f93ff}.b{fill:#f0a020}}";
+.a{fill:#1b50a2}.b{fill:#e69100}@media (prefers-color-scheme: dark){text{fill:#e6edf3}.p{fill:#0d1117}.g{stroke:#2a313c}.l{stroke:#6b7480}.a{fill:#4f93ff}.b{fill:#f0a020}}";
 
 const ROW: f64 = 19.0;
 const TOP: f64 = 66.0;
@@ -79,7 +79,7 @@ pub fn svg(certificates: &[Certificate]) -> String {
                 let _ = writeln!(
                     svg,
                     "<text font-size=\"12\" x=\"8\" y=\"{}\">{}</text>",
-                    y + 17.0,
+                    y + 7.0,
                     one.robot
                 );
             }

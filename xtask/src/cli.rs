@@ -47,6 +47,8 @@ enum Command {
     Watch(watch::Args),
     /// Find masses, inertias and frictions of a robot from a record of `watch`, for its file
     Identify(identify::Args),
+    /// Prove from machine code how far off a robot's torques can be over the whole box of its joints, rewrite docs/certificates.md
+    Certify(identify::Certify),
     /// Compare the scene ur5e with its robot in f64 on the host, processor in the loop, and with its robot inside
     Pil(pil::Args),
     /// Feed descriptions, files, dynamics, controller and encoder frames random bytes; CI does so for a moment
@@ -68,8 +70,9 @@ enum Command {
 }
 
 /// The commands for users, in the order of the help; all others are the laboratory's.
-const FIRST: [&str; 10] = [
-    "demo", "test", "new", "import", "meter", "watch", "identify", "pil", "costs", "accuracy",
+const FIRST: [&str; 11] = [
+    "demo", "test", "new", "import", "meter", "watch", "identify", "certify", "pil", "costs",
+    "accuracy",
 ];
 
 /// The commands that lists name behind those of the studies.
@@ -173,7 +176,8 @@ pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {
         Command::Import(args) => import::run(setup, args),
         Command::Meter(args) => meter::run(setup, &args),
         Command::Watch(args) => watch::run(setup, &args),
-        Command::Identify(args) => identify::run(&args),
+        Command::Identify(args) => identify::run("identify", "identify", &args.arguments),
+        Command::Certify(args) => identify::run("certification", "certify", &args.arguments),
         Command::Pil(args) => pil::run(setup, &args),
         Command::Fuzz { seconds } => endurance::fuzz(seconds),
         Command::Soak { ticks } => endurance::soak(ticks),

@@ -1,4 +1,5 @@
-//! `cargo xtask identify`: the parameters of a robot's file from a recording, by the package `identify`.
+//! `cargo xtask identify`: the parameters of a robot's file from a recording, by the package `identify`; `cargo xtask certify`: proven
+//! rounding errors, by the package `certification`.
 
 use std::process::{Command, ExitCode};
 
@@ -12,17 +13,30 @@ pub struct Args {
     /// The record of `cargo xtask watch`, --robot FILE, and other options: --name, --effects, --validate, --width, --cutoff, --out,
     /// --picture, --json, and those of `import` that select joints
     #[arg(value_name = "CSV", required = true, num_args = 1.., trailing_var_arg = true, allow_hyphen_values = true)]
-    arguments: Vec<String>,
+    pub arguments: Vec<String>,
 }
 
-pub fn run(args: &Args) -> Result<ExitCode> {
+/// Options of the package `certification`.
+#[derive(clap::Args)]
+pub struct Certify {
+    /// --robot NAME|FILE, and other options: --function, --acceleration, --speed, --range, --parts, --states, --json, --picture, --gappa,
+    /// --write-docs, --hashes, and those of `import` that select joints
+    #[arg(
+        value_name = "OPTION",
+        trailing_var_arg = true,
+        allow_hyphen_values = true
+    )]
+    pub arguments: Vec<String>,
+}
+
+pub fn run(package: &str, program: &str, arguments: &[String]) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     // In which its equations are solved within a second.
-    let words = "--profile simulated --package identify".split(' ');
+    let words = ["--profile", "simulated", "--package", package];
     shell::cargo(workspace.cargo("build").args(words))?;
     // Where programs have an ending, the system adds it.
-    let program = workspace.target.join("simulated/identify");
-    let status = shell::run_for_user(Command::new(program).args(&args.arguments))?;
+    let program = workspace.target.join("simulated").join(program);
+    let status = shell::run_for_user(Command::new(program).args(arguments))?;
     // It has printed its error.
     Ok(ExitCode::from(u8::from(!status.success())))
 }

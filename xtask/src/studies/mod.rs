@@ -24,6 +24,7 @@ pub mod trial;
 use clap::{ArgMatches, Args, Command};
 
 use crate::kit::error::Result;
+use crate::kit::shell;
 use study::Form::{Demo, Own, Part, Whole};
 use study::Held::{Bars, Step};
 use study::Lane::{Host, Target};
@@ -65,6 +66,15 @@ pub const STUDIES: &[Study] = &[
         files: &["docs/contact.md", "docs/contact.svg", "docs/learning.md", "docs/learning.svg"],
         held: Step(Target, Full, "the host and QEMU agree on the scenes of contact and learning, and docs/contact.md and docs/learning.md have today's figures"),
         form: Demo(trial::check),
+    },
+    Study {
+        name: "certificates", about: "",
+        files: &["docs/certificates.md", "docs/certificates.svg"],
+        held: Step(Target, Full, "docs/certificates.md has the hashes of today's machine code"),
+        form: Demo(|bench| {
+            let words = "--quiet --profile simulated --package certification -- --hashes".split(' ');
+            shell::cargo(bench.workspace.cargo("run").args(words)).map(|_| String::new())
+        }),
     },
     Study {
         name: "accuracy", about: "Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration",

@@ -1,0 +1,3 @@
+type Robot = dynamics_core::robots::Panda;
+const B: usize = 7;
+const N: usize = 7;

@@ -1,0 +1,80 @@
+//! The functions that `certify` proves, for one robot: never run, only read.
+//!
+//! The inputs that `certify` gives bounds to are at known offsets from r1, sines and cosines, and r2, the state. The box of the joints
+//! is data beside the code, so that both come from one description.
+#![no_std]
+#![no_main]
+
+use core::mem::offset_of;
+
+use cortex_m_semihosting::debug;
+use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
+use dynamics_core::model::{JointCoordinate, JointKind, Robot as _};
+use dynamics_core::state::{JointTrig, StateWithTrig};
+use dynamics_core::{Core, Engine, MassMatrix};
+use firmware_demo::target;
+
+// `Robot`, and the numbers of its bodies and joints, B and N.
+include!(env!("CERTIFIED_ROBOT"));
+
+type Trig = JointTrig<f32, N>;
+type Full = (Gravity, Inertia, Coriolis);
+type Inverse<E> = fn(StateWithTrig<'static, f32, N, N>, &E) -> [f32; N];
+
+/// Of each joint: whether it turns, least and greatest position, greatest speed.
+#[used]
+static CERTIFIED_JOINTS: [[f32; 4]; N] = joints();
+
+const fn joints() -> [[f32; 4]; N] {
+    let (links, mut joints) = (Robot::MODEL.links, [[0.0; 4]; N]);
+    let mut i = 0;
+    while i < B {
+        let link = &links[i];
+        let turns = match link.joint.kind {
+            JointKind::Revolute | JointKind::Continuous => 1.0,
+            _ => 0.0,
+        };
+        let (_, coordinates) = link.joint.kind.coordinates();
+        assert!(coordinates < 2, "each joint has one coordinate at most");
+        if coordinates == 1 {
+            let limits = link.limits;
+            joints[link.idx_v] = [
+                turns,
+                limits.lower as f32,
+                limits.upper as f32,
+                limits.velocity as f32,
+            ];
+        }
+        i += 1;
+    }
+    joints
+}
+
+/// Bytes between coordinates, and to sine, cosine and position in each.
+#[used]
+static CERTIFIED_TRIG: [u32; 4] = [
+    size_of::<JointCoordinate<f32>>() as u32,
+    offset_of!(JointCoordinate<f32>, sin) as u32,
+    offset_of!(JointCoordinate<f32>, cos) as u32,
+    offset_of!(JointCoordinate<f32>, q) as u32,
+];
+
+/// The effects that each function is given, which `certify` reads as they lie in memory.
+#[used]
+static CERTIFIED_EFFECTS: Full = RIGID_BODY;
+
+// A function whose address is taken is not shaped to its calls: this is the code that every program has which calls it with data of
+// its own.
+#[used]
+static CERTIFIED_RNEA: Inverse<Full> = Engine::<Robot>::rnea;
+#[used]
+static CERTIFIED_GRAVITY: Inverse<(Gravity,)> = Engine::<Robot>::rnea;
+#[used]
+static CERTIFIED_CORE: Inverse<Full> = Core::<Robot>::rnea;
+#[used]
+static CERTIFIED_CRBA: fn(&Trig, &Full) -> MassMatrix<f32, N> = Engine::<Robot>::crba;
+
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    target::leave(debug::EXIT_SUCCESS)
+}

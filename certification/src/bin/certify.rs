@@ -1,0 +1,184 @@
+//! The proven rounding errors of a robot's functions: what `cargo xtask certify` runs.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+use certification::certificate::{self, Certificate, Function, Spent};
+use certification::error::{Error, Result};
+use certification::image::Image;
+use certification::program::{self, LIBRARY, Program};
+use certification::search::Effort;
+use certification::state_box::Robot;
+use certification::{check, page, picture, sines};
+use clap::Parser;
+
+/// Proven rounding errors of a robot's functions over the whole box of its joints
+#[derive(Parser)]
+#[command(name = "certify")]
+struct Args {
+    /// A robot of docs/certificates.md, or a URDF or MJCF file; all of that page if not given
+    #[arg(long, value_name = "NAME|FILE")]
+    robot: Option<String>,
+    /// The functions
+    #[arg(
+        long,
+        value_enum,
+        value_delimiter = ',',
+        default_value = "rnea,gravity"
+    )]
+    function: Vec<Function>,
+    /// The greatest acceleration of each joint, rad/s² or m/s²
+    #[arg(long, value_name = "A", default_value_t = 10.0)]
+    acceleration: f64,
+    /// The greatest speed of joints whose description has none, rad/s or m/s
+    #[arg(long, value_name = "V")]
+    speed: Option<f64>,
+    /// The greatest |q| of joints that slide and whose description has no limits, m
+    #[arg(long, value_name = "Q")]
+    range: Option<f64>,
+    /// Into how many parts the box of each result is split: more time, tighter bounds
+    #[arg(long, value_name = "N", default_value_t = 4000)]
+    parts: usize,
+    /// States of the search for the worst error, for each result
+    #[arg(long, value_name = "N", default_value_t = 240_000)]
+    states: usize,
+    /// Print JSON instead of text
+    #[arg(long)]
+    json: bool,
+    /// Write the picture to this file
+    #[arg(long, value_name = "SVG")]
+    picture: Option<PathBuf>,
+    /// Let Gappa check a part of the box around the worst state of each result
+    #[arg(long)]
+    gappa: bool,
+    /// Rewrite docs/certificates.md with its picture
+    #[arg(long, conflicts_with_all = ["robot", "json"])]
+    write_docs: bool,
+    /// Only compare the hashes in docs/certificates.md with today's machine code
+    #[arg(long, conflicts_with_all = ["robot", "write_docs"])]
+    hashes: bool,
+    #[command(flatten)]
+    options: robot_import::import::Options,
+}
+
+/// The share of each range that the parts have which Gappa checks.
+const PART: f64 = 1.0 / 64.0;
+const PAGE: &str = "docs/certificates.md";
+const PICTURE: &str = "docs/certificates.svg";
+
+fn main() -> ExitCode {
+    match run(&Args::parse()) {
+        Ok(text) => {
+            println!("{text}");
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("error: {}", robot_import::text::visible(&error.to_string()));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(args: &Args) -> Result<String> {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let written = || {
+        let path = docs.join(PAGE);
+        std::fs::read_to_string(&path).map_err(|source| Error::File { path, source })
+    };
+    let robots: Vec<&str> = match &args.robot {
+        Some(robot) => vec![robot],
+        None => LIBRARY.map(|(name, _)| name).to_vec(),
+    };
+    let programs = robots
+        .iter()
+        .map(|robot| program::build(robot, &args.options))
+        .collect::<Result<Vec<_>>>()?;
+    if args.hashes {
+        for program in &programs {
+            check::hashes(
+                &Image::read(&program.elf)?,
+                &args.function,
+                &program.robot,
+                &written()?,
+            )?;
+        }
+        return Ok(format!("{PAGE} has the hashes of today's machine code"));
+    }
+    let boxed = |program: &Program| {
+        Robot::read(
+            &Image::read(&program.elf)?,
+            args.acceleration,
+            args.speed,
+            args.range,
+        )
+    };
+    let robots = programs.iter().map(boxed).collect::<Result<Vec<_>>>()?;
+    // Once for all robots: what holds over the widest ranges holds over each.
+    let joints: Vec<_> = robots
+        .iter()
+        .flat_map(|robot| robot.joints.iter().copied())
+        .collect();
+    let sines = sines::enumerate(&joints);
+    let mut certificates = Vec::new();
+    for (program, robot) in programs.iter().zip(&robots) {
+        for function in &args.function {
+            let start = Instant::now();
+            let one = certificate::certify(program, *function, robot, sines, spent(args))?;
+            if args.gappa {
+                check::by_gappa(
+                    &Image::read(&program.elf)?,
+                    *function,
+                    robot,
+                    sines,
+                    &one,
+                    PART,
+                )?;
+            }
+            eprintln!(
+                "{}: {}: {:.0} s",
+                one.robot,
+                function.name(),
+                start.elapsed().as_secs_f64()
+            );
+            certificates.push(one);
+        }
+    }
+    finish(args, &docs, &certificates, written)
+}
+
+fn spent(args: &Args) -> Spent {
+    // A third of the states at random, the rest in generations.
+    let children = args.states / 3 * 2 / 96;
+    Spent {
+        parts: args.parts,
+        search: Effort {
+            random: args.states / 3,
+            generations: 96,
+            children,
+        },
+    }
+}
+
+fn finish(
+    args: &Args,
+    docs: &Path,
+    certificates: &[Certificate],
+    written: impl Fn() -> Result<String>,
+) -> Result<String> {
+    if let Some(path) = &args.picture {
+        program::write(path, &picture::svg(certificates))?;
+    }
+    if args.write_docs {
+        program::write(&docs.join(PICTURE), &picture::svg(certificates))?;
+        program::write(
+            &docs.join(PAGE),
+            &check::page(&written()?, &page::tables(certificates))?,
+        )?;
+        return Ok(format!("written: {PAGE}"));
+    }
+    if args.json {
+        return serde_json::to_string_pretty(certificates).map_err(|e| Error::Robot(e.to_string()));
+    }
+    Ok(page::tables(certificates))
+}

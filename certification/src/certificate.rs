@@ -1,0 +1,227 @@
+//! A certificate: what was proven of a function over a box of states, beside the worst that was observed.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use serde::{Deserialize, Serialize};
+
+use crate::bound::{Bound, Bounder, Enclosure, SineErrors};
+use crate::branch::{Proven, prove};
+use crate::error::{Error, Result};
+use crate::image::Image;
+use crate::interval::Interval;
+use crate::program::Program;
+use crate::search::{Effort, search};
+use crate::state_box::{Joint, Robot};
+use crate::walk::{Walked, walk};
+
+/// A function that has a certificate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Function {
+    /// Inverse dynamics of the engine: gravity, inertia and velocity products
+    Rnea,
+    /// Inverse dynamics of the engine under gravity alone
+    Gravity,
+    /// The inertia matrix of the engine
+    Crba,
+    /// Inverse dynamics of the core
+    Core,
+}
+
+impl Function {
+    /// Its name on a page.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rnea => "engine `rnea`",
+            Self::Gravity => "engine `rnea`, gravity alone",
+            Self::Crba => "engine `crba`",
+            Self::Core => "core `rnea`",
+        }
+    }
+
+    /// The variable of the program that holds its address.
+    fn variable(self) -> &'static str {
+        match self {
+            Self::Rnea => "CERTIFIED_RNEA",
+            Self::Gravity => "CERTIFIED_GRAVITY",
+            Self::Crba => "CERTIFIED_CRBA",
+            Self::Core => "CERTIFIED_CORE",
+        }
+    }
+}
+
+/// How much is spent on a certificate.
+#[derive(Clone, Copy, Debug)]
+pub struct Spent {
+    /// The parts that the box of each output is split into.
+    pub parts: usize,
+    /// The search of observed errors.
+    pub search: Effort,
+}
+
+/// What holds of one output.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Output {
+    /// Joint or entry of the matrix, from 1.
+    pub name: String,
+    /// The proven bound of its error.
+    pub bound: f64,
+    /// What the bound is made of.
+    pub of: Bound,
+    /// The worst error that the search found.
+    pub observed: f64,
+    /// The state of it: q, q̇, q̈.
+    pub state: Vec<f64>,
+    /// The proven range of the computed value.
+    pub range: Interval,
+    /// The parts of the box.
+    pub parts: usize,
+}
+
+impl Output {
+    /// How many times the observed error the bound is.
+    pub fn ratio(&self) -> f64 {
+        self.bound / self.observed
+    }
+}
+
+/// A certificate.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Certificate {
+    /// The robot's name.
+    pub robot: String,
+    /// The function.
+    pub function: Function,
+    /// SHA-256 of its machine code.
+    pub hash: String,
+    /// The compiler.
+    pub rustc: String,
+    /// Instructions of one call.
+    pub instructions: usize,
+    /// Rounded operations of one call.
+    pub operations: usize,
+    /// The box.
+    pub joints: Vec<Joint>,
+    /// The error of the sines over the joints' ranges.
+    pub sines: SineErrors,
+    /// States of the search.
+    pub states: usize,
+    /// What holds of each output.
+    pub outputs: Vec<Output>,
+}
+
+/// The expression of a function of a program.
+///
+/// # Errors
+/// [`Error::Declined`], [`Error::Missing`].
+pub fn expression(image: &Image, function: Function) -> Result<Walked> {
+    let address = image.variable(function.variable())?.1[0];
+    let (effects, _) = image.variable("CERTIFIED_EFFECTS")?;
+    let arguments = match function {
+        Function::Crba => [None, None, Some(effects), None],
+        _ => [None, None, None, Some(effects)],
+    };
+    walk(image, address, arguments)
+}
+
+/// Proves the bounds of a function, and searches the worst errors beside them.
+///
+/// # Errors
+/// [`Error::Declined`] of code that is not followed, [`Error::Contradicted`] if the search finds more than the bound.
+pub fn certify(
+    program: &Program,
+    function: Function,
+    robot: &Robot,
+    sines: SineErrors,
+    spent: Spent,
+) -> Result<Certificate> {
+    let image = Image::read(&program.elf)?;
+    let walked = expression(&image, function)?;
+    let n = robot.joints.len();
+    let mut graph = walked.graph.clone();
+    if function == Function::Crba {
+        // Symmetric: the upper triangle.
+        graph
+            .outputs
+            .retain(|(offset, _)| (*offset as usize / 4) / n <= (*offset as usize / 4) % n);
+    }
+    let observed = search(&graph, robot, spent.search, 1);
+    let proven = in_parallel(graph.outputs.len(), |output| {
+        Bounder::new(&graph, output, robot, sines, Enclosure::WrittenOut)
+            .map(|mut bounder| prove(&mut bounder, &robot.whole(), spent.parts))
+    });
+    let mut outputs = Vec::new();
+    for (output, ((offset, _), (observed, proven))) in graph
+        .outputs
+        .iter()
+        .zip(observed.into_iter().zip(proven))
+        .enumerate()
+    {
+        let place = *offset as usize / 4;
+        let name = if function == Function::Crba {
+            format!("{},{}", place / n + 1, place % n + 1)
+        } else {
+            (place + 1).to_string()
+        };
+        let Proven {
+            bound,
+            range,
+            parts,
+            ..
+        } = proven.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
+        let total = bound.total();
+        if total < observed.error {
+            return Err(Error::Contradicted {
+                output: output + 1,
+                bound: total,
+                observed: observed.error,
+            });
+        }
+        outputs.push(Output {
+            name,
+            bound: total,
+            of: bound,
+            observed: observed.error,
+            state: observed.state,
+            range,
+            parts: parts.len(),
+        });
+    }
+    Ok(Certificate {
+        robot: program.robot.clone(),
+        function,
+        hash: image.hash(&walked.visited),
+        rustc: program.rustc.clone(),
+        instructions: walked.executed,
+        operations: walked.graph.operations(),
+        joints: robot.joints.clone(),
+        sines,
+        states: spent.search.states(outputs.len()),
+        outputs,
+    })
+}
+
+/// The results of some tasks, on all cores.
+fn in_parallel<T: Send>(tasks: usize, run: impl Fn(usize) -> Option<T> + Sync) -> Vec<Option<T>> {
+    let (next, threads) = (
+        AtomicUsize::new(0),
+        std::thread::available_parallelism().map_or(1, usize::from),
+    );
+    let mut results: Vec<Option<T>> = (0..tasks).map(|_| None).collect();
+    std::thread::scope(|scope| {
+        let work = || {
+            let mine = std::iter::from_fn(|| {
+                Some(next.fetch_add(1, Ordering::Relaxed)).filter(|task| *task < tasks)
+            });
+            mine.map(|task| (task, run(task))).collect::<Vec<_>>()
+        };
+        let threads: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        for (task, result) in threads
+            .into_iter()
+            .flat_map(|thread| thread.join().unwrap_or_default())
+        {
+            results[task] = result;
+        }
+    });
+    results
+}

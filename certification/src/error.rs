@@ -1,0 +1,64 @@
+//! Why there is no certificate.
+
+use std::path::PathBuf;
+
+/// The result of a step towards a certificate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Why there is no certificate.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The program is no ELF.
+    #[error("not an ELF: {0}")]
+    Elf(String),
+    /// The program has no such variable.
+    #[error("the program has no {0}")]
+    Missing(String),
+    /// The code does what is not proven.
+    #[error("declined at {address:#010x}, instruction {instruction:#010x}: {reason}")]
+    Declined {
+        /// The address of the instruction.
+        address: u32,
+        /// Its first halfword above its second one; the second is zero of a short instruction.
+        instruction: u32,
+        /// What is not proven.
+        reason: &'static str,
+    },
+    /// The joints have no finite box.
+    #[error("joint {joint} has no {what}: --speed and --range give one")]
+    Unbounded {
+        /// The number of the joint, from 1.
+        joint: usize,
+        /// What is not finite.
+        what: &'static str,
+    },
+    /// The proof says less than what was observed: one of them is wrong.
+    #[error("output {output}: the bound {bound:e} is below the observed error {observed:e}")]
+    Contradicted {
+        /// The number of the output, from 1.
+        output: usize,
+        /// The proven bound.
+        bound: f64,
+        /// The error of a state that was found.
+        observed: f64,
+    },
+    /// A program failed.
+    #[error("{program}: {said}")]
+    Program {
+        /// Its name.
+        program: String,
+        /// What it printed.
+        said: String,
+    },
+    /// A file cannot be read or written.
+    #[error("{}: {source}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A robot's file is not taken.
+    #[error("{0}")]
+    Robot(String),
+}

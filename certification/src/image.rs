@@ -1,0 +1,112 @@
+//! Machine code and constants of a linked program, by address.
+
+use object::{Object, ObjectSection, ObjectSymbol, SectionKind};
+use sha2::{Digest, Sha256};
+
+use crate::error::{Error, Result};
+
+/// What of a program lies in flash, and its symbols.
+#[derive(Clone, Debug, Default)]
+pub struct Image {
+    /// First address and bytes of each section.
+    sections: Vec<(u32, Vec<u8>)>,
+    /// Name, address and size, sorted by address.
+    symbols: Vec<(String, u32, u32)>,
+}
+
+impl Image {
+    /// The code and constants of an ELF.
+    ///
+    /// # Errors
+    /// [`Error::Elf`].
+    pub fn read(elf: &[u8]) -> Result<Self> {
+        let file = object::File::parse(elf).map_err(|e| Error::Elf(e.to_string()))?;
+        let is_flash = |kind| {
+            use SectionKind::{ReadOnlyData, ReadOnlyString, Text};
+            matches!(kind, Text | ReadOnlyData | ReadOnlyString)
+        };
+        let flash = file.sections().filter(|section| is_flash(section.kind()));
+        let sections =
+            flash.filter_map(|one| Some((one.address() as u32, one.data().ok()?.to_vec())));
+        let sized = file.symbols().filter(|symbol| symbol.size() > 0);
+        let symbols = sized.map(|symbol| {
+            let name = symbol.name().unwrap_or_default().to_owned();
+            // The lowest bit of a function's address says Thumb.
+            (name, symbol.address() as u32 & !1, symbol.size() as u32)
+        });
+        let mut symbols: Vec<_> = symbols.collect();
+        symbols.sort_by_key(|symbol| symbol.1);
+        Ok(Self {
+            sections: sections.collect(),
+            symbols,
+        })
+    }
+
+    /// An image of these bytes from an address on, for tests of code that is written by hand.
+    pub fn of(address: u32, bytes: &[u8]) -> Self {
+        Self {
+            sections: vec![(address, bytes.to_vec())],
+            symbols: Vec::new(),
+        }
+    }
+
+    /// The bytes from an address on.
+    fn from(&self, address: u32) -> Option<&[u8]> {
+        self.sections.iter().find_map(|(start, bytes)| {
+            let at = address.checked_sub(*start)? as usize;
+            bytes.get(at..).filter(|rest| !rest.is_empty())
+        })
+    }
+
+    /// The halfword at an address.
+    pub fn half(&self, address: u32) -> Option<u16> {
+        Some(u16::from_le_bytes(*self.from(address)?.first_chunk()?))
+    }
+
+    /// The word at an address.
+    pub fn word(&self, address: u32) -> Option<u32> {
+        Some(u32::from_le_bytes(*self.from(address)?.first_chunk()?))
+    }
+
+    /// The address and the words of the variable of a name, whatever its path and hash.
+    ///
+    /// # Errors
+    /// [`Error::Missing`].
+    pub fn variable(&self, name: &str) -> Result<(u32, Vec<u32>)> {
+        let mut symbols = self.symbols.iter();
+        let found = symbols.find(|(symbol, _, _)| symbol.contains(name));
+        let (_, address, size) = found.ok_or_else(|| Error::Missing(name.to_owned()))?;
+        let words = (0..size / 4).map(|i| self.word(address + 4 * i));
+        let words: Option<Vec<u32>> = words.collect();
+        Ok((
+            *address,
+            words.ok_or_else(|| Error::Missing(name.to_owned()))?,
+        ))
+    }
+
+    /// SHA-256 of the functions that hold these addresses, each from its first instruction to its last literal.
+    pub fn hash(&self, visited: &[u32]) -> String {
+        let mut hash = Sha256::new();
+        let holds = |(_, start, size): &&(String, u32, u32)| {
+            let first = visited.partition_point(|address| address < start);
+            visited
+                .get(first)
+                .is_some_and(|address| address - start < *size)
+        };
+        let mut last = None;
+        for (_, start, size) in self.symbols.iter().filter(holds) {
+            if last.replace(*start) == Some(*start) {
+                continue; // another name of the same function
+            }
+            hash.update(
+                self.from(*start)
+                    .and_then(|bytes| bytes.get(..*size as usize))
+                    .unwrap_or_default(),
+            );
+        }
+        hash.finalize()
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect()
+    }
+}

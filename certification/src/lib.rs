@@ -1,0 +1,33 @@
+//! Proven rounding errors of machine code over a whole box of states: what `cargo xtask certify` runs.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`program`], [`image`] | a robot's functions, compiled as firmware is, and read |
+//! | `decode`, [`walk`], [`graph`] | from instructions to the expression that they evaluate |
+//! | [`interval`], [`state_box`], [`forms`] | ranges of numbers, inputs and sums |
+//! | [`bound`], [`branch`] | the error over a part of the box, and over the whole |
+//! | [`sines`] | the error of sines, by trying every angle |
+//! | [`search`] | the worst error that is found |
+//! | [`certificate`], [`page`], [`picture`] | what was proven, as data, text and picture |
+//! | [`gappa`], [`check`] | checks of it by others |
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+pub mod bound;
+pub mod branch;
+pub mod certificate;
+pub mod check;
+mod decode;
+pub mod error;
+pub mod forms;
+pub mod gappa;
+pub mod graph;
+pub mod image;
+pub mod interval;
+pub mod page;
+pub mod picture;
+pub mod program;
+pub mod search;
+pub mod sines;
+pub mod state_box;
+pub mod walk;

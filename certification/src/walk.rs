@@ -1,0 +1,461 @@
+//! From machine code to the expression that it evaluates.
+//!
+//! The walk executes the code with real numbers as nodes of a graph and everything else, addresses and counters, as it is. So it follows
+//! calls and loops with constant bounds; a branch that depends on a real number has no known direction, and is declined.
+
+use std::collections::{BTreeSet, HashMap};
+
+use crate::decode::{
+    self, ALWAYS, Arithmetic, Condition, Instruction, LR, NOWHERE, Operand, PC, SP,
+};
+use crate::error::{Error, Result};
+use crate::graph::{Graph, Input, Node};
+use crate::image::Image;
+
+/// Addresses at which nothing lies: of what the arguments point to, a range for each; of the stack; and of the caller.
+const ARGUMENTS: u32 = 0x9000_0000;
+const RANGE: u32 = 0x0100_0000;
+const STACK: u32 = 0x2001_0000;
+const CALLER: u32 = 0xffff_fff0;
+/// More instructions than any function that is proven executes.
+const MOST: usize = 200_000;
+
+/// A word in a register or in memory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Word {
+    /// Bits that do not depend on inputs.
+    Bits(u32),
+    /// A real number.
+    Real(usize),
+}
+
+/// A function's expression, and where its code lies.
+#[derive(Clone, Debug)]
+pub struct Walked {
+    /// The expression; outputs are what was written through r0, by offset.
+    pub graph: Graph,
+    /// The addresses of the instructions that were executed, sorted.
+    pub visited: Vec<u32>,
+    /// Instructions executed.
+    pub executed: usize,
+}
+
+struct Walk<'a> {
+    image: &'a Image,
+    graph: Graph,
+    inputs: HashMap<Input, usize>,
+    literals: HashMap<u32, usize>,
+    core: [Option<Word>; 16],
+    real: [Option<Word>; 32],
+    memory: HashMap<u32, Word>,
+    /// Negative, zero, carry, overflow of the last comparison of integers.
+    flags: Option<[bool; 4]>,
+    /// The first address of the instruction, and the next one's.
+    here: u32,
+    next: u32,
+    code: u32,
+}
+
+/// Walks the function at an address. An argument is a pointer to inputs, or to what lies at an address of the program; the first
+/// one is where results go.
+///
+/// # Errors
+/// [`Error::Declined`].
+pub fn walk(image: &Image, function: u32, arguments: [Option<u32>; 4]) -> Result<Walked> {
+    let mut walk = Walk {
+        image,
+        graph: Graph::default(),
+        inputs: HashMap::new(),
+        literals: HashMap::new(),
+        core: [None; 16],
+        real: [None; 32],
+        memory: HashMap::new(),
+        flags: None,
+        here: function & !1,
+        next: function & !1,
+        code: 0,
+    };
+    for (i, given) in (0..).zip(arguments) {
+        walk.core[i as usize] = Some(Word::Bits(given.unwrap_or(ARGUMENTS + i * RANGE)));
+    }
+    // Registers that a function must keep hold what its caller left there, of which nothing is known but that it is kept.
+    for (i, kept) in (4..13).enumerate() {
+        walk.core[kept] = Some(Word::Bits(CALLER + i as u32));
+    }
+    walk.real[16..].fill(Some(Word::Bits(CALLER)));
+    walk.core[usize::from(SP)] = Some(Word::Bits(STACK));
+    walk.core[usize::from(LR)] = Some(Word::Bits(CALLER));
+    let mut visited = BTreeSet::new();
+    let mut executed = 0;
+    while walk.next != CALLER {
+        visited.insert(walk.next);
+        executed += 1;
+        walk.step()?;
+        if executed > MOST {
+            return Err(walk.declined("more instructions than are followed"));
+        }
+    }
+    let mut outputs: Vec<(u32, Word)> = walk
+        .memory
+        .iter()
+        .filter_map(|(at, word)| Some((at.checked_sub(ARGUMENTS)?, *word)))
+        .filter(|(offset, _)| *offset < RANGE)
+        .collect();
+    outputs.sort_by_key(|output| output.0);
+    for (offset, word) in outputs {
+        let node = walk.node(word);
+        walk.graph.outputs.push((offset, node));
+    }
+    Ok(Walked {
+        graph: walk.graph,
+        visited: visited.into_iter().collect(),
+        executed,
+    })
+}
+
+impl Walk<'_> {
+    fn declined(&self, reason: &'static str) -> Error {
+        Error::Declined {
+            address: self.here,
+            instruction: self.code,
+            reason,
+        }
+    }
+
+    fn push(&mut self, node: Node) -> usize {
+        self.graph.nodes.push(node);
+        self.graph.nodes.len() - 1
+    }
+
+    /// The node of a word that is used as a real number.
+    fn node(&mut self, word: Word) -> usize {
+        match word {
+            Word::Real(node) => node,
+            Word::Bits(bits) => match self.literals.get(&bits) {
+                Some(node) => *node,
+                None => {
+                    let node = self.push(Node::Literal(f32::from_bits(bits)));
+                    self.literals.insert(bits, node);
+                    node
+                }
+            },
+        }
+    }
+
+    fn core(&self, register: u8) -> Result<Word> {
+        if register == PC {
+            return Ok(Word::Bits(self.here + 4));
+        }
+        self.core[usize::from(register)]
+            .ok_or_else(|| self.declined("a core register that nothing has set"))
+    }
+
+    fn bits(&self, register: u8) -> Result<u32> {
+        match self.core(register)? {
+            Word::Bits(bits) => Ok(bits),
+            Word::Real(_) => Err(self.declined("an integer operation on a real number")),
+        }
+    }
+
+    fn real(&self, register: u8) -> Result<Word> {
+        let word = self.real.get(usize::from(register)).copied().flatten();
+        word.ok_or_else(|| self.declined("a floating-point register that nothing has set"))
+    }
+
+    fn load(&mut self, address: u32) -> Result<Word> {
+        if address & 3 != 0 {
+            return Err(self.declined("an address that is not a word's"));
+        }
+        if let Some(word) = self.memory.get(&address) {
+            return Ok(*word);
+        }
+        if let Some(bits) = self.image.word(address) {
+            return Ok(Word::Bits(bits));
+        }
+        let argument = address.wrapping_sub(ARGUMENTS) / RANGE;
+        if !(1..4).contains(&argument) {
+            return Err(self.declined("memory that nothing has written"));
+        }
+        let input = Input {
+            argument: argument as u8,
+            offset: (address - ARGUMENTS) % RANGE,
+        };
+        if let Some(node) = self.inputs.get(&input) {
+            return Ok(Word::Real(*node));
+        }
+        let node = self.push(Node::Input(input));
+        self.inputs.insert(input, node);
+        Ok(Word::Real(node))
+    }
+
+    fn store(&mut self, address: u32, word: Word) -> Result<()> {
+        let is_input = (ARGUMENTS + RANGE..ARGUMENTS + 4 * RANGE).contains(&address);
+        if address & 3 != 0 || is_input || self.image.word(address).is_some() {
+            return Err(
+                self.declined("a store to an input, to the program, or beside a word's address")
+            );
+        }
+        self.memory.insert(address, word);
+        Ok(())
+    }
+
+    fn set(&mut self, register: u8, word: Word) -> Result<()> {
+        match register {
+            NOWHERE => {}
+            PC => match word {
+                Word::Bits(address) => self.next = address & !1,
+                Word::Real(_) => return Err(self.declined("a branch to a real number")),
+            },
+            register => self.core[usize::from(register)] = Some(word),
+        }
+        Ok(())
+    }
+
+    fn step(&mut self) -> Result<()> {
+        self.here = self.next;
+        let half = |at| {
+            self.image
+                .half(at)
+                .ok_or_else(|| self.declined("no code lies here"))
+        };
+        let first = half(self.here)?;
+        let instruction = if decode::is_long(first) {
+            let second = half(self.here + 2)?;
+            self.code = u32::from(first) << 16 | u32::from(second);
+            self.next = self.here + 4;
+            decode::long(first, second)
+        } else {
+            self.code = u32::from(first) << 16;
+            self.next = self.here + 2;
+            decode::short(first)
+        };
+        let instruction = instruction
+            .ok_or_else(|| self.declined("an instruction of which nothing is proven"))?;
+        self.execute(instruction)
+    }
+
+    fn execute(&mut self, instruction: Instruction) -> Result<()> {
+        use Instruction as I;
+        match instruction {
+            I::Nop => Ok(()),
+            I::Add { d, n, by, flags } => {
+                let (a, b) = (self.bits(n)?, self.operand(by)?);
+                self.note(flags, a, b, false);
+                self.set(d, Word::Bits(a.wrapping_add(b)))
+            }
+            I::Sub { d, n, by } => {
+                let (a, b) = (self.bits(n)?, self.operand(by)?);
+                self.note(true, a, !b, true);
+                self.set(d, Word::Bits(a.wrapping_sub(b)))
+            }
+            I::Constant { d, value } => {
+                // The short form sets flags; nothing that is followed branches by them.
+                self.flags = None;
+                self.set(d, Word::Bits(value))
+            }
+            I::Upper { d, value } => {
+                let low = self.bits(d)? & 0xffff;
+                self.set(d, Word::Bits(value << 16 | low))
+            }
+            I::Move { d, m } => {
+                let word = self.core(m)?;
+                self.set(d, word)
+            }
+            I::Word { t, n, offset, load } => {
+                let address =
+                    (self.bits(n)? & if n == PC { !3 } else { !0 }).wrapping_add_signed(offset);
+                if load {
+                    let word = self.load(address)?;
+                    return self.set(t, word);
+                }
+                let word = self.core(t)?;
+                self.store(address, word)
+            }
+            I::Words {
+                n,
+                registers,
+                load,
+                down,
+                writes_back,
+            } => self.words(n, registers, load, down, writes_back),
+            I::Reals {
+                first,
+                count,
+                n,
+                offset,
+                load,
+            } => {
+                let address =
+                    (self.bits(n)? & if n == PC { !3 } else { !0 }).wrapping_add_signed(offset);
+                self.reals(first, count, address, load)
+            }
+            I::RealsMoving {
+                first,
+                count,
+                n,
+                load,
+                down,
+                writes_back,
+            } => {
+                let (base, bytes) = (self.bits(n)?, 4 * u32::from(count));
+                let low = if down { base.wrapping_sub(bytes) } else { base };
+                self.reals(first, count, low, load)?;
+                if writes_back {
+                    self.set(
+                        n,
+                        Word::Bits(if down { low } else { base.wrapping_add(bytes) }),
+                    )?;
+                }
+                Ok(())
+            }
+            I::Arithmetic { op, d, n, m } => self.arithmetic(op, d, n, m),
+            I::Negate { d, m } => {
+                let word = self.real(m)?;
+                let a = self.node(word);
+                let node = self.push(Node::Neg(a));
+                self.real[usize::from(d)] = Some(Word::Real(node));
+                Ok(())
+            }
+            I::Copy { d, m } => {
+                self.real[usize::from(d)] = Some(self.real(m)?);
+                Ok(())
+            }
+            I::Real { d, value } => {
+                self.real[usize::from(d)] = Some(Word::Bits(value.to_bits()));
+                Ok(())
+            }
+            I::Transfer {
+                core,
+                real,
+                to_core,
+            } => {
+                if to_core {
+                    let word = self.real(real)?;
+                    return self.set(core, word);
+                }
+                self.real[usize::from(real)] = Some(self.core(core)?);
+                Ok(())
+            }
+            I::Branch {
+                offset,
+                condition,
+                link,
+            } => {
+                if link {
+                    self.core[usize::from(LR)] = Some(Word::Bits(self.next | 1));
+                }
+                if self.holds(condition)? {
+                    self.next = (self.here + 4).wrapping_add_signed(offset);
+                }
+                Ok(())
+            }
+            I::BranchIfZero { n, offset, if_not } => {
+                if (self.bits(n)? == 0) != if_not {
+                    self.next = (self.here + 4).wrapping_add_signed(offset);
+                }
+                Ok(())
+            }
+            I::BranchTo { m } => {
+                self.next = self.bits(m)? & !1;
+                Ok(())
+            }
+        }
+    }
+
+    fn operand(&self, operand: Operand) -> Result<u32> {
+        match operand {
+            Operand::Constant(value) => Ok(value),
+            Operand::Register(m, shift) => Ok(self.bits(m)? << shift),
+        }
+    }
+
+    /// Keeps the flags of a + b + carry: A2.2.1.
+    fn note(&mut self, sets: bool, a: u32, b: u32, carry: bool) {
+        if sets {
+            let wide = u64::from(a) + u64::from(b) + u64::from(carry);
+            let sum = wide as u32;
+            let overflow = (a ^ sum) & (b ^ sum) & 0x8000_0000 != 0;
+            self.flags = Some([sum >> 31 != 0, sum == 0, wide >> 32 != 0, overflow]);
+        }
+    }
+
+    /// Whether a condition holds: A7.3.
+    fn holds(&self, condition: Condition) -> Result<bool> {
+        if condition == ALWAYS {
+            return Ok(true);
+        }
+        let [n, z, c, v] = self
+            .flags
+            .ok_or_else(|| self.declined("a branch by flags that are not followed"))?;
+        let holds = match condition >> 1 {
+            0 => z,
+            1 => c,
+            2 => n,
+            3 => v,
+            4 => c && !z,
+            5 => n == v,
+            _ => n == v && !z,
+        };
+        Ok(holds != (condition & 1 != 0))
+    }
+
+    fn words(
+        &mut self,
+        n: u8,
+        registers: u16,
+        load: bool,
+        down: bool,
+        writes_back: bool,
+    ) -> Result<()> {
+        let (base, bytes) = (self.bits(n)?, 4 * registers.count_ones());
+        let low = if down { base.wrapping_sub(bytes) } else { base };
+        if writes_back {
+            self.set(
+                n,
+                Word::Bits(if down { low } else { base.wrapping_add(bytes) }),
+            )?;
+        }
+        let named = (0..16).filter(|register| registers >> register & 1 != 0);
+        for (address, register) in (low..).step_by(4).zip(named) {
+            if load {
+                let word = self.load(address)?;
+                self.set(register, word)?;
+            } else {
+                let word = self.core(register)?;
+                self.store(address, word)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn reals(&mut self, first: u8, count: u8, address: u32, load: bool) -> Result<()> {
+        for (address, register) in (address..).step_by(4).zip(first..first + count) {
+            if load {
+                let word = self.load(address)?;
+                let Some(place) = self.real.get_mut(usize::from(register)) else {
+                    return Err(self.declined("no such register"));
+                };
+                *place = Some(word);
+            } else {
+                let word = self.real(register)?;
+                self.store(address, word)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn arithmetic(&mut self, op: Arithmetic, d: u8, n: u8, m: u8) -> Result<()> {
+        let (n, m) = (self.real(n)?, self.real(m)?);
+        let (a, b) = (self.node(n), self.node(m));
+        let mut node = self.push(match op {
+            Arithmetic::Add => Node::Add(a, b),
+            Arithmetic::Sub => Node::Sub(a, b),
+            Arithmetic::Mul | Arithmetic::NegatedMul => Node::Mul(a, b),
+        });
+        if op == Arithmetic::NegatedMul {
+            node = self.push(Node::Neg(node));
+        }
+        self.real[usize::from(d)] = Some(Word::Real(node));
+        Ok(())
+    }
+}

@@ -102,7 +102,14 @@ pub(crate) struct InwardSums<A, T, const B: usize> {
 
 /// The sums over `robot`, zero as yet.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn inward_sums<A: Copy + Default, D, R: Real, const B: usize, const Q: usize, const V: usize>(
+pub(crate) fn inward_sums<
+    A: Copy + Default,
+    D,
+    R: Real,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+>(
     _: &D,
 ) -> InwardSums<A, Tree<D, R, B, Q, V>, B>
 where

@@ -35,12 +35,6 @@ impl<R: Real> AccelerationField<R> {
         }
     }
 
-    /// Of a body of velocity v and spatial acceleration a.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn of_spatial(v: Motion<R>, a: Motion<R>) -> Self {
-        Self::new(v.ang, Motion::new(a.ang, a.lin + v.ang.cross(v.lin)))
-    }
-
     /// α, and the acceleration of the origin of a frame that is fixed in the body, in its axes. 48 flops.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn moved(x: &Xform<R>, w: R::Vec3, a: Motion<R>) -> Motion<R> {
@@ -84,8 +78,9 @@ mod tests {
         ]);
         let v = Motion::new(DVec3::new(1.0, -2.0, 0.5), DVec3::new(0.3, 0.7, -1.1));
         let a = Motion::new(DVec3::new(-3.0, 0.4, 2.5), DVec3::new(9.0, -0.2, 4.0));
+        let at_origin = Motion::new(a.ang, a.lin + v.ang.cross(v.lin));
         let (got, want): (super::Force<f64>, _) = (
-            inertia.force_in(&AccelerationField::of_spatial(v, a), v.ang),
+            inertia.force_in(&AccelerationField::new(v.ang, at_origin), v.ang),
             inertia.force(a, v),
         );
         assert!((got.ang - want.ang).length() < 1e-14 && (got.lin - want.lin).length() < 1e-14);

@@ -336,11 +336,7 @@ impl<R: Real> FreeAboutZ<R> {
                 yz: xy * pz + yy * qz,
                 zz: i_zz,
             },
-            coupling: R::Mat3::from_cols(
-                ex * ax + ey * bx,
-                ex * ay + ey * by,
-                ex * az + ey * bz,
-            ),
+            coupling: R::Mat3::from_cols(ex * ax + ey * bx, ex * ay + ey * by, ex * az + ey * bz),
             mass: self.mass.turned_back(&x.rot),
         }
         .at_distance(x.pos)

@@ -1,7 +1,7 @@
 //! The error of the library's sines over the ranges of a robot's joints, by trying every angle.
 //!
 //! The same source computes the same bits on host and target (`cargo xtask test bits`), and an angle is one of at most 2³² numbers, so
-//! that little needs to be argued about the kernel: each angle's sine and cosine are compared with f64's. Below [`TINY`] the kernel's
+//! that little needs to be argued about the kernel: each angle's sine and cosine are compared with f64's. Below 2⁻³⁰ rad the kernel's
 //! step is zero, its square is lost beside one, and what it returns is the angle itself and one.
 
 use std::ops::RangeInclusive;

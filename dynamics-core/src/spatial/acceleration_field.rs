@@ -76,8 +76,8 @@ mod tests {
         let inertia = SpatialInertia::from_parameters([
             2.0, 0.3, -0.4, 0.5, 0.31, 0.02, 0.29, -0.03, 0.04, 0.27,
         ]);
-        let v = Motion::new(DVec3::new(1.0, -2.0, 0.5), DVec3::new(0.3, 0.7, -1.1));
-        let a = Motion::new(DVec3::new(-3.0, 0.4, 2.5), DVec3::new(9.0, -0.2, 4.0));
+        let v = Motion::<f64>::new(DVec3::new(1.0, -2.0, 0.5), DVec3::new(0.3, 0.7, -1.1));
+        let a = Motion::<f64>::new(DVec3::new(-3.0, 0.4, 2.5), DVec3::new(9.0, -0.2, 4.0));
         let at_origin = Motion::new(a.ang, a.lin + v.ang.cross(v.lin));
         let (got, want): (super::Force<f64>, _) = (
             inertia.force_in(&AccelerationField::new(v.ang, at_origin), v.ang),

@@ -37,7 +37,7 @@ pub struct TipWrenchConfig<R, const V: usize> {
 /// use dynamics_core::glam::DVec3;
 /// const TIP: usize = Ur5e::MODEL.body("wrist_3");
 /// let at_a_point = TipWrench::try_new(TipWrenchConfig { noise: [0.1; 6], force: 100.0, couple: 0.0 })?;
-/// let jacobian = Engine::<Ur5e>::jacobian(&[0.0, -1.2, 1.5, 0.3, 0.7, 0.0], OnBody::<TIP>, LocalWorldAligned);
+/// let jacobian = Engine::<Ur5e>::jacobian(&[0.0_f64, -1.2, 1.5, 0.3, 0.7, 0.0], OnBody::<TIP>, LocalWorldAligned);
 /// let push = Force::new(DVec3::ZERO, DVec3::new(10.0, 0.0, -20.0));
 /// let external = jacobian.map(|column| column.dot(push));
 /// let found = at_a_point.estimate(&jacobian, &external)?;

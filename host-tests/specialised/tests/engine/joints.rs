@@ -1,7 +1,7 @@
 //! The engine on joints of every kind: two trees that mix them, and robots on a free base.
 
 use dynamics_core::effects::{Armature, MovingBase, RIGID_BODY, Spring, Viscous, WorldWrench};
-use dynamics_core::model::Robot;
+use dynamics_core::model::{OnBody, Robot};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
@@ -169,7 +169,7 @@ mod full {
             );
             see(&mut errors, "engine and core, p", &a.p, &b.p);
             see(&mut errors, "engine and core, β", &a.beta, &b.beta);
-            let a = Engine::<T>::jacobian::<16, _, _, _, _>(&state.q);
+            let a = Engine::<T>::jacobian(&state.q, OnBody::<16>, LocalWorldAligned);
             let b = algorithms::jacobian(&T::MODEL, &state.q, 16, LocalWorldAligned);
             for (a, b) in a.iter().zip(b) {
                 for (a, b) in [(a.ang, b.ang), (a.lin, b.lin)] {

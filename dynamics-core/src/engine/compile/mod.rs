@@ -10,6 +10,7 @@
 //! 7. The unit of length becomes a joint offset, so that this offset is 1, and the unit of mass such that Σ keeps its
 //!    numbers: p/L, h·L, m·L².
 
+mod alone;
 mod base_parameters;
 mod matrix_parameters;
 mod prune;
@@ -21,12 +22,13 @@ mod tree;
 pub(crate) use remainder::{Distribution, Remainder};
 pub(crate) use topology::{
     Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair, is_parent, is_slide_beyond,
-    last, load, loads, place, supports,
+    joint, last, load, loads, place, supports,
 };
 pub(crate) use tree::{BodyPlacement, CompiledTree, Joint, JointMotion};
 
 use glam::{DMat3, DVec3};
 
+use self::alone::inertia_alone;
 use self::base_parameters::{mat_add, outer, regroup, second_moment};
 use self::matrix_parameters::regroup_for_matrix;
 use self::prune::prune;
@@ -74,6 +76,9 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
             joint.mass += mass;
         }
         i += 1;
+    }
+    if negligible == 0.0 {
+        inertia_alone(&mut joints, &model.links);
     }
     regroup(&mut joints);
     prune(&mut joints, negligible);

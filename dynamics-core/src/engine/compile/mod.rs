@@ -231,10 +231,10 @@ const fn at_once<const V: usize>(
 const fn unit_of_length<const V: usize>(joints: &[Joint; V]) -> f64 {
     let (mut best, mut most, mut i) = (1.0, 0, 0);
     while i < 3 * V {
-        let length = offset(&joints[i / 3], i % 3);
+        let length = offset(joints, i / 3, i % 3);
         let (mut count, mut k) = (0, 0);
         while length != 0.0 && k < 3 * V {
-            if offset(&joints[k / 3], k % 3) == length {
+            if offset(joints, k / 3, k % 3) == length {
                 count += 1;
             }
             k += 1;
@@ -252,12 +252,19 @@ const fn divide(v: DVec3, s: f64) -> DVec3 {
     DVec3::new(v.x / s, v.y / s, v.z / s)
 }
 
-const fn offset(joint: &Joint, k: usize) -> f64 {
+/// Component `k` of the offset of joint `i`, or zero if no product contains it.
+const fn offset<const V: usize>(joints: &[Joint; V], i: usize, k: usize) -> f64 {
+    let joint = &joints[i];
     let constant = matches!(
         joint.motion,
         JointMotion::Turn | JointMotion::Spherical | JointMotion::Still
     );
     if joint.parent == BASE || !constant {
+        return 0.0;
+    }
+    let parent = &joints[joint.parent];
+    if k == 2 && parent.parent == BASE && matches!(parent.motion, JointMotion::Turn) {
+        // Points on an axis that stands still do not move.
         return 0.0;
     }
     match k {

@@ -53,7 +53,7 @@ impl<R: Real> Felt<R> {
         Self {
             mass: body.mass,
             moment: body.moment,
-            about: s.xx + s.yy + spin,
+            about: (s.xx + spin) + s.yy,
             between: ex * s.xz + ey * s.yz,
             of_root,
         }

@@ -69,19 +69,18 @@ impl<R: Real, const B: usize> LoopBodies<R, B> {
         }
     }
 
-    /// Those of loops between these pairs of bodies.
+    /// Those of loops between these pairs of bodies and their common ancestors.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn of<D, const Q: usize, const V: usize>(
+    pub(super) fn set<'b, D, const Q: usize, const V: usize>(
         &mut self,
         robot: &D,
-        ends: impl Iterator<Item = [usize; 2]>,
+        ends: impl Iterator<Item = (&'b [usize; 2], &'b usize)>,
         turns: &[JointCoordinate<R>; Q],
     ) where
         D: RobotModel<R, B, Q, V>,
     {
-        for ends in ends {
-            let ancestor = common_ancestor(robot, ends);
-            for end in ends {
+        for (ends, &ancestor) in ends {
+            for &end in ends {
                 for (i, _) in inward(robot, end, ancestor) {
                     if let Some(on_a_loop) = self.on_a_loop.get_mut(i) {
                         *on_a_loop = true;
@@ -123,7 +122,7 @@ impl<R: Real, const B: usize> LoopBodies<R, B> {
         turns: &[JointCoordinate<R>; Q],
         (at, mut frame): (usize, Xform<R>),
         ancestor: usize,
-        mut put: impl FnMut(usize, Motion<R>),
+        mut put: impl FnMut(usize, Column<R>),
     ) where
         D: RobotModel<R, B, Q, V>,
     {
@@ -168,41 +167,71 @@ impl<R: Real, const B: usize> LoopBodies<R, B> {
     }
 }
 
+/// A column of a Jacobian.
+#[derive(Clone, Copy)]
+pub(super) enum Column<R: Real> {
+    /// The body turns.
+    Turn(Motion<R>),
+    /// It slides along this without a turn.
+    Slide(R::Vec3),
+}
+
+impl<R: Real> Column<R> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn motion(self) -> Motion<R> {
+        match self {
+            Self::Turn(motion) => motion,
+            Self::Slide(along) => Motion::new(R::Vec3::ZERO, along),
+        }
+    }
+
+    /// −X S, the motion of the other side.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn opposite(self, x: &Xform<R>) -> Motion<R> {
+        match self {
+            Self::Turn(motion) => -(*x * motion),
+            Self::Slide(along) => Motion::new(R::Vec3::ZERO, -(x.rot * along)),
+        }
+    }
+}
+
 /// The columns of X S.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn subspace<R: Real>(
     link: &LinkView<'_, R>,
     turns: &[JointCoordinate<R>],
     x: &Xform<R>,
-    mut put: impl FnMut(usize, Motion<R>),
+    mut put: impl FnMut(usize, Column<R>),
 ) {
     let ([e_x, e_y, e_z], [r_x, r_y, r_z]) = (x.rot.cols(), x.pos.array());
     let turn_x = || Motion::new(e_x, e_z * r_y - e_y * r_z);
     let turn_y = || Motion::new(e_y, e_x * r_z - e_z * r_x);
     let turn_z = || Motion::new(e_z, e_y * r_x - e_x * r_y);
-    let slide = |along| Motion::new(R::Vec3::ZERO, along);
     let first = link.idx_v();
     match link.kind() {
-        JointKind::Revolute | JointKind::Continuous => put(first, turn_z()),
-        JointKind::Prismatic => put(first, slide(e_z)),
+        JointKind::Revolute | JointKind::Continuous => put(first, Column::Turn(turn_z())),
+        JointKind::Prismatic => put(first, Column::Slide(e_z)),
         JointKind::Universal => {
             let turn = entry(turns, link.idx_q() + 1);
-            put(first, turn_x() * turn.cos - turn_y() * turn.sin);
-            put(first + 1, turn_z());
+            put(
+                first,
+                Column::Turn(turn_x() * turn.cos - turn_y() * turn.sin),
+            );
+            put(first + 1, Column::Turn(turn_z()));
         }
         JointKind::Spherical | JointKind::Free => {
-            put(first, turn_x());
-            put(first + 1, turn_y());
-            put(first + 2, turn_z());
+            put(first, Column::Turn(turn_x()));
+            put(first + 1, Column::Turn(turn_y()));
+            put(first + 2, Column::Turn(turn_z()));
             if link.kind() == JointKind::Free {
-                put(first + 3, slide(e_x));
-                put(first + 4, slide(e_y));
-                put(first + 5, slide(e_z));
+                put(first + 3, Column::Slide(e_x));
+                put(first + 4, Column::Slide(e_y));
+                put(first + 5, Column::Slide(e_z));
             }
         }
         _ => {
             for (k, coordinate) in link.coordinates().enumerate() {
-                put(coordinate, *x * link.column(turns, k));
+                put(coordinate, Column::Turn(*x * link.column(turns, k)));
             }
         }
     }

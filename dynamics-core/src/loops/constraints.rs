@@ -15,7 +15,7 @@ use super::elimination::NONE;
 use super::error::LoopError;
 use super::joint_constraint::counts;
 use super::loop_joint::LoopJoint;
-use crate::model::{JointCoordinate, RobotModel};
+use crate::model::{BASE, JointCoordinate, RobotModel};
 use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Motion, Xform};
 use crate::state::{Configuration, RobotState, all_finite, entry};
@@ -36,6 +36,8 @@ pub struct Constraints<R: Real, const V: usize, const L: usize, const C: usize> 
     pub size: [R; C],
     /// From each predecessor's aligned loop frame to the successor's.
     poses: [Xform<R>; L],
+    /// The nearest common ancestor of the two bodies of each loop joint.
+    ancestors: [usize; L],
     /// The only loop that moves a coordinate, or [`NONE`].
     own_loop: [usize; V],
 }
@@ -220,6 +222,7 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
             velocity: [R::ZERO; C],
             size: [R::ONE; C],
             poses: [Xform::IDENTITY; L],
+            ancestors: [BASE; L],
             own_loop: [NONE; V],
         }
     }
@@ -236,10 +239,12 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
         D: RobotModel<R, B, Q, V>,
     {
         let mut is_moved = [false; V];
-        bodies.of(robot, loops.joints.iter().map(LoopJoint::bodies), turns);
+        let ends = loops.joints.each_ref().map(LoopJoint::bodies);
+        self.ancestors = ends.map(|ends| common_ancestor(robot, ends));
+        bodies.set(robot, ends.iter().zip(&self.ancestors), turns);
         for (i, (joint, [frame_p, frame_s])) in loops.ends::<R>().enumerate() {
             let [p, s] = joint.bodies();
-            let ancestor = common_ancestor(robot, [p, s]);
+            let ancestor = entry(&self.ancestors, i);
             let from_p = bodies.from_ancestor(robot, (p, frame_p), ancestor);
             let x = bodies.from_ancestor(robot, (s, frame_s), ancestor) * inverse(&from_p);
             let mut columns: Vec<(usize, Motion<R>), V> = Vec::new();
@@ -249,7 +254,7 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
                 (s, frame_s),
                 ancestor,
                 |coordinate, column| {
-                    let _ = columns.push((coordinate, column));
+                    let _ = columns.push((coordinate, column.motion()));
                 },
             );
             bodies.columns(
@@ -258,20 +263,21 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
                 (p, frame_p),
                 ancestor,
                 |coordinate, column| {
-                    let _ = columns.push((coordinate, -(x * column)));
+                    let _ = columns.push((coordinate, column.opposite(&x)));
                 },
             );
 
             let constraint = loops.constraint(joint, x);
             let rows = loops.rows(i);
             let of_loop = self.jacobian.get_mut(rows.clone()).unwrap_or_default();
+            let [rotations, _] = counts(joint.joint.kind);
             let mut squares = [R::ZERO; 2];
             for &(coordinate, column) in &columns {
-                let [ang, lin] = squares;
-                squares = [
-                    ang + column.ang.dot(column.ang),
-                    lin + column.lin.dot(column.lin),
-                ];
+                let [ang, lin] = &mut squares;
+                if rotations > 0 {
+                    *ang += column.ang.dot(column.ang);
+                }
+                *lin += column.lin.dot(column.lin);
                 for (row, x) in of_loop.iter_mut().zip(constraint.across(column)) {
                     if let Some(entry) = row.get_mut(coordinate) {
                         *entry = x;
@@ -293,7 +299,6 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
                     square * square.rsqrt()
                 }
             });
-            let [rotations, _] = counts(joint.joint.kind);
             let position = constraint.position();
             for (k, row) in rows.enumerate() {
                 if let (Some(p), Some(s)) = (self.position.get_mut(row), self.size.get_mut(row)) {
@@ -321,7 +326,7 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
         let ends = loops.ends::<R>().zip(&self.poses).enumerate();
         for (i, ((joint, [frame_p, frame_s]), &x)) in ends {
             let [p, s] = joint.bodies();
-            let ancestor = common_ancestor(robot, [p, s]);
+            let ancestor = entry(&self.ancestors, i);
             let [v_p, a_p] = bodies.motion(robot, (turns, qd), (p, frame_p), ancestor);
             let [v_s, a_s] = bodies.motion(robot, (turns, qd), (s, frame_s), ancestor);
             let v_p = x * v_p;

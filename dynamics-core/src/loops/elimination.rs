@@ -97,9 +97,9 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// The elimination of K, pivots in the coordinates `first` before those in others; `SCALED`: of rows over the sizes
-    /// of their loops.
+    /// of their loops. Those of forward dynamics are not, whose digits depend on every rounding of K.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn of<const SCALED: bool, const L: usize, const A: usize>(
+    pub(super) fn eliminate<const SCALED: bool, const L: usize, const A: usize>(
         &mut self,
         closing: &Constraints<R, V, L, C>,
         loops: &Loops<L, C, A>,
@@ -210,7 +210,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     ) -> bool {
         let mut order: Vec<(usize, usize), C> = Vec::new();
         for i in 0..L {
-            let own = |column| entry(first, column) && is_own(i, column);
+            let own = |column| is_own(i, column) && entry(first, column);
             self.forward(loops.rows(i), own, R::from_f64(LARGE), weights, &mut order);
         }
         let regular = R::from_f64(REGULAR);
@@ -221,13 +221,15 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
             weights,
             &mut order,
         );
-        let columns = first.iter().filter(|first| **first).count();
-        if order.len() < C.min(columns) {
-            return false;
-        }
-        self.forward(0..C, |_| true, regular, weights, &mut order);
         if order.len() < C {
-            return false;
+            let columns = first.iter().filter(|first| **first).count();
+            if order.len() < columns {
+                return false;
+            }
+            self.forward(0..C, |_| true, regular, weights, &mut order);
+            if order.len() < C {
+                return false;
+            }
         }
         self.find_free();
         self.substitute_back(&order);
@@ -276,7 +278,10 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
             let Some((of_row, of_column)) = place else {
                 break;
             };
-            let (row, column) = (open.swap_remove(of_row), columns.swap_remove(of_column));
+            let taken = (take(&mut open, of_row), take(&mut columns, of_column));
+            let (Some(row), Some(column)) = taken else {
+                break;
+            };
             if let (Some(of_row), Some(of_column)) =
                 (self.column_of.get_mut(row), self.row_of.get_mut(column))
             {
@@ -441,6 +446,16 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         }
         lambda
     }
+}
+
+/// Removes a number from a list without an order.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn take<const N: usize>(list: &mut Vec<usize, N>, at: usize) -> Option<usize> {
+    let taken = list.get(at).copied();
+    if let (Some(last), Some(place)) = (list.pop(), list.get_mut(at)) {
+        *place = last;
+    }
+    taken
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]

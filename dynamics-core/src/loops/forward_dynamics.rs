@@ -1,7 +1,7 @@
 //! Forward dynamics with kinematic loops.
 //!
-//! Featherstone, RBDA (2008), section 8.1: M q̈ + C = τ + Kᵀ λ and K q̈ = k. By the factors of the tree's M and a
-//! triangle of the constrained mobility, K M⁻¹ Kᵀ = R Rᵀ, over the independent rows of K.
+//! Featherstone, RBDA (2008), section 8.1: M q̈ + C = τ + Kᵀ λ and K q̈ = k. By the factors of the tree's M, in the
+//! coordinates that the elimination of K leaves free: q̈ = G ÿ + ġ, section 8.11.
 
 use core::borrow::Borrow;
 
@@ -9,7 +9,7 @@ use super::chain::LoopBodies;
 use super::description::Loops;
 use super::elimination::{Elimination, LoopRows, subtract};
 use super::error::LoopError;
-use super::mass_root::{Metric, Orthogonal, reaction};
+use super::least_constraint::{Metric, Orthogonal, reaction};
 use super::{Constraints, Stabilisation};
 use crate::algorithms::{crba, ltdl, rnea};
 use crate::effects::{Bias, Effect, no_load_friction};
@@ -45,11 +45,11 @@ pub struct LoopMotion<R: Real, const V: usize, const L: usize, const C: usize> {
 ///
 /// # Cost
 /// That of [`rnea`](crate::algorithms::rnea()), [`crba`](crate::algorithms::crba()),
-/// [`ltdl`](crate::algorithms::ltdl()) and [`constraints()`]; of rank r 2 C V r flops for the elimination, 2 r V² for
-/// the response and 4 r² V for its triangle.
+/// [`ltdl`](crate::algorithms::ltdl()), [`constraints()`] and [`coordinate_map`](super::coordinate_map()); with n degrees
+/// of freedom 4 n² V flops for the motion.
 ///
 /// # Source
-/// Featherstone, RBDA (2008), sections 8.1 and 8.3.
+/// Featherstone, RBDA (2008), sections 8.1, 8.3 and 8.11.
 ///
 /// # Example
 /// ```
@@ -123,7 +123,7 @@ where
     closing.set_rates(robot, loops, &bodies, (turns, &state.qd));
     closing.check(loops)?;
     let mut elimination = Elimination::blank();
-    elimination.of::<false, L, A>(&closing, loops, &[true; V]);
+    elimination.eliminate::<false, L, A>(&closing, loops, &[true; V]);
     let rows = elimination.loop_rows();
 
     let mut rest = rnea(robot, trig.with(state), &Bias(effects)).map(|bias| -bias);
@@ -152,7 +152,7 @@ where
     let motions = elimination.free().rev();
     let motions = motions.map(|free| metric.of_acceleration(&elimination.motion(free)));
     let mut orthogonal = Orthogonal::blank();
-    orthogonal.of(&metric, motions);
+    orthogonal.set(&metric, motions);
     let nearest = orthogonal.nearest(apart);
     let mut independent = [R::ZERO; V];
     for (free, ydd) in elimination.free().rev().zip(nearest) {

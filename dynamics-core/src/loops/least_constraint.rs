@@ -41,7 +41,7 @@ impl<'a, R: Real, const V: usize> Metric<'a, R, V> {
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn parent(&self, i: usize) -> usize {
-        entry_or_base(self.lambda, i)
+        parent_of(self.lambda, i)
     }
 
     /// L⁻ᵀ τ. V² flops on a chain, less on a tree. RBDA (2008), table 6.5.
@@ -111,7 +111,7 @@ impl<R: Real, const V: usize> Orthogonal<R, V> {
 
     /// The columns of W, by the modified method of Gram and Schmidt, twice for each column.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn of(&mut self, metric: &Metric<'_, R, V>, columns: impl Iterator<Item = [R; V]>) {
+    pub(super) fn set(&mut self, metric: &Metric<'_, R, V>, columns: impl Iterator<Item = [R; V]>) {
         let least = R::EPSILON * R::from_f64(ROUNDINGS);
         for mut q in columns {
             let mut r = [R::ZERO; V];
@@ -174,13 +174,13 @@ where
     let mut reaction = [R::ZERO; V];
     for (i, (row, &x_i)) in m.rows.iter().zip(x).enumerate() {
         let mut sum = entry(row, i) * x_i;
-        let mut j = entry_or_base(lambda, i);
+        let mut j = parent_of(lambda, i);
         while let (Some(sum_j), Some(&x_j), Some(&m_ij)) =
             (reaction.get_mut(j), x.get(j), row.get(j))
         {
             *sum_j += m_ij * x_i;
             sum += m_ij * x_j;
-            j = entry_or_base(lambda, j);
+            j = parent_of(lambda, j);
         }
         if let Some(sum_i) = reaction.get_mut(i) {
             *sum_i = sum;
@@ -191,6 +191,6 @@ where
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn entry_or_base<const V: usize>(lambda: &[usize; V], i: usize) -> usize {
+fn parent_of<const V: usize>(lambda: &[usize; V], i: usize) -> usize {
     lambda.get(i).copied().unwrap_or(BASE)
 }

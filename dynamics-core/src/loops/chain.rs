@@ -97,7 +97,7 @@ impl<R: Real, const B: usize> LoopBodies<R, B> {
 
     /// From the aligned frame of `ancestor` to a frame on body `at`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn from_ancestor<D, const Q: usize, const V: usize>(
+    pub(super) fn of_frame<D, const Q: usize, const V: usize>(
         &self,
         robot: &D,
         (at, mut frame): (usize, Xform<R>),

@@ -245,8 +245,8 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
         for (i, (joint, [frame_p, frame_s])) in loops.ends::<R>().enumerate() {
             let [p, s] = joint.bodies();
             let ancestor = entry(&self.ancestors, i);
-            let from_p = bodies.from_ancestor(robot, (p, frame_p), ancestor);
-            let x = bodies.from_ancestor(robot, (s, frame_s), ancestor) * inverse(&from_p);
+            let from_p = bodies.of_frame(robot, (p, frame_p), ancestor);
+            let x = bodies.of_frame(robot, (s, frame_s), ancestor) * inverse(&from_p);
             let mut columns: Vec<(usize, Motion<R>), V> = Vec::new();
             bodies.columns(
                 robot,

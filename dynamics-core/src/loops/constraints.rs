@@ -6,12 +6,16 @@
 
 use core::borrow::Borrow;
 
+use heapless::Vec;
+
 use super::Stabilisation;
-use super::chain::{climb, common_ancestor, inverse};
+use super::chain::{LoopBodies, common_ancestor, inverse};
 use super::description::Loops;
+use super::elimination::NONE;
 use super::error::LoopError;
 use super::joint_constraint::counts;
-use crate::model::RobotModel;
+use super::loop_joint::LoopJoint;
+use crate::model::{BASE, JointCoordinate, RobotModel};
 use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Motion, Xform};
 use crate::state::{Configuration, RobotState, all_finite, entry};
@@ -32,6 +36,10 @@ pub struct Constraints<R: Real, const V: usize, const L: usize, const C: usize> 
     pub size: [R; C],
     /// From each predecessor's aligned loop frame to the successor's.
     poses: [Xform<R>; L],
+    /// The nearest common ancestor of the two bodies of each loop joint.
+    ancestors: [usize; L],
+    /// The only loop that moves a coordinate, or [`NONE`].
+    own_loop: [usize; V],
 }
 
 impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, L, C> {
@@ -107,19 +115,28 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
         loops.wrench(i, pose.unwrap_or(Xform::IDENTITY), lambda)
     }
 
+    /// Whether coordinate `i` moves loop `of` and no other.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn is_own(&self, i: usize, of: usize) -> bool {
+        self.own_loop.get(i) == Some(&of)
+    }
+
     /// # Errors
     /// [`LoopError::NotFinite`] with the name of the first loop of which a number is not finite.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn check<const A: usize>(&self, loops: &Loops<L, C, A>) -> Result<(), LoopError> {
-        for (row, entries) in self.jacobian.iter().enumerate() {
-            let others = [self.bias, self.position, self.velocity, self.size];
-            let others = others.map(|column| entry(&column, row));
-            if !(all_finite(entries) & all_finite(&others)) {
-                let name = loops.name_of_row(row);
-                return Err(LoopError::NotFinite { name });
-            }
+        // The size of a loop is not finite where an entry of K is not.
+        let all = [&self.size, &self.position, &self.velocity, &self.bias];
+        if all.iter().all(|of_rows| all_finite(&of_rows[..])) {
+            return Ok(());
         }
-        Ok(())
+        let is_finite = |row: &usize| {
+            all.iter()
+                .all(|of_rows| entry(&of_rows[..], *row).is_finite())
+        };
+        let row = (0..C).find(|row| !is_finite(row)).unwrap_or_default();
+        let name = loops.name_of_row(row);
+        Err(LoopError::NotFinite { name })
     }
 }
 
@@ -186,75 +203,144 @@ where
     D: RobotModel<R, B, Q, V>,
 {
     let trig = state.configuration().trig_of(robot);
-    let (turns, qd) = (&trig.borrow().coordinates, &state.state().qd);
-    let mut all = Constraints {
-        jacobian: [[R::ZERO; V]; C],
-        bias: [R::ZERO; C],
-        position: [R::ZERO; C],
-        velocity: [R::ZERO; C],
-        size: [R::ONE; C],
-        poses: [Xform::IDENTITY; L],
-    };
-    for (i, (joint, [frame_p, frame_s])) in loops.ends::<R>().enumerate() {
-        let [p, s] = joint.bodies();
-        let ancestor = common_ancestor(robot, p, s);
-        let mut columns = [Motion::ZERO; V];
-        let predecessor = climb(robot, (turns, qd), (p, frame_p), ancestor, &mut columns);
-        let successor = climb(robot, (turns, qd), (s, frame_s), ancestor, &mut columns);
-        let x = successor.x * inverse(&predecessor.x);
-        let mut at = p;
-        while at != ancestor {
-            let Some(link) = robot.link(at) else {
-                break;
-            };
-            for column in columns.get_mut(link.coordinates()).unwrap_or_default() {
-                *column = -(x * *column);
-            }
-            at = link.parent;
-        }
-        let v_p = x * predecessor.v;
-        let v = successor.v - v_p;
-        let a = successor.a - x * predecessor.a + v.cross(v_p);
+    let turns = &trig.borrow().coordinates;
+    let mut all = Constraints::blank();
+    let mut bodies = LoopBodies::blank();
+    all.set_positions(robot, loops, turns, &mut bodies);
+    all.set_rates(robot, loops, &bodies, (turns, &state.state().qd));
+    all
+}
 
-        let constraint = loops.constraint(joint, x);
-        let squares = columns.iter().fold([R::ZERO; 2], |[ang, lin], c| {
-            [ang + c.ang.dot(c.ang), lin + c.lin.dot(c.lin)]
-        });
-        let sizes = squares.map(|square| {
-            // A NaN remains one.
-            if square == R::ZERO {
-                R::ONE
-            } else {
-                square * square.rsqrt()
+impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, L, C> {
+    /// Nothing, to be filled where it stands: it is large.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn blank() -> Self {
+        Self {
+            jacobian: [[R::ZERO; V]; C],
+            bias: [R::ZERO; C],
+            position: [R::ZERO; C],
+            velocity: [R::ZERO; C],
+            size: [R::ONE; C],
+            poses: [Xform::IDENTITY; L],
+            ancestors: [BASE; L],
+            own_loop: [NONE; V],
+        }
+    }
+
+    /// K and φ of constraints that are blank, and the bodies between the ends of the loops.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn set_positions<D, const B: usize, const Q: usize, const A: usize>(
+        &mut self,
+        robot: &D,
+        loops: &Loops<L, C, A>,
+        turns: &[JointCoordinate<R>; Q],
+        bodies: &mut LoopBodies<R, B>,
+    ) where
+        D: RobotModel<R, B, Q, V>,
+    {
+        let mut is_moved = [false; V];
+        let ends = loops.joints.each_ref().map(LoopJoint::bodies);
+        self.ancestors = ends.map(|ends| common_ancestor(robot, ends));
+        bodies.set(robot, ends.iter().zip(&self.ancestors), turns);
+        for (i, (joint, [frame_p, frame_s])) in loops.ends::<R>().enumerate() {
+            let [p, s] = joint.bodies();
+            let ancestor = entry(&self.ancestors, i);
+            let from_p = bodies.of_frame(robot, (p, frame_p), ancestor);
+            let x = bodies.of_frame(robot, (s, frame_s), ancestor) * inverse(&from_p);
+            let mut columns: Vec<(usize, Motion<R>), V> = Vec::new();
+            bodies.columns(
+                robot,
+                turns,
+                (s, frame_s),
+                ancestor,
+                |coordinate, column| {
+                    let _ = columns.push((coordinate, column.motion()));
+                },
+            );
+            bodies.columns(
+                robot,
+                turns,
+                (p, frame_p),
+                ancestor,
+                |coordinate, column| {
+                    let _ = columns.push((coordinate, column.opposite(&x)));
+                },
+            );
+
+            let constraint = loops.constraint(joint, x);
+            let rows = loops.rows(i);
+            let of_loop = self.jacobian.get_mut(rows.clone()).unwrap_or_default();
+            let [rotations, _] = counts(joint.joint.kind);
+            let mut squares = [R::ZERO; 2];
+            for &(coordinate, column) in &columns {
+                let [ang, lin] = &mut squares;
+                if rotations > 0 {
+                    *ang += column.ang.dot(column.ang);
+                }
+                *lin += column.lin.dot(column.lin);
+                for (row, x) in of_loop.iter_mut().zip(constraint.across(column)) {
+                    if let Some(entry) = row.get_mut(coordinate) {
+                        *entry = x;
+                    }
+                }
+                if let (Some(own), Some(is_moved)) = (
+                    self.own_loop.get_mut(coordinate),
+                    is_moved.get_mut(coordinate),
+                ) {
+                    *own = if *is_moved { NONE } else { i };
+                    *is_moved = true;
+                }
             }
-        });
-        let [rotations, _] = counts(joint.joint.kind);
-        let (position, velocity) = (constraint.position(), constraint.across(v));
-        let (known, apparent) = (constraint.across(a), constraint.apparent(v));
-        for (k, row) in loops.rows(i).enumerate() {
-            if let (Some(p), Some(v), Some(b), Some(s)) = (
-                all.position.get_mut(row),
-                all.velocity.get_mut(row),
-                all.bias.get_mut(row),
-                all.size.get_mut(row),
-            ) {
-                (*p, *v) = (entry(&position, k), entry(&velocity, k));
-                *b = -(entry(&known, k) + entry(&apparent, k));
-                *s = if k < rotations { sizes[0] } else { sizes[1] };
+            let sizes = squares.map(|square| {
+                // A NaN remains one.
+                if square == R::ZERO {
+                    R::ONE
+                } else {
+                    square * square.rsqrt()
+                }
+            });
+            let position = constraint.position();
+            for (k, row) in rows.enumerate() {
+                if let (Some(p), Some(s)) = (self.position.get_mut(row), self.size.get_mut(row)) {
+                    *p = entry(&position, k);
+                    *s = if k < rotations { sizes[0] } else { sizes[1] };
+                }
+            }
+            if let Some(pose) = self.poses.get_mut(i) {
+                *pose = x;
             }
         }
-        for (coordinate, column) in columns.iter().enumerate() {
-            let column = constraint.across(*column);
-            let rows = all.jacobian.get_mut(loops.rows(i)).unwrap_or_default();
-            for (row, x) in rows.iter_mut().zip(column) {
-                if let Some(entry) = row.get_mut(coordinate) {
-                    *entry = x;
+    }
+
+    /// K q̇ and k.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn set_rates<D, const B: usize, const Q: usize, const A: usize>(
+        &mut self,
+        robot: &D,
+        loops: &Loops<L, C, A>,
+        bodies: &LoopBodies<R, B>,
+        (turns, qd): (&[JointCoordinate<R>; Q], &[R; V]),
+    ) where
+        D: RobotModel<R, B, Q, V>,
+    {
+        let ends = loops.ends::<R>().zip(&self.poses).enumerate();
+        for (i, ((joint, [frame_p, frame_s]), &x)) in ends {
+            let [p, s] = joint.bodies();
+            let ancestor = entry(&self.ancestors, i);
+            let [v_p, a_p] = bodies.motion(robot, (turns, qd), (p, frame_p), ancestor);
+            let [v_s, a_s] = bodies.motion(robot, (turns, qd), (s, frame_s), ancestor);
+            let v_p = x * v_p;
+            let v = v_s - v_p;
+            let a = a_s - x * a_p + v.cross(v_p);
+            let constraint = loops.constraint(joint, x);
+            let velocity = constraint.across(v);
+            let (known, apparent) = (constraint.across(a), constraint.apparent(v));
+            for (k, row) in loops.rows(i).enumerate() {
+                if let (Some(v), Some(b)) = (self.velocity.get_mut(row), self.bias.get_mut(row)) {
+                    *v = entry(&velocity, k);
+                    *b = -(entry(&known, k) + entry(&apparent, k));
                 }
             }
         }
-        if let Some(pose) = all.poses.get_mut(i) {
-            *pose = x;
-        }
     }
-    all
 }

@@ -5,9 +5,10 @@
 
 use core::borrow::Borrow;
 
+use super::chain::LoopBodies;
 use super::constraints::over;
 use super::description::Loops;
-use super::elimination::{Elimination, LoopRows, dot, eliminate};
+use super::elimination::{Elimination, LoopRows, dot, subtract};
 use super::error::LoopError;
 use super::status::OPEN;
 use super::{Constraints, constraints};
@@ -109,19 +110,37 @@ where
     D: RobotModel<R, B, Q, V>,
 {
     let trig = q.trig_of(robot);
-    let rest = State::at([R::ZERO; Q]);
-    let closing = constraints(robot, loops, trig.borrow().with(&rest));
-    CoordinateMap::of(robot, loops, trig.borrow(), &closing)
+    let mut closing = Constraints::blank();
+    let turns = &trig.borrow().coordinates;
+    closing.set_positions(robot, loops, turns, &mut LoopBodies::blank());
+    let mut map = CoordinateMap::blank(loops);
+    map.set(robot, loops, trig.borrow(), &closing)?;
+    Ok(map)
 }
 
 impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V, C, A> {
+    /// Nothing, to be filled where it stands: it is large.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn of<D, const B: usize, const Q: usize, const L: usize>(
+    pub(super) fn blank<const L: usize>(loops: &Loops<L, C, A>) -> Self {
+        let elimination = Elimination::blank();
+        Self {
+            rows: elimination.loop_rows(),
+            elimination,
+            size: [R::ONE; C],
+            singular: None,
+            actuated: loops.actuated,
+            independent: [false; A],
+        }
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn set<D, const B: usize, const Q: usize, const L: usize>(
+        &mut self,
         robot: &D,
         loops: &Loops<L, C, A>,
         trig: &JointTrig<R, Q>,
         closing: &Constraints<R, V, L, C>,
-    ) -> Result<Self, LoopError>
+    ) -> Result<(), LoopError>
     where
         D: RobotModel<R, B, Q, V>,
     {
@@ -131,9 +150,11 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
             let (name, error) = (loops.name_of_row(row), error.to_f64());
             return Err(LoopError::Open { name, error });
         }
-        let (passive, scaled) = (loops.passive(), closing.scaled());
-        let mut elimination = eliminate(scaled, &passive);
-        let rows = elimination.loop_rows();
+        let passive = loops.passive();
+        self.size = closing.size;
+        let elimination = &mut self.elimination;
+        elimination.eliminate::<true, L, A>(closing, loops, &passive);
+        self.rows = elimination.loop_rows();
         for joint in elimination.free().filter(|&joint| entry(&passive, joint)) {
             let bias = |qd| {
                 let moving = State {
@@ -148,26 +169,18 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
             }
         }
         let threshold = R::select(loops.threshold.0, loops.threshold.1);
-        let singular = if elimination.is_regular(&passive, threshold) {
+        self.singular = if elimination.is_regular(&passive, threshold) {
             None
         } else {
-            let joint = elimination.damp(&scaled, &passive, threshold);
+            let joint = elimination.damp(&closing.scaled(), &passive, threshold);
             joint.map(|joint| (closing.name_of(loops, joint), joint))
         };
-        let mut independent = [false; A];
         for joint in elimination.free() {
-            for (independent, &actuated) in independent.iter_mut().zip(&loops.actuated) {
+            for (independent, &actuated) in self.independent.iter_mut().zip(&self.actuated) {
                 *independent |= actuated == joint;
             }
         }
-        Ok(Self {
-            elimination,
-            size: closing.size,
-            rows,
-            singular,
-            actuated: loops.actuated,
-            independent,
-        })
+        Ok(())
     }
 
     /// The number of independent coordinates; of actuated ones where the map is damped.
@@ -199,14 +212,15 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     /// q̇ = G ẏ from the rates of the actuated coordinates; of a redundantly driven robot the independent ones count.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn velocity(&self, rates: &[R; A]) -> [R; V] {
-        self.elimination.complete(self.spread(rates), &[R::ZERO; C])
+        self.elimination.complete(&self.spread(rates))
     }
 
     /// q̈ = G ÿ + ġ from the accelerations of the actuated coordinates and the k of [`Constraints::bias`].
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn acceleration(&self, accelerations: &[R; A], bias: &[R; C]) -> [R; V] {
-        self.elimination
-            .complete(self.spread(accelerations), &over(*bias, &self.size))
+        let mut qdd = self.elimination.particular(&over(*bias, &self.size));
+        subtract(&mut qdd, -R::ONE, &self.velocity(accelerations));
+        qdd
     }
 
     /// The torques of the actuated coordinates that do what torques of all coordinates would: Gᵀ τ_a = Gᵀ τ, N·m or N.

@@ -10,7 +10,7 @@ use super::joint_constraint::{JointConstraint, MOST, counts};
 use super::loop_frame::{Both, Frame, both, select};
 use super::loop_joint::{BodyFrame, LoopJoint};
 use super::reach;
-use crate::model::{BASE, Joint, Model};
+use crate::model::{BASE, Joint, JointKind, Model};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::{Force, Xform};
 
@@ -228,11 +228,12 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn constraint<R: Real>(&self, joint: &LoopJoint, x: Xform<R>) -> JointConstraint<R> {
-        JointConstraint {
-            kind: joint.joint.kind,
-            pitch: R::from_f64(joint.joint.pitch),
-            x,
-        }
+        let kind = joint.joint.kind;
+        let pitch = match kind {
+            JointKind::Helical => R::from_f64(joint.joint.pitch),
+            _ => R::ZERO,
+        };
+        JointConstraint { kind, pitch, x }
     }
 
     /// Each loop joint, with the transforms from the aligned frames of its predecessor and successor to its own.

@@ -2,7 +2,17 @@
 //!
 //! Golub & Van Loan, *Matrix Computations*, section 3.4. Rows are compared relative to the sizes of their loops, so
 //! that neither the unit of length nor rounding errors of a direction in which nothing moves decide.
+//!
+//! Where several loops share coordinates, those that move one loop only come first, while their pivots are large: their
+//! columns are zero in the rows of all other loops, and so is the transform of a loop's rows. Duff, Erisman & Reid,
+//! *Direct Methods for Sparse Matrices* (1986), chapter 7.
 
+use core::ops::Range;
+
+use heapless::Vec;
+
+use super::Constraints;
+use super::description::Loops;
 use crate::math::const_eval as m;
 use crate::scalar::Real;
 use crate::state::entry;
@@ -27,6 +37,13 @@ pub(super) const fn thresholds(given: f64, rows: usize, passive: usize) -> (f64,
     (given.max(double), (given as f32).max(single))
 }
 
+/// The least pivot, relative to the size of a loop, of a coordinate that moves this loop only.
+const LARGE: f64 = 0.0625;
+
+/// The least pivot, relative to the size of a loop, with which the order of the pivots does not matter: some times the
+/// threshold of the rank in f32.
+const REGULAR: f64 = 3.0 * SINGULAR;
+
 /// No row, or no column.
 pub(super) const NONE: usize = usize::MAX;
 
@@ -47,25 +64,12 @@ impl<const C: usize> LoopRows<C> {
         let rows = self.independent.iter().enumerate();
         rows.filter_map(|(row, independent)| (!independent).then_some(row))
     }
-
-    /// Also leaves out independent rows that differ from a combination of others by no more than rounding errors.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn keep(&mut self, keeps: impl Fn(usize) -> bool) {
-        for (row, independent) in self.independent.iter_mut().enumerate() {
-            *independent &= keeps(row);
-        }
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn has(&self, row: usize) -> bool {
-        entry(&self.independent, row)
-    }
 }
 
 /// T K = K', with a unit column for each pivot, and zero but for rounding in the rows without one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Elimination<R, const V: usize, const C: usize> {
-    /// K'.
+    /// K', of which nothing but the columns without a pivot is read.
     pub(super) rows: [[R; V]; C],
     /// T.
     pub(super) transform: [[R; C]; C],
@@ -73,47 +77,90 @@ pub(super) struct Elimination<R, const V: usize, const C: usize> {
     pub(super) column_of: [usize; C],
     /// The row of each column's pivot.
     pub(super) row_of: [usize; V],
-}
-
-/// The elimination of `rows`, pivots in the coordinates `first` before those in others.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn eliminate<R: Real, const V: usize, const C: usize>(
-    rows: [[R; V]; C],
-    first: &[bool; V],
-) -> Elimination<R, V, C> {
-    let mut done = Elimination {
-        rows,
-        transform: [[R::ZERO; C]; C],
-        column_of: [NONE; C],
-        row_of: [NONE; V],
-    };
-    for (i, row) in done.transform.iter_mut().enumerate() {
-        row[i] = R::ONE;
-    }
-    for stage in [true, false] {
-        for _ in 0..C {
-            let Some((row, column)) = done.largest(|column| entry(first, column) == stage) else {
-                break;
-            };
-            done.pivot(row, column);
-        }
-    }
-    done
+    /// The columns without a pivot, and how many there are.
+    free: [usize; V],
+    freedom: usize,
 }
 
 impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
+    /// Nothing, to be filled where it stands: it is large.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn blank() -> Self {
+        Self {
+            rows: [[R::ZERO; V]; C],
+            transform: [[R::ZERO; C]; C],
+            column_of: [NONE; C],
+            row_of: [NONE; V],
+            free: [NONE; V],
+            freedom: 0,
+        }
+    }
+
+    /// The elimination of K, pivots in the coordinates `first` before those in others; `SCALED`: of rows over the sizes
+    /// of their loops. Those of forward dynamics are not, whose digits depend on every rounding of K.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn eliminate<const SCALED: bool, const L: usize, const A: usize>(
+        &mut self,
+        closing: &Constraints<R, V, L, C>,
+        loops: &Loops<L, C, A>,
+        first: &[bool; V],
+    ) {
+        let scale = closing.size.map(|size| R::ONE / size);
+        // With more rows than coordinates some depend on others.
+        if L > 1 && C <= V {
+            self.rows = closing.jacobian;
+            for (i, (transform, &size)) in self.transform.iter_mut().zip(&closing.size).enumerate()
+            {
+                // T of rows as they are times the sizes is T of rows over the sizes.
+                transform[i] = if SCALED { size } else { R::ONE };
+            }
+            let own = |i, column| closing.is_own(column, i);
+            if self.loop_by_loop(loops, first, own, &scale) {
+                return;
+            }
+        }
+        let rows = self.rows.iter_mut().zip(&mut self.transform);
+        let rows = rows.zip(closing.jacobian.iter().zip(&scale)).enumerate();
+        for (i, ((row, transform), (of_k, &scale))) in rows {
+            *transform = [R::ZERO; C];
+            transform[i] = R::ONE;
+            for (entry, &of_k) in row.iter_mut().zip(of_k) {
+                *entry = if SCALED { of_k * scale } else { of_k };
+            }
+        }
+        (self.column_of, self.row_of) = ([NONE; C], [NONE; V]);
+        let weights = if SCALED { [R::ONE; C] } else { scale };
+        self.completely(first, &weights);
+    }
+
+    /// With complete pivoting.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn completely(&mut self, first: &[bool; V], weights: &[R; C]) {
+        for stage in [true, false] {
+            for _ in 0..C {
+                let largest = self.largest(|column| entry(first, column) == stage, weights);
+                let Some((row, column)) = largest else {
+                    break;
+                };
+                self.pivot(row, column);
+            }
+        }
+        self.find_free();
+    }
+
     /// The largest entry of the rows and columns without a pivot.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn largest(&self, allowed: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
+    fn largest(&self, allowed: impl Fn(usize) -> bool, weights: &[R; C]) -> Option<(usize, usize)> {
         let (mut largest, mut place) = (R::select(RANK_TOLERANCE.0, RANK_TOLERANCE.1), None);
-        for (i, row) in self.rows.iter().enumerate() {
+        for (i, (row, &weight)) in self.rows.iter().zip(weights).enumerate() {
             if entry(&self.column_of, i) != NONE {
                 continue;
             }
             for (j, entry_ij) in row.iter().enumerate() {
                 let free = entry(&self.row_of, j) == NONE && allowed(j);
-                if free && entry_ij.abs() > largest {
-                    (largest, place) = (entry_ij.abs(), Some((i, j)));
+                let size = entry_ij.abs() * weight;
+                if free && size > largest {
+                    (largest, place) = (size, Some((i, j)));
                 }
             }
         }
@@ -151,6 +198,169 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         }
     }
 
+    /// Pivots in each loop's own coordinates first; whether every row, or every coordinate of `first`, has a pivot that
+    /// is not near to singular: there complete pivoting decides.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn loop_by_loop<const L: usize, const A: usize>(
+        &mut self,
+        loops: &Loops<L, C, A>,
+        first: &[bool; V],
+        is_own: impl Fn(usize, usize) -> bool,
+        weights: &[R; C],
+    ) -> bool {
+        let mut order: Vec<(usize, usize), C> = Vec::new();
+        for i in 0..L {
+            let own = |column| is_own(i, column) && entry(first, column);
+            self.forward(loops.rows(i), own, R::from_f64(LARGE), weights, &mut order);
+        }
+        let regular = R::from_f64(REGULAR);
+        self.forward(
+            0..C,
+            |column| entry(first, column),
+            regular,
+            weights,
+            &mut order,
+        );
+        if order.len() < C {
+            let columns = first.iter().filter(|first| **first).count();
+            if order.len() < columns {
+                return false;
+            }
+            self.forward(0..C, |_| true, regular, weights, &mut order);
+            if order.len() < C {
+                return false;
+            }
+        }
+        self.find_free();
+        self.substitute_back(&order);
+        true
+    }
+
+    /// Pivots of more than `least` in some rows and the columns allowed, the largest first. Makes the rest of their
+    /// columns zero in the rows without a pivot.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn forward(
+        &mut self,
+        rows: Range<usize>,
+        allowed: impl Fn(usize) -> bool,
+        least: R,
+        weights: &[R; C],
+        order: &mut Vec<(usize, usize), C>,
+    ) {
+        if order.len() == C {
+            return;
+        }
+        let mut columns: Vec<usize, V> = Vec::new();
+        for (column, &row) in self.row_of.iter().enumerate() {
+            if row == NONE && allowed(column) {
+                let _ = columns.push(column);
+            }
+        }
+        let mut open: Vec<usize, C> = Vec::new();
+        for i in rows.clone() {
+            if entry(&self.column_of, i) == NONE {
+                let _ = open.push(i);
+            }
+        }
+        loop {
+            let (mut largest, mut place) = (least, None);
+            for (of_row, &i) in open.iter().enumerate() {
+                let (Some(row), weight) = (self.rows.get(i), entry(weights, i)) else {
+                    continue;
+                };
+                for (of_column, &column) in columns.iter().enumerate() {
+                    let size = entry(row, column).abs() * weight;
+                    if size > largest {
+                        (largest, place) = (size, Some((of_row, of_column)));
+                    }
+                }
+            }
+            let Some((of_row, of_column)) = place else {
+                break;
+            };
+            let taken = (take(&mut open, of_row), take(&mut columns, of_column));
+            let (Some(row), Some(column)) = taken else {
+                break;
+            };
+            if let (Some(of_row), Some(of_column)) =
+                (self.column_of.get_mut(row), self.row_of.get_mut(column))
+            {
+                (*of_row, *of_column) = (column, row);
+            }
+            let _ = order.push((row, column));
+            let pivot = self.rows.get(row).map(|row| entry(row, column));
+            let reciprocal = R::ONE / pivot.unwrap_or_default();
+            for &i in &open {
+                let Ok([pivot_row, other]) = self.rows.get_disjoint_mut([row, i]) else {
+                    continue;
+                };
+                let factor = entry(other, column) * reciprocal;
+                if factor != R::ZERO {
+                    subtract(other, factor, pivot_row);
+                    if let Ok([pivot, other]) = self.transform.get_disjoint_mut([row, i]) {
+                        // The transform of a loop's rows is of these alone.
+                        let pivot = pivot.get(rows.clone()).unwrap_or_default();
+                        let other = other.get_mut(rows.clone()).unwrap_or_default();
+                        for (other, &pivot) in other.iter_mut().zip(pivot) {
+                            *other -= factor * pivot;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Makes the columns with a pivot unit columns, from the last pivot to the first.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn substitute_back(&mut self, mut order: &[(usize, usize)]) {
+        let free = self.free.get(..self.freedom).unwrap_or_default();
+        while let Some((&(row, column), before)) = order.split_last() {
+            order = before;
+            let (Some(pivot_row), Some(pivot_transform)) =
+                (self.rows.get_mut(row), self.transform.get_mut(row))
+            else {
+                break;
+            };
+            let reciprocal = R::ONE / entry(pivot_row, column);
+            let mut of_free: Vec<(usize, R), V> = Vec::new();
+            for &free in free {
+                if let Some(entry) = pivot_row.get_mut(free) {
+                    *entry *= reciprocal;
+                    let _ = of_free.push((free, *entry));
+                }
+            }
+            pivot_transform.iter_mut().for_each(|x| *x *= reciprocal);
+            for &(i, _) in before {
+                let Some(other) = self.rows.get_mut(i) else {
+                    continue;
+                };
+                let factor = entry(other, column);
+                if factor != R::ZERO {
+                    for &(free, x) in &of_free {
+                        if let Some(other) = other.get_mut(free) {
+                            *other -= factor * x;
+                        }
+                    }
+                    if let Ok([pivot, other]) = self.transform.get_disjoint_mut([row, i]) {
+                        subtract(other, factor, pivot);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Lists the columns without a pivot.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn find_free(&mut self) {
+        self.freedom = 0;
+        for (column, &row) in self.row_of.iter().enumerate() {
+            if let (NONE, Some(free)) = (row, self.free.get_mut(self.freedom)) {
+                *free = column;
+                self.freedom += 1;
+            }
+        }
+    }
+
     /// Which rows have a pivot.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn loop_rows(&self) -> LoopRows<C> {
@@ -161,9 +371,9 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
 
     /// The coordinates without a pivot, which the others depend on.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn free(&self) -> impl Iterator<Item = usize> {
-        let columns = self.row_of.iter().enumerate();
-        columns.filter_map(|(column, &row)| (row == NONE).then_some(column))
+    pub(super) fn free(&self) -> impl DoubleEndedIterator<Item = usize> {
+        let free = self.free.get(..self.freedom).unwrap_or_default();
+        free.iter().copied()
     }
 
     /// The row of the pivot of a column.
@@ -172,16 +382,43 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         self.rows.get(entry(&self.row_of, column))
     }
 
-    /// x with K x = `right`, of given free coordinates; `right` over the sizes of the loops, as the rows.
+    /// x with K x = 0, of given free coordinates.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn complete(&self, free: [R; V], right: &[R; C]) -> [R; V] {
-        let mut x = free;
-        for ((row, transform), &column) in
-            self.rows.iter().zip(&self.transform).zip(&self.column_of)
-        {
+    pub(super) fn complete(&self, free: &[R; V]) -> [R; V] {
+        let mut x = *free;
+        for (row, &column) in self.rows.iter().zip(&self.column_of) {
             if let Some(x) = x.get_mut(column) {
-                *x = dot(transform, right) - self.of_free(row, &free);
+                *x = self
+                    .free()
+                    .fold(R::ZERO, |sum, j| sum - entry(row, j) * entry(free, j));
             }
+        }
+        x
+    }
+
+    /// x with K x = `right`, of free coordinates that are zero.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn particular(&self, right: &[R; C]) -> [R; V] {
+        let mut x = [R::ZERO; V];
+        for (transform, &column) in self.transform.iter().zip(&self.column_of) {
+            if let Some(x) = x.get_mut(column) {
+                *x = dot(transform, right);
+            }
+        }
+        x
+    }
+
+    /// The column of G of a free coordinate: the motion of all at its unit rate.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn motion(&self, free: usize) -> [R; V] {
+        let mut x = [R::ZERO; V];
+        for (row, &column) in self.rows.iter().zip(&self.column_of) {
+            if let Some(x) = x.get_mut(column) {
+                *x = -entry(row, free);
+            }
+        }
+        if let Some(x) = x.get_mut(free) {
+            *x = R::ONE;
         }
         x
     }
@@ -198,7 +435,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         sum
     }
 
-    /// λ of rows over the sizes of the loops, with Kᵀ λ = `torque` in the coordinates with a pivot.
+    /// λ with Kᵀ λ = `torque` in the coordinates with a pivot.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn lambda(&self, torque: &[R; V]) -> [R; C] {
         let mut lambda = [R::ZERO; C];
@@ -209,18 +446,16 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         }
         lambda
     }
+}
 
-    /// The sum of a row's entries in free columns, times x.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn of_free(&self, row: &[R; V], x: &[R; V]) -> R {
-        let mut sum = R::ZERO;
-        for ((&entry, &x), &pivot) in row.iter().zip(x).zip(&self.row_of) {
-            if pivot == NONE {
-                sum += entry * x;
-            }
-        }
-        sum
+/// Removes a number from a list without an order.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn take<const N: usize>(list: &mut Vec<usize, N>, at: usize) -> Option<usize> {
+    let taken = list.get(at).copied();
+    if let (Some(last), Some(place)) = (list.pop(), list.get_mut(at)) {
+        *place = last;
     }
+    taken
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]

@@ -1,15 +1,16 @@
 //! Forward dynamics with kinematic loops.
 //!
-//! Featherstone, RBDA (2008), section 8.1: M q̈ + C = τ + Kᵀ λ and K q̈ = k. By the factors of the tree's M and a
-//! triangle of the constrained mobility, K M⁻¹ Kᵀ = R Rᵀ, over the independent rows of K.
+//! Featherstone, RBDA (2008), section 8.1: M q̈ + C = τ + Kᵀ λ and K q̈ = k. By the factors of the tree's M, in the
+//! coordinates that the elimination of K leaves free: q̈ = G ÿ + ġ, section 8.11.
 
 use core::borrow::Borrow;
 
+use super::chain::LoopBodies;
 use super::description::Loops;
-use super::elimination::{LoopRows, eliminate};
+use super::elimination::{Elimination, LoopRows, subtract};
 use super::error::LoopError;
-use super::mass_root::{MassRoot, Orthogonal};
-use super::{Constraints, Stabilisation, constraints};
+use super::least_constraint::{Metric, Orthogonal, reaction};
+use super::{Constraints, Stabilisation};
 use crate::algorithms::{crba, ltdl, rnea};
 use crate::effects::{Bias, Effect, no_load_friction};
 use crate::model::RobotModel;
@@ -44,11 +45,11 @@ pub struct LoopMotion<R: Real, const V: usize, const L: usize, const C: usize> {
 ///
 /// # Cost
 /// That of [`rnea`](crate::algorithms::rnea()), [`crba`](crate::algorithms::crba()),
-/// [`ltdl`](crate::algorithms::ltdl()) and [`constraints()`]; of rank r 2 C V r flops for the elimination, 2 r V² for
-/// the response and 4 r² V for its triangle.
+/// [`ltdl`](crate::algorithms::ltdl()), [`constraints()`] and [`coordinate_map`](super::coordinate_map()); with n degrees
+/// of freedom 4 n² V flops for the motion.
 ///
 /// # Source
-/// Featherstone, RBDA (2008), sections 8.1 and 8.3.
+/// Featherstone, RBDA (2008), sections 8.1, 8.3 and 8.11.
 ///
 /// # Example
 /// ```
@@ -115,9 +116,15 @@ where
         )
     };
     no_load_friction::<R, E, B, V>();
-    let closing = constraints(robot, loops, trig.with(state));
+    let turns = &trig.coordinates;
+    let mut closing = Constraints::blank();
+    let mut bodies = LoopBodies::blank();
+    closing.set_positions(robot, loops, turns, &mut bodies);
+    closing.set_rates(robot, loops, &bodies, (turns, &state.qd));
     closing.check(loops)?;
-    let mut rows = eliminate(closing.scaled(), &[true; V]).loop_rows();
+    let mut elimination = Elimination::blank();
+    elimination.eliminate::<false, L, A>(&closing, loops, &[true; V]);
+    let rows = elimination.loop_rows();
 
     let mut rest = rnea(robot, trig.with(state), &Bias(effects)).map(|bias| -bias);
     for (&joint, &tau) in loops.actuated().iter().zip(tau) {
@@ -125,19 +132,36 @@ where
             *rest += tau;
         }
     }
-    let factors = ltdl(robot, &crba(robot, trig, effects))?;
-    let root = MassRoot::of(robot, &factors);
-    let (mut response, mut right) = ([[R::ZERO; V]; C], [R::ZERO; C]);
-    for (i, (response, right)) in response.iter_mut().zip(&mut right).enumerate() {
-        if let (true, Some(row)) = (rows.has(i), closing.jacobian.get(i)) {
-            *response = root.of_torque(row);
-            *right = closing.wanted(i, stabilisation);
+    let m = crba(robot, trig, effects);
+    // Matched where it stands: a move of the factors takes as long as the factors do.
+    let factors = ltdl(robot, &m);
+    let factors = match &factors {
+        Ok(factors) => factors,
+        Err(error) => return Err((*error).into()),
+    };
+    // q̈ = G ÿ + ġ with the ÿ of least constraint.
+    let wanted = core::array::from_fn(|row| closing.wanted(row, stabilisation));
+    let mut qdd = elimination.particular(&wanted);
+    let metric = Metric::of(robot, factors);
+    let mut apart = metric.of_torque(&rest);
+    subtract(
+        &mut apart,
+        R::ONE,
+        &metric.weigh(metric.of_acceleration(&qdd)),
+    );
+    let motions = elimination.free().rev();
+    let motions = motions.map(|free| metric.of_acceleration(&elimination.motion(free)));
+    let mut orthogonal = Orthogonal::blank();
+    orthogonal.set(&metric, motions);
+    let nearest = orthogonal.nearest(apart);
+    let mut independent = [R::ZERO; V];
+    for (free, ydd) in elimination.free().rev().zip(nearest) {
+        if let Some(place) = independent.get_mut(free) {
+            *place = ydd;
         }
     }
-    let orthogonal = Orthogonal::of(response);
-    rows.keep(|row| orthogonal.has(row));
-    let (z, lambda) = orthogonal.nearest(&root.of_torque(&rest), &right);
-    let qdd = root.acceleration(&z);
+    subtract(&mut qdd, -R::ONE, &elimination.complete(&independent));
+    let lambda = elimination.lambda(&reaction(robot, &m, &qdd, &rest));
     if !(all_finite(&qdd) & all_finite(&lambda)) {
         let name = loops.robot;
         return Err(LoopError::NotFinite { name });

@@ -5,7 +5,8 @@
 
 use core::borrow::Borrow;
 
-use super::constraints;
+use super::Constraints;
+use super::chain::LoopBodies;
 use super::coordinate_map::{CoordinateMap, Drive};
 use super::description::Loops;
 use super::elimination::LoopRows;
@@ -105,16 +106,16 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, given) = (trig.borrow(), state.state());
     let mut state = State::at(given.q);
-    let map = CoordinateMap::of(
-        robot,
-        loops,
-        trig,
-        &constraints(robot, loops, trig.with(&state)),
-    )?;
+    let turns = &trig.coordinates;
+    let mut closing = Constraints::blank();
+    let mut bodies = LoopBodies::blank();
+    closing.set_positions(robot, loops, turns, &mut bodies);
+    let mut map = CoordinateMap::blank(loops);
+    map.set(robot, loops, trig, &closing)?;
     state.qd = map.velocity(&loops.of_actuated(&given.qd));
-    let moving = constraints(robot, loops, trig.with(&state));
-    moving.check(loops)?;
-    state.qdd = map.acceleration(&loops.of_actuated(&given.qdd), &moving.bias);
+    closing.set_rates(robot, loops, &bodies, (turns, &state.qd));
+    closing.check(loops)?;
+    state.qdd = map.acceleration(&loops.of_actuated(&given.qdd), &closing.bias);
 
     let tree = rnea(robot, trig.with(&state), effects);
     let tau = map.torque(&tree);

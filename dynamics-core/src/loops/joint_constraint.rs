@@ -84,14 +84,21 @@ impl<R: Real> JointConstraint<R> {
         // would change with its tilt as much as it has slid.
         let [across, away, along] = self.x.pos.array();
         let [u, w, _] = (self.x.rot * R::Vec3::new(across, away, o)).array();
-        let ([a, b], [p, q, r]) = (self.tilt(), self.turn());
+        let turned = |x, y, z| {
+            let [p, q, r] = self.turn();
+            [p, q, r, x, y, z]
+        };
+        let tilted = |x, y, z| {
+            let [a, b] = self.tilt();
+            [a, b, x, y, z, o]
+        };
         match self.kind {
-            Fixed => [p, q, r, x, y, z],
-            Prismatic => [p, q, r, u, w, o],
-            Revolute | Continuous => [a, b, x, y, z, o],
-            Helical => [a, b, u, w, self.thread(along), o],
-            Cylindrical => [a, b, u, w, o, o],
-            Planar => [a, b, along, o, o, o],
+            Fixed => turned(x, y, z),
+            Prismatic => turned(u, w, o),
+            Revolute | Continuous => tilted(x, y, z),
+            Helical => tilted(u, w, self.thread(along)),
+            Cylindrical => tilted(u, w, o),
+            Planar => tilted(along, o, o),
             Universal => {
                 let [[_, _, across], ..] = self.x.rot.cols().map(Vector::array);
                 [across, x, y, z, o, o]

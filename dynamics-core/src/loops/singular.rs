@@ -155,6 +155,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         for (_, ((row, transform), _)) in places {
             (*row, *transform) = ([R::ZERO; V], [R::ZERO; C]);
         }
+        self.find_free();
     }
 
     /// Whether the machine leaves the configuration at which `joint` moves with all motors held: a rate of K along one
@@ -176,7 +177,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
             if let Some(unit) = unit.get_mut(free) {
                 *unit = R::ONE;
             }
-            let motion = self.complete(unit, &[R::ZERO; C]);
+            let motion = self.complete(&unit);
             let largest =
                 motion.iter().fold(
                     R::ONE,

@@ -5,7 +5,7 @@
 
 use super::assembly::{Moving, assemble};
 use super::description::Loops;
-use super::elimination::eliminate;
+use super::elimination::Elimination;
 use super::error::LoopError;
 use super::forward_dynamics::LoopMotion;
 use super::{Constraints, constraints};
@@ -196,18 +196,20 @@ where
         return Err(LoopError::Open { name, error });
     }
     let freedoms = |closing: &Constraints<R, V, L, C>| {
-        let elimination = eliminate(closing.scaled(), &[true; V]);
+        let mut elimination = Elimination::blank();
+        elimination.eliminate::<true, L, A>(closing, loops, &[true; V]);
         V - elimination.loop_rows().rank()
     };
     let here = freedoms(&closing);
     let mut usual = here;
-    let elimination = eliminate(closing.scaled(), &[true; V]);
+    let mut elimination = Elimination::blank();
+    elimination.eliminate::<true, L, A>(&closing, loops, &[true; V]);
     for free in elimination.free() {
         let mut unit = [R::ZERO; V];
         if let Some(unit) = unit.get_mut(free) {
             *unit = R::ONE;
         }
-        let motion = elimination.complete(unit, &[R::ZERO; C]);
+        let motion = elimination.complete(&unit);
         let largest = motion.iter().fold(
             R::ONE,
             |largest, x| {

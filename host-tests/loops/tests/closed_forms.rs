@@ -252,7 +252,7 @@ fn a_parallelogram_without_damping_moves_on_near_its_flat_configuration() {
     within(
         "accelerations near flat, times the angle",
         largest(errors),
-        2e-14,
+        1.5e-15,
     );
     let flat = State {
         qd: [1.0, -1.0, 1.0],

@@ -108,7 +108,7 @@ const MASSES: &[Case] = &[
         parameters: "a four-bar with a rocker of 2²⁰ kg on links of 1 kg, and with a coupler of 2⁻²⁰ kg between links of 1 kg; four states each",
         source: "presses and excavators; a rod of carbon fibre between motors",
         oracle: ORACLE,
-        reason: "a light rod costs nothing. With the heavy rocker the torque would accelerate the crank alone 10⁷ times as much as the linkage, and forward dynamics of general loops takes that away again: f32 keeps one digit. A cluster has the inertia of the whole, and keeps three",
+        reason: "a light rod costs nothing. With the heavy rocker the torque would accelerate the crank alone 10⁷ times as much as the linkage; forward dynamics of general loops solves for the motion that the loops allow, and keeps four digits in f32, as a cluster does, which has the inertia of the whole",
         run: || of_case(55),
     },
     Case {

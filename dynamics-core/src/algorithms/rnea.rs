@@ -13,8 +13,8 @@ use crate::effects::{
     Declared, Effect, Scene, base_motion, body_inertia, body_wrench, joint_torques, load_frictions,
 };
 use crate::model::{JointCoordinate, LinkView, RobotModel};
-use crate::scalar::{Matrix, Real};
-use crate::spatial::{Force, Motion, Xform};
+use crate::scalar::{Matrix, Real, Vector};
+use crate::spatial::{AccelerationField, Force, Motion, Xform};
 use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 
 /// The torque of each motor, τ = ID(q, q̇, q̈), N·m or N, under the effects of the scene.
@@ -69,7 +69,7 @@ where
     const { Scene::<R, E, B, V>::OF_CORE };
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
-    match robot.as_all_revolute() {
+    match robot.as_revolute_chain() {
         Some(robot) => sweep(&robot, trig, state, effects),
         None => sweep(robot, trig, state, effects),
     }
@@ -95,22 +95,27 @@ where
     E: Effect<R, B, V>,
 {
     let turns = &trig.coordinates;
-    let (v_0, a_0) = base_motion(effects);
-    // With one pattern for both, or with `v.push` after (5) or `a.push` before it, the A1 takes 2 % more cycles.
+    let (v_0, mut a_0) = base_motion(effects);
+    if const { E::VELOCITY_PRODUCTS & E::BASE_MOTION } {
+        a_0.lin += v_0.ang.cross(v_0.lin);
+    }
     let mut v = per_body(robot, v_0);
     let mut a = per_body(robot, a_0);
     let mut poses = per_body(robot, Xform::IDENTITY);
     let mut bodies: Vec<Body<R>, B> = Vec::new();
     let mut rotor_tau = [R::ZERO; V];
-    for i in 0..B {
-        let Some(link) = robot.link(i) else {
-            break;
-        };
+    for (i, link) in robot.links().enumerate() {
         let x = link.xform(turns);
-        let v_i = velocity(effects, &link, x * v.parent(&link), turns, state); // (3)
+        let (v_parent, a_parent) = (v.parent(&link), a.parent(&link));
+        let v_i = velocity(effects, &link, at_body(effects, &x, v_parent), turns, state); // (3)
         v.push(v_i);
-        let a_parent = x * a.parent(&link);
+        let a_parent = if E::VELOCITY_PRODUCTS {
+            AccelerationField::moved(&x, v_parent.ang, a_parent)
+        } else {
+            x * a_parent
+        };
         let a_i = acceleration(effects, &link, a_parent, v_i, turns, state); // (4)
+        a.push(a_i);
         let mut f_i = net_force(effects, i, &link, a_i, v_i); // (5)
         f_i -= external_force(effects, i, &link, &x, &mut poses, v_i); // (6)
         if E::GYROSCOPIC_ROTORS {
@@ -122,8 +127,10 @@ where
                 *rotor_tau = tau;
             }
         }
-        a.push(a_i);
-        let _ = bodies.push(Body { rot: x.rot, f: f_i });
+        // A chain's loop ends where there is no place: that is never, and leaves no branch that joins it again.
+        if bodies.push(Body { rot: x.rot, f: f_i }).is_err() && D::CHAIN {
+            break;
+        }
     }
 
     let mut tau = [R::ZERO; V];
@@ -157,6 +164,23 @@ where
     tau
 }
 
+/// X v_λ, of which velocity products need only the rotation: see [`AccelerationField`].
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn at_body<R: Real, E, const B: usize, const V: usize>(
+    _: &E,
+    x: &Xform<R>,
+    v_parent: Motion<R>,
+) -> Motion<R>
+where
+    E: Effect<R, B, V>,
+{
+    if const { E::BODY_VELOCITY | !E::VELOCITY_PRODUCTS } {
+        *x * v_parent
+    } else {
+        Motion::new(x.rot * v_parent.ang, R::Vec3::ZERO)
+    }
+}
+
 /// vᵢ from X v_λ; zero if no effect needs velocities. Featherstone & Orin (3).
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn velocity<R: Real, E, const B: usize, const Q: usize, const V: usize>(
@@ -176,10 +200,10 @@ where
     }
 }
 
-/// aᵢ from X a_parent: S q̈ with [`crate::effects::Inertia`], S̊ q̇ + v × S q̇ with [`crate::effects::Coriolis`].
-/// Featherstone & Orin (4).
+/// aᵢ from that of the parent at the body: S q̈ with [`crate::effects::Inertia`], S̊ q̇ + v × S q̇ with [`crate::effects::Coriolis`].
+/// Featherstone & Orin (4), with velocity products of the origin as a point of the body: see [`AccelerationField`].
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn acceleration<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+fn acceleration<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     _: &E,
     link: &LinkView<'_, R>,
     mut a: Motion<R>,
@@ -194,7 +218,7 @@ where
         a = link.plus_motion(a, turns, &state.qdd);
     }
     if E::VELOCITY_PRODUCTS {
-        a = link.plus_velocity_product(a, turns, &state.qd, v_i);
+        a = link.plus_point_product(a, turns, &state.qd, v_i.ang);
     }
     a
 }
@@ -216,7 +240,7 @@ where
     }
     let inertia = body_inertia(effects, i, link);
     if E::VELOCITY_PRODUCTS {
-        inertia.force(a_i, v_i)
+        inertia.force_in(&AccelerationField::new(v_i.ang, a_i), v_i.ang)
     } else {
         inertia * a_i
     }

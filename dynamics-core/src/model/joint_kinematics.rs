@@ -53,6 +53,14 @@ impl<R: Real> LinkView<'_, R> {
         Xform { rot, pos }
     }
 
+    /// The same, of which the rotation is given: the origin is a constant of most joints, so that storing it costs more than
+    /// computing it.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn xform_of(&self, rot: R::Mat3, turns: &[JointCoordinate<R>]) -> Xform<R> {
+        let pos = self.origin(turns);
+        Xform { rot, pos }
+    }
+
     /// The origin of the body in its parent's aligned frame, m.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn origin(&self, turns: &[JointCoordinate<R>]) -> R::Vec3 {
@@ -145,6 +153,30 @@ impl<R: Real> LinkView<'_, R> {
                 a + v.cross(self.motion(turns, y)) + Motion::new(apparent, R::Vec3::ZERO)
             }
             _ => a + v.cross(self.motion(turns, y)),
+        }
+    }
+
+    /// The acceleration of the body's origin and α, of those of the point of the parent where it is, `a`, with the velocity products of
+    /// the joint; w is the body's angular velocity. The Coriolis acceleration is 2 ω_λ × v_J, the centripetal one ω_J × v_J.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn plus_point_product(
+        &self,
+        a: Motion<R>,
+        turns: &[JointCoordinate<R>],
+        rates: &[R],
+        w: R::Vec3,
+    ) -> Motion<R> {
+        let rate = entry(rates, self.idx_v);
+        match self.kind {
+            Revolute | Continuous => Motion::new(plus_cross_z(a.ang, w, rate), a.lin),
+            Prismatic => Motion::new(a.ang, plus_cross_z(a.lin, w, rate + rate)),
+            Fixed => a,
+            _ => {
+                let joint = self.motion(turns, rates);
+                let at_rest = Motion::new(w, R::Vec3::ZERO);
+                let a = self.plus_velocity_product(a, turns, rates, at_rest);
+                Motion::new(a.ang, a.lin + (w - joint.ang).cross(joint.lin))
+            }
         }
     }
 

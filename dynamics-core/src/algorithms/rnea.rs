@@ -96,7 +96,7 @@ where
 {
     let turns = &trig.coordinates;
     let (v_0, mut a_0) = base_motion(effects);
-    if const { E::VELOCITY_PRODUCTS & E::BASE_MOTION } {
+    if const { E::VELOCITY_PRODUCTS & E::BASE_MOTION & D::TURNING } {
         a_0.lin += v_0.ang.cross(v_0.lin);
     }
     let mut v = per_body(robot, v_0);
@@ -107,16 +107,17 @@ where
     for (i, link) in robot.links().enumerate() {
         let x = link.xform(turns);
         let (v_parent, a_parent) = (v.parent(&link), a.parent(&link));
-        let v_i = velocity(effects, &link, at_body(effects, &x, v_parent), turns, state); // (3)
+        let v_at_body = at_body(robot, effects, &x, v_parent);
+        let v_i = velocity(effects, &link, v_at_body, turns, state); // (3)
         v.push(v_i);
-        let a_parent = if E::VELOCITY_PRODUCTS {
-            AccelerationField::moved(&x, v_parent.ang, a_parent)
+        let a_parent = if const { E::VELOCITY_PRODUCTS & D::TURNING } {
+            AccelerationField::new(v_parent.ang, a_parent).moved(&x)
         } else {
             x * a_parent
         };
-        let a_i = acceleration(effects, &link, a_parent, v_i, turns, state); // (4)
+        let a_i = acceleration(robot, effects, &link, a_parent, v_i, turns, state); // (4)
         a.push(a_i);
-        let mut f_i = net_force(effects, i, &link, a_i, v_i); // (5)
+        let mut f_i = net_force(robot, effects, i, &link, a_i, v_i); // (5)
         f_i -= external_force(effects, i, &link, &x, &mut poses, v_i); // (6)
         if E::GYROSCOPIC_ROTORS {
             let (couple, tau) = rotor(effects, &link, a_parent, v_i, state);
@@ -164,17 +165,19 @@ where
     tau
 }
 
-/// X v_λ, of which velocity products need only the rotation: see [`AccelerationField`].
+/// X v_λ, of which velocity products of joints that turn need only the angular part: see [`AccelerationField`].
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn at_body<R: Real, E, const B: usize, const V: usize>(
+fn at_body<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    _: &D,
     _: &E,
     x: &Xform<R>,
     v_parent: Motion<R>,
 ) -> Motion<R>
 where
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    if const { E::BODY_VELOCITY | !E::VELOCITY_PRODUCTS } {
+    if const { E::BODY_VELOCITY | !(E::VELOCITY_PRODUCTS & D::TURNING) } {
         *x * v_parent
     } else {
         Motion::new(x.rot * v_parent.ang, R::Vec3::ZERO)
@@ -201,9 +204,10 @@ where
 }
 
 /// aᵢ from that of the parent at the body: S q̈ with [`crate::effects::Inertia`], S̊ q̇ + v × S q̇ with [`crate::effects::Coriolis`].
-/// Featherstone & Orin (4), with velocity products of the origin as a point of the body: see [`AccelerationField`].
+/// Featherstone & Orin (4); where all joints turn, of the origin as a point of the body: see [`AccelerationField`].
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn acceleration<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+fn acceleration<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    _: &D,
     _: &E,
     link: &LinkView<'_, R>,
     mut a: Motion<R>,
@@ -212,20 +216,24 @@ fn acceleration<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     state: &State<R, Q, V>,
 ) -> Motion<R>
 where
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
     if E::ACCELERATIONS {
         a = link.plus_motion(a, turns, &state.qdd);
     }
-    if E::VELOCITY_PRODUCTS {
-        a = link.plus_point_product(a, turns, &state.qd, v_i.ang);
+    if const { E::VELOCITY_PRODUCTS & D::TURNING } {
+        a = link.plus_turning_product(a, &state.qd, v_i.ang);
+    } else if E::VELOCITY_PRODUCTS {
+        a = link.plus_velocity_product(a, turns, &state.qd, v_i);
     }
     a
 }
 
 /// Iᵢ aᵢ + vᵢ ×* Iᵢ vᵢ, as far as the effects need it. Featherstone & Orin (5).
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn net_force<R: Real, E, const B: usize, const V: usize>(
+fn net_force<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    _: &D,
     effects: &E,
     i: usize,
     link: &LinkView<'_, R>,
@@ -233,14 +241,17 @@ fn net_force<R: Real, E, const B: usize, const V: usize>(
     v_i: Motion<R>,
 ) -> Force<R>
 where
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
     if !const { E::FIELD | E::BASE_MOTION | E::ACCELERATIONS | E::VELOCITY_PRODUCTS } {
         return Force::ZERO;
     }
     let inertia = body_inertia(effects, i, link);
-    if E::VELOCITY_PRODUCTS {
+    if const { E::VELOCITY_PRODUCTS & D::TURNING } {
         inertia.force_in(&AccelerationField::new(v_i.ang, a_i), v_i.ang)
+    } else if E::VELOCITY_PRODUCTS {
+        inertia.force(a_i, v_i)
     } else {
         inertia * a_i
     }

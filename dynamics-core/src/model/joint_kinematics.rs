@@ -156,28 +156,10 @@ impl<R: Real> LinkView<'_, R> {
         }
     }
 
-    /// The acceleration of the body's origin and α, of those of the point of the parent where it is, `a`, with the velocity products of
-    /// the joint; w is the body's angular velocity. The Coriolis acceleration is 2 ω_λ × v_J, the centripetal one ω_J × v_J.
+    /// a + ω × S q̇ of a joint that turns: α and the acceleration of the origin, which lies on the axis; w is the body's angular velocity.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn plus_point_product(
-        &self,
-        a: Motion<R>,
-        turns: &[JointCoordinate<R>],
-        rates: &[R],
-        w: R::Vec3,
-    ) -> Motion<R> {
-        let rate = entry(rates, self.idx_v);
-        match self.kind {
-            Revolute | Continuous => Motion::new(plus_cross_z(a.ang, w, rate), a.lin),
-            Prismatic => Motion::new(a.ang, plus_cross_z(a.lin, w, rate + rate)),
-            Fixed => a,
-            _ => {
-                let joint = self.motion(turns, rates);
-                let at_rest = Motion::new(w, R::Vec3::ZERO);
-                let a = self.plus_velocity_product(a, turns, rates, at_rest);
-                Motion::new(a.ang, a.lin + (w - joint.ang).cross(joint.lin))
-            }
-        }
+    pub(crate) fn plus_turning_product(&self, a: Motion<R>, rates: &[R], w: R::Vec3) -> Motion<R> {
+        Motion::new(plus_cross_z(a.ang, w, entry(rates, self.idx_v)), a.lin)
     }
 
     /// Column k of S̊ + v × S, the rate of S in a body of velocity v.

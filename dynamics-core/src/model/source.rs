@@ -20,6 +20,8 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     const CHAIN: bool = false;
     /// Whether every body is known to have one coordinate.
     const SINGLE: bool = false;
+    /// Whether every joint is known to turn about an axis that is fixed in its bodies.
+    const TURNING: bool = Self::KINDS.are_revolute();
 
     /// The robot's numbers.
     fn model(&self) -> &Model<R, B, Q, V>;

@@ -37,31 +37,44 @@ impl<R: Real> AccelerationField<R> {
 
     /// α, and the acceleration of the origin of a frame that is fixed in the body, in its axes. 48 flops.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn moved(x: &Xform<R>, w: R::Vec3, a: Motion<R>) -> Motion<R> {
-        let origin = a.lin + (a.ang.cross(x.pos) + w.cross(w.cross(x.pos)));
-        Motion::new(x.rot * a.ang, x.rot * origin)
+    pub(crate) fn moved(&self, x: &Xform<R>) -> Motion<R> {
+        Motion::new(
+            x.rot * self.ang,
+            x.rot * self.plus_gradient(self.origin, x.pos),
+        )
+    }
+
+    /// a + U r. 18 flops.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn plus_gradient(&self, a: R::Vec3, r: R::Vec3) -> R::Vec3 {
+        let ([ux, uy, uz], [x, y, z]) = (self.gradient.cols(), r.array());
+        a + uz * z + uy * y + ux * x
     }
 }
 
 impl<R: Real> SpatialInertia<R> {
-    /// I a + v ×* I v of a body that moves with a field: m a + U h, and h × a + ∫ r × U r dm. 66 flops beyond the products of ω.
+    /// I a + v ×* I v of a body that moves with a field: m a + U h, and ∫ r × U r dm + h × a. 66 flops beyond the products of ω.
+    ///
+    /// Of 867 orders of these sums 14 keep every hard case within its bounds; this one runs from left to right.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn force_in(&self, field: &AccelerationField<R>, w: R::Vec3) -> Force<R> {
         let [xx, xy, xz, yy, yz, zz] = self.upper();
         let ([wx, wy, wz], [x, y, z]) = (w.array(), field.ang.array());
         let (w_xx, w_yy, w_zz) = (wx * wx, wy * wy, wz * wz);
         let (w_xy, w_xz, w_yz) = (wx * wy, wx * wz, wy * wz);
+        let ([hx, hy, hz], [ax, ay, az]) = (self.first_moment.array(), field.origin.array());
         let [[_, u_yx, u_zx], [u_xy, _, u_zy], [u_xz, u_yz, _]] =
             field.gradient.cols().map(Vector::array);
-        let turning = R::Vec3::new(
-            (x * xx + w_yz * (zz - yy)) + ((u_yx * xz - u_zx * xy) + (w_yy - w_zz) * yz),
-            (y * yy + w_xz * (xx - zz)) + ((u_zy * xy - u_xy * yz) + (w_zz - w_xx) * xz),
-            (z * zz + w_xy * (yy - xx)) + ((u_xz * yz - u_yz * xz) + (w_xx - w_yy) * xy),
+        let couple = R::Vec3::new(
+            x * xx + w_yz * (zz - yy) + u_yx * xz - u_zx * xy + (w_yy - w_zz) * yz + hy * az
+                - hz * ay,
+            y * yy + w_xz * (xx - zz) + u_zy * xy - u_xy * yz + (w_zz - w_xx) * xz + hz * ax
+                - hx * az,
+            z * zz + w_xy * (yy - xx) + u_xz * yz - u_yz * xz + (w_xx - w_yy) * xy + hx * ay
+                - hy * ax,
         );
-        Force::new(
-            self.first_moment.cross(field.origin) + turning,
-            field.origin * self.mass + field.gradient * self.first_moment,
-        )
+        let force = field.plus_gradient(field.origin * self.mass, self.first_moment);
+        Force::new(couple, force)
     }
 }
 

@@ -1,6 +1,7 @@
 //! The two passes over a tree: outward, from the base to the tips, and inward.
 
 use core::marker::PhantomData;
+use core::ops::AddAssign;
 
 use heapless::Vec;
 
@@ -87,5 +88,75 @@ impl<'a, A> Inward<'a, A> {
         let (body, before) = core::mem::take(&mut self.0).split_last_mut()?;
         self.0 = before;
         Some((body, self.0))
+    }
+}
+
+/// The sum of a quantity over the children of each body, which the inward pass adds to.
+///
+/// For a chain only what the next body has added is stored.
+pub(crate) struct InwardSums<A, T, const B: usize> {
+    next: A,
+    all: [A; B],
+    topology: PhantomData<T>,
+}
+
+/// The sums over `robot`, zero as yet.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn inward_sums<
+    A: Copy + Default,
+    D,
+    R: Real,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+>(
+    _: &D,
+) -> InwardSums<A, Tree<D, R, B, Q, V>, B>
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    InwardSums {
+        next: A::default(),
+        all: [A::default(); B],
+        topology: PhantomData,
+    }
+}
+
+impl<A: Copy + Default + AddAssign, T: Topology, const B: usize> InwardSums<A, T, B> {
+    /// The sum over the children of body `i`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn of(&self, i: usize) -> A {
+        if T::CHAIN {
+            self.next
+        } else {
+            self.all.get(i).copied().unwrap_or_default()
+        }
+    }
+
+    /// Adds to the sum of body `parent` the quantity of a child.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn add(&mut self, parent: usize, child: A) {
+        if T::CHAIN {
+            self.next = child;
+        } else if let Some(sum) = self.all.get_mut(parent) {
+            *sum += child;
+        }
+    }
+}
+
+/// Of what stands for the bodies before `link`, that of its parent and of those before it.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn up_to_parent<'a, A, D, R: Real, const B: usize, const Q: usize, const V: usize>(
+    _: &D,
+    before: &'a [A],
+    link: &LinkView<'_, R>,
+) -> &'a [A]
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    if D::CHAIN {
+        before
+    } else {
+        before.get(..=link.parent).unwrap_or_default()
     }
 }

@@ -10,6 +10,10 @@ pub(super) use ltdl::{Sizes, check, parent};
 pub use ltdl::{inverse, ltdl, solve};
 pub use spatial_operator::{spatial_operator_inverse, spatial_operator_ltdl};
 
+use core::array::from_fn;
+
+use heapless::Vec;
+
 use crate::scalar::Real;
 
 /// M(q), symmetric, V × V: kg·m² between revolute joints, kg between prismatic ones, kg·m mixed.
@@ -108,6 +112,47 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn diagonal_mut(&mut self, i: usize) -> Option<&mut R> {
         self.rows.get_mut(i).and_then(|row| row.get_mut(i))
+    }
+}
+
+/// The rows of M up to the diagonal, from the last to the first, as the inward pass computes them.
+pub(super) struct RowsFromLast<R, const V: usize>(Vec<[R; V], V>);
+
+impl<R: Real, const V: usize> RowsFromLast<R, V> {
+    /// None yet.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn new() -> Self {
+        Self(Vec::new())
+    }
+
+    /// The next row, of zeros.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn next(&mut self) -> Option<&mut [R; V]> {
+        let _ = self.0.push([R::ZERO; V]);
+        self.0.last_mut()
+    }
+
+    /// The whole matrix. Each entry is written once, into the place of the result.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn matrix(&self) -> MassMatrix<R, V> {
+        let Ok(rows) = <&[[R; V]; V]>::try_from(self.0.as_slice()) else {
+            return MassMatrix::ZERO;
+        };
+        let entry = |i: usize, j: usize| {
+            let row = rows.get(V - 1 - i.max(j));
+            row.and_then(|row| row.get(i.min(j))).copied()
+        };
+        MassMatrix {
+            rows: from_fn(|i| from_fn(|j| entry(i, j).unwrap_or_default())),
+        }
+    }
+}
+
+/// Sets an entry of a row.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn set<R>(row: &mut [R], joint: usize, value: R) {
+    if let Some(entry) = row.get_mut(joint) {
+        *entry = value;
     }
 }
 

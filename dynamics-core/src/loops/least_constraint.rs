@@ -149,8 +149,10 @@ impl<R: Real, const V: usize> Orthogonal<R, V> {
             subtract(&mut weighed, *x, &column.weighed);
         }
         for (i, column) in self.columns.iter().enumerate().rev() {
-            let (before, at) = x.split_at_mut(i);
-            let own = at.first().copied().unwrap_or_default();
+            let Some((before, [own, ..])) = x.split_at_mut_checked(i) else {
+                break;
+            };
+            let own = *own;
             for (before, &r) in before.iter_mut().zip(&column.r) {
                 *before -= r * own;
             }

@@ -10,6 +10,9 @@ use cycle_meter::{Class, Insn, Relative};
 use crate::kit::elf::{Function, Image, is_f64, is_panic};
 use crate::kit::error::{Result, bail, check};
 
+/// The most instructions between the one that forms a table's address and the jump into it.
+const TABLE_START_BEFORE: usize = 8;
+
 #[derive(Clone, Copy, Debug)]
 pub struct Instruction {
     pub address: u64,
@@ -28,6 +31,18 @@ impl Instruction {
     pub fn target(self) -> Option<u64> {
         let branch = self.relative().filter(|reached| reached.words == 0)?;
         Some(branch.target.into())
+    }
+
+    /// Whether it is `mov pc, Rm`: a jump, and no call.
+    fn is_move_to_pc(self) -> bool {
+        self.code[0] & 0xFF87 == 0x4687
+    }
+
+    /// The address that `addw Rd, pc, #imm12` forms (ARMv7-M manual, A7.7.7).
+    fn address_formed(self) -> Option<u64> {
+        let [first, second] = self.code.map(u64::from);
+        let imm12 = (first >> 10 & 1) << 11 | (second >> 12 & 7) << 8 | second & 0xFF;
+        (first & 0xFBFF == 0xF20F).then_some(((self.address + 4) & !3) + imm12)
     }
 
     pub fn is_beyond_m4f(self) -> bool {
@@ -88,6 +103,27 @@ impl Function {
         instructions
     }
 
+    /// Where it jumps or calls through a register, if what it reaches is not known.
+    ///
+    /// A jump into a table of branches is known: LLVM writes the table behind the jump, where its entries are instructions of the
+    /// function like any other.
+    pub fn unknown_jump(&self) -> Option<u64> {
+        let all = self.instructions();
+        let place = all.iter().enumerate().position(|(i, one)| {
+            let before = &all[i.saturating_sub(TABLE_START_BEFORE)..i];
+            one.insn.indirect
+                && !(one.is_move_to_pc()
+                    && before.iter().any(|start| {
+                        let behind = (one.address + 2).next_multiple_of(4);
+                        start.address_formed() == Some(behind)
+                            && all
+                                .iter()
+                                .any(|entry| entry.address == behind && entry.target().is_some())
+                    }))
+        });
+        place.map(|i| all[i].address)
+    }
+
     /// Whether one of its names matches.
     pub fn is_named(&self, matches: impl Fn(&str) -> bool) -> bool {
         self.names.iter().any(|name| matches(name))
@@ -122,13 +158,11 @@ impl<'a> Reach<'a> {
         let mut queue = VecDeque::from(roots);
         while let Some(index) = queue.pop_front() {
             let function = &image.functions[index];
+            if let Some(at) = function.unknown_jump() {
+                let path = reach.path(index);
+                bail!("{path} calls through a register at {at:#x}: what it reaches is not known");
+            }
             for one in function.instructions() {
-                if one.insn.indirect {
-                    let (path, at) = (reach.path(index), one.address);
-                    bail!(
-                        "{path} calls through a register at {at:#x}: what it reaches is not known"
-                    );
-                }
                 let Some(target) = one.target().filter(|to| !function.contains(*to)) else {
                     continue;
                 };
@@ -215,5 +249,27 @@ mod tests {
             "{error}"
         );
         assert!(Reach::of(&jumps, |_| false).is_err());
+    }
+
+    #[test]
+    fn a_jump_into_a_table_of_branches_is_followed() {
+        // addw r1, pc, #4; add.w r2, r1, r9, lsl #2; mov pc, r2; nop; b.w 0x2000; then with a table elsewhere, and without one
+        let code = [
+            0xF20F, 0x0108, 0xEB01, 0x0289, 0x4697, 0xBF00, 0xF000, 0xBFF8,
+        ];
+        let with = |at: usize, halfword: u16| {
+            let mut changed = code;
+            changed[at] = halfword;
+            let table = Function::of("tick", 0x1000, &changed);
+            Image::of(vec![table, Function::of("callee", 0x2000, &[0x4770])])
+        };
+        let paths = |image: &Image| {
+            let reach = Reach::of(image, |f| f.is_named(|name| name == "tick"))?;
+            crate::kit::error::Result::Ok(reach.functions().count())
+        };
+        assert_eq!(paths(&with(5, 0xBF00)).expect("a table"), 2);
+        for (at, wrong) in [(0, 0xF20E), (1, 0x010C), (4, 0x4710), (6, 0xBF00)] {
+            assert!(paths(&with(at, wrong)).is_err(), "halfword {at}");
+        }
     }
 }

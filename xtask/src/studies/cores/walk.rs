@@ -109,12 +109,10 @@ fn flow(function: &Function, is_risc_v: bool) -> Result<Flow> {
         return frame::risc_v(function.address, &function.bytes);
     }
     let mut flow = Flow::default();
+    if let Some(at) = function.unknown_jump() {
+        bail!("it calls through a register at {at:#x}");
+    }
     for one in function.instructions() {
-        refuse_if!(
-            one.insn.indirect,
-            "it calls through a register at {:#x}",
-            one.address
-        );
         flow.frame += frame::thumb(one.code)
             .ok_or_else(|| check!("its frame at {:#x} is of an unknown size", one.address))?;
         flow.targets.extend(one.target());

@@ -13,6 +13,9 @@ use crate::kit::error::{Result, bail, check};
 /// The most instructions between the one that forms a table's address and the jump into it.
 const TABLE_START_BEFORE: usize = 8;
 
+/// Less than as many bytes are between the jump and the table.
+const MOST_PADDING: u64 = 8;
+
 #[derive(Clone, Copy, Debug)]
 pub struct Instruction {
     pub address: u64,
@@ -111,15 +114,14 @@ impl Function {
         let all = self.instructions();
         let place = all.iter().enumerate().position(|(i, one)| {
             let before = &all[i.saturating_sub(TABLE_START_BEFORE)..i];
-            one.insn.indirect
-                && !(one.is_move_to_pc()
-                    && before.iter().any(|start| {
-                        let behind = (one.address + 2).next_multiple_of(4);
-                        start.address_formed() == Some(behind)
-                            && all
-                                .iter()
-                                .any(|entry| entry.address == behind && entry.target().is_some())
-                    }))
+            let is_table = |start: &Instruction| {
+                let table = start.address_formed();
+                let behind = one.address + 2..one.address + 2 + MOST_PADDING;
+                let entry = |to: &&Instruction| Some(to.address) == table && to.target().is_some();
+                table.is_some_and(|table| behind.contains(&table))
+                    && all.iter().find(entry).is_some()
+            };
+            one.insn.indirect && !(one.is_move_to_pc() && before.iter().any(is_table))
         });
         place.map(|i| all[i].address)
     }

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::process::Command;
+use std::time::Instant;
 
 use crate::kit::error::{Result, bail};
 use crate::kit::progress::Spinner;
@@ -10,7 +11,6 @@ use crate::kit::setup::Tools;
 use crate::kit::shell;
 use crate::kit::toolchain::RELEASE;
 use crate::kit::workspace::{self, LAB, Workspace};
-use crate::studies::peers::ALGORITHMS;
 use crate::studies::peers::build::{Workshop, words};
 use crate::studies::peers::report::{M4F, Row};
 use crate::studies::peers::robots::Robot;
@@ -18,10 +18,18 @@ use crate::studies::peers::robots::Robot;
 /// The firmware's bin, and the feature that it is built with.
 const BIN: &str = "peers";
 
-/// Largest error relative to full scale of a function that is worth measuring: forward dynamics is
+/// A function of a robot.
+type Function<'a> = (&'a Robot, &'static str);
+/// A function, and the seconds of a release build of the firmware with it.
+pub type Build = (String, f64);
+
+/// Largest error relative to full scale of a function that is worth measuring: forward dynamics and Λ⁻¹ are
 /// ill-conditioned.
 fn bound(algorithm: &str) -> f64 {
-    if algorithm == "aba" { 1e-3 } else { 1e-5 }
+    match algorithm {
+        "aba" | "osim" => 1e-3,
+        _ => 1e-5,
+    }
 }
 
 /// Ways to compile the C: what each is called at the end of its symbols, in the report, the compiler and its flags; of
@@ -44,71 +52,87 @@ const COMMON: &str = "-c -O3 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard";
 /// symbols: the better of the two is the peer.
 const OVERLAP: [(&str, &str); 2] = [("", ""), ("restrict", "_r")];
 
-/// Compiles the C and the firmware, and runs it under the meter.
+/// Compiles the C and the firmwares, and runs them under the meter: one of the robots on a fixed base, then one of each
+/// function of a free base, since they are large. Returns the seconds of the builds of those, too.
 pub fn measure(
     workspace: &Workspace,
     shop: &Workshop<'_>,
     tools: &Tools,
     robots: &[Robot],
-) -> Result<Vec<Row>> {
-    let (objects, table) = compile(shop, robots)?;
-    let spinner = Spinner::start("compiling the firmware of the peers");
+) -> Result<(Vec<Row>, Vec<Build>)> {
+    let functions = robots.iter().filter(|robot| robot.is_on_target());
+    let functions: Vec<Function<'_>> = functions
+        .flat_map(|robot| robot.algorithms().iter().map(move |name| (robot, *name)))
+        .collect();
+    let (fixed, free): (Vec<_>, Vec<_>) =
+        functions.into_iter().partition(|(robot, _)| !robot.is_free());
+    let mut found = firmware(workspace, shop, tools, &fixed)?.0;
+    let mut builds = Vec::new();
+    for function @ (robot, algorithm) in free {
+        let (rows, seconds) = firmware(workspace, shop, tools, &[function])?;
+        found.extend(rows);
+        builds.push((format!("{}, {algorithm}", robot.name), seconds));
+    }
+    Ok((found, builds))
+}
+
+/// Rows of a firmware with these functions, and the seconds that cargo took to build it over a library that is built.
+fn firmware(
+    workspace: &Workspace,
+    shop: &Workshop<'_>,
+    tools: &Tools,
+    functions: &[Function<'_>],
+) -> Result<(Vec<Row>, f64)> {
+    let (objects, table) = compile(shop, functions)?;
+    let spinner = Spinner::start("compiling a firmware of the peers");
     let objects = objects
         .iter()
         .map(|object| format!("-Clink-arg={}", object.display()));
     let mut command = tools.toolchain.cargo(workspace, "rustc");
-    command
-        .args([
-            "--package",
-            LAB,
-            "--release",
-            "--features",
-            BIN,
-            "--bin",
-            BIN,
-            "--",
-        ])
-        .args(objects)
-        .env("PEERS_TABLE", &table);
+    let of = "--release --features peers --bin peers --package";
+    command.args(words(of)).args([LAB, "--"]).args(objects);
+    command.env("PEERS_TABLE", &table);
+    let start = Instant::now();
     shell::capture(&mut command)?;
+    let seconds = start.elapsed().as_secs_f64();
     let elf = tools.toolchain.elf(workspace, RELEASE, BIN);
     drop(spinner);
     let (measured, lines) = run_all(workspace, tools, &[BIN], &[elf])?;
-    rows(measured, &lines)
+    Ok((rows(measured, &lines)?, seconds))
 }
 
-/// Objects, and the table of their functions for the firmware.
-fn compile(shop: &Workshop<'_>, robots: &[Robot]) -> Result<(Vec<PathBuf>, PathBuf)> {
+/// Objects, and the table of their functions for the firmware, which calls ours of the same.
+fn compile(shop: &Workshop<'_>, functions: &[Function<'_>]) -> Result<(Vec<PathBuf>, PathBuf)> {
     let spinner = Spinner::start("building CasADi's C for the target");
-    let (mut objects, mut externs, mut table) = (Vec::new(), String::new(), String::new());
+    let (mut objects, mut externs, mut calls) = (Vec::new(), String::new(), String::new());
     let inputs = "_: *const f32, ".repeat(4);
-    for robot in robots.iter().filter(|robot| !robot.has_subtree_functions()) {
-        let robot = &robot.name;
-        for algorithm in ALGORITHMS {
-            let name = format!("{robot}_{algorithm}_cs_f32");
-            let source = shop.code.join(format!("{name}.c"));
-            let builds = BUILDS
-                .iter()
-                .flat_map(|build| OVERLAP.map(|overlap| (build, overlap)));
-            for (&[build, _, compiler, flags], (keyword, mark)) in builds {
-                let suffix = format!("{build}{mark}");
-                let symbol = format!("{name}_{suffix}");
-                spinner.say(format!("compiling {symbol}"));
-                let peer = format!("-DPEER(name)=name##_{suffix}");
-                let restrict = format!("-DRESTRICT={keyword}");
-                let args: [&[&str]; 3] = [&words(flags), &words(COMMON), &[&peer, &restrict]];
-                objects.push(shop.make(&format!("{symbol}.o"), compiler, &args, &[&source])?);
-                externs += &format!("    fn {symbol}({inputs}_: *mut f32);\n");
-                table += &format!(
-                    "    Peer {{ robot: {robot:?}, algorithm: {algorithm:?}, build: {build:?}, run: {symbol} }},\n"
-                );
-            }
+    for (robot, algorithm) in functions {
+        let name = format!("{}_{algorithm}_cs_f32", robot.name);
+        let source = shop.code.join(format!("{name}.c"));
+        let mut peers = String::new();
+        let builds = BUILDS
+            .iter()
+            .flat_map(|build| OVERLAP.map(|overlap| (build, overlap)));
+        for (&[build, _, compiler, flags], (keyword, mark)) in builds {
+            let suffix = format!("{build}{mark}");
+            let symbol = format!("{name}_{suffix}");
+            spinner.say(format!("compiling {symbol}"));
+            let peer = format!("-DPEER(name)=name##_{suffix}");
+            let restrict = format!("-DRESTRICT={keyword}");
+            let args: [&[&str]; 3] = [&words(flags), &words(COMMON), &[&peer, &restrict]];
+            objects.push(shop.make(&format!("{symbol}.o"), compiler, &args, &[&source])?);
+            externs += &format!("    fn {symbol}({inputs}_: *mut f32);\n");
+            peers += &format!("Peer {{ build: {build:?}, run: {symbol} }}, ");
         }
+        let [bodies, positions, velocities] = robot.size();
+        let tip = match *algorithm {
+            "osim" => format!(", {}", bodies - 1),
+            _ => String::new(),
+        };
+        let of = format!("{}, {bodies}, {positions}, {velocities}{tip}", robot.type_name());
+        calls += &format!("    {algorithm}::<{of}>(&[{peers}]);\n");
     }
-    let count = objects.len();
-    let text = format!(
-        "unsafe extern \"C\" {{\n{externs}}}\nstatic PEERS: [Peer; {count}] = [\n{table}];\n"
-    );
+    let text = format!("unsafe extern \"C\" {{\n{externs}}}\nfn run() {{\n{calls}}}\n");
     let path = shop.built.join("peers.rs");
     // Written anew each time: cargo then links anew, and does not look at the objects itself.
     workspace::write(&path, text)?;

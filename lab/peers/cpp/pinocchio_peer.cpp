@@ -14,7 +14,6 @@
 #include <pinocchio/algorithm/aba.hpp>
 #include <pinocchio/algorithm/crba.hpp>
 #include <pinocchio/algorithm/delassus.hpp>
-#include <pinocchio/algorithm/jacobian.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
 
 #include "robot.hpp"
@@ -28,7 +27,6 @@ struct Peer {
   using Matrix = Eigen::Matrix<Real, 6, 6>;
   PINOCCHIO_ALIGNED_STD_VECTOR(pinocchio::RigidConstraintModelTpl<Real>) tip;
   PINOCCHIO_ALIGNED_STD_VECTOR(pinocchio::RigidConstraintDataTpl<Real>) tip_data;
-  Eigen::Matrix<Real, 6, Eigen::Dynamic> jacobian, part;
   Matrix mobility;
 
   explicit Peer(const Robot &robot)
@@ -36,24 +34,12 @@ struct Peer {
     tip.emplace_back(pinocchio::CONTACT_6D, model, model.njoints - 1, pinocchio::LOCAL);
     tip_data.emplace_back(tip.back());
     pinocchio::initPvDelassus(model, data, tip);
-    jacobian.setZero(6, model.nv);
-    part.setZero(6, model.nv);
   }
 
   // Λ⁻¹ of the last body in its own frame, as the Delassus matrix of a constraint that holds it.
   template <typename Q>
-  const Matrix &delassus(const Q &q) {
+  const Matrix &osim(const Q &q) {
     pinocchio::computeDelassusMatrix(model, data, q, tip, tip_data, mobility);
-    return mobility;
-  }
-
-  // The same as J M⁻¹ Jᵀ.
-  template <typename Q>
-  const Matrix &composed(const Q &q) {
-    pinocchio::computeMinverse(model, data, q);
-    pinocchio::computeJointJacobian(model, data, q, model.njoints - 1, jacobian);
-    part.noalias() = jacobian * data.Minv.template selfadjointView<Eigen::Upper>();
-    mobility.noalias() = part * jacobian.transpose();
     return mobility;
   }
 };
@@ -99,8 +85,7 @@ static void run(void *peer, const Real *state, std::size_t count, Real *out, Alg
   ALGORITHM(gravity, REAL, PRECISION, pinocchio::computeGeneralizedGravity(model, data, q))  \
   ALGORITHM(crba, REAL, PRECISION, pinocchio::crba(model, data, q))                         \
   ALGORITHM(aba, REAL, PRECISION, pinocchio::aba(model, data, q, v, a))                     \
-  ALGORITHM(osim, REAL, PRECISION, p.composed(q))                                           \
-  ALGORITHM(delassus, REAL, PRECISION, p.delassus(q))
+  ALGORITHM(osim, REAL, PRECISION, p.osim(q))
 
 PEER(float, f32)
 PEER(double, f64)

@@ -30,7 +30,7 @@ use crate::studies::{budgets, drawn};
 const ALGORITHMS: [&str; 6] = ["rnea", "bias", "gravity", "crba", "aba", "osim"];
 const PRECISIONS: [&str; 2] = ["f32", "f64"];
 const PAGE: &str = "docs/peers.md";
-/// The most seconds that a release build of firmware with one function takes (`docs/decisions/0002-bars.md`).
+/// The most seconds of processor time of a release build of firmware with one function.
 const BUILD: f64 = 60.0;
 
 /// The number of outputs of an algorithm with this number of velocity coordinates; of a matrix one triangle counts.
@@ -64,7 +64,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let (tools, peers) = tools::set_up(&workspace, options)?;
     let shop = Workshop::new(&workspace, &peers)?;
     let robots = robots::export(&workspace)?;
-    // Pinocchio takes compilers minutes, which the target's side does not wait for.
+    // The target's side does not wait for Pinocchio.
     let (on_target, built) = thread::scope(|scope| {
         let libraries = scope.spawn(|| host::libraries(&shop));
         let measured = shop
@@ -88,7 +88,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         builds,
         compared,
         versions,
-        code: age::of_code(&workspace.root)?,
+        code: age::of_code(&workspace.root)?.markdown(),
         date: docs::today_and_commit(&workspace),
     };
     let page = report.markdown();
@@ -115,8 +115,15 @@ fn versions(workspace: &Workspace, tools: &Tools, peers: &Peers) -> Result<Vec<S
             .map(|(_, version)| format!("dynibo {version}")),
     );
     let kdl = workspace::read(Path::new(tools::KDL))?;
-    let named = |line: &str| line.strip_prefix("#define KDL_VERSION_STRING ").map(str::to_owned);
-    versions.extend(kdl.lines().find_map(named).map(|version| format!("Orocos KDL {}", version.trim_matches('"'))));
+    let named = |line: &str| {
+        line.strip_prefix("#define KDL_VERSION_STRING ")
+            .map(str::to_owned)
+    };
+    versions.extend(
+        kdl.lines()
+            .find_map(named)
+            .map(|version| format!("Orocos KDL {}", version.trim_matches('"'))),
+    );
     versions.extend(target::compilers());
     versions.push(tools.toolchain.rustc_version()?);
     versions.push(tools.qemu.version.clone());

@@ -14,7 +14,8 @@ use dynamics_core::{Core, Engine, MassMatrix};
 use crate::subject::{Subject, square};
 
 /// Ours of an algorithm, on these states.
-pub type Subjects<R, const Q: usize, const V: usize> = fn(&str, &[State<R, Q, V>]) -> Vec<Subject<R>>;
+pub type Subjects<R, const Q: usize, const V: usize> =
+    fn(&str, &[State<R, Q, V>]) -> Vec<Subject<R>>;
 
 const BIAS: (Gravity, Coriolis) = (Gravity::EARTH, Coriolis);
 const GRAVITY: (Gravity,) = (Gravity::EARTH,);

@@ -70,7 +70,7 @@ fn one<R: Real, const Q: usize, const V: usize>(
     let mut errors = Vec::new();
     for subject in &mut checked {
         let (expected, full_scale) = expected(recording, algorithm, subject.gravity);
-        let bound = bound(algorithm, precision);
+        let bound = bound(algorithm, precision, recording.condition);
         let error = subject.check(states.len(), &expected, full_scale, bound);
         errors.push(error.map_err(|e| format!("{algorithm} of {}: {e}", recording.robot))?);
     }
@@ -158,12 +158,12 @@ fn expected(recording: &Recording, algorithm: &str, gravity: f64) -> (Vec<Vec<f6
 }
 
 /// Largest error of a function that is worth timing, relative to full scale. Forward dynamics and Λ⁻¹ are
-/// ill-conditioned: their rounding errors are those of the mass matrix's inverse.
-fn bound(algorithm: &str, precision: &str) -> f64 {
+/// ill-conditioned: their rounding errors are those of the mass matrix's inverse, up to κ(M) of those of a number.
+fn bound(algorithm: &str, precision: &str, condition: f64) -> f64 {
     match (algorithm, precision) {
         ("aba" | "osim", "f32") => 1e-3,
         (_, "f32") => 1e-5,
-        ("aba" | "osim", _) => 1e-11,
+        ("aba" | "osim", _) => f64::max(1e-11, condition * f64::EPSILON / 2.0),
         _ => 1e-12,
     }
 }

@@ -30,7 +30,8 @@ use costs::row::{Row, numbers};
 /// A function of CasADi's C: its arguments are cosines, sines, and two vectors that an algorithm may not need.
 type C = unsafe extern "C" fn(*const f32, *const f32, *const f32, *const f32, *mut f32);
 type Scene = (Gravity, Inertia, Coriolis);
-type Inverse<'a, E, const Q: usize, const V: usize> = fn(StateWithTrig<'a, f32, Q, V>, &E) -> [f32; V];
+type Inverse<'a, E, const Q: usize, const V: usize> =
+    fn(StateWithTrig<'a, f32, Q, V>, &E) -> [f32; V];
 type Matrix<const Q: usize, const V: usize> = fn(&JointTrig<f32, Q>, &Scene) -> MassMatrix<f32, V>;
 type Forward<'a, const Q: usize, const V: usize> =
     fn(StateWithTrig<'a, f32, Q, V>, &[f32; V], &Scene) -> Result<[f32; V], NotPositiveDefinite>;
@@ -70,7 +71,8 @@ fn main() -> ! {
 }
 
 /// Some states within the joints' usual ranges, from a fixed seed.
-fn asks<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() -> [Ask<Q, V>; STATES] {
+fn asks<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() -> [Ask<Q, V>; STATES]
+{
     let mut number = numbers();
     [(); STATES].map(|()| {
         let state = State {
@@ -86,7 +88,12 @@ fn asks<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() -> 
             if k < of_base { at.q } else { at.cos }
         });
         let sin = trig.coordinates.map(|at| at.sin);
-        Ask { state, trig, cos, sin }
+        Ask {
+            state,
+            trig,
+            cos,
+            sin,
+        }
     })
 }
 
@@ -186,14 +193,22 @@ fn compare<'a, T: Robot<B, Q, V>, F: Copy, O, const B: usize, const Q: usize, co
     let [(textbook, _), _] = ours;
     let expected = |ask| flat(call(textbook, ask));
     let size = |numbers: Vec<f32, MOST>| numbers.iter().fold(0.0, |size, x| larger(size, x.abs()));
-    let scale = asks.iter().fold(0.0, |scale, ask| larger(scale, size(expected(ask))));
+    let scale = asks
+        .iter()
+        .fold(0.0, |scale, ask| larger(scale, size(expected(ask))));
     let report = |found: &mut dyn FnMut(&'a Ask<Q, V>) -> Vec<f32, MOST>| {
         let off = asks.iter().fold(0.0, |off, ask| {
             let (found, expected) = (found(ask), expected(ask));
             // NaN counts as wrong, and so does a number that is missing.
-            let missing = if found.len() < expected.len() { f32::NAN } else { 0.0 };
+            let missing = if found.len() < expected.len() {
+                f32::NAN
+            } else {
+                0.0
+            };
             let pairs = core::iter::zip(&found, &expected);
-            pairs.fold(larger(off, missing), |off, (a, b)| larger(off, (a - b).abs()))
+            pairs.fold(larger(off, missing), |off, (a, b)| {
+                larger(off, (a - b).abs())
+            })
         });
         defmt::println!("error {=f32}", off / scale);
     };
@@ -209,15 +224,23 @@ fn compare<'a, T: Robot<B, Q, V>, F: Copy, O, const B: usize, const Q: usize, co
         row(form).measure(address, asks, |ask| call(run, ask));
         report(&mut |ask| flat(call(run, ask)));
     }
-    for peer in peers {
+    for &Peer { build, run } in peers {
         let call = |ask: &Ask<Q, V>, out: &mut [f32; MOST]| {
             let (qd, qdd) = (ask.state.qd.as_ptr(), ask.state.qdd.as_ptr());
             // SAFETY: xtask's table names functions of this type, which read Q or V numbers at most from
             // each input and write no more than V (V + 1) / 2 or 21.
-            unsafe { (peer.run)(ask.cos.as_ptr(), ask.sin.as_ptr(), qd, qdd, out.as_mut_ptr()) }
+            unsafe {
+                run(
+                    ask.cos.as_ptr(),
+                    ask.sin.as_ptr(),
+                    qd,
+                    qdd,
+                    out.as_mut_ptr(),
+                )
+            }
         };
         let mut out = [0.0; MOST];
-        row(peer.build).measure(peer.run as usize, asks, |ask| call(ask, &mut out));
+        row(build).measure(run as usize, asks, |ask| call(ask, &mut out));
         report(&mut |ask| {
             call(ask, &mut out);
             Vec::from_array(black_box(out))

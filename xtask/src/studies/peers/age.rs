@@ -23,10 +23,9 @@ const MEASURED: [&str; 5] = [
 /// Fails, with the places whose code has changed, unless the page is of today's.
 pub fn check(workspace: &Workspace) -> Result<ExitCode> {
     let page = workspace::read(&workspace.root.join(PAGE))?;
-    let changed = changed(&page, &workspace.root)?;
+    let changed = changed(&page, &workspace.root)?.join(", ");
     if !changed.is_empty() {
-        let of = changed.join(", ");
-        bail!("{PAGE} is older than {of}: `cargo xtask peers` measures it anew");
+        bail!("{PAGE} is older than {changed}: `cargo xtask peers` measures it anew");
     }
     output::line(&format!("{PAGE} is of this code"))?;
     Ok(ExitCode::SUCCESS)
@@ -34,56 +33,51 @@ pub fn check(workspace: &Workspace) -> Result<ExitCode> {
 
 /// The places whose code is not what the page says that it measured.
 fn changed(page: &str, root: &Path) -> Result<Vec<&'static str>> {
-    let recorded: Vec<_> = page.lines().filter_map(cells).collect();
-    let mut changed = Vec::new();
-    for place in MEASURED {
-        let now = hash(&root.join(place))?;
-        if !recorded.iter().any(|row| row[0] == place && row[1..] == [&*now]) {
-            changed.push(place);
-        }
-    }
-    Ok(changed)
+    let today = of_code(root)?.markdown();
+    let today = today.lines().filter_map(cells);
+    let pairs = MEASURED.into_iter().zip(today.skip(2));
+    let is_old = |row: &Vec<&str>| {
+        !page
+            .lines()
+            .filter_map(cells)
+            .any(|recorded| recorded == *row)
+    };
+    Ok(pairs
+        .filter(|(_, row)| is_old(row))
+        .map(|(place, _)| place)
+        .collect())
 }
 
 /// The table by which a later run knows the code that was measured.
-pub fn of_code(root: &Path) -> Result<String> {
+pub fn of_code(root: &Path) -> Result<Table> {
     let mut table = Table::new(&["code", "FNV-1a of its lines"]);
     for place in MEASURED {
-        table.row([place.to_owned(), hash(&root.join(place))?]);
+        let mut hash = 0xcbf2_9ce4_8422_2325;
+        add(&mut hash, &root.join(place))?;
+        table.row([place.to_owned(), format!("{hash:016x}")]);
     }
-    Ok(table.markdown())
+    Ok(table)
 }
 
-/// A hash (FNV-1a, 64 bits) of a file, or of a folder's files by name; of Rust the lines of code alone, so that a
+/// Adds a file, or a folder's files by name, to a hash (FNV-1a, 64 bits); of Rust the lines of code alone, so that a
 /// comment changes nothing.
-fn hash(path: &Path) -> Result<String> {
-    let mut files = Vec::new();
-    collect(path, &mut files)?;
-    files.sort();
-    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-    let mut add = |text: &str| {
-        for byte in text.bytes().chain([b'\n']) {
-            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+fn add(hash: &mut u64, path: &Path) -> Result<()> {
+    let mut add_line = |line: &str| {
+        for byte in line.bytes().chain([b'\n']) {
+            *hash = (*hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }
     };
-    for file in files {
-        let (name, text) = (file.strip_prefix(path).unwrap_or(&file), workspace::read(&file)?);
-        add(&name.to_string_lossy().replace('\\', "/"));
-        match file.extension().is_some_and(|end| end == "rs") {
-            true => code(&text).for_each(|(_, line)| add(line)),
-            false => text.lines().for_each(&mut add),
-        }
+    add_line(&path.file_name().unwrap_or_default().to_string_lossy());
+    if path.is_dir() {
+        let entries = std::fs::read_dir(path).map_err(Error::file("read", path))?;
+        let mut paths: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();
+        paths.sort();
+        return paths.iter().try_for_each(|path| add(hash, path));
     }
-    Ok(format!("{hash:016x}"))
-}
-
-fn collect(path: &Path, files: &mut Vec<std::path::PathBuf>) -> Result<()> {
-    if path.is_file() {
-        files.push(path.to_owned());
-        return Ok(());
-    }
-    for entry in std::fs::read_dir(path).map_err(Error::file("read", path))? {
-        collect(&entry.map_err(Error::file("read", path))?.path(), files)?;
+    let text = workspace::read(path)?;
+    match path.extension().is_some_and(|end| end == "rs") {
+        true => code(&text).for_each(|(_, line)| add_line(line)),
+        false => text.lines().for_each(add_line),
     }
     Ok(())
 }
@@ -96,24 +90,25 @@ mod tests {
     fn a_changed_line_of_code_makes_the_page_old() {
         let folder = tempfile::tempdir().expect("a folder");
         let put = |place: &str, text: &str| {
-            let file = match place.contains('.') && !place.ends_with("src") {
-                true => folder.path().join(place),
-                false => folder.path().join(place).join("one.rs"),
+            // Two of the places are files.
+            let file = folder.path().join(place);
+            let file = match file.extension() {
+                Some(_) => file,
+                None => file.join("one.rs"),
             };
             std::fs::create_dir_all(file.parent().expect("a folder")).expect("made");
             std::fs::write(file, text).expect("written");
         };
         MEASURED.iter().for_each(|place| put(place, "fn f() {}\n"));
-        let page = of_code(folder.path()).expect("hashed");
-        let old = || changed(&page, folder.path()).expect("hashed");
-        assert!(old().is_empty());
+        let page = of_code(folder.path()).expect("hashed").markdown();
+        let old = |page| changed(page, folder.path()).expect("hashed");
         put(MEASURED[0], "// A comment.\nfn f() {}\n");
-        assert!(old().is_empty());
+        assert!(old(&page).is_empty());
         for place in MEASURED {
             put(place, "fn f() { g() }\n");
-            assert_eq!(old(), [place]);
+            assert_eq!(old(&page), [place]);
             put(place, "fn f() {}\n");
         }
-        assert_eq!(changed("", folder.path()).expect("hashed"), MEASURED);
+        assert_eq!(old(""), MEASURED);
     }
 }

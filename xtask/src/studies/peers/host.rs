@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::thread;
 
 use serde_json::{Value, json};
 
@@ -31,11 +32,23 @@ const RUNS: usize = 5;
 /// A computation: its robot, algorithm and precision.
 type Wanted<'a> = (&'a Robot, &'static str, &'static str);
 
-/// Builds Pinocchio's side.
+/// Builds Pinocchio's side, which takes compilers minutes: both beside each other.
 pub fn libraries(shop: &Workshop<'_>) -> Result<()> {
-    for compiler in CPP_COMPILERS {
-        shop.pinocchio("pinocchio_peer", compiler)?;
-        shop.pinocchio("pinocchio_loops", compiler)?;
+    let build = |compiler| {
+        let peer = shop.pinocchio("pinocchio_peer", compiler);
+        peer.and_then(|_| shop.pinocchio("pinocchio_loops", compiler))
+    };
+    let built = thread::scope(|scope| {
+        let threads = CPP_COMPILERS.map(|compiler| {
+            scope.spawn({
+                let build = &build;
+                move || build(compiler)
+            })
+        });
+        threads.map(|thread| thread.join())
+    });
+    for result in built {
+        result.map_err(|_| check!("a build of Pinocchio panicked"))??;
     }
     Ok(())
 }
@@ -67,15 +80,18 @@ fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
         let library = shop.pinocchio("pinocchio_peer", compiler)?;
         for wanted in wanted(robots) {
             let (_, algorithm, precision) = wanted;
-            let prefix = format!("pinocchio_{precision}_");
-            let mut add = |peer: &str, run| {
-                all.push(foreign(wanted, peer, &library, &prefix, run, Some(&text)));
-            };
-            let peer = format!("pinocchio {compiler}");
-            add(&peer, algorithm);
-            if algorithm == "osim" {
-                add(&format!("{peer}, Delassus"), "delassus");
-            }
+            let (peer, prefix) = (
+                format!("pinocchio {compiler}"),
+                format!("pinocchio_{precision}_"),
+            );
+            all.push(foreign(
+                wanted,
+                &peer,
+                &library,
+                &prefix,
+                algorithm,
+                Some(&text),
+            ));
         }
     }
     let (mujoco, kdl) = (shop.mujoco()?, shop.kdl()?);
@@ -83,11 +99,25 @@ fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
         let file = shop.robots.join(format!("{}.xml", robot.name));
         for (algorithm, peer, run) in MUJOCO {
             let wanted = (robot, algorithm, "f64");
-            all.push(foreign(wanted, peer, &mujoco, "mujoco_f64_", run, Some(&file)));
+            all.push(foreign(
+                wanted,
+                peer,
+                &mujoco,
+                "mujoco_f64_",
+                run,
+                Some(&file),
+            ));
         }
         for algorithm in KDL.iter().filter(|_| robot.is_chain()) {
             let wanted = (robot, *algorithm, "f64");
-            all.push(foreign(wanted, "kdl", &kdl, "kdl_f64_", algorithm, Some(&text)));
+            all.push(foreign(
+                wanted,
+                "kdl",
+                &kdl,
+                "kdl_f64_",
+                algorithm,
+                Some(&text),
+            ));
         }
     }
     let spinner = Spinner::start("building CasADi's C for the host");
@@ -145,7 +175,7 @@ fn foreign(
 
 /// Our side, for this very processor like the others: in a directory of its own, since other flags
 /// rebuild everything.
-fn bench(workspace: &Workspace) -> Result<PathBuf> {
+pub fn bench(workspace: &Workspace) -> Result<PathBuf> {
     let _spinner = Spinner::start("compiling our side and dynibo for this processor");
     let target = workspace.target.join("peers/native");
     let mut command = workspace.cargo("build");

@@ -85,7 +85,14 @@ pub fn of_runs(all: Vec<Row>) -> Vec<Row> {
 impl Row {
     /// Whether it is of this code, and else of what `row` is.
     fn is_of(&self, row: &Row, peer: &str) -> bool {
-        let key = |row: &Row| (row.target, row.robot.clone(), row.algorithm.clone(), row.precision.clone());
+        let key = |row: &Row| {
+            (
+                row.target,
+                row.robot.clone(),
+                row.algorithm.clone(),
+                row.precision.clone(),
+            )
+        };
         self.peer == peer && key(self) == key(row)
     }
 }
@@ -108,7 +115,8 @@ fn text(value: Option<f64>, digits: usize) -> String {
 
 const ON_TARGET: &str = "f32, sines and cosines computed outside; instructions are exact, \
     cycles modelled. `casadi clang` has our CPU flags and is outside the bars.";
-const ON_HOST: &str = "Nanoseconds a state, sines and cosines included, and the times of ours divided by this one's.";
+const ON_HOST: &str =
+    "Nanoseconds a state, sines and cosines included, and the times of ours divided by this one's.";
 
 impl Report {
     pub fn markdown(&self) -> String {
@@ -149,9 +157,13 @@ impl Report {
     /// Times, and their ratios to Pinocchio's by its better compiler.
     fn in_a_row(&self, algorithm: &str) -> Table {
         let to_best = |row: &Row| {
-            let rows = self.of(HOST, algorithm).filter(|other| other.robot == row.robot);
+            let rows = self
+                .of(HOST, algorithm)
+                .filter(|other| other.robot == row.robot);
             let theirs = rows.filter(|other| other.peer.starts_with("pinocchio"));
-            theirs.filter_map(|other| ratio(row, other)).max_by(f64::total_cmp)
+            theirs
+                .filter_map(|other| ratio(row, other))
+                .max_by(f64::total_cmp)
         };
         Table::of(
             self.of(HOST, algorithm),
@@ -200,9 +212,13 @@ impl Report {
             let of = (&line.robot, &line.peer, precision);
             rows.find(|row| (&row.robot, &row.peer, &*row.precision) == of)
         };
-        let time = |line: &Row, precision| text(in_precision(line, precision).and_then(|row| row.ns), 1);
+        let time =
+            |line: &Row, precision| text(in_precision(line, precision).and_then(|row| row.ns), 1);
         let ratio = |line: &Row, ours: usize, precision| {
-            text(in_precision(line, precision).and_then(|row| row.ratios[ours]), 3)
+            text(
+                in_precision(line, precision).and_then(|row| row.ratios[ours]),
+                3,
+            )
         };
         Table::of(
             lines,

@@ -86,7 +86,9 @@ impl Robot {
 
     /// Whether no body has two children.
     pub fn is_chain(&self) -> bool {
-        (-1..).zip(&self.bodies).all(|(before, body)| body.parent == before)
+        (-1..)
+            .zip(&self.bodies)
+            .all(|(before, body)| body.parent == before)
     }
 
     /// What is compared of it.
@@ -101,7 +103,11 @@ impl Robot {
 
     /// The precisions on the host.
     pub fn precisions(&self) -> &'static [&'static str] {
-        if self.has_subtree_functions() { &PRECISIONS[1..] } else { &PRECISIONS }
+        if self.has_subtree_functions() {
+            &PRECISIONS[1..]
+        } else {
+            &PRECISIONS
+        }
     }
 
     /// Whether its joints are many, so that compilers take long.
@@ -118,7 +124,11 @@ impl Robot {
     /// on the host if that does not take long.
     pub fn casadi(&self) -> impl Iterator<Item = [&'static str; 3]> {
         let hosted = self.precisions().iter().map(|precision| ["q", precision]);
-        let checked = if self.has_subtree_functions() { &PRECISIONS[..1] } else { &PRECISIONS };
+        let checked = if self.has_subtree_functions() {
+            &PRECISIONS[..1]
+        } else {
+            &PRECISIONS
+        };
         let target = checked.iter().map(|precision| ["cs", precision]);
         let target = target.filter(|_| self.is_on_target());
         let forms: Vec<_> = hosted.chain(target).collect();

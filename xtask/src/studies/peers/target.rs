@@ -2,15 +2,15 @@
 
 use std::path::PathBuf;
 use std::process::Command;
-use std::time::Instant;
 
-use crate::kit::error::{Result, bail};
+use crate::kit::error::{Result, bail, check};
 use crate::kit::progress::Spinner;
 use crate::kit::rows::{Row as MeasuredRow, run_all};
 use crate::kit::setup::Tools;
 use crate::kit::shell;
 use crate::kit::toolchain::RELEASE;
 use crate::kit::workspace::{self, LAB, Workspace};
+use crate::studies::peers::ALGORITHMS;
 use crate::studies::peers::build::{Workshop, words};
 use crate::studies::peers::report::{M4F, Row};
 use crate::studies::peers::robots::Robot;
@@ -18,8 +18,6 @@ use crate::studies::peers::robots::Robot;
 /// The firmware's bin, and the feature that it is built with.
 const BIN: &str = "peers";
 
-/// A function of a robot.
-type Function<'a> = (&'a Robot, &'static str);
 /// A function, and the seconds of a release build of the firmware with it.
 pub type Build = (String, f64);
 
@@ -52,38 +50,37 @@ const COMMON: &str = "-c -O3 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard";
 /// symbols: the better of the two is the peer.
 const OVERLAP: [(&str, &str); 2] = [("", ""), ("restrict", "_r")];
 
-/// Compiles the C and the firmwares, and runs them under the meter: one of the robots on a fixed base, then one of each
-/// function of a free base, since they are large. Returns the seconds of the builds of those, too.
+/// Compiles the C and the firmwares, and runs them under the meter: one of each robot on a fixed base, and of each function
+/// of a free base. Returns the seconds of the builds of those, too.
 pub fn measure(
     workspace: &Workspace,
     shop: &Workshop<'_>,
     tools: &Tools,
     robots: &[Robot],
 ) -> Result<(Vec<Row>, Vec<Build>)> {
-    let functions = robots.iter().filter(|robot| robot.is_on_target());
-    let functions: Vec<Function<'_>> = functions
-        .flat_map(|robot| robot.algorithms().iter().map(move |name| (robot, *name)))
-        .collect();
-    let (fixed, free): (Vec<_>, Vec<_>) =
-        functions.into_iter().partition(|(robot, _)| !robot.is_free());
-    let mut found = firmware(workspace, shop, tools, &fixed)?.0;
-    let mut builds = Vec::new();
-    for function @ (robot, algorithm) in free {
-        let (rows, seconds) = firmware(workspace, shop, tools, &[function])?;
-        found.extend(rows);
-        builds.push((format!("{}, {algorithm}", robot.name), seconds));
+    let (mut found, mut builds) = (Vec::new(), Vec::new());
+    for robot in robots.iter().filter(|robot| robot.is_on_target()) {
+        let most = if robot.is_free() { 1 } else { ALGORITHMS.len() };
+        for algorithms in robot.algorithms().chunks(most) {
+            let (rows, seconds) = firmware(workspace, shop, tools, robot, algorithms)?;
+            found.extend(rows);
+            if let ([algorithm], true) = (algorithms, robot.is_free()) {
+                builds.push((format!("{}, {algorithm}", robot.name), seconds));
+            }
+        }
     }
     Ok((found, builds))
 }
 
-/// Rows of a firmware with these functions, and the seconds that cargo took to build it over a library that is built.
+/// Rows of a firmware with these functions of a robot, and the seconds of processor time of its build, over a library that is built.
 fn firmware(
     workspace: &Workspace,
     shop: &Workshop<'_>,
     tools: &Tools,
-    functions: &[Function<'_>],
+    robot: &Robot,
+    algorithms: &[&str],
 ) -> Result<(Vec<Row>, f64)> {
-    let (objects, table) = compile(shop, functions)?;
+    let (objects, table) = compile(shop, robot, algorithms)?;
     let spinner = Spinner::start("compiling a firmware of the peers");
     let objects = objects
         .iter()
@@ -91,22 +88,46 @@ fn firmware(
     let mut command = tools.toolchain.cargo(workspace, "rustc");
     let of = "--release --features peers --bin peers --package";
     command.args(words(of)).args([LAB, "--"]).args(objects);
-    command.env("PEERS_TABLE", &table);
-    let start = Instant::now();
-    shell::capture(&mut command)?;
-    let seconds = start.elapsed().as_secs_f64();
+    // The shell says at last what its children took: wall time would depend on what else runs here.
+    let mut timed = Command::new("sh");
+    timed
+        .args(["-c", r#""$@" && times"#, "sh"])
+        .env("PEERS_TABLE", &table);
+    timed.arg(command.get_program()).args(command.get_args());
+    for (name, value) in command.get_envs() {
+        match value {
+            Some(value) => timed.env(name, value),
+            None => timed.env_remove(name),
+        };
+    }
+    let seconds = processor_time(&shell::capture(&mut timed)?)?;
     let elf = tools.toolchain.elf(workspace, RELEASE, BIN);
     drop(spinner);
     let (measured, lines) = run_all(workspace, tools, &[BIN], &[elf])?;
     Ok((rows(measured, &lines)?, seconds))
 }
 
+/// The seconds in the last line of a shell's `times`, which is of its children: `1m2.5s 0m0.5s`, of the user and the system.
+fn processor_time(said: &str) -> Result<f64> {
+    let seconds = |word: &str| {
+        let (minutes, seconds) = word.strip_suffix('s')?.split_once('m')?;
+        Some(60.0 * minutes.parse::<f64>().ok()? + seconds.parse::<f64>().ok()?)
+    };
+    let last = said.lines().last().unwrap_or_default();
+    let sum = last.split_whitespace().map(seconds).sum::<Option<f64>>();
+    sum.ok_or_else(|| check!("the shell says of its children's time: {last:?}"))
+}
+
 /// Objects, and the table of their functions for the firmware, which calls ours of the same.
-fn compile(shop: &Workshop<'_>, functions: &[Function<'_>]) -> Result<(Vec<PathBuf>, PathBuf)> {
+fn compile(
+    shop: &Workshop<'_>,
+    robot: &Robot,
+    algorithms: &[&str],
+) -> Result<(Vec<PathBuf>, PathBuf)> {
     let spinner = Spinner::start("building CasADi's C for the target");
     let (mut objects, mut externs, mut calls) = (Vec::new(), String::new(), String::new());
     let inputs = "_: *const f32, ".repeat(4);
-    for (robot, algorithm) in functions {
+    for algorithm in algorithms {
         let name = format!("{}_{algorithm}_cs_f32", robot.name);
         let source = shop.code.join(format!("{name}.c"));
         let mut peers = String::new();
@@ -129,7 +150,10 @@ fn compile(shop: &Workshop<'_>, functions: &[Function<'_>]) -> Result<(Vec<PathB
             "osim" => format!(", {}", bodies - 1),
             _ => String::new(),
         };
-        let of = format!("{}, {bodies}, {positions}, {velocities}{tip}", robot.type_name());
+        let of = format!(
+            "{}, {bodies}, {positions}, {velocities}{tip}",
+            robot.type_name()
+        );
         calls += &format!("    {algorithm}::<{of}>(&[{peers}]);\n");
     }
     let text = format!("unsafe extern \"C\" {{\n{externs}}}\nfn run() {{\n{calls}}}\n");
@@ -185,4 +209,16 @@ pub fn compilers() -> Vec<String> {
         .filter_map(|program| shell::capture(Command::new(program).arg("--version")).ok())
         .filter_map(|text| text.lines().next().map(str::to_owned))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::processor_time;
+
+    #[test]
+    fn the_time_of_a_build_is_its_childrens() {
+        let said = "built\n0m0.001s 0m0.002s\n1m2.500s 0m0.250s\n";
+        assert_eq!(processor_time(said).expect("a time"), 62.75);
+        processor_time("62.75").expect_err("another shell");
+    }
 }

@@ -63,18 +63,26 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     }
     let (tools, peers) = tools::set_up(&workspace, options)?;
     let shop = Workshop::new(&workspace, &peers)?;
+    // Now, so that the page is old if somebody edits it meanwhile.
+    let code = age::of_code(&workspace.root)?.markdown();
     let robots = robots::export(&workspace)?;
-    // The target's side does not wait for Pinocchio.
-    let (on_target, built) = thread::scope(|scope| {
-        let libraries = scope.spawn(|| host::libraries(&shop));
-        let measured = shop
-            .generate(&robots)
-            .and_then(|()| target::measure(&workspace, &shop, &tools, &robots));
-        (measured, libraries.join())
+    // Nothing but the times waits for Pinocchio.
+    let (others, pinocchio) = thread::scope(|scope| {
+        let pinocchio = scope.spawn(|| host::pinocchio(&shop));
+        let others = || {
+            shop.generate(&robots)?;
+            let on_target = target::measure(&workspace, &shop, &tools, &robots)?;
+            Ok((
+                on_target,
+                host::casadi(&shop, &robots)?,
+                host::bench(&workspace)?,
+            ))
+        };
+        (others(), pinocchio.join())
     });
-    let (mut rows, builds) = on_target?;
-    built.map_err(|_| check!("a build of Pinocchio panicked"))??;
-    rows.extend(host::measure(&workspace, &shop, &robots)?);
+    let ((mut rows, builds), casadi, bench) = others?;
+    pinocchio.map_err(|_| check!("a build of Pinocchio panicked"))??;
+    rows.extend(host::measure(&shop, &robots, casadi, &bench)?);
     let versions = versions(&workspace, &tools, &peers)?;
     let ratios = budgets::bars(&workspace)?;
     let compared = bars::compared(&ratios, &rows);
@@ -88,7 +96,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         builds,
         compared,
         versions,
-        code: age::of_code(&workspace.root)?.markdown(),
+        code,
         date: docs::today_and_commit(&workspace),
     };
     let page = report.markdown();

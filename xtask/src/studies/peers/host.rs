@@ -33,7 +33,7 @@ const RUNS: usize = 5;
 type Wanted<'a> = (&'a Robot, &'static str, &'static str);
 
 /// Builds Pinocchio's side, which takes compilers minutes: both beside each other.
-pub fn libraries(shop: &Workshop<'_>) -> Result<()> {
+pub fn pinocchio(shop: &Workshop<'_>) -> Result<()> {
     let build = |compiler| {
         let peer = shop.pinocchio("pinocchio_peer", compiler);
         peer.and_then(|_| shop.pinocchio("pinocchio_loops", compiler))
@@ -53,22 +53,27 @@ pub fn libraries(shop: &Workshop<'_>) -> Result<()> {
     Ok(())
 }
 
-/// Builds the peers and the benchmark, and runs it five times.
-pub fn measure(workspace: &Workspace, shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Row>> {
+/// Runs the benchmark five times, with CasADi's functions and the others.
+pub fn measure(
+    shop: &Workshop<'_>,
+    robots: &[Robot],
+    mut foreign: Vec<Value>,
+    bench: &Path,
+) -> Result<Vec<Row>> {
+    foreign.extend(build(shop, robots)?);
     let loops = CPP_COMPILERS.map(|compiler| {
         let library = shop.pinocchio("pinocchio_loops", compiler)?;
         Ok((format!("pinocchio {compiler}"), library))
     });
     let loops: Vec<_> = loops.into_iter().collect::<Result<_>>()?;
-    let manifest = json!({ "foreign": build(shop, robots)?, "urdfs": shop.robots, "loops": loops });
+    let manifest = json!({ "foreign": foreign, "urdfs": shop.robots, "loops": loops });
     let path = shop.built.join("manifest.json");
     workspace::write(&path, manifest.to_string())?;
-    let bench = bench(workspace)?;
     let spinner = Spinner::start("timing on the host");
     let mut rows: Vec<Row> = Vec::new();
     for number in 1..=RUNS {
         spinner.say(format!("timing on the host: run {number} of {RUNS}"));
-        rows.extend(run(&bench, &path)?);
+        rows.extend(run(bench, &path)?);
     }
     Ok(report::of_runs(rows))
 }
@@ -120,6 +125,12 @@ fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
             ));
         }
     }
+    Ok(all)
+}
+
+/// Builds CasADi's C.
+pub fn casadi(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
+    let mut all = Vec::new();
     let spinner = Spinner::start("building CasADi's C for the host");
     for robot in robots {
         for [algorithm, inputs, precision] in robot.casadi() {

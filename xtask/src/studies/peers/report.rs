@@ -85,15 +85,9 @@ pub fn of_runs(all: Vec<Row>) -> Vec<Row> {
 impl Row {
     /// Whether it is of this code, and else of what `row` is.
     fn is_of(&self, row: &Row, peer: &str) -> bool {
-        let key = |row: &Row| {
-            (
-                row.target,
-                row.robot.clone(),
-                row.algorithm.clone(),
-                row.precision.clone(),
-            )
-        };
-        self.peer == peer && key(self) == key(row)
+        self.peer == peer
+            && (self.target, &self.robot) == (row.target, &row.robot)
+            && (&self.algorithm, &self.precision) == (&row.algorithm, &row.precision)
     }
 }
 
@@ -240,5 +234,29 @@ impl Report {
         self.rows
             .iter()
             .filter(move |row| (row.target, &*row.algorithm) == (target, algorithm))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Row, of_runs};
+
+    #[test]
+    fn a_ratio_is_the_median_of_those_of_the_runs() {
+        let row = |peer: &str, ns| Row {
+            peer: peer.into(),
+            ns: Some(ns),
+            ..Row::default()
+        };
+        // A slow machine in the second run, a disturbed engine in the third.
+        let runs = [[10.0, 100.0], [20.0, 200.0], [90.0, 100.0]];
+        let all = runs.map(|[ours, theirs]| [row("engine", ours), row("kdl", theirs)]);
+        let rows = of_runs(all.into_iter().flatten().collect());
+        let [engine, kdl] = &rows[..] else {
+            panic!("two functions")
+        };
+        assert_eq!((engine.ns, kdl.ns), (Some(20.0), Some(100.0)));
+        assert_eq!(engine.ratios, [Some(1.0), None]);
+        assert_eq!(kdl.ratios, [Some(0.1), None]);
     }
 }

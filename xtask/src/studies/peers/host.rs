@@ -137,8 +137,8 @@ pub fn casadi(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
             // Functions that take cosines are for the target, and are timed there.
             let compilers = match inputs {
                 "q" => &C_COMPILERS[..],
-                _ if robot.has_subtree_functions() => &[],
-                _ => &C_COMPILERS[..1],
+                _ if robot.precisions().contains(&precision) => &C_COMPILERS[..1],
+                _ => &[],
             };
             let name = format!("{}_{algorithm}_{inputs}_{precision}", robot.name);
             let [_, positions, velocities] = robot.size();

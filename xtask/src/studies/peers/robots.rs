@@ -86,9 +86,8 @@ impl Robot {
 
     /// Whether no body has two children.
     pub fn is_chain(&self) -> bool {
-        (-1..)
-            .zip(&self.bodies)
-            .all(|(before, body)| body.parent == before)
+        let mut bodies = (-1..).zip(&self.bodies);
+        bodies.all(|(before, body)| body.parent == before)
     }
 
     /// What is compared of it.
@@ -110,7 +109,7 @@ impl Robot {
         }
     }
 
-    /// Whether its joints are many, so that compilers take long.
+    /// Whether its joints are many.
     pub fn has_subtree_functions(&self) -> bool {
         self.size()[2] - 5 * usize::from(self.is_free()) > MANY
     }
@@ -120,22 +119,15 @@ impl Robot {
         self.is_free() || !self.has_subtree_functions()
     }
 
-    /// The functions of it that CasADi is to write: `cs` ones, which take cosines, are for the target, and are checked
-    /// on the host if that does not take long.
+    /// The functions of it that CasADi is to write: `cs` ones, which take cosines, are for the target.
     pub fn casadi(&self) -> impl Iterator<Item = [&'static str; 3]> {
-        let hosted = self.precisions().iter().map(|precision| ["q", precision]);
-        let checked = if self.has_subtree_functions() {
-            &PRECISIONS[..1]
-        } else {
-            &PRECISIONS
-        };
-        let target = checked.iter().map(|precision| ["cs", precision]);
+        let angles = self.precisions().iter().map(|precision| ["q", precision]);
+        let target = PRECISIONS.iter().map(|precision| ["cs", precision]);
         let target = target.filter(|_| self.is_on_target());
-        let forms: Vec<_> = hosted.chain(target).collect();
-        let algorithms = self.algorithms().iter();
-        algorithms.flat_map(move |algorithm| {
-            let of = |[inputs, precision]: [&'static str; 2]| [*algorithm, inputs, precision];
-            forms.iter().copied().map(of).collect::<Vec<_>>()
+        let forms: Vec<_> = angles.chain(target).collect();
+        self.algorithms().iter().flat_map(move |algorithm| {
+            let forms = forms.clone().into_iter();
+            forms.map(|[inputs, precision]| [*algorithm, inputs, precision])
         })
     }
 

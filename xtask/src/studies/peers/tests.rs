@@ -67,7 +67,8 @@ fn measured(page: &str) -> Vec<Row> {
         }
     }
     let mut robots: Vec<String> = Vec::new();
-    for row in &rows {
+    // All of them are measured on the host.
+    for row in rows.iter().filter(|row| row.target == HOST) {
         if !robots.contains(&row.robot) {
             robots.push(row.robot.clone());
         }

@@ -1,7 +1,7 @@
 // A function that CasADi generated, behind the C interface of the benchmark (see
-// pinocchio_peer.cpp). Compiled once for each, with its file, its name and the joints:
+// pinocchio_peer.cpp). Compiled once for each, with its file, its name and its coordinates:
 //
-//     cc -DFILE='"ur5e_rnea_q_f64.c"' -DNAME=ur5e_rnea_q_f64 -DJOINTS=6 -DOUTPUTS=6 -DCS=0 …
+//     cc -DFILE='"ur5e_rnea_q_f64.c"' -DNAME=ur5e_rnea_q_f64 -DPOSITIONS=6 -DVELOCITIES=6 -DOUTPUTS=6 -DCS=0 …
 
 #include <stddef.h>
 
@@ -15,11 +15,13 @@
 __attribute__((visibility("default"))) void RUN(NAME)(
     void *unused, const casadi_real *state, size_t count, casadi_real *out) {
   (void)unused;
-  for (; count > 0; --count, state += (3 + CS) * JOINTS, out += OUTPUTS) {
+  for (; count > 0; --count, out += OUTPUTS) {
+    const casadi_real *qd = state + (1 + CS) * POSITIONS;
 #if CS
-    NAME(state, state + JOINTS, state + 2 * JOINTS, state + 3 * JOINTS, out);
+    NAME(state, state + POSITIONS, qd, qd + VELOCITIES, out);
 #else
-    NAME(state, state + JOINTS, state + 2 * JOINTS, out);
+    NAME(state, qd, qd + VELOCITIES, out);
 #endif
+    state = qd + 2 * VELOCITIES;
   }
 }

@@ -4,7 +4,8 @@
 //
 // makes OUT/<robot>_<algorithm>_<inputs>_<precision>.c, each with one function of that name. Inputs are
 // `q` (position, velocity, acceleration) or `cs`, where cosines and sines are given: what a control
-// loop has that computes them once a tick for all its users. The C takes no heap.
+// loop has that computes them once a tick for all its users. The C takes no heap. Coordinates are the library's: of
+// a free joint attitude and position, angular before linear; in the place of cosines it has its coordinates themselves.
 
 #include <pinocchio/autodiff/casadi.hpp>
 
@@ -15,6 +16,7 @@
 
 #include <pinocchio/algorithm/aba.hpp>
 #include <pinocchio/algorithm/crba.hpp>
+#include <pinocchio/algorithm/jacobian.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
 
 #include "robot.hpp"
@@ -24,58 +26,95 @@ using Model = pinocchio::ModelTpl<SX>;
 using Data = pinocchio::DataTpl<SX>;
 using Vector = Eigen::Matrix<SX, Eigen::Dynamic, 1>;
 
-static Vector vector(const SX &values) {
-  Vector result(values.size1());
-  for (Eigen::Index i = 0; i < result.size(); ++i) result[i] = values(i);
-  return result;
-}
+// Which of the library's coordinates each of Pinocchio's is, and of positions whether it is an angle.
+struct Order {
+  std::vector<int> positions, velocities;
+  std::vector<bool> turns;
 
-template <typename Derived>
-static SX column(const Eigen::MatrixBase<Derived> &values) {
-  SX result(values.rows(), 1);
-  for (Eigen::Index i = 0; i < values.rows(); ++i) result(i) = values(i, 0);
-  return result;
-}
+  explicit Order(const Robot &robot) {
+    for (const Body &body : robot.bodies) {
+      const bool free = body.joint == "free";
+      if (body.joint == "fixed") continue;
+      append(positions, free ? std::vector<int>{4, 5, 6, 0, 1, 2, 3} : std::vector<int>{0});
+      append(velocities, free ? std::vector<int>{3, 4, 5, 0, 1, 2} : std::vector<int>{0});
+      turns.resize(positions.size(), !free);
+    }
+  }
 
-// The lower triangle by columns: what a user of M needs.
-static SX triangle(const Data::MatrixXs &upper) {
+  static void append(std::vector<int> &all, const std::vector<int> &block) {
+    const int first = all.size();
+    for (int k : block) all.push_back(first + k);
+  }
+
+  Vector theirs(const SX &ours) const {
+    Vector result(velocities.size());
+    for (std::size_t k = 0; k < velocities.size(); ++k) result[k] = ours(velocities[k]);
+    return result;
+  }
+
+  template <typename Derived>
+  SX ours(const Eigen::MatrixBase<Derived> &theirs) const {
+    SX result(velocities.size(), 1);
+    for (std::size_t k = 0; k < velocities.size(); ++k) result(velocities[k]) = theirs(k, 0);
+    return result;
+  }
+};
+
+// The lower triangle by columns of a symmetric matrix whose upper one is given, its coordinates in this order: what a
+// user of M needs.
+static SX triangle(const Data::MatrixXs &upper, const std::vector<int> &order) {
+  const casadi_int n = order.size();
+  SX sorted(n, n);
+  for (casadi_int i = 0; i < n; ++i)
+    for (casadi_int j = i; j < n; ++j) sorted(order[i], order[j]) = sorted(order[j], order[i]) = upper(i, j);
   std::vector<SX> entries;
-  for (Eigen::Index i = 0; i < upper.rows(); ++i)
-    for (Eigen::Index j = i; j < upper.cols(); ++j) entries.push_back(upper(i, j));
+  for (casadi_int i = 0; i < n; ++i)
+    for (casadi_int j = i; j < n; ++j) entries.push_back(sorted(i, j));
   return SX::vertcat(entries);
+}
+
+// Λ⁻¹ of the last body in its own frame.
+static Data::MatrixXs operational_inverse(const Model &model, Data &data, const Vector &q) {
+  Data::MatrixXs inverse = pinocchio::computeMinverse(model, data, q);
+  for (int i = 0; i < model.nv; ++i)
+    for (int j = 0; j < i; ++j) inverse(i, j) = inverse(j, i);
+  Data::Matrix6x jacobian = Data::Matrix6x::Zero(6, model.nv);
+  pinocchio::computeJointJacobian(model, data, q, model.njoints - 1, jacobian);
+  return jacobian * inverse * jacobian.transpose();
 }
 
 static casadi::Function function(
     const Robot &robot, const std::string &algorithm, Position position) {
   const Model model = pinocchio_model(robot, position).cast<SX>();
   Data data(model);
-  const SX v = SX::sym("v", model.nv), u = SX::sym("u", model.nv);
-  std::vector<SX> inputs;
+  const Order order(robot);
+  const SX qd = SX::sym("v", model.nv), last = SX::sym("u", model.nv);
+  const casadi_int positions = order.positions.size();
+  std::vector<SX> inputs = {SX::sym("q", positions)};
+  if (position == Position::cos_sin) inputs.push_back(SX::sym("s", positions));
   Vector q(model.nq);
-  if (position == Position::angle) {
-    inputs = {SX::sym("q", model.nq)};
-    q = vector(inputs[0]);
-  } else {
-    inputs = {SX::sym("c", model.nv), SX::sym("s", model.nv)};
-    for (int i = 0; i < model.nv; ++i) {
-      q[2 * i] = inputs[0](i);
-      q[2 * i + 1] = inputs[1](i);
-    }
+  Eigen::Index next = 0;
+  for (casadi_int k = 0; k < positions; ++k) {
+    q[next++] = inputs[0](order.positions[k]);
+    if (inputs.size() == 2 && order.turns[k]) q[next++] = inputs[1](order.positions[k]);
   }
+  const Vector v = order.theirs(qd), u = order.theirs(last);
   SX output;
   if (algorithm == "rnea") {
-    inputs.insert(inputs.end(), {v, u});
-    output = column(pinocchio::rnea(model, data, q, vector(v), vector(u)));
+    inputs.insert(inputs.end(), {qd, last});
+    output = order.ours(pinocchio::rnea(model, data, q, v, u));
   } else if (algorithm == "bias") {
-    inputs.push_back(v);
-    output = column(pinocchio::nonLinearEffects(model, data, q, vector(v)));
+    inputs.push_back(qd);
+    output = order.ours(pinocchio::nonLinearEffects(model, data, q, v));
   } else if (algorithm == "gravity") {
-    output = column(pinocchio::computeGeneralizedGravity(model, data, q));
+    output = order.ours(pinocchio::computeGeneralizedGravity(model, data, q));
   } else if (algorithm == "crba") {
-    output = triangle(pinocchio::crba(model, data, q));
+    output = triangle(pinocchio::crba(model, data, q), order.velocities);
+  } else if (algorithm == "osim") {
+    output = triangle(operational_inverse(model, data, q), {3, 4, 5, 0, 1, 2});
   } else {
-    inputs.insert(inputs.end(), {v, u});
-    output = column(pinocchio::aba(model, data, q, vector(v), vector(u)));
+    inputs.insert(inputs.end(), {qd, last});
+    output = order.ours(pinocchio::aba(model, data, q, v, u));
   }
   const std::string name =
       robot.name + "_" + algorithm + (position == Position::angle ? "_q" : "_cs");
@@ -121,13 +160,18 @@ static void write(const casadi::Function &made, const std::string &precision, co
 }
 
 int main(int count, char **arguments) try {
-  if (count != 3) throw std::runtime_error("usage: generate ROBOTS OUT");
-  for (const Robot &robot : read_robots(arguments[1]))
-    for (const char *algorithm : {"rnea", "bias", "gravity", "crba", "aba"})
-      for (const Position position : {Position::angle, Position::cos_sin}) {
-        const casadi::Function made = function(robot, algorithm, position);
-        for (const char *precision : {"f32", "f64"}) write(made, precision, arguments[2]);
-      }
+  if (count < 3) throw std::runtime_error("usage: generate ROBOTS OUT NAME...");
+  const std::vector<Robot> robots = read_robots(arguments[1]);
+  for (int i = 3; i < count; ++i) {
+    // ROBOT_ALGORITHM_INPUTS_PRECISION
+    const std::string name = arguments[i];
+    static const std::regex parts(R"((.+)_([a-z]+)_(q|cs)_(f32|f64))");
+    std::smatch found;
+    if (!std::regex_match(name, found, parts)) throw std::runtime_error(name + " is no function");
+    for (const Robot &robot : robots)
+      if (robot.name == found[1])
+        write(function(robot, found[2], found[3] == "q" ? Position::angle : Position::cos_sin), found[4], arguments[2]);
+  }
   return 0;
 } catch (const std::exception &error) {
   std::cerr << "generate: " << error.what() << "\n";

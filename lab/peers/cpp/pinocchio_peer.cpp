@@ -3,8 +3,8 @@
 //     void *pinocchio_<precision>_open(const char *robots, const char *name);
 //     void pinocchio_<precision>_<algorithm>(void *, const real *states, size_t count, real *out);
 //
-// A state is q, q̇ and q̈ (in forward dynamics τ) in a row; M is written as a square, by columns, of which
-// the upper triangle counts.
+// A state is q, q̇ and q̈ (in forward dynamics τ) in a row; M and Λ⁻¹ are written as squares, by columns, of which
+// the upper triangles count.
 
 #include <algorithm>
 #include <cstddef>
@@ -13,6 +13,7 @@
 
 #include <pinocchio/algorithm/aba.hpp>
 #include <pinocchio/algorithm/crba.hpp>
+#include <pinocchio/algorithm/delassus.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
 
 #include "robot.hpp"
@@ -23,9 +24,24 @@ template <typename Real>
 struct Peer {
   pinocchio::ModelTpl<Real> model;
   pinocchio::DataTpl<Real> data;
+  using Matrix = Eigen::Matrix<Real, 6, 6>;
+  PINOCCHIO_ALIGNED_STD_VECTOR(pinocchio::RigidConstraintModelTpl<Real>) tip;
+  PINOCCHIO_ALIGNED_STD_VECTOR(pinocchio::RigidConstraintDataTpl<Real>) tip_data;
+  Matrix mobility;
 
   explicit Peer(const Robot &robot)
-      : model(pinocchio_model(robot, Position::angle).cast<Real>()), data(model) {}
+      : model(pinocchio_model(robot, Position::angle).cast<Real>()), data(model) {
+    tip.emplace_back(pinocchio::CONTACT_6D, model, model.njoints - 1, pinocchio::LOCAL);
+    tip_data.emplace_back(tip.back());
+    pinocchio::initPvDelassus(model, data, tip);
+  }
+
+  // Λ⁻¹ of the last body in its own frame, as the Delassus matrix of a constraint that holds it.
+  template <typename Q>
+  const Matrix &osim(const Q &q) {
+    pinocchio::computeDelassusMatrix(model, data, q, tip, tip_data, mobility);
+    return mobility;
+  }
 };
 
 template <typename Real>
@@ -41,11 +57,11 @@ static void *open(const char *path, const char *name) try {
 template <typename Real, typename Algorithm>
 static void run(void *peer, const Real *state, std::size_t count, Real *out, Algorithm algorithm) {
   using View = Eigen::Map<const Eigen::Matrix<Real, Eigen::Dynamic, 1>>;
-  auto &[model, data] = *static_cast<Peer<Real> *>(peer);
-  const Eigen::Index n = model.nv;
-  for (; count > 0; --count, state += 3 * n) {
+  auto &p = *static_cast<Peer<Real> *>(peer);
+  const Eigen::Index m = p.model.nq, n = p.model.nv;
+  for (; count > 0; --count, state += m + 2 * n) {
     const auto &result =
-        algorithm(model, data, View(state, n), View(state + n, n), View(state + 2 * n, n));
+        algorithm(p, p.model, p.data, View(state, m), View(state + m, n), View(state + m + n, n));
     out = std::copy_n(result.data(), result.size(), out);
   }
 }
@@ -54,8 +70,8 @@ static void run(void *peer, const Real *state, std::size_t count, Real *out, Alg
   EXPORT void pinocchio_##PRECISION##_##NAME(                                               \
       void *peer, const REAL *states, std::size_t count, REAL *out) {                       \
     run(peer, states, count, out,                                                           \
-        [](auto &model, auto &data, auto q, auto v, auto a) -> auto & {                     \
-          (void)v, (void)a;                                                                 \
+        [](auto &p, auto &model, auto &data, auto q, auto v, auto a) -> auto & {                     \
+          (void)p, (void)model, (void)data, (void)v, (void)a;                               \
           return CALL;                                                                      \
         });                                                                                 \
   }
@@ -68,7 +84,8 @@ static void run(void *peer, const Real *state, std::size_t count, Real *out, Alg
   ALGORITHM(bias, REAL, PRECISION, pinocchio::nonLinearEffects(model, data, q, v))          \
   ALGORITHM(gravity, REAL, PRECISION, pinocchio::computeGeneralizedGravity(model, data, q))  \
   ALGORITHM(crba, REAL, PRECISION, pinocchio::crba(model, data, q))                         \
-  ALGORITHM(aba, REAL, PRECISION, pinocchio::aba(model, data, q, v, a))
+  ALGORITHM(aba, REAL, PRECISION, pinocchio::aba(model, data, q, v, a))                     \
+  ALGORITHM(osim, REAL, PRECISION, p.osim(q))
 
 PEER(float, f32)
 PEER(double, f64)

@@ -28,7 +28,7 @@ pub const GREEN: RGBColor = RGBColor(0, 140, 110);
 pub const RED: RGBColor = RGBColor(200, 50, 90);
 const GREY: RGBColor = RGBColor(96, 96, 96);
 pub const PURPLE: RGBColor = RGBColor(120, 70, 150);
-const OLIVE: RGBColor = RGBColor(150, 150, 60);
+pub const OLIVE: RGBColor = RGBColor(150, 150, 60);
 /// The colours of a chart's lines, in their order; colour-blind readers can distinguish them.
 pub const COLOURS: [RGBColor; 8] = [BLUE, ORANGE, SKY, GREY, GREEN, RED, PURPLE, OLIVE];
 

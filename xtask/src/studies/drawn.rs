@@ -1,7 +1,7 @@
 //! Pictures of tables: drawn from the page, so that they show what it says, whichever run wrote it.
 
 use crate::kit::chart::{
-    Axis, BLUE, GREEN, MUTED, ORANGE, PURPLE, Panels, RED, RGBColor, Row, Shape,
+    Axis, BLUE, GREEN, MUTED, OLIVE, ORANGE, PURPLE, Panels, RED, RGBColor, Row, Shape,
 };
 use crate::kit::docs::cells;
 use crate::kit::error::Result;
@@ -212,12 +212,13 @@ fn costs(page: &str) -> Result<String> {
 }
 
 /// By the first word of who wrote the code.
-const PEERS: [(&str, RGBColor); 5] = [
+const PEERS: [(&str, RGBColor); 6] = [
     ("core", BLUE),
     ("casadi", ORANGE),
     ("pinocchio", GREEN),
     ("mujoco", RED),
     ("dynibo", PURPLE),
+    ("kdl", OLIVE),
 ];
 
 /// Every other code against the engine.
@@ -225,7 +226,7 @@ fn peers(page: &str) -> Result<String> {
     let targets = [("Cortex-M4F", 2, "f32, cycles"), ("Host", 1, "f64, time")];
     let panels = targets.map(|(target, number, what)| {
         let mut shown = Vec::new();
-        for algorithm in ["rnea", "crba", "aba"] {
+        for algorithm in ["rnea", "crba", "aba", "osim"] {
             let rows = column(page, &format!("{target}: {algorithm}"), number);
             let rows = rows
                 .iter()

@@ -1,5 +1,6 @@
 //! `cargo xtask peers`: the same dynamics by other libraries and by ours, side by side in one run.
 
+mod age;
 mod bars;
 mod build;
 mod host;
@@ -10,11 +11,13 @@ mod target;
 mod tests;
 mod tools;
 
+use std::path::Path;
 use std::process::{Command, ExitCode};
+use std::thread;
 
 use crate::kit::bars::Compared;
-use crate::kit::docs::{self, Page};
-use crate::kit::error::{Result, bail};
+use crate::kit::docs;
+use crate::kit::error::{Result, bail, check};
 use crate::kit::setup::{Options, Tools};
 use crate::kit::shell;
 use crate::kit::workspace::{self, Workspace};
@@ -23,33 +26,27 @@ use crate::studies::peers::report::Report;
 use crate::studies::peers::tools::Peers;
 use crate::studies::{budgets, drawn};
 
-/// ID(q, q̇, q̈), ID(q, q̇, 0), ID(q, 0, 0), the mass matrix, and FD(q, q̇, τ).
-const ALGORITHMS: [&str; 5] = ["rnea", "bias", "gravity", "crba", "aba"];
+/// ID(q, q̇, q̈), ID(q, q̇, 0), ID(q, 0, 0), the mass matrix, FD(q, q̇, τ), and Λ⁻¹ of the tip of an arm.
+const ALGORITHMS: [&str; 6] = ["rnea", "bias", "gravity", "crba", "aba", "osim"];
 const PRECISIONS: [&str; 2] = ["f32", "f64"];
-/// The algorithms for the largest robot, in f64 and on the host alone.
-const LARGE: [&str; 3] = ["rnea", "crba", "aba"];
+const PAGE: &str = "docs/peers.md";
+/// The most seconds of processor time of a release build of firmware with one function.
+const BUILD: f64 = 60.0;
 
-/// The number of outputs of an algorithm for a robot with this number of joints; of M one triangle counts.
-fn outputs(algorithm: &str, joints: usize) -> usize {
-    if algorithm == "crba" {
-        joints * (joints + 1) / 2
-    } else {
-        joints
+/// The number of outputs of an algorithm with this number of velocity coordinates; of a matrix one triangle counts.
+fn outputs(algorithm: &str, velocities: usize) -> usize {
+    match algorithm {
+        "crba" => velocities * (velocities + 1) / 2,
+        "osim" => 21,
+        _ => velocities,
     }
 }
 
-/// The part of the page about robots with loops.
-const LOOPS: Page<'_> = Page {
-    file: "docs/peers.md",
-    name: "loops",
-    command: "cargo xtask peers --loops",
-};
-
 #[derive(clap::Args)]
 pub struct Args {
-    /// Measure robots with kinematic loops only, on the host, and rewrite their part of the page
+    /// Measure nothing: fail if docs/peers.md is of other code than this
     #[arg(long)]
-    loops: bool,
+    check: bool,
     /// The measurements as JSON on stdout; progress stays on stderr
     #[arg(long)]
     json: bool,
@@ -61,41 +58,50 @@ pub struct Args {
 /// Among others, a bar is missed that `budgets.toml` does not record as missed.
 pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let workspace = Workspace::for_reports()?;
+    if args.check {
+        return age::check(&workspace);
+    }
     let (tools, peers) = tools::set_up(&workspace, options)?;
     let shop = Workshop::new(&workspace, &peers)?;
-    if args.loops {
-        let report = Report {
-            rows: host::measure(&workspace, &shop, &[])?,
-            compared: Vec::new(),
-            versions: versions(&workspace, &tools, &peers)?,
-            date: docs::today_and_commit(&workspace),
-        };
-        let text = report.loops();
-        LOOPS.write(&workspace, &text)?;
-        return docs::show(args.json, &report.rows, &text);
-    }
+    // Now, so that the page is old if somebody edits it meanwhile.
+    let code = age::of_code(&workspace.root)?.markdown();
     let robots = robots::export(&workspace)?;
-    shop.generate(&robots)?;
-    let mut rows = target::measure(&workspace, &shop, &tools, &robots)?;
-    rows.extend(host::measure(&workspace, &shop, &robots)?);
+    // Nothing but the times waits for Pinocchio.
+    let (others, pinocchio) = thread::scope(|scope| {
+        let pinocchio = scope.spawn(|| host::pinocchio(&shop));
+        let others = || {
+            shop.generate(&robots)?;
+            let on_target = target::measure(&workspace, &shop, &tools, &robots)?;
+            Ok((
+                on_target,
+                host::casadi(&shop, &robots)?,
+                host::bench(&workspace)?,
+            ))
+        };
+        (others(), pinocchio.join())
+    });
+    let ((mut rows, builds), casadi, bench) = others?;
+    pinocchio.map_err(|_| check!("a build of Pinocchio panicked"))??;
+    rows.extend(host::measure(&shop, &robots, casadi, &bench)?);
     let versions = versions(&workspace, &tools, &peers)?;
     let ratios = budgets::bars(&workspace)?;
     let compared = bars::compared(&ratios, &rows);
     // Times on a host vary: one that happens to meet its bar is no reason to fail.
-    let unmet: Vec<String> = compared
-        .iter()
-        .filter(|compared| !compared.is_met())
-        .filter_map(Compared::complaint)
-        .collect();
+    let unmet = compared.iter().filter(|compared| !compared.is_met());
+    let slow = builds.iter().filter(|(_, seconds)| *seconds > BUILD);
+    let slow = slow.map(|(function, seconds)| format!("{function}: built in {seconds:.0} s"));
+    let unmet: Vec<String> = unmet.filter_map(Compared::complaint).chain(slow).collect();
     let report = Report {
         rows,
+        builds,
         compared,
         versions,
+        code,
         date: docs::today_and_commit(&workspace),
     };
-    let page = LOOPS.replaced(&report.markdown(), &report.loops())?;
-    workspace::write(&workspace.report("docs/peers.md"), &page)?;
-    drawn::write(&workspace, "docs/peers.md")?;
+    let page = report.markdown();
+    workspace::write(&workspace.report(PAGE), &page)?;
+    drawn::write(&workspace, PAGE)?;
     let code = docs::show(args.json, &report.rows, &page)?;
     if !unmet.is_empty() {
         bail!("bar: {}", unmet.join("\nbar: "));
@@ -115,6 +121,16 @@ fn versions(workspace: &Workspace, tools: &Tools, peers: &Peers) -> Result<Vec<S
             .trim()
             .rsplit_once('@')
             .map(|(_, version)| format!("dynibo {version}")),
+    );
+    let kdl = workspace::read(Path::new(tools::KDL))?;
+    let named = |line: &str| {
+        line.strip_prefix("#define KDL_VERSION_STRING ")
+            .map(str::to_owned)
+    };
+    versions.extend(
+        kdl.lines()
+            .find_map(named)
+            .map(|version| format!("Orocos KDL {}", version.trim_matches('"'))),
     );
     versions.extend(target::compilers());
     versions.push(tools.toolchain.rustc_version()?);

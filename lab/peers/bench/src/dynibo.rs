@@ -12,12 +12,19 @@ use crate::subject::{Subject, square};
 const GRAVITY: f64 = 9.80665 / 9.81;
 
 /// Its inverse dynamics, gravity torques, mass matrix and forward dynamics; nothing for what it lacks.
-pub fn subject<const N: usize>(
+pub fn subject<const Q: usize, const N: usize>(
     algorithm: &str,
     urdf: &Path,
     recording: &Recording,
-    states: &[State<f64, N, N>],
+    states: &[State<f64, Q, N>],
 ) -> Result<Option<Subject<f64>>, Box<dyn Error>> {
+    let gravity = match algorithm {
+        // It has no free base.
+        _ if Q != N => return Ok(None),
+        "rnea" | "gravity" => GRAVITY,
+        "crba" | "aba" => 1.0,
+        _ => return Ok(None),
+    };
     let mut robot = dynibo::Robot::from_urdf(urdf)?;
     if robot.joint_count() != N {
         return Err(format!("dynibo sees {} joints", robot.joint_count()).into());
@@ -37,7 +44,7 @@ pub fn subject<const N: usize>(
                 .ok_or("dynibo made up a joint")?)
         })
         .collect::<Result<Vec<usize>, Box<dyn Error>>>()?;
-    let sorted = |values: &[f64; N]| std::array::from_fn(|index| values[order[index]]);
+    let sorted = |values: &[f64]| std::array::from_fn(|index| values[order[index]]);
     let weights = recording.gravity.iter().cycle();
     let states: Vec<State<f64, N, N>> = std::iter::zip(states, weights)
         .map(|(s, weight)| {
@@ -55,11 +62,6 @@ pub fn subject<const N: usize>(
             }
         })
         .collect();
-    let gravity = match algorithm {
-        "rnea" | "gravity" => GRAVITY,
-        "crba" | "aba" => 1.0,
-        _ => return Ok(None),
-    };
     let order = match algorithm {
         "crba" => square(&order),
         _ => order.into_iter().map(Some).collect(),

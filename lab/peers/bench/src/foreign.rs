@@ -31,19 +31,17 @@ pub struct Foreign {
     open: Option<(String, String)>,
     /// Whether it is given cosines and sines instead of angles.
     cs: bool,
-    /// Numbers that it writes for a state.
-    outputs: usize,
-    /// Whether that is a square matrix by columns, of which the upper triangle counts.
-    square: bool,
     /// Whether it is timed, or only checked.
     timed: bool,
 }
 
 impl Foreign {
-    /// The function with its context and its inputs; q̈ stands for the torque in forward dynamics.
-    pub fn load<R: Real, const N: usize>(
+    /// The function with its context and its inputs; q̈ stands for the torque in forward dynamics. CasADi's has our
+    /// coordinates and writes triangles; libraries have their own ([`their_order`]) and write squares by columns.
+    pub fn load<R: Real, const Q: usize, const V: usize>(
         &self,
-        states: &[State<R, N, N>],
+        states: &[State<R, Q, V>],
+        theirs: &[Vec<usize>; 2],
     ) -> Result<Subject<R>, Box<dyn Error>> {
         let library = load(&self.library)?;
         // SAFETY: the sources in `lab/peers/cpp` give these functions these types.
@@ -62,12 +60,23 @@ impl Foreign {
                 context
             }
         };
-        let (outputs, count) = (self.outputs, states.len());
-        let input: Vec<R> = states.iter().flat_map(|state| self.input(state)).collect();
-        let order = match self.square {
-            true => square(&(0..N).collect::<Vec<_>>()),
-            false => (0..outputs).map(Some).collect(),
+        let [_, velocities] = theirs;
+        let (vector, matrix) = match &*self.algorithm {
+            "crba" => (Vec::new(), velocities.clone()),
+            "osim" => (Vec::new(), vec![3, 4, 5, 0, 1, 2]),
+            _ => (velocities.clone(), Vec::new()),
         };
+        let order: Vec<_> = match self.open {
+            Some(_) => (vector.into_iter().map(Some))
+                .chain(square(&matrix))
+                .collect(),
+            None => (0..vector.len() + matrix.len() * (matrix.len() + 1) / 2)
+                .map(Some)
+                .collect(),
+        };
+        let (outputs, count) = (order.len(), states.len());
+        let input = states.iter().flat_map(|state| self.input(state, theirs));
+        let input: Vec<R> = input.collect();
         let run = move |out: &mut [R]| {
             assert_eq!(out.len(), count * outputs);
             // SAFETY: as many states as it is told, of the size that it expects, and room for
@@ -80,9 +89,23 @@ impl Foreign {
         })
     }
 
-    fn input<R: Real, const N: usize>(&self, state: &State<R, N, N>) -> Vec<R> {
-        // Sines in f64 and rounded: what is checked is the function, not its trigonometry.
-        let of = |f: fn(f64) -> f64| state.q.map(|q| R::from_f64(f(q.to_f64()))).to_vec();
+    fn input<R: Real, const Q: usize, const V: usize>(
+        &self,
+        state: &State<R, Q, V>,
+        [positions, velocities]: &[Vec<usize>; 2],
+    ) -> Vec<R> {
+        if self.open.is_some() {
+            let q = positions.iter().map(|&k| state.q[k]);
+            let rates = [state.qd, state.qdd];
+            let rates = rates.iter().flat_map(|x| velocities.iter().map(|&k| x[k]));
+            return q.chain(rates).collect();
+        }
+        // Sines in f64 and rounded: what is checked is the function, not its trigonometry. A free base has none.
+        let base = 7 * (Q - V);
+        let of = |f: fn(f64) -> f64| {
+            let angles = state.q[base..].iter().map(|q| R::from_f64(f(q.to_f64())));
+            [&state.q[..base], &angles.collect::<Vec<_>>()].concat()
+        };
         let position = if self.cs {
             [of(f64::cos), of(f64::sin)].concat()
         } else {
@@ -90,6 +113,24 @@ impl Foreign {
         };
         [position, state.qd.to_vec(), state.qdd.to_vec()].concat()
     }
+}
+
+/// Our index of each of Pinocchio's positions and velocities, by the kinds of joints.
+pub fn their_order<'a>(joints: impl Iterator<Item = &'a str>) -> [Vec<usize>; 2] {
+    let mut order = [Vec::new(), Vec::new()];
+    for joint in joints {
+        let blocks: [&[usize]; 2] = match joint {
+            "fixed" => [&[], &[]],
+            "free" => [&[4, 5, 6, 0, 1, 2, 3], &[3, 4, 5, 0, 1, 2]],
+            "universal" => [&[0, 1], &[0, 1]],
+            _ => [&[0], &[0]],
+        };
+        for (order, block) in order.iter_mut().zip(blocks) {
+            let first = order.len();
+            order.extend(block.iter().map(|k| first + k));
+        }
+    }
+    order
 }
 
 fn load(path: &Path) -> Result<&'static Library, Box<dyn Error>> {

@@ -43,19 +43,7 @@ struct Theirs {
 impl Theirs {
     /// Points by the bodies that they are on; `mu` is that of the proximal solver.
     fn new(robot: &Robot, ends: &[[(i64, Placement); 2]], actuated: &[usize], mu: f64) -> Self {
-        let mut order = [Vec::new(), Vec::new()];
-        for body in &robot.bodies {
-            let (blocks, sizes): ([&[usize]; 2], _) = match &*body.joint {
-                "free" => ([&[4, 5, 6, 0, 1, 2, 3], &[3, 4, 5, 0, 1, 2]], [7, 6]),
-                "universal" => ([&[0, 1], &[0, 1]], [2, 2]),
-                _ => ([&[0], &[0]], [1, 1]),
-            };
-            for ((order, block), size) in order.iter_mut().zip(blocks).zip(sizes) {
-                let first = order.len();
-                assert_eq!(block.len(), size);
-                order.extend(block.iter().map(|k| first + k));
-            }
-        }
+        let order = foreign::their_order(robot.bodies.iter().map(|body| &*body.joint));
         let mut text = format!("{} {}\n", robot.name, robot.bodies.len());
         let place = |p: &Placement| [&p.rotation[..], &p.position].concat();
         for body in &robot.bodies {

@@ -13,7 +13,7 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use cluster_tests::DeltaRobot;
-use dynamics_core::robots::{A1, G1, Iiwa14, Panda, Ur5e};
+use dynamics_core::robots::{A1, A1Free, G1, G1Free, Iiwa14, Panda, Ur5e};
 use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
 use loop_tests::machines::{Delta, Stewart};
 use serde::Deserialize;
@@ -24,8 +24,8 @@ use foreign::Foreign;
 #[derive(Deserialize)]
 struct Manifest {
     foreign: Vec<Foreign>,
-    /// The directory of `<robot>.urdf`; nothing if robots without loops are not compared.
-    urdfs: Option<PathBuf>,
+    /// The directory of `<robot>.urdf`.
+    urdfs: PathBuf,
     /// Names and libraries of Pinocchio's side of robots with loops.
     loops: Vec<(String, PathBuf)>,
 }
@@ -43,15 +43,26 @@ fn main() -> Result<(), Box<dyn Error>> {
     loops::clustered::<AnkleLeg, 9, 9, 3>(loops, 0.0)?;
     loops::clustered::<DeltaRobot, 12, 12, 3>(loops, 0.0)?;
     loops::clustered::<StewartPlatform, 24, 24, 6>(loops, 0.0)?;
-    let Some(urdfs) = &manifest.urdfs else {
-        return Ok(());
-    };
-    macro_rules! robots {
-        ($($robot:ident $b:literal $n:literal $known:ident;)*) => {$(
-            let known = Some((ours::$known::<$robot, _, $b, $n> as _, ours::$known::<$robot, _, $b, $n> as _));
-            robot::run::<$robot, $b, $n>(&manifest, urdfs, known)?;
+    const ARM: &[&str] = &["rnea", "bias", "gravity", "crba", "aba", "osim"];
+    const DYNAMICS: &[&str] = &["rnea", "crba", "aba"];
+    macro_rules! arms {
+        ($($robot:ident $n:literal $tip:literal;)*) => {$(
+            let known = (ours::arm::<$robot, _, $n, $n, $tip> as _, Some(ours::arm::<$robot, _, $n, $n, $tip> as _));
+            robot::run::<$robot, $n, $n, $n>(&manifest, ARM, known)?;
         )*};
     }
-    robots! { Ur5e 6 6 all; Panda 7 7 all; Iiwa14 7 7 all; A1 16 12 inverse; }
-    robot::run::<G1, 29, 29>(&manifest, urdfs, None)
+    arms! { Ur5e 6 5; Panda 7 6; Iiwa14 7 6; }
+    let known = (
+        ours::inverse::<A1, _, 16, 12, 12> as _,
+        Some(ours::inverse::<A1, _, 16, 12, 12> as _),
+    );
+    robot::run::<A1, 16, 12, 12>(&manifest, &ARM[..5], known)?;
+    let known = (
+        ours::dynamics::<A1Free, _, 17, 19, 18> as _,
+        Some(ours::dynamics::<A1Free, _, 17, 19, 18> as _),
+    );
+    robot::run::<A1Free, 17, 19, 18>(&manifest, DYNAMICS, known)?;
+    robot::run::<G1, 29, 29, 29>(&manifest, DYNAMICS, (|_, _| Vec::new(), None))?;
+    let known = (ours::dynamics::<G1Free, _, 30, 36, 35> as _, None);
+    robot::run::<G1Free, 30, 36, 35>(&manifest, DYNAMICS, known)
 }

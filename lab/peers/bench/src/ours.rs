@@ -2,28 +2,31 @@
 
 use std::hint::black_box;
 
-use dynamics_core::algorithms;
+use dynamics_core::algorithms::frame::Local;
+use dynamics_core::algorithms::{self, NotPositiveDefinite, OsimInverse};
 use dynamics_core::effects::{Coriolis, Effect, Gravity, RIGID_BODY};
-use dynamics_core::model::{Model, Robot, model};
-use dynamics_core::scalar::Real;
+use dynamics_core::model::{Model, OnBody, Robot, model};
+use dynamics_core::scalar::{Real, Vector};
+use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine, MassMatrix};
 
 use crate::subject::{Subject, square};
 
 /// Ours of an algorithm, on these states.
-pub type Subjects<R, const N: usize> = fn(&str, &[State<R, N, N>]) -> Vec<Subject<R>>;
+pub type Subjects<R, const Q: usize, const V: usize> =
+    fn(&str, &[State<R, Q, V>]) -> Vec<Subject<R>>;
 
 const BIAS: (Gravity, Coriolis) = (Gravity::EARTH, Coriolis);
 const GRAVITY: (Gravity,) = (Gravity::EARTH,);
 
 /// The core over a model known at run time, of which the compiler knows nothing.
-pub fn run_time<T: Robot<B, N, N>, R: Real, const B: usize, const N: usize>(
+pub fn run_time<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, const V: usize>(
     algorithm: &str,
-    states: &[State<R, N, N>],
+    states: &[State<R, Q, V>],
 ) -> Vec<Subject<R>> {
     const PEER: &str = "core run-time model";
-    let model: Box<Model<R, B, N, N>> = black_box(Box::new(*model::<R, T, B, N, N>()));
+    let model: Box<Model<R, B, Q, V>> = black_box(Box::new(*model::<R, T, B, Q, V>()));
     vec![match algorithm {
         "rnea" => rows(PEER, states, move |s| {
             algorithms::rnea(&*model, s, &RIGID_BODY)
@@ -35,6 +38,9 @@ pub fn run_time<T: Robot<B, N, N>, R: Real, const B: usize, const N: usize>(
         "crba" => squares(PEER, states, move |s| {
             algorithms::crba(&*model, &s.q, &RIGID_BODY)
         }),
+        "osim" => tips(PEER, states, move |s| {
+            algorithms::osim_inverse(&*model, &s.q, B - 1, Local, &RIGID_BODY)
+        }),
         _ => rows(PEER, states, move |s| {
             algorithms::aba(&*model, s, &s.qdd, &RIGID_BODY).expect("M > 0")
         }),
@@ -42,24 +48,25 @@ pub fn run_time<T: Robot<B, N, N>, R: Real, const B: usize, const N: usize>(
 }
 
 /// Core and engine of a robot known while compiling: inverse dynamics.
-pub fn inverse<T: Robot<B, N, N>, R: Real, const B: usize, const N: usize>(
+pub fn inverse<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, const V: usize>(
     algorithm: &str,
-    states: &[State<R, N, N>],
+    states: &[State<R, Q, V>],
 ) -> Vec<Subject<R>> {
     match algorithm {
-        "rnea" => under::<T, R, _, B, N>(states, &RIGID_BODY),
-        "bias" => under::<T, R, _, B, N>(states, &BIAS),
-        "gravity" => under::<T, R, _, B, N>(states, &GRAVITY),
+        "rnea" => under::<T, R, _, B, Q, V>(states, &RIGID_BODY),
+        "bias" => under::<T, R, _, B, Q, V>(states, &BIAS),
+        "gravity" => under::<T, R, _, B, Q, V>(states, &GRAVITY),
         _ => Vec::new(),
     }
 }
 
-/// The same, with M and forward dynamics.
-pub fn all<T: Robot<B, N, N>, R: Real, const B: usize, const N: usize>(
+/// Inverse dynamics under all effects, M and forward dynamics.
+pub fn dynamics<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, const V: usize>(
     algorithm: &str,
-    states: &[State<R, N, N>],
+    states: &[State<R, Q, V>],
 ) -> Vec<Subject<R>> {
     match algorithm {
+        "rnea" => under::<T, R, _, B, Q, V>(states, &RIGID_BODY),
         "crba" => vec![
             squares("core", states, |s| Core::<T>::crba(&s.q, &RIGID_BODY)),
             squares("engine", states, |s| Engine::<T>::crba(&s.q, &RIGID_BODY)),
@@ -72,14 +79,38 @@ pub fn all<T: Robot<B, N, N>, R: Real, const B: usize, const N: usize>(
                 Engine::<T>::forward_dynamics(s, &s.qdd, &RIGID_BODY).expect("M > 0")
             }),
         ],
-        _ => inverse::<T, R, B, N>(algorithm, states),
+        _ => Vec::new(),
     }
 }
 
-fn under<T: Robot<B, N, N>, R: Real, E: Effect<R, B, N>, const B: usize, const N: usize>(
+/// All of an arm with this body at its tip.
+pub fn arm<T: Robot<B, N, N>, R: Real, const B: usize, const N: usize, const TIP: usize>(
+    algorithm: &str,
     states: &[State<R, N, N>],
-    effects: &'static E,
 ) -> Vec<Subject<R>> {
+    let tip = OnBody::<TIP>;
+    match algorithm {
+        "crba" | "aba" => dynamics::<T, R, B, N, N>(algorithm, states),
+        "osim" => vec![
+            tips("core", states, move |s| {
+                Core::<T>::osim_inverse(&s.q, tip, Local, &RIGID_BODY)
+            }),
+            tips("engine", states, move |s| {
+                Engine::<T>::osim_inverse(&s.q, tip, Local, &RIGID_BODY)
+            }),
+        ],
+        _ => inverse::<T, R, B, N, N>(algorithm, states),
+    }
+}
+
+fn under<T, R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    states: &[State<R, Q, V>],
+    effects: &'static E,
+) -> Vec<Subject<R>>
+where
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
     vec![
         rows("core", states, |s| Core::<T>::rnea(s, effects)),
         rows("engine", states, |s| Engine::<T>::rnea(s, effects)),
@@ -102,10 +133,10 @@ pub fn rows<R: Real, S: Clone + 'static, const N: usize>(
 }
 
 /// A function that gives M, which is written by rows.
-fn squares<R: Real, const N: usize>(
+fn squares<R: Real, const Q: usize, const N: usize>(
     peer: &str,
-    states: &[State<R, N, N>],
-    call: impl Fn(&State<R, N, N>) -> MassMatrix<R, N> + 'static,
+    states: &[State<R, Q, N>],
+    call: impl Fn(&State<R, Q, N>) -> MassMatrix<R, N> + 'static,
 ) -> Subject<R> {
     let states = states.to_vec();
     let run = move |out: &mut [R]| {
@@ -117,4 +148,34 @@ fn squares<R: Real, const N: usize>(
         }
     };
     Subject::new(peer, Box::new(run), square(&(0..N).collect::<Vec<_>>()))
+}
+
+/// A function that gives Λ⁻¹, of which a user takes columns: here all.
+fn tips<R: Real, const Q: usize, const V: usize>(
+    peer: &str,
+    states: &[State<R, Q, V>],
+    call: impl Fn(&State<R, Q, V>) -> Result<OsimInverse<R>, NotPositiveDefinite> + 'static,
+) -> Subject<R> {
+    let unit = |k| {
+        let e = |j| if j == k { R::ONE } else { R::ZERO };
+        Force::new(
+            R::Vec3::new(e(0), e(1), e(2)),
+            R::Vec3::new(e(3), e(4), e(5)),
+        )
+    };
+    let units: [Force<R>; 6] = std::array::from_fn(unit);
+    let columns = rows(peer, states, move |s| {
+        let mobility = call(s).expect("M > 0");
+        let mut columns = [R::ZERO; 36];
+        for (column, f) in std::iter::zip(columns.as_chunks_mut::<6>().0, &units) {
+            let a = mobility * *f;
+            column[..3].copy_from_slice(&a.ang.array());
+            column[3..].copy_from_slice(&a.lin.array());
+        }
+        columns
+    });
+    Subject {
+        order: square(&[0, 1, 2, 3, 4, 5]),
+        ..columns
+    }
 }

@@ -1,7 +1,6 @@
 //! One robot: every algorithm in both precisions.
 
 use std::error::Error;
-use std::path::Path;
 
 use dynamics_core::model::Robot;
 use dynamics_core::scalar::Real;
@@ -9,38 +8,34 @@ use dynamics_core::state::State;
 use host_tests::recordings::{self, Recording};
 
 use crate::subject::{Row, Subject, interleaved};
-use crate::{Manifest, dynibo, ours};
+use crate::{Manifest, dynibo, foreign, ours};
 
 /// States in a timed batch; the recording is gone through again until there are so many.
 const BATCH: usize = 256;
 
-/// Ours in f64 and in f32.
-pub type Known<const N: usize> = (ours::Subjects<f64, N>, ours::Subjects<f32, N>);
+/// Ours in f64, and in f32 if that is compared, over a robot that is known while compiling.
+pub type Known<const Q: usize, const V: usize> =
+    (ours::Subjects<f64, Q, V>, Option<ours::Subjects<f32, Q, V>>);
 
-/// Checks, times and prints everything about a robot; of one that is too large to be specialised here the core over a
-/// model of run time, in f64.
-pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(
+/// Checks, times and prints these algorithms of a robot.
+pub fn run<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
     manifest: &Manifest,
-    urdfs: &Path,
-    known: Option<Known<N>>,
+    algorithms: &[&str],
+    (double, single): Known<Q, V>,
 ) -> Result<(), Box<dyn Error>> {
     let recording = &recordings::load(T::MODEL.name);
-    let urdf = urdfs.join(format!("{}.urdf", recording.robot));
-    let algorithms: &[_] = match known {
-        Some(_) => &["rnea", "bias", "gravity", "crba", "aba"],
-        None => &["rnea", "crba", "aba"],
-    };
+    let urdf = manifest.urdfs.join(format!("{}.urdf", recording.robot));
     for algorithm in algorithms {
         one(manifest, recording, algorithm, "f64", |states| {
-            let mut subjects = known.map_or(Vec::new(), |(double, _)| double(algorithm, states));
-            subjects.extend(ours::run_time::<T, f64, B, N>(algorithm, states));
-            subjects.extend(dynibo::subject::<N>(algorithm, &urdf, recording, states)?);
+            let mut subjects = double(algorithm, states);
+            subjects.extend(ours::run_time::<T, f64, B, Q, V>(algorithm, states));
+            subjects.extend(dynibo::subject(algorithm, &urdf, recording, states)?);
             Ok(subjects)
         })?;
-        if let Some((_, single)) = known {
+        if let Some(single) = single {
             one(manifest, recording, algorithm, "f32", |states| {
                 let mut subjects = single(algorithm, states);
-                subjects.extend(ours::run_time::<T, f32, B, N>(algorithm, states));
+                subjects.extend(ours::run_time::<T, f32, B, Q, V>(algorithm, states));
                 Ok(subjects)
             })?;
         }
@@ -50,20 +45,21 @@ pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(
 
 type Subjects<R> = Result<Vec<Subject<R>>, Box<dyn Error>>;
 
-fn one<R: Real, const N: usize>(
+fn one<R: Real, const Q: usize, const V: usize>(
     manifest: &Manifest,
     recording: &Recording,
     algorithm: &str,
     precision: &str,
-    own: impl Fn(&[State<R, N, N>]) -> Subjects<R>,
+    own: impl Fn(&[State<R, Q, V>]) -> Subjects<R>,
 ) -> Result<(), Box<dyn Error>> {
+    let theirs = foreign::their_order(recording.model.bodies.iter().map(|body| &*body.joint));
     // Ours first, and dynibo.
-    let gather = |states: &[State<R, N, N>]| -> Subjects<R> {
+    let gather = |states: &[State<R, Q, V>]| -> Subjects<R> {
         let mut subjects = own(states)?;
         for foreign in &manifest.foreign {
             let key = (&*foreign.robot, &*foreign.algorithm, &*foreign.precision);
             if key == (&*recording.robot, algorithm, precision) {
-                subjects.push(foreign.load(states)?);
+                subjects.push(foreign.load(states, &theirs)?);
             }
         }
         Ok(subjects)
@@ -74,7 +70,7 @@ fn one<R: Real, const N: usize>(
     let mut errors = Vec::new();
     for subject in &mut checked {
         let (expected, full_scale) = expected(recording, algorithm, subject.gravity);
-        let bound = bound(algorithm, precision);
+        let bound = bound(algorithm, precision, recording.condition);
         let error = subject.check(states.len(), &expected, full_scale, bound);
         errors.push(error.map_err(|e| format!("{algorithm} of {}: {e}", recording.robot))?);
     }
@@ -114,24 +110,24 @@ pub fn print<R: Real>(
 }
 
 /// This number of recorded states; for forward dynamics the torque takes the place of q̈.
-fn states<R: Real, const N: usize>(
+fn states<R: Real, const Q: usize, const V: usize>(
     recording: &Recording,
     algorithm: &str,
     count: usize,
-) -> Vec<State<R, N, N>> {
+) -> Vec<State<R, Q, V>> {
     let last = if algorithm == "aba" {
         &recording.tau
     } else {
         &recording.qdd
     };
-    let row = |rows: &[Vec<f64>], k| recordings::row::<N>(rows, k).map(R::from_f64);
+    let rates = |rows: &[Vec<f64>], k| recordings::row::<V>(rows, k).map(R::from_f64);
     (0..recording.q.len())
         .cycle()
         .take(count)
         .map(|k| State {
-            q: row(&recording.q, k),
-            qd: row(&recording.qd, k),
-            qdd: row(last, k),
+            q: recordings::row(&recording.q, k).map(R::from_f64),
+            qd: rates(&recording.qd, k),
+            qdd: rates(last, k),
         })
         .collect()
 }
@@ -144,6 +140,10 @@ fn expected(recording: &Recording, algorithm: &str, gravity: f64) -> (Vec<Vec<f6
         "bias" => (&recording.bias, scale.bias),
         "gravity" => (&recording.gravity, scale.gravity),
         "crba" => (&recording.mass_matrix, scale.mass_matrix),
+        "osim" => {
+            let rows = &recording.operational_inverse;
+            (rows, recordings::full_scale(rows))
+        }
         _ => (&recording.aba, scale.aba),
     };
     let mut rows = rows.clone();
@@ -157,13 +157,13 @@ fn expected(recording: &Recording, algorithm: &str, gravity: f64) -> (Vec<Vec<f6
     (rows, full_scale)
 }
 
-/// Largest error of a function that is worth timing, relative to full scale. Forward dynamics is
-/// ill-conditioned: its rounding errors are those of the mass matrix's inverse.
-fn bound(algorithm: &str, precision: &str) -> f64 {
+/// Largest error of a function that is worth timing, relative to full scale. Forward dynamics and Λ⁻¹ are
+/// ill-conditioned: their rounding errors are those of the mass matrix's inverse, up to κ(M) of those of a number.
+fn bound(algorithm: &str, precision: &str, condition: f64) -> f64 {
     match (algorithm, precision) {
-        ("aba", "f32") => 1e-3,
+        ("aba" | "osim", "f32") => 1e-3,
         (_, "f32") => 1e-5,
-        ("aba", _) => 1e-11,
+        ("aba" | "osim", _) => f64::max(1e-11, condition * f64::EPSILON / 2.0),
         _ => 1e-12,
     }
 }

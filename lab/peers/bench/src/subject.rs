@@ -8,7 +8,7 @@ use dynamics_core::scalar::Real;
 use serde::Serialize;
 
 /// Rounds in which every subject runs once.
-const ROUNDS: usize = 101;
+const ROUNDS: usize = 21;
 /// The least time of a subject in a round: long against the clock's steps.
 const TURN: Duration = Duration::from_micros(300);
 
@@ -34,7 +34,7 @@ pub struct Subject<R> {
 #[derive(Serialize)]
 pub struct Row<'a> {
     pub robot: &'a str,
-    /// `rnea`, `bias`, `gravity`, `crba` or `aba`.
+    /// `rnea`, `bias`, `gravity`, `crba`, `aba`, `osim` or, with loops, `loops inverse` and `loops forward`.
     pub algorithm: &'a str,
     pub peer: &'a str,
     /// `f32` or `f64`.

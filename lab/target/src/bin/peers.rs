@@ -2,180 +2,248 @@
 //! with precomputed sines and cosines. `cargo xtask peers` compiles the C and links it to this.
 #![no_std]
 #![no_main]
+#![allow(
+    dead_code,
+    reason = "xtask links some algorithms of some robots at a time"
+)]
 
 mod costs;
 
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
-use dynamics_core::algorithms::NotPositiveDefinite;
+use dynamics_core::algorithms::frame::Local;
+use dynamics_core::algorithms::{NotPositiveDefinite, OsimInverse};
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
-use dynamics_core::model::{JointCoordinate, Robot};
-use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
+use dynamics_core::model::{OnBody, Robot};
+use dynamics_core::robots::*;
+use dynamics_core::scalar::Vector;
+use dynamics_core::spatial::Force;
 use dynamics_core::state::{JointTrig, State, StateWithTrig};
 use dynamics_core::{Core, Engine, MassMatrix};
 use firmware_demo::scene::larger;
 use heapless::Vec;
 
-use costs::row::Row;
-use costs::{Ask, asks, done};
+use costs::done;
+use costs::row::{Row, numbers};
 
 /// A function of CasADi's C: its arguments are cosines, sines, and two vectors that an algorithm may not need.
 type C = unsafe extern "C" fn(*const f32, *const f32, *const f32, *const f32, *mut f32);
 type Scene = (Gravity, Inertia, Coriolis);
-type Inverse<'a, E, const N: usize> = fn(StateWithTrig<'a, f32, N, N>, &E) -> [f32; N];
-type Matrix<const N: usize> = fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>;
-type Forward<'a, const N: usize> =
-    fn(StateWithTrig<'a, f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
-type Asks<const N: usize> = [Ask<N>; STATES];
-type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
-type Form<F> = (&'static str, F);
+type Inverse<'a, E, const Q: usize, const V: usize> =
+    fn(StateWithTrig<'a, f32, Q, V>, &E) -> [f32; V];
+type Matrix<const Q: usize, const V: usize> = fn(&JointTrig<f32, Q>, &Scene) -> MassMatrix<f32, V>;
+type Forward<'a, const Q: usize, const V: usize> =
+    fn(StateWithTrig<'a, f32, Q, V>, &[f32; V], &Scene) -> Result<[f32; V], NotPositiveDefinite>;
+type Tip<const Q: usize, const BODY: usize> = fn(
+    &JointTrig<f32, Q>,
+    OnBody<BODY>,
+    Local,
+    &Scene,
+) -> Result<OsimInverse<f32>, NotPositiveDefinite>;
 
 struct Peer {
-    robot: &'static str,
-    algorithm: &'static str,
     build: &'static str,
     run: C,
 }
 
-// `static PEERS: [Peer; …]`, as xtask wrote it.
+// `PEERS`, the builds of the functions that `run` calls ours of, as xtask wrote them.
 include!(env!("PEERS_TABLE"));
 
 /// Number of states on which each function is called.
 const STATES: usize = 8;
 /// More than any output has entries.
-const MOST: usize = 128;
+const MOST: usize = 640;
+
+/// The input of a measured function.
+struct Ask<const Q: usize, const V: usize> {
+    state: State<f32, Q, V>,
+    trig: JointTrig<f32, Q>,
+    /// Cosines and sines; the coordinates of a free base stand among the cosines as they are.
+    cos: [f32; Q],
+    sin: [f32; Q],
+}
 
 #[entry]
 fn main() -> ! {
-    robot::<Ur5e, 6, 6>();
-    robot::<Panda, 7, 7>();
-    robot::<Iiwa14, 7, 7>();
-    tree::<A1, 16, 12>();
+    run();
     done()
 }
 
-fn robot<T: Robot<B, N, N>, const B: usize, const N: usize>() {
-    let asks = &asks::<T, B, N, STATES>();
-    inverse::<T, B, N>(asks);
-    crba::<T, B, N>(
-        asks,
-        &[("core", Core::<T>::crba), ("engine", Engine::<T>::crba)],
-    );
-    forward::<T, B, N>(
-        asks,
-        &[
-            ("core", Core::<T>::aba),
-            ("engine", Engine::<T>::forward_dynamics),
-        ],
-    );
+/// Some states within the joints' usual ranges, from a fixed seed.
+fn asks<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() -> [Ask<Q, V>; STATES]
+{
+    let mut number = numbers();
+    [(); STATES].map(|()| {
+        let state = State {
+            q: [(); Q].map(|()| number(3.0)),
+            qd: [(); V].map(|()| number(3.0)),
+            qdd: [(); V].map(|()| number(10.0)),
+        };
+        // A quaternion is of unit length in it.
+        let trig = Core::<T>::joint_trig(&state.q);
+        let of_base = 7 * (Q - V);
+        let cos = core::array::from_fn(|k| {
+            let at = &trig.coordinates[k];
+            if k < of_base { at.q } else { at.cos }
+        });
+        let sin = trig.coordinates.map(|at| at.sin);
+        Ask {
+            state,
+            trig,
+            cos,
+            sin,
+        }
+    })
 }
 
-/// The same of a robot of which only inverse dynamics is specialised here.
-fn tree<T: Robot<B, N, N>, const B: usize, const N: usize>() {
-    let asks = &asks::<T, B, N, STATES>();
-    inverse::<T, B, N>(asks);
-    crba::<T, B, N>(asks, &[("core", Core::<T>::crba)]);
-    forward::<T, B, N>(asks, &[("core", Core::<T>::aba)]);
+fn rnea<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(peers: &[Peer]) {
+    under::<T, _, B, Q, V>("rnea", &RIGID_BODY, peers);
 }
 
-fn inverse<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &Asks<N>) {
-    under::<T, _, B, N>(asks, "rnea", &RIGID_BODY);
-    under::<T, _, B, N>(asks, "bias", &(Gravity::EARTH, Coriolis));
-    under::<T, _, B, N>(asks, "gravity", &(Gravity::EARTH,));
+fn bias<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(peers: &[Peer]) {
+    under::<T, _, B, Q, V>("bias", &(Gravity::EARTH, Coriolis), peers);
 }
 
-fn crba<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    asks: &Asks<N>,
-    forms: &[Form<Matrix<N>>],
-) {
-    let run = |run: Matrix<N>, ask: &Ask<N>| run(&ask.trig, &RIGID_BODY);
-    let triangle = |m: MassMatrix<f32, N>| {
-        let entries = (0..N).flat_map(|i| (i..N).map(move |j| (i, j)));
-        entries.map(|(i, j)| m.get(i, j)).collect()
-    };
-    compare::<T, _, _, B, N>(asks, "crba", forms, |run| run as usize, run, triangle);
-}
-
-/// Forward dynamics; the torque stands in the place of q̈.
-fn forward<'a, T: Robot<B, N, N>, const B: usize, const N: usize>(
-    asks: &'a Asks<N>,
-    forms: &[Form<Forward<'a, N>>],
-) {
-    let run = |run: Forward<'a, N>, ask: &'a Ask<N>| {
-        run(ask.trig.with(&ask.state), &ask.state.qdd, &RIGID_BODY)
-    };
-    let flat = |qdd: Solution<N>| qdd.unwrap_or([f32::NAN; N]).into_iter().collect();
-    compare::<T, _, _, B, N>(asks, "aba", forms, |run| run as usize, run, flat);
+fn gravity<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(peers: &[Peer]) {
+    under::<T, _, B, Q, V>("gravity", &(Gravity::EARTH,), peers);
 }
 
 /// Inverse dynamics under `effects`.
-fn under<'a, T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usize>(
-    asks: &'a Asks<N>,
+fn under<T, E, const B: usize, const Q: usize, const V: usize>(
     algorithm: &'static str,
     effects: &E,
-) {
-    let forms: [Form<Inverse<'a, E, N>>; 2] =
-        [("core", Core::<T>::rnea), ("engine", Engine::<T>::rnea)];
-    let run = |run: Inverse<'a, E, N>, ask: &'a Ask<N>| run(ask.trig.with(&ask.state), effects);
-    let flat = |tau: [f32; N]| tau.into_iter().collect();
-    compare::<T, _, _, B, N>(asks, algorithm, &forms, |run| run as usize, run, flat);
+    peers: &[Peer],
+) where
+    T: Robot<B, Q, V>,
+    E: Effect<f32, B, V>,
+{
+    let asks = &asks::<T, B, Q, V>();
+    let forms: [Inverse<'_, E, Q, V>; 2] = [Core::<T>::rnea, Engine::<T>::rnea];
+    compare::<T, _, _, B, Q, V>(
+        (algorithm, asks, peers),
+        forms.map(|run| (run, run as usize)),
+        |run, ask| run(ask.trig.with(&ask.state), effects),
+        |tau| tau.into_iter().collect(),
+    );
 }
 
-/// An algorithm: ours in their forms, the first of which is the reference, then each build of the C. The last entry of
+fn crba<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(peers: &[Peer]) {
+    let asks = &asks::<T, B, Q, V>();
+    let forms: [Matrix<Q, V>; 2] = [Core::<T>::crba, Engine::<T>::crba];
+    compare::<T, _, _, B, Q, V>(
+        ("crba", asks, peers),
+        forms.map(|run| (run, run as usize)),
+        |run, ask| run(&ask.trig, &RIGID_BODY),
+        |m| {
+            let entries = (0..V).flat_map(|i| (i..V).map(move |j| (i, j)));
+            entries.map(|(i, j)| m.get(i, j)).collect()
+        },
+    );
+}
+
+/// Forward dynamics; the torque stands in the place of q̈.
+fn aba<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(peers: &[Peer]) {
+    let asks = &asks::<T, B, Q, V>();
+    let forms: [Forward<'_, Q, V>; 2] = [Core::<T>::aba, Engine::<T>::forward_dynamics];
+    compare::<T, _, _, B, Q, V>(
+        ("aba", asks, peers),
+        forms.map(|run| (run, run as usize)),
+        |run, ask| run(ask.trig.with(&ask.state), &ask.state.qdd, &RIGID_BODY),
+        |qdd| qdd.unwrap_or([f32::NAN; V]).into_iter().collect(),
+    );
+}
+
+/// Λ⁻¹ of a body in its own frame.
+fn osim<T, const B: usize, const Q: usize, const V: usize, const BODY: usize>(peers: &[Peer])
+where
+    T: Robot<B, Q, V>,
+{
+    let asks = &asks::<T, B, Q, V>();
+    let forms: [Tip<Q, BODY>; 2] = [Core::<T>::osim_inverse, Engine::<T>::osim_inverse];
+    let unit = |k: usize| {
+        let e = |j| if j == k { 1.0 } else { 0.0 };
+        Force::<f32>::new(Vector::new(e(0), e(1), e(2)), Vector::new(e(3), e(4), e(5)))
+    };
+    compare::<T, _, _, B, Q, V>(
+        ("osim", asks, peers),
+        forms.map(|run| (run, run as usize)),
+        |run, ask| run(&ask.trig, OnBody::<BODY>, Local, &RIGID_BODY),
+        |mobility| {
+            let Ok(mobility) = mobility else {
+                return Vec::new();
+            };
+            let column = |i| {
+                let a = mobility * unit(i);
+                [a.ang.array(), a.lin.array()].into_iter().flatten().skip(i)
+            };
+            (0..6).flat_map(column).collect()
+        },
+    );
+}
+
+/// An algorithm: ours in both forms, the first of which is the reference, then each build of the C. The last entry of
 /// each row is the largest error, relative to full scale.
-fn compare<'a, T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
-    asks: &'a Asks<N>,
-    algorithm: &'static str,
-    forms: &[Form<F>],
-    address: impl Fn(F) -> usize,
-    call: impl Fn(F, &'a Ask<N>) -> O,
+fn compare<'a, T: Robot<B, Q, V>, F: Copy, O, const B: usize, const Q: usize, const V: usize>(
+    (algorithm, asks, peers): (&'static str, &'a [Ask<Q, V>; STATES], &[Peer]),
+    ours: [(F, usize); 2],
+    call: impl Fn(F, &'a Ask<Q, V>) -> O,
     flat: impl Fn(O) -> Vec<f32, MOST>,
 ) {
-    let Some(&(_, textbook)) = forms.first() else {
-        return;
-    };
-    let expected = asks.each_ref().map(|ask| flat(call(textbook, ask)));
-    let size = |numbers: &[f32]| numbers.iter().fold(0.0, |size, x| larger(size, x.abs()));
-    let scale = expected
+    let [(textbook, _), _] = ours;
+    let expected = |ask| flat(call(textbook, ask));
+    let size = |numbers: Vec<f32, MOST>| numbers.iter().fold(0.0, |size, x| larger(size, x.abs()));
+    let scale = asks
         .iter()
-        .fold(0.0, |scale, row| larger(scale, size(row)));
-    let report = |found: [Vec<f32, MOST>; STATES]| {
-        let rows = core::iter::zip(found, &expected);
-        let off = rows.flat_map(|(found, expected)| {
-            let pairs = core::iter::zip(found, expected);
-            pairs.map(|(a, b)| (a - b).abs()).collect::<Vec<_, MOST>>()
+        .fold(0.0, |scale, ask| larger(scale, size(expected(ask))));
+    let report = |found: &mut dyn FnMut(&'a Ask<Q, V>) -> Vec<f32, MOST>| {
+        let off = asks.iter().fold(0.0, |off, ask| {
+            let (found, expected) = (found(ask), expected(ask));
+            // NaN counts as wrong, and so does a number that is missing.
+            let missing = if found.len() < expected.len() {
+                f32::NAN
+            } else {
+                0.0
+            };
+            let pairs = core::iter::zip(&found, &expected);
+            pairs.fold(larger(off, missing), |off, (a, b)| {
+                larger(off, (a - b).abs())
+            })
         });
-        // NaN counts as wrong.
-        defmt::println!("error {=f32}", off.fold(0.0, larger) / scale);
+        defmt::println!("error {=f32}", off / scale);
     };
-    let row = |form| Row::of::<T, B, N>(algorithm, form, "full", false);
-    for &(form, run) in forms {
-        row(form).measure(address(run), asks, |ask| call(run, ask));
-        report(asks.each_ref().map(|ask| flat(call(run, ask))));
+    let row = |form| Row {
+        robot: T::MODEL.name,
+        algorithm,
+        form,
+        inputs: "full",
+        trig: false,
+        joints: V,
+    };
+    for ((run, address), form) in core::iter::zip(ours, ["core", "engine"]) {
+        row(form).measure(address, asks, |ask| call(run, ask));
+        report(&mut |ask| flat(call(run, ask)));
     }
-    let is_mine = |peer: &&Peer| (peer.robot, peer.algorithm) == (T::MODEL.name, algorithm);
-    let inputs = asks.each_ref().map(|ask| {
-        let turns = ask.state.q.map(JointCoordinate::revolute);
-        (
-            turns.map(|turn| turn.cos),
-            turns.map(|turn| turn.sin),
-            &ask.state,
-        )
-    });
-    for peer in PEERS.iter().filter(is_mine) {
-        let call = |(cos, sin, state): &([f32; N], [f32; N], &State<f32, N, N>),
-                    out: &mut [f32; MOST]| {
-            let (qd, qdd) = (state.qd.as_ptr(), state.qdd.as_ptr());
-            // SAFETY: xtask's table names functions of this type, which read N numbers at most from
-            // each input and write no more than N (N + 1) / 2.
-            unsafe { (peer.run)(cos.as_ptr(), sin.as_ptr(), qd, qdd, out.as_mut_ptr()) }
+    for &Peer { build, run } in peers {
+        let call = |ask: &Ask<Q, V>, out: &mut [f32; MOST]| {
+            let (qd, qdd) = (ask.state.qd.as_ptr(), ask.state.qdd.as_ptr());
+            // SAFETY: xtask's table names functions of this type, which read Q or V numbers at most from
+            // each input and write no more than V (V + 1) / 2 or 21.
+            unsafe {
+                run(
+                    ask.cos.as_ptr(),
+                    ask.sin.as_ptr(),
+                    qd,
+                    qdd,
+                    out.as_mut_ptr(),
+                )
+            }
         };
         let mut out = [0.0; MOST];
-        row(peer.build).measure(peer.run as usize, &inputs, |input| call(input, &mut out));
-        report(inputs.each_ref().map(|input| {
-            call(input, &mut out);
+        row(build).measure(run as usize, asks, |ask| call(ask, &mut out));
+        report(&mut |ask| {
+            call(ask, &mut out);
             Vec::from_array(black_box(out))
-        }));
+        });
     }
 }

@@ -2,12 +2,11 @@
 
 use crate::kit::bars::{Bars, Compared};
 use crate::studies::peers::PRECISIONS;
-use crate::studies::peers::report::{HOST, M4F, Row};
+use crate::studies::peers::report::{HOST, M4F, OURS, Row};
 
 /// CasADi's C by gcc on the target: the one with fewer cycles is the peer.
 const BUILDS: [&str; 2] = ["casadi gcc", "casadi gcc -ffp-contract=off"];
 
-const OURS: [&str; 2] = ["engine", "core run-time model"];
 /// Others, on the host, by how their names begin.
 const OTHERS: [&str; 3] = ["casadi", "pinocchio", "dynibo"];
 
@@ -39,19 +38,16 @@ pub fn compared(ratios: &Bars, rows: &[Row]) -> Vec<Compared> {
     }
     for (robot, algorithm) in pairs(rows, HOST) {
         for precision in PRECISIONS {
-            let best = |is_peer: &dyn Fn(&str) -> bool| {
-                rows.iter()
-                    .filter(|row| is_of(row, HOST, robot, algorithm, precision))
-                    .filter(|row| is_peer(&row.peer))
-                    .filter_map(|row| row.ns)
-                    .min_by(f64::total_cmp)
-            };
-            for ours in OURS {
+            for (number, ours) in OURS.iter().enumerate() {
                 for other in OTHERS {
                     let key = format!("{robot} {algorithm}, host {precision}, {ours} / {other}");
-                    let pair =
-                        best(&|peer| peer == ours).zip(best(&|peer| peer.starts_with(other)));
-                    all.extend(pair.and_then(|(a, b)| Compared::of(ratios, &key, "ns", a / b)));
+                    let best = rows
+                        .iter()
+                        .filter(|row| is_of(row, HOST, robot, algorithm, precision))
+                        .filter(|row| row.peer.starts_with(other))
+                        .filter_map(|row| row.ratios[number])
+                        .max_by(f64::total_cmp);
+                    all.extend(best.and_then(|ratio| Compared::of(ratios, &key, "ns", ratio)));
                 }
             }
         }
@@ -83,7 +79,7 @@ mod tests {
 
     #[test]
     fn the_engine_is_checked_against_the_best_build() {
-        let row = |target, peer: &str, cycles, ns| Row {
+        let row = |target, peer: &str, cycles, engine| Row {
             target,
             robot: "ur5e".into(),
             algorithm: "rnea".into(),
@@ -91,7 +87,7 @@ mod tests {
             precision: "f32".into(),
             cycles,
             code_bytes: cycles,
-            ns,
+            ratios: [engine, None],
             ..Row::default()
         };
         let rows = [
@@ -99,9 +95,9 @@ mod tests {
             row(M4F, "casadi gcc -ffp-contract=off", Some(1000), None),
             row(M4F, "casadi clang", Some(10), None),
             row(M4F, "engine", Some(500), None),
-            row(HOST, "casadi gcc", None, Some(50.0)),
-            row(HOST, "casadi clang", None, Some(40.0)),
-            row(HOST, "engine", None, Some(20.0)),
+            row(HOST, "casadi gcc", None, Some(0.4)),
+            row(HOST, "casadi clang", None, Some(0.5)),
+            row(HOST, "engine", None, Some(1.0)),
         ];
         let ratios = Bars::from([
             (

@@ -100,7 +100,12 @@ impl<'a> Workshop<'a> {
             .collect();
         args.extend(["-O1", &include, "-lpinocchio_default", "-lcasadi"]);
         let generator = self.cpp("generate", "clang++", &args, "generate.cpp")?;
-        shell::capture(Command::new(&generator).arg(&text).arg(&self.code))?;
+        let functions = robots.iter().flat_map(|robot| {
+            let parts = robot.casadi();
+            parts.map(|parts| format!("{}_{}", robot.name, parts.join("_")))
+        });
+        let mut command = Command::new(&generator);
+        shell::capture(command.arg(&text).arg(&self.code).args(functions))?;
         Ok(())
     }
 
@@ -114,6 +119,12 @@ impl<'a> Workshop<'a> {
         let _spinner = Spinner::start(&format!("building {name} by {compiler}"));
         let library = format!("{}_{compiler}.so", name.trim_end_matches("_peer"));
         self.cpp(&library, compiler, &words(HOST), &format!("{name}.cpp"))
+    }
+
+    /// Orocos KDL behind our interface.
+    pub fn kdl(&self) -> Result<PathBuf> {
+        let args = [&words(HOST)[..], &["-lorocos-kdl"]].concat();
+        self.cpp("kdl.so", "g++", &args, "kdl_peer.cpp")
     }
 
     /// MuJoCo behind our interface.
@@ -143,14 +154,15 @@ impl<'a> Workshop<'a> {
     }
 
     /// A function of CasADi's by a compiler, as a shared library.
-    pub fn casadi(&self, compiler: &str, name: &str, sizes: [usize; 2]) -> Result<PathBuf> {
+    pub fn casadi(&self, compiler: &str, name: &str, sizes: [usize; 3]) -> Result<PathBuf> {
         let source = self.sources.join("casadi_peer.c");
         let code = self.code.join(format!("{name}.c"));
-        let [joints, outputs] = sizes;
+        let [positions, velocities, outputs] = sizes;
         let defined = [
             format!("-DFILE=\"{}\"", code.display()),
             format!("-DNAME={name}"),
-            format!("-DJOINTS={joints}"),
+            format!("-DPOSITIONS={positions}"),
+            format!("-DVELOCITIES={velocities}"),
             format!("-DOUTPUTS={outputs}"),
             format!("-DCS={}", u8::from(name.contains("_cs_"))),
         ];
@@ -168,7 +180,7 @@ impl<'a> Workshop<'a> {
         let dirs = [self.prefix().join("include"), self.peers.eigen.clone()];
         let dirs = dirs.map(|dir| format!("-isystem{}", dir.display()));
         let dirs = dirs.each_ref().map(String::as_str);
-        let sources = [source, "robot.hpp"].map(|name| self.sources.join(name));
+        let sources = [source, "robot.hpp", "robot_text.hpp"].map(|name| self.sources.join(name));
         // Warnings are of others' headers.
         let all: [&[&str]; 4] = [&["-std=c++17", "-w"], &words(BOOST), &dirs, args];
         self.make(

@@ -1,7 +1,8 @@
-//! The host's side: every peer in one process, their batches interleaved.
+//! The host's side: every peer in one process, their batches interleaved; five such runs.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::thread;
 
 use serde_json::{Value, json};
 
@@ -10,9 +11,9 @@ use crate::kit::progress::Spinner;
 use crate::kit::shell;
 use crate::kit::workspace::{self, Workspace};
 use crate::studies::peers::build::Workshop;
-use crate::studies::peers::report::{HOST, Row};
+use crate::studies::peers::outputs;
+use crate::studies::peers::report::{self, HOST, Row};
 use crate::studies::peers::robots::Robot;
-use crate::studies::peers::{ALGORITHMS, LARGE, PRECISIONS, outputs};
 
 const C_COMPILERS: [&str; 2] = ["gcc", "clang"];
 /// MuJoCo's: algorithm, name in the report, function.
@@ -22,87 +23,134 @@ const MUJOCO: [(&str, &str, &str); 4] = [
     ("crba", "mujoco mj_makeM", "crba"),
     ("aba", "mujoco mj_solveM", "forward"),
 ];
+/// KDL's of chains.
+const KDL: [&str; 4] = ["rnea", "gravity", "crba", "aba"];
 const CPP_COMPILERS: [&str; 2] = ["g++", "clang++"];
+/// A time is the median of so many runs, and so is a ratio.
+const RUNS: usize = 5;
 
 /// A computation: its robot, algorithm and precision.
 type Wanted<'a> = (&'a Robot, &'static str, &'static str);
 
-/// Algorithms and precisions of a robot.
-fn compared(robot: &Robot) -> (&'static [&'static str], &'static [&'static str]) {
-    if robot.has_subtree_functions() {
-        (&LARGE, &PRECISIONS[1..])
-    } else {
-        (&ALGORITHMS, &PRECISIONS)
+/// Builds Pinocchio's side, which takes compilers minutes: both beside each other.
+pub fn pinocchio(shop: &Workshop<'_>) -> Result<()> {
+    let build = |compiler| {
+        let peer = shop.pinocchio("pinocchio_peer", compiler);
+        peer.and_then(|_| shop.pinocchio("pinocchio_loops", compiler))
+    };
+    let built = thread::scope(|scope| {
+        let threads = CPP_COMPILERS.map(|compiler| {
+            scope.spawn({
+                let build = &build;
+                move || build(compiler)
+            })
+        });
+        threads.map(|thread| thread.join())
+    });
+    for result in built {
+        result.map_err(|_| check!("a build of Pinocchio panicked"))??;
     }
+    Ok(())
 }
 
-/// Builds the peers and the benchmark, and runs it; without robots those with loops alone.
-pub fn measure(workspace: &Workspace, shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Row>> {
+/// Runs the benchmark five times, with CasADi's functions and the others.
+pub fn measure(
+    shop: &Workshop<'_>,
+    robots: &[Robot],
+    mut foreign: Vec<Value>,
+    bench: &Path,
+) -> Result<Vec<Row>> {
+    foreign.extend(build(shop, robots)?);
     let loops = CPP_COMPILERS.map(|compiler| {
         let library = shop.pinocchio("pinocchio_loops", compiler)?;
         Ok((format!("pinocchio {compiler}"), library))
     });
     let loops: Vec<_> = loops.into_iter().collect::<Result<_>>()?;
-    let manifest = match robots {
-        [] => json!({ "foreign": [], "loops": loops }),
-        _ => json!({ "foreign": build(shop, robots)?, "urdfs": shop.robots, "loops": loops }),
-    };
+    let manifest = json!({ "foreign": foreign, "urdfs": shop.robots, "loops": loops });
     let path = shop.built.join("manifest.json");
     workspace::write(&path, manifest.to_string())?;
-    run(&bench(workspace)?, &path)
+    let spinner = Spinner::start("timing on the host");
+    let mut rows: Vec<Row> = Vec::new();
+    for number in 1..=RUNS {
+        spinner.say(format!("timing on the host: run {number} of {RUNS}"));
+        rows.extend(run(bench, &path)?);
+    }
+    Ok(report::of_runs(rows))
 }
 
 fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
     let mut all = Vec::new();
+    let text = shop.robots_file();
     for compiler in CPP_COMPILERS {
         let library = shop.pinocchio("pinocchio_peer", compiler)?;
         for wanted in wanted(robots) {
             let (_, algorithm, precision) = wanted;
-            let open = (format!("pinocchio_{precision}_open"), shop.robots_file());
-            let run = format!("pinocchio_{precision}_{algorithm}");
+            let (peer, prefix) = (
+                format!("pinocchio {compiler}"),
+                format!("pinocchio_{precision}_"),
+            );
             all.push(foreign(
                 wanted,
-                &format!("pinocchio {compiler}"),
+                &peer,
                 &library,
-                run,
-                Some(open),
+                &prefix,
+                algorithm,
+                Some(&text),
             ));
         }
     }
-    let library = shop.mujoco()?;
-    for robot in robots {
+    let (mujoco, kdl) = (shop.mujoco()?, shop.kdl()?);
+    for robot in robots.iter().filter(|robot| !robot.is_free()) {
+        let file = shop.robots.join(format!("{}.xml", robot.name));
         for (algorithm, peer, run) in MUJOCO {
-            let file = shop.robots.join(format!("{}.xml", robot.name));
-            let open = ("mujoco_f64_open".to_owned(), file);
-            let run = format!("mujoco_f64_{run}");
+            let wanted = (robot, algorithm, "f64");
             all.push(foreign(
-                (robot, algorithm, "f64"),
+                wanted,
                 peer,
-                &library,
+                &mujoco,
+                "mujoco_f64_",
                 run,
-                Some(open),
+                Some(&file),
+            ));
+        }
+        for algorithm in KDL.iter().filter(|_| robot.is_chain()) {
+            let wanted = (robot, *algorithm, "f64");
+            all.push(foreign(
+                wanted,
+                "kdl",
+                &kdl,
+                "kdl_f64_",
+                algorithm,
+                Some(&text),
             ));
         }
     }
+    Ok(all)
+}
+
+/// Builds CasADi's C.
+pub fn casadi(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
+    let mut all = Vec::new();
     let spinner = Spinner::start("building CasADi's C for the host");
-    for wanted in wanted(robots) {
-        let (robot, algorithm, precision) = wanted;
-        let sizes = [robot.joints(), outputs(algorithm, robot.joints())];
-        for (inputs, compilers) in [("q", &C_COMPILERS[..]), ("cs", &C_COMPILERS[..1])] {
-            // Functions that take cosines are for the target, where large robots are not compared; they are timed there.
-            if inputs == "cs" && robot.has_subtree_functions() {
-                continue;
-            }
+    for robot in robots {
+        for [algorithm, inputs, precision] in robot.casadi() {
+            // Functions that take cosines are for the target, and are timed there.
+            let compilers = match inputs {
+                "q" => &C_COMPILERS[..],
+                _ if robot.precisions().contains(&precision) => &C_COMPILERS[..1],
+                _ => &[],
+            };
             let name = format!("{}_{algorithm}_{inputs}_{precision}", robot.name);
+            let [_, positions, velocities] = robot.size();
+            let sizes = [positions, velocities, outputs(algorithm, velocities)];
             for compiler in compilers {
                 spinner.say(format!("building {name} by {compiler}"));
                 let library = shop.casadi(compiler, &name, sizes)?;
-                let (peer, run) = (format!("casadi {compiler}"), format!("casadi_{name}"));
-                let mut one = foreign(wanted, &peer, &library, run, None);
+                let wanted = (robot, algorithm, precision);
+                let peer = format!("casadi {compiler}");
+                let mut one = foreign(wanted, &peer, &library, "casadi_", &name, None);
                 one["cs"] = (inputs == "cs").into();
                 one["timed"] = (inputs == "q").into();
-                one["outputs"] = sizes[1].into();
-                one["square"] = false.into();
                 all.push(one);
             }
         }
@@ -112,34 +160,33 @@ fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
 
 fn wanted(robots: &[Robot]) -> impl Iterator<Item = Wanted<'_>> {
     robots.iter().flat_map(|robot| {
-        let (algorithms, precisions) = compared(robot);
-        let pairs = precisions
-            .iter()
-            .flat_map(|p| algorithms.iter().map(move |a| (a, p)));
+        let pairs = (robot.precisions().iter())
+            .flat_map(|p| robot.algorithms().iter().map(move |a| (a, p)));
         pairs.map(move |(algorithm, precision)| (robot, *algorithm, *precision))
     })
 }
 
-/// A library's function (see `lab/peers/bench/src/foreign.rs`), which writes M as a square.
+/// A library's function (see `lab/peers/bench/src/foreign.rs`): the names of all its functions begin with `prefix`,
+/// and the one that opens takes a file.
 fn foreign(
     (robot, algorithm, precision): Wanted<'_>,
     peer: &str,
     library: &Path,
-    run: String,
-    open: Option<(String, PathBuf)>,
+    prefix: &str,
+    run: &str,
+    file: Option<&Path>,
 ) -> Value {
-    let (joints, square) = (robot.joints(), algorithm == "crba");
-    let outputs = if square { joints * joints } else { joints };
     json!({
         "robot": robot.name, "algorithm": algorithm, "precision": precision, "peer": peer,
-        "library": library, "run": run, "open": open,
-        "cs": false, "outputs": outputs, "square": square, "timed": true,
+        "library": library, "run": format!("{prefix}{run}"),
+        "open": file.map(|file| (format!("{prefix}open"), file)),
+        "cs": false, "timed": true,
     })
 }
 
 /// Our side, for this very processor like the others: in a directory of its own, since other flags
 /// rebuild everything.
-fn bench(workspace: &Workspace) -> Result<PathBuf> {
+pub fn bench(workspace: &Workspace) -> Result<PathBuf> {
     let _spinner = Spinner::start("compiling our side and dynibo for this processor");
     let target = workspace.target.join("peers/native");
     let mut command = workspace.cargo("build");
@@ -154,14 +201,12 @@ fn bench(workspace: &Workspace) -> Result<PathBuf> {
 }
 
 fn run(bench: &Path, manifest: &Path) -> Result<Vec<Row>> {
-    let spinner = Spinner::start("timing on the host");
     let mut command = Command::new(bench);
     command.arg(manifest);
     let mut rows = Vec::new();
     shell::each_line(&mut command, |line| {
         let mut row: Row =
             serde_json::from_str(line).map_err(|e| check!("peers-bench printed {line:?}: {e}"))?;
-        spinner.say(format!("timing {} of {}", row.algorithm, row.robot));
         row.target = HOST;
         rows.extend(row.ns.is_some().then_some(row));
         Ok(())

@@ -6,6 +6,7 @@ use crate::kit::bars::{self, Compared};
 use crate::kit::meter::MODEL;
 use crate::kit::table::{Table, thousands};
 use crate::studies::peers::ALGORITHMS;
+use crate::studies::peers::target::Build;
 
 /// The processor that runs xtask.
 pub const HOST: &str = "host";
@@ -27,6 +28,12 @@ pub struct Row {
     /// Median nanoseconds a state, on the host, sines and cosines included.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ns: Option<f64>,
+    /// The same in each run.
+    #[serde(skip)]
+    pub runs: Vec<f64>,
+    /// The median over the runs of the time of each of [`OURS`] divided by this one's.
+    #[serde(skip_deserializing)]
+    pub ratios: [Option<f64>; 2],
     /// Modelled cycles on the target, with sines and cosines computed before.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cycles: Option<u64>,
@@ -37,17 +44,73 @@ pub struct Row {
     pub instructions: Option<u64>,
 }
 
+/// Ours that others are compared with on the host.
+pub const OURS: [&str; 2] = ["engine", "core run-time model"];
+
+fn median(mut numbers: Vec<f64>) -> Option<f64> {
+    numbers.sort_by(f64::total_cmp);
+    numbers.get(numbers.len() / 2).copied()
+}
+
+/// The median of the ratios of two rows, run by run.
+fn ratio(a: &Row, b: &Row) -> Option<f64> {
+    let pairs = std::iter::zip(&a.runs, &b.runs);
+    median(pairs.map(|(a, b)| a / b).collect())
+}
+
+/// One row for the rows of a function in all runs, with the ratios of ours to it.
+pub fn of_runs(all: Vec<Row>) -> Vec<Row> {
+    let mut rows: Vec<Row> = Vec::new();
+    for row in all {
+        let times = row.ns.into_iter();
+        match rows.iter_mut().find(|other| other.is_of(&row, &row.peer)) {
+            Some(other) => other.runs.extend(times),
+            None => rows.push(Row {
+                runs: times.collect(),
+                ..row
+            }),
+        }
+    }
+    let ratios = rows.iter().map(|row| {
+        let ours = OURS.map(|ours| rows.iter().find(|other| other.is_of(row, ours)));
+        ours.map(|ours| ratio(ours?, row))
+    });
+    let ratios: Vec<_> = ratios.collect();
+    for (row, ratios) in std::iter::zip(&mut rows, ratios) {
+        (row.ns, row.ratios) = (median(row.runs.clone()), ratios);
+    }
+    rows
+}
+
+impl Row {
+    /// Whether it is of this code, and else of what `row` is.
+    fn is_of(&self, row: &Row, peer: &str) -> bool {
+        self.peer == peer
+            && (self.target, &self.robot) == (row.target, &row.robot)
+            && (&self.algorithm, &self.precision) == (&row.algorithm, &row.precision)
+    }
+}
+
 pub struct Report {
     pub rows: Vec<Row>,
+    /// The seconds of builds of firmware with one function.
+    pub builds: Vec<Build>,
     pub compared: Vec<Compared>,
     pub versions: Vec<String>,
+    /// The code that was measured.
+    pub code: String,
     /// The day of the run, and the commit.
     pub date: String,
 }
 
+fn text(value: Option<f64>, digits: usize) -> String {
+    value.map_or("–".into(), |x| format!("{x:.digits$}"))
+}
+
 const ON_TARGET: &str = "f32, sines and cosines computed outside; instructions are exact, \
     cycles modelled. `casadi clang` has our CPU flags and is outside the bars.";
-const ON_HOST: &str = "Nanoseconds a state, sines and cosines included.";
+const ON_HOST: &str =
+    "Nanoseconds a state, sines and cosines included, and the times of ours divided by this one's.";
 
 impl Report {
     pub fn markdown(&self) -> String {
@@ -66,39 +129,42 @@ impl Report {
             target = section("Cortex-M4F", ON_TARGET, &|algorithm| self
                 .on_target(algorithm)),
             host = section("Host", ON_HOST, &|algorithm| self.on_host(algorithm)),
+            builds = self.build_times().markdown(),
+            inverse = self.in_a_row("loops inverse").markdown(),
+            forward = self.in_a_row("loops forward").markdown(),
             bars = bars::table(&self.compared).markdown(),
-            versions = versions.collect::<String>()
+            versions = versions.collect::<String>(),
+            code = self.code,
         )
     }
 
-    pub fn loops(&self) -> String {
-        let versions = self.versions.iter().map(|version| format!("- {version}\n"));
-        format!(
-            include_str!("loops.md"),
-            date = self.date,
-            inverse = self.in_a_row("loops inverse").markdown(),
-            forward = self.in_a_row("loops forward").markdown(),
-            versions = versions.collect::<String>(),
+    fn build_times(&self) -> Table {
+        Table::of(
+            &self.builds,
+            &[
+                ("robot, function", &|(function, _)| function.clone()),
+                ("s", &|(_, seconds)| format!("{seconds:.1}")),
+            ],
         )
     }
 
     /// Times, and their ratios to Pinocchio's by its better compiler.
     fn in_a_row(&self, algorithm: &str) -> Table {
-        let best = |robot: &str| {
-            let rows = self.of(HOST, algorithm).filter(|row| row.robot == robot);
-            let theirs = rows.filter(|row| row.peer.starts_with("pinocchio"));
-            theirs.filter_map(|row| row.ns).min_by(f64::total_cmp)
+        let to_best = |row: &Row| {
+            let rows = self
+                .of(HOST, algorithm)
+                .filter(|other| other.robot == row.robot);
+            let theirs = rows.filter(|other| other.peer.starts_with("pinocchio"));
+            theirs
+                .filter_map(|other| ratio(row, other))
+                .max_by(f64::total_cmp)
         };
-        let text =
-            |value: Option<f64>, digits| value.map_or("–".into(), |x| format!("{x:.digits$}"));
         Table::of(
             self.of(HOST, algorithm),
             &[
                 ("robot, code", &|row| format!("{}, {}", row.robot, row.peer)),
                 ("ns", &|row| text(row.ns, 1)),
-                ("this / pinocchio", &|row| {
-                    text(row.ns.zip(best(&row.robot)).map(|(a, b)| a / b), 2)
-                }),
+                ("this / pinocchio", &|row| text(to_best(row), 2)),
             ],
         )
     }
@@ -135,12 +201,18 @@ impl Report {
         // By robot, which the two precisions of a peer interrupt.
         let robots: Vec<&String> = lines.iter().map(|line| &line.robot).collect();
         lines.sort_by_key(|line| robots.iter().position(|robot| **robot == line.robot));
-        let time = |line: &Row, precision| {
+        let in_precision = |line: &Row, precision| {
             let mut rows = self.of(HOST, algorithm);
             let of = (&line.robot, &line.peer, precision);
-            let row = rows.find(|row| (&row.robot, &row.peer, &*row.precision) == of);
-            let ns = row.and_then(|row| row.ns);
-            ns.map_or("–".into(), |ns| format!("{ns:.1}"))
+            rows.find(|row| (&row.robot, &row.peer, &*row.precision) == of)
+        };
+        let time =
+            |line: &Row, precision| text(in_precision(line, precision).and_then(|row| row.ns), 1);
+        let ratio = |line: &Row, ours: usize, precision| {
+            text(
+                in_precision(line, precision).and_then(|row| row.ratios[ours]),
+                3,
+            )
         };
         Table::of(
             lines,
@@ -150,6 +222,10 @@ impl Report {
                 }),
                 ("f64", &|line| time(line, "f64")),
                 ("f32", &|line| time(line, "f32")),
+                ("engine / this, f64", &|line| ratio(line, 0, "f64")),
+                ("f32", &|line| ratio(line, 0, "f32")),
+                ("core run-time / this, f64", &|line| ratio(line, 1, "f64")),
+                ("f32", &|line| ratio(line, 1, "f32")),
             ],
         )
     }
@@ -158,5 +234,29 @@ impl Report {
         self.rows
             .iter()
             .filter(move |row| (row.target, &*row.algorithm) == (target, algorithm))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Row, of_runs};
+
+    #[test]
+    fn a_ratio_is_the_median_of_those_of_the_runs() {
+        let row = |peer: &str, ns| Row {
+            peer: peer.into(),
+            ns: Some(ns),
+            ..Row::default()
+        };
+        // A slow machine in the second run, a disturbed engine in the third.
+        let runs = [[10.0, 100.0], [20.0, 200.0], [90.0, 100.0]];
+        let all = runs.map(|[ours, theirs]| [row("engine", ours), row("kdl", theirs)]);
+        let rows = of_runs(all.into_iter().flatten().collect());
+        let [engine, kdl] = &rows[..] else {
+            panic!("two functions")
+        };
+        assert_eq!((engine.ns, kdl.ns), (Some(20.0), Some(100.0)));
+        assert_eq!(engine.ratios, [Some(1.0), None]);
+        assert_eq!(kdl.ratios, [Some(0.1), None]);
     }
 }

@@ -9,6 +9,7 @@ use serde::Deserialize;
 use crate::kit::error::Result;
 use crate::kit::host_bin;
 use crate::kit::workspace::{self, Workspace};
+use crate::studies::peers::{ALGORITHMS, PRECISIONS};
 
 /// A robot as `export_robots` prints it.
 #[derive(Deserialize)]
@@ -36,8 +37,10 @@ struct Placement {
     position: [f64; 3],
 }
 
-/// The library's robots that are compared: of revolute joints alone, as the peers' forms are.
-const COMPARED: [&str; 5] = ["ur5e", "panda", "iiwa14", "a1", "g1"];
+/// The library's robots that are compared: of revolute joints, as the peers' forms are, and a free base.
+const COMPARED: [&str; 7] = ["ur5e", "panda", "iiwa14", "a1", "a1_free", "g1", "g1_free"];
+/// What is compared of a free base and of a robot with many joints.
+const DYNAMICS: [&str; 3] = ["rnea", "crba", "aba"];
 
 /// More joints than a robot has that is compared everywhere and in every precision.
 const MANY: usize = 16;
@@ -60,18 +63,79 @@ pub fn export(workspace: &Workspace) -> Result<Vec<Robot>> {
 }
 
 impl Robot {
-    /// Joints that move.
-    pub fn joints(&self) -> usize {
-        self.bodies.iter().filter(|body| body.moves()).count()
+    /// The number of its bodies, of its position and of its velocity coordinates.
+    pub fn size(&self) -> [usize; 3] {
+        let joints = self.bodies.iter().filter(|body| body.moves()).count();
+        let free = usize::from(self.is_free());
+        [self.bodies.len(), joints + 6 * free, joints + 5 * free]
     }
 
-    /// Whether it is compared on the host alone, in f64, and of less: its C takes compilers minutes.
+    /// The library's type of it.
+    pub fn type_name(&self) -> String {
+        let words = self.name.split('_').map(|word| {
+            let (first, rest) = word.split_at(1);
+            first.to_uppercase() + rest
+        });
+        words.collect()
+    }
+
+    /// Whether its base is free.
+    pub fn is_free(&self) -> bool {
+        self.bodies[0].joint == "free"
+    }
+
+    /// Whether no body has two children.
+    pub fn is_chain(&self) -> bool {
+        let mut bodies = (-1..).zip(&self.bodies);
+        bodies.all(|(before, body)| body.parent == before)
+    }
+
+    /// What is compared of it.
+    pub fn algorithms(&self) -> &'static [&'static str] {
+        match self.is_free() || self.has_subtree_functions() {
+            true => &DYNAMICS,
+            false if self.is_chain() => &ALGORITHMS,
+            // A tree has no tip.
+            false => &ALGORITHMS[..5],
+        }
+    }
+
+    /// The precisions on the host.
+    pub fn precisions(&self) -> &'static [&'static str] {
+        if self.has_subtree_functions() {
+            &PRECISIONS[1..]
+        } else {
+            &PRECISIONS
+        }
+    }
+
+    /// Whether its joints are many.
     pub fn has_subtree_functions(&self) -> bool {
-        self.joints() > MANY
+        self.size()[2] - 5 * usize::from(self.is_free()) > MANY
     }
 
-    /// Writes `<name>.urdf` and `<name>.xml` (MuJoCo's form).
+    /// Whether it is compared on the target, too: of many joints the harder case alone.
+    pub fn is_on_target(&self) -> bool {
+        self.is_free() || !self.has_subtree_functions()
+    }
+
+    /// The functions of it that CasADi is to write: `cs` ones, which take cosines, are for the target.
+    pub fn casadi(&self) -> impl Iterator<Item = [&'static str; 3]> {
+        let angles = self.precisions().iter().map(|precision| ["q", precision]);
+        let target = PRECISIONS.iter().map(|precision| ["cs", precision]);
+        let target = target.filter(|_| self.is_on_target());
+        let forms: Vec<_> = angles.chain(target).collect();
+        self.algorithms().iter().flat_map(move |algorithm| {
+            let forms = forms.clone().into_iter();
+            forms.map(|[inputs, precision]| [*algorithm, inputs, precision])
+        })
+    }
+
+    /// Writes `<name>.urdf` and `<name>.xml` (MuJoCo's form), which have no free base.
     pub fn write(&self, dir: &Path) -> Result<()> {
+        if self.is_free() {
+            return Ok(());
+        }
         workspace::write(&dir.join(format!("{}.urdf", self.name)), self.urdf())?;
         workspace::write(&dir.join(format!("{}.xml", self.name)), self.mjcf())
     }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::Command;
 
-use crate::kit::error::{Result, bail};
+use crate::kit::error::{Result, bail, check};
 use crate::kit::progress::Spinner;
 use crate::kit::rows::{Row as MeasuredRow, run_all};
 use crate::kit::setup::Tools;
@@ -18,10 +18,16 @@ use crate::studies::peers::robots::Robot;
 /// The firmware's bin, and the feature that it is built with.
 const BIN: &str = "peers";
 
-/// Largest error relative to full scale of a function that is worth measuring: forward dynamics is
+/// A function, and the seconds of a release build of the firmware with it.
+pub type Build = (String, f64);
+
+/// Largest error relative to full scale of a function that is worth measuring: forward dynamics and Λ⁻¹ are
 /// ill-conditioned.
 fn bound(algorithm: &str) -> f64 {
-    if algorithm == "aba" { 1e-3 } else { 1e-5 }
+    match algorithm {
+        "aba" | "osim" => 1e-3,
+        _ => 1e-5,
+    }
 }
 
 /// Ways to compile the C: what each is called at the end of its symbols, in the report, the compiler and its flags; of
@@ -44,71 +50,113 @@ const COMMON: &str = "-c -O3 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard";
 /// symbols: the better of the two is the peer.
 const OVERLAP: [(&str, &str); 2] = [("", ""), ("restrict", "_r")];
 
-/// Compiles the C and the firmware, and runs it under the meter.
+/// Compiles the C and the firmwares, and runs them under the meter: one of each robot on a fixed base, and of each function
+/// of a free base. Returns the seconds of the builds of those, too.
 pub fn measure(
     workspace: &Workspace,
     shop: &Workshop<'_>,
     tools: &Tools,
     robots: &[Robot],
-) -> Result<Vec<Row>> {
-    let (objects, table) = compile(shop, robots)?;
-    let spinner = Spinner::start("compiling the firmware of the peers");
+) -> Result<(Vec<Row>, Vec<Build>)> {
+    let (mut found, mut builds) = (Vec::new(), Vec::new());
+    for robot in robots.iter().filter(|robot| robot.is_on_target()) {
+        let most = if robot.is_free() { 1 } else { ALGORITHMS.len() };
+        for algorithms in robot.algorithms().chunks(most) {
+            let (rows, seconds) = firmware(workspace, shop, tools, robot, algorithms)?;
+            found.extend(rows);
+            if let ([algorithm], true) = (algorithms, robot.is_free()) {
+                builds.push((format!("{}, {algorithm}", robot.name), seconds));
+            }
+        }
+    }
+    Ok((found, builds))
+}
+
+/// Rows of a firmware with these functions of a robot, and the seconds of processor time of its build, over a library that is built.
+fn firmware(
+    workspace: &Workspace,
+    shop: &Workshop<'_>,
+    tools: &Tools,
+    robot: &Robot,
+    algorithms: &[&str],
+) -> Result<(Vec<Row>, f64)> {
+    let (objects, table) = compile(shop, robot, algorithms)?;
+    let spinner = Spinner::start("compiling a firmware of the peers");
     let objects = objects
         .iter()
         .map(|object| format!("-Clink-arg={}", object.display()));
     let mut command = tools.toolchain.cargo(workspace, "rustc");
-    command
-        .args([
-            "--package",
-            LAB,
-            "--release",
-            "--features",
-            BIN,
-            "--bin",
-            BIN,
-            "--",
-        ])
-        .args(objects)
+    let of = "--release --features peers --bin peers --package";
+    command.args(words(of)).args([LAB, "--"]).args(objects);
+    // The shell says at last what its children took: wall time would depend on what else runs here.
+    let mut timed = Command::new("sh");
+    timed
+        .args(["-c", r#""$@" && times"#, "sh"])
         .env("PEERS_TABLE", &table);
-    shell::capture(&mut command)?;
+    timed.arg(command.get_program()).args(command.get_args());
+    for (name, value) in command.get_envs() {
+        match value {
+            Some(value) => timed.env(name, value),
+            None => timed.env_remove(name),
+        };
+    }
+    let seconds = processor_time(&shell::capture(&mut timed)?)?;
     let elf = tools.toolchain.elf(workspace, RELEASE, BIN);
     drop(spinner);
     let (measured, lines) = run_all(workspace, tools, &[BIN], &[elf])?;
-    rows(measured, &lines)
+    Ok((rows(measured, &lines)?, seconds))
 }
 
-/// Objects, and the table of their functions for the firmware.
-fn compile(shop: &Workshop<'_>, robots: &[Robot]) -> Result<(Vec<PathBuf>, PathBuf)> {
+/// The seconds in the last line of a shell's `times`, which is of its children: `1m2.5s 0m0.5s`, of the user and the system.
+fn processor_time(said: &str) -> Result<f64> {
+    let seconds = |word: &str| {
+        let (minutes, seconds) = word.strip_suffix('s')?.split_once('m')?;
+        Some(60.0 * minutes.parse::<f64>().ok()? + seconds.parse::<f64>().ok()?)
+    };
+    let last = said.lines().last().unwrap_or_default();
+    let sum = last.split_whitespace().map(seconds).sum::<Option<f64>>();
+    sum.ok_or_else(|| check!("the shell says of its children's time: {last:?}"))
+}
+
+/// Objects, and the table of their functions for the firmware, which calls ours of the same.
+fn compile(
+    shop: &Workshop<'_>,
+    robot: &Robot,
+    algorithms: &[&str],
+) -> Result<(Vec<PathBuf>, PathBuf)> {
     let spinner = Spinner::start("building CasADi's C for the target");
-    let (mut objects, mut externs, mut table) = (Vec::new(), String::new(), String::new());
+    let (mut objects, mut externs, mut calls) = (Vec::new(), String::new(), String::new());
     let inputs = "_: *const f32, ".repeat(4);
-    for robot in robots.iter().filter(|robot| !robot.has_subtree_functions()) {
-        let robot = &robot.name;
-        for algorithm in ALGORITHMS {
-            let name = format!("{robot}_{algorithm}_cs_f32");
-            let source = shop.code.join(format!("{name}.c"));
-            let builds = BUILDS
-                .iter()
-                .flat_map(|build| OVERLAP.map(|overlap| (build, overlap)));
-            for (&[build, _, compiler, flags], (keyword, mark)) in builds {
-                let suffix = format!("{build}{mark}");
-                let symbol = format!("{name}_{suffix}");
-                spinner.say(format!("compiling {symbol}"));
-                let peer = format!("-DPEER(name)=name##_{suffix}");
-                let restrict = format!("-DRESTRICT={keyword}");
-                let args: [&[&str]; 3] = [&words(flags), &words(COMMON), &[&peer, &restrict]];
-                objects.push(shop.make(&format!("{symbol}.o"), compiler, &args, &[&source])?);
-                externs += &format!("    fn {symbol}({inputs}_: *mut f32);\n");
-                table += &format!(
-                    "    Peer {{ robot: {robot:?}, algorithm: {algorithm:?}, build: {build:?}, run: {symbol} }},\n"
-                );
-            }
+    for algorithm in algorithms {
+        let name = format!("{}_{algorithm}_cs_f32", robot.name);
+        let source = shop.code.join(format!("{name}.c"));
+        let mut peers = String::new();
+        let builds = BUILDS
+            .iter()
+            .flat_map(|build| OVERLAP.map(|overlap| (build, overlap)));
+        for (&[build, _, compiler, flags], (keyword, mark)) in builds {
+            let suffix = format!("{build}{mark}");
+            let symbol = format!("{name}_{suffix}");
+            spinner.say(format!("compiling {symbol}"));
+            let peer = format!("-DPEER(name)=name##_{suffix}");
+            let restrict = format!("-DRESTRICT={keyword}");
+            let args: [&[&str]; 3] = [&words(flags), &words(COMMON), &[&peer, &restrict]];
+            objects.push(shop.make(&format!("{symbol}.o"), compiler, &args, &[&source])?);
+            externs += &format!("    fn {symbol}({inputs}_: *mut f32);\n");
+            peers += &format!("Peer {{ build: {build:?}, run: {symbol} }}, ");
         }
+        let [bodies, positions, velocities] = robot.size();
+        let tip = match *algorithm {
+            "osim" => format!(", {}", bodies - 1),
+            _ => String::new(),
+        };
+        let of = format!(
+            "{}, {bodies}, {positions}, {velocities}{tip}",
+            robot.type_name()
+        );
+        calls += &format!("    {algorithm}::<{of}>(&[{peers}]);\n");
     }
-    let count = objects.len();
-    let text = format!(
-        "unsafe extern \"C\" {{\n{externs}}}\nstatic PEERS: [Peer; {count}] = [\n{table}];\n"
-    );
+    let text = format!("unsafe extern \"C\" {{\n{externs}}}\nfn run() {{\n{calls}}}\n");
     let path = shop.built.join("peers.rs");
     // Written anew each time: cargo then links anew, and does not look at the objects itself.
     workspace::write(&path, text)?;
@@ -161,4 +209,16 @@ pub fn compilers() -> Vec<String> {
         .filter_map(|program| shell::capture(Command::new(program).arg("--version")).ok())
         .filter_map(|text| text.lines().next().map(str::to_owned))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::processor_time;
+
+    #[test]
+    fn the_time_of_a_build_is_its_childrens() {
+        let said = "built\n0m0.001s 0m0.002s\n1m2.500s 0m0.250s\n";
+        assert_eq!(processor_time(said).expect("a time"), 62.75);
+        processor_time("62.75").expect_err("another shell");
+    }
 }

@@ -55,17 +55,20 @@ fn measured(page: &str) -> Vec<Row> {
             });
         }
         for cells in rows_of(under(page, &format!("Host: {algorithm}"))) {
-            for (precision, cell) in PRECISIONS.into_iter().zip([cells[2], cells[1]]) {
+            // Columns of f64 and f32: times, ratios of the engine, ratios of the core.
+            for (at, precision) in [2, 1].into_iter().zip(PRECISIONS) {
                 rows.push(Row {
                     precision: precision.into(),
-                    ns: Some(number(cell)).filter(Option::is_some).flatten(),
+                    ns: number(cells[at]),
+                    ratios: [number(cells[at + 2]), number(cells[at + 4])],
                     ..row(HOST, &cells)
                 });
             }
         }
     }
     let mut robots: Vec<String> = Vec::new();
-    for row in &rows {
+    // All of them are measured on the host.
+    for row in rows.iter().filter(|row| row.target == HOST) {
         if !robots.contains(&row.robot) {
             robots.push(row.robot.clone());
         }
@@ -103,8 +106,10 @@ fn check(page: &str, promised: &Bars) -> Result<(), String> {
     }
     let report = Report {
         rows,
+        builds: Vec::new(),
         compared: of_rows,
         versions: Vec::new(),
+        code: String::new(),
         date: String::new(),
     };
     let text = report.markdown();

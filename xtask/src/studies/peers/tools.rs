@@ -30,6 +30,9 @@ fn eigen() -> Option<PathBuf> {
     folders.find(|folder| folder.join("Eigen/Core").is_file())
 }
 
+/// The header of Orocos KDL that names its version.
+pub const KDL: &str = "/usr/include/kdl/config.h";
+
 /// The programs and packages of the peers.
 pub struct Peers {
     /// The directory of all that is made here.
@@ -57,6 +60,10 @@ pub fn set_up(workspace: &Workspace, options: Options) -> Result<(Tools, Peers)>
     if eigen().is_none() {
         let elsewhere = "install Eigen 3 with your system's package manager";
         plan.add("the headers of Eigen".into(), &["libeigen3-dev"], elsewhere);
+    }
+    if !PathBuf::from(KDL).is_file() {
+        let elsewhere = "install Orocos KDL with its headers";
+        plan.add("Orocos KDL".into(), &["liborocos-kdl-dev"], elsewhere);
     }
     // Debian has `python3 -m venv` in a package of its own.
     if !shell::succeeds(Command::new("python3").args(["-c", "import ensurepip, venv"])) {

@@ -28,13 +28,15 @@ pub fn why(peers: &str, readme: &str, report: &Report) -> Result<String> {
     let inverse = range(" rnea, m4f, engine / casadi: cycles")?;
     let forward = range(" aba, m4f, engine / casadi: cycles")?;
     let host = range(", engine / pinocchio: ns")?;
+    let free = range("g1_free rnea, m4f, engine / casadi: cycles")?;
     let longest = report.tick["total"].cycles.max as f64 / CLOCK_MHZ;
     let share = 100.0 * longest / f64::from(report.period_us);
     let ratio = 100.0 * report.tracking.ratio();
     Ok(format!(
         "- Inverse dynamics takes **{inverse} of the cycles of the best C** that CasADi generates for the same robot (UR5e, Panda, iiwa 14,\n  \
-         A1; f32, modelled Cortex-M4F). Forward dynamics of the first three takes {forward} ([peers]({PEERS})).\n\
-         - On the host, inverse dynamics of a UR5e and a Panda take **{host} of the time of Pinocchio's C++**.\n\
+         A1; f32, modelled Cortex-M4F), and {free} for the humanoid G1 with its base free. Forward dynamics of the first three takes\n  \
+         {forward} ([peers]({PEERS})).\n\
+         - On the host, inverse dynamics of the same four robots takes **{host} of the time of Pinocchio's C++**.\n\
          - A whole tick of a UR5e, from six encoders to six drives, takes {longest:.1} µs at {CLOCK_MHZ} MHz: **{share:.1} % of a millisecond**. The arm\n  \
          then follows its reference with {ratio:.1} % of the error of PD control alone.\n\n\
          {wishes}"
@@ -75,13 +77,17 @@ fn wishes(readme: &str, report: &Report) -> Result<String> {
     ))
 }
 
-/// The least and the greatest figure of the bars whose names contain these words.
+/// The least and the greatest figure of the bars whose names contain these words, of free bases only if they are named.
 fn range(page: &str, bar: &str) -> Result<String> {
-    let figures = page.lines().filter(|line| line.contains(bar));
+    let is_free = |text: &str| text.contains("_free ");
+    let figures = page
+        .lines()
+        .filter(|line| line.contains(bar) && is_free(line) == is_free(bar));
     let figures = figures.filter_map(|line| line.split('|').nth(3)?.trim().strip_suffix('×'));
     let figures: Vec<f64> = figures.filter_map(|figure| figure.parse().ok()).collect();
     let ends = [f64::min, f64::max].map(|pick| figures.iter().copied().reduce(pick));
     match ends {
+        [Some(least), Some(most)] if least == most => Ok(format!("{least:.2}")),
         [Some(least), Some(most)] => Ok(format!("{least:.2} to {most:.2}")),
         _ => Err(check!("{PEERS} has no bar `{bar}`")),
     }
@@ -110,12 +116,15 @@ mod tests {
 
     const PAGE: &str = "| ur5e rnea, engine / x: cycles | 0.470× | 0.448× | met |\n\
                         | a1 rnea, engine / x: cycles | 0.470× | 0.426× | met |\n\
+                        | a1_free rnea, engine / x: cycles | 0.470× | 0.333× | met |\n\
                         | a1 aba, engine / x: cycles | 0.470× | – | |\n";
 
     #[test]
     fn a_range_is_that_of_the_bars_of_a_name() {
         let words = range(PAGE, " rnea, engine / x: cycles").expect("two figures");
         assert_eq!(words, "0.43 to 0.45");
+        let words = range(PAGE, "a1_free rnea, engine / x: cycles").expect("a figure");
+        assert_eq!(words, "0.33");
         range(PAGE, " aba, engine / x: cycles").expect_err("no figure");
         range(PAGE, " crba,").expect_err("no bar");
     }

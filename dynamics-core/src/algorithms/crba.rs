@@ -10,7 +10,7 @@ use heapless::Vec;
 
 use super::tree_pass::{inward_sums, up_to_parent};
 use crate::algorithms::MassMatrix;
-use crate::algorithms::mass_matrix::{RowsFromLast, set};
+use crate::algorithms::mass_matrix::inward_rows;
 use crate::effects::{Declared, Effect, Scene, add_inertia, body_inertia, rotor_force};
 use crate::model::RobotModel;
 use crate::scalar::Real;
@@ -85,7 +85,7 @@ where
         let _ = rotations.push(link.xform(turns).rot);
     }
 
-    let mut rows = RowsFromLast::new();
+    let mut rows = inward_rows(robot);
     let mut sums = inward_sums(robot);
     let mut outer = rotations.as_slice();
     while let Some((rot, inner)) = outer.split_last() {
@@ -99,14 +99,12 @@ where
             sums.add(link.parent, ic.at_parent(&link.xform_of(*rot, turns)));
         }
         for (k, joint) in link.coordinates().enumerate().rev() {
-            let Some(row) = rows.next() else {
-                break;
-            };
+            rows.next();
             let mut f = ic.along(&link.subspace(turns, k));
             for (l, earlier) in link.coordinates().enumerate().take(k + 1) {
-                set(row, earlier, link.subspace(turns, l).dot(f));
+                rows.set(joint, earlier, link.subspace(turns, l).dot(f));
             }
-            if let Some(diagonal) = row.get_mut(joint) {
+            if let Some(diagonal) = rows.diagonal_mut(joint) {
                 add_inertia(effects, joint, diagonal);
             }
             if E::GYROSCOPIC_ROTORS {
@@ -119,7 +117,7 @@ where
                 };
                 f = child.xform_of(*rot, turns).transpose_mul(f);
                 for (l, ancestor) in parent.coordinates().enumerate() {
-                    set(row, ancestor, parent.subspace(turns, l).dot(f));
+                    rows.set(joint, ancestor, parent.subspace(turns, l).dot(f));
                 }
                 inner = up_to_parent(robot, before, &parent);
                 (child, rot) = (parent, parent_rot);

@@ -11,9 +11,12 @@ pub use ltdl::{inverse, ltdl, solve};
 pub use spatial_operator::{spatial_operator_inverse, spatial_operator_ltdl};
 
 use core::array::from_fn;
+use core::marker::PhantomData;
 
 use heapless::Vec;
 
+use super::tree_pass::{Topology, Tree};
+use crate::model::RobotModel;
 use crate::scalar::Real;
 
 /// M(q), symmetric, V × V: kg·m² between revolute joints, kg between prismatic ones, kg·m mixed.
@@ -115,27 +118,66 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     }
 }
 
-/// The rows of M up to the diagonal, from the last to the first, as the inward pass computes them.
-pub(super) struct RowsFromLast<R, const V: usize>(Vec<[R; V], V>);
+/// M as the inward pass writes it, from the last row to the first.
+///
+/// Of a chain each entry is written once, into its row; of other trees, where most entries are zero, into the matrix.
+pub(super) struct InwardRows<R, T, const V: usize> {
+    rows: Vec<[R; V], V>,
+    matrix: MassMatrix<R, V>,
+    topology: PhantomData<T>,
+}
 
-impl<R: Real, const V: usize> RowsFromLast<R, V> {
-    /// None yet.
+/// No row yet of the matrix of `robot`.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn inward_rows<D, R: Real, const B: usize, const Q: usize, const V: usize>(
+    _: &D,
+) -> InwardRows<R, Tree<D, R, B, Q, V>, V>
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    InwardRows {
+        rows: Vec::new(),
+        matrix: MassMatrix::ZERO,
+        topology: PhantomData,
+    }
+}
+
+impl<R: Real, T: Topology, const V: usize> InwardRows<R, T, V> {
+    /// Begins the next row, of zeros.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn new() -> Self {
-        Self(Vec::new())
+    pub(super) fn next(&mut self) {
+        if T::CHAIN {
+            let _ = self.rows.push([R::ZERO; V]);
+        }
     }
 
-    /// The next row, of zeros.
+    /// Sets M_ij and M_ji of the row i that was begun last.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn next(&mut self) -> Option<&mut [R; V]> {
-        let _ = self.0.push([R::ZERO; V]);
-        self.0.last_mut()
+    pub(super) fn set(&mut self, i: usize, j: usize, value: R) {
+        if !T::CHAIN {
+            self.matrix.set(i, j, value);
+        } else if let Some(entry) = self.rows.last_mut().and_then(|row| row.get_mut(j)) {
+            *entry = value;
+        }
     }
 
-    /// The whole matrix. Each entry is written once, into the place of the result.
+    /// M_ii of the row i that was begun last.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn matrix(&self) -> MassMatrix<R, V> {
-        let Ok(rows) = <&[[R; V]; V]>::try_from(self.0.as_slice()) else {
+    pub(super) fn diagonal_mut(&mut self, i: usize) -> Option<&mut R> {
+        if T::CHAIN {
+            self.rows.last_mut().and_then(|row| row.get_mut(i))
+        } else {
+            self.matrix.diagonal_mut(i)
+        }
+    }
+
+    /// The whole matrix.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn matrix(self) -> MassMatrix<R, V> {
+        if !T::CHAIN {
+            return self.matrix;
+        }
+        let Ok(rows) = <&[[R; V]; V]>::try_from(self.rows.as_slice()) else {
             return MassMatrix::ZERO;
         };
         let entry = |i: usize, j: usize| {
@@ -145,14 +187,6 @@ impl<R: Real, const V: usize> RowsFromLast<R, V> {
         MassMatrix {
             rows: from_fn(|i| from_fn(|j| entry(i, j).unwrap_or_default())),
         }
-    }
-}
-
-/// Sets an entry of a row.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn set<R>(row: &mut [R], joint: usize, value: R) {
-    if let Some(entry) = row.get_mut(joint) {
-        *entry = value;
     }
 }
 

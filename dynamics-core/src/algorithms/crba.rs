@@ -99,12 +99,14 @@ where
             sums.add(link.parent, ic.at_parent(&link.xform_of(*rot, turns)));
         }
         for (k, joint) in link.coordinates().enumerate().rev() {
-            rows.next();
+            let Some(mut row) = rows.next(joint) else {
+                break;
+            };
             let mut f = ic.along(&link.subspace(turns, k));
             for (l, earlier) in link.coordinates().enumerate().take(k + 1) {
-                rows.set(joint, earlier, link.subspace(turns, l).dot(f));
+                row.set(earlier, link.subspace(turns, l).dot(f));
             }
-            if let Some(diagonal) = rows.diagonal_mut(joint) {
+            if let Some(diagonal) = row.diagonal_mut(joint) {
                 add_inertia(effects, joint, diagonal);
             }
             if E::GYROSCOPIC_ROTORS {
@@ -117,7 +119,7 @@ where
                 };
                 f = child.xform_of(*rot, turns).transpose_mul(f);
                 for (l, ancestor) in parent.coordinates().enumerate() {
-                    rows.set(joint, ancestor, parent.subspace(turns, l).dot(f));
+                    row.set(ancestor, parent.subspace(turns, l).dot(f));
                 }
                 inner = up_to_parent(robot, before, &parent);
                 (child, rot) = (parent, parent_rot);

@@ -143,32 +143,14 @@ where
 }
 
 impl<R: Real, T: Topology, const V: usize> InwardRows<R, T, V> {
-    /// Begins the next row, of zeros.
+    /// Begins row i, of zeros.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn next(&mut self) {
-        if T::CHAIN {
-            let _ = self.rows.push([R::ZERO; V]);
-        }
-    }
-
-    /// Sets M_ij and M_ji of the row i that was begun last.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn set(&mut self, i: usize, j: usize, value: R) {
+    pub(super) fn next(&mut self, i: usize) -> Option<InwardRow<'_, R, V>> {
         if !T::CHAIN {
-            self.matrix.set(i, j, value);
-        } else if let Some(entry) = self.rows.last_mut().and_then(|row| row.get_mut(j)) {
-            *entry = value;
+            return Some(InwardRow::InMatrix(&mut self.matrix, i));
         }
-    }
-
-    /// M_ii of the row i that was begun last.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn diagonal_mut(&mut self, i: usize) -> Option<&mut R> {
-        if T::CHAIN {
-            self.rows.last_mut().and_then(|row| row.get_mut(i))
-        } else {
-            self.matrix.diagonal_mut(i)
-        }
+        let _ = self.rows.push([R::ZERO; V]);
+        self.rows.last_mut().map(InwardRow::Alone)
     }
 
     /// The whole matrix.
@@ -186,6 +168,36 @@ impl<R: Real, T: Topology, const V: usize> InwardRows<R, T, V> {
         };
         MassMatrix {
             rows: from_fn(|i| from_fn(|j| entry(i, j).unwrap_or_default())),
+        }
+    }
+}
+
+/// A row of M up to the diagonal: by itself, or with the column that equals it.
+pub(super) enum InwardRow<'a, R, const V: usize> {
+    Alone(&'a mut [R; V]),
+    InMatrix(&'a mut MassMatrix<R, V>, usize),
+}
+
+impl<R: Real, const V: usize> InwardRow<'_, R, V> {
+    /// Sets M_ij, j ≤ i.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn set(&mut self, j: usize, value: R) {
+        match self {
+            Self::InMatrix(m, i) => m.set(*i, j, value),
+            Self::Alone(row) => {
+                if let Some(entry) = row.get_mut(j) {
+                    *entry = value;
+                }
+            }
+        }
+    }
+
+    /// M_ii.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn diagonal_mut(&mut self, i: usize) -> Option<&mut R> {
+        match self {
+            Self::InMatrix(m, i) => m.diagonal_mut(*i),
+            Self::Alone(row) => row.get_mut(i),
         }
     }
 }

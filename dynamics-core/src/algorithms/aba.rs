@@ -234,22 +234,31 @@ where
     E: Effect<R, B, V>,
 {
     let turns = &trig.coordinates;
-    let mut sums = inward_sums(robot);
+    let own = |i: usize, link: &LinkView<'_, R>| {
+        let inertia = body_inertia(effects, i, link);
+        Articulated {
+            ia: inertia.into(),
+            pa: bodies.get(i).map(|body| body.pa).unwrap_or_default(),
+            magnitude: Magnitude::from(&inertia),
+        }
+    };
+    let mut sums = inward_sums(robot, own);
     let mut outer = bodies;
     while let Some((body, inner)) = outer.split_last() {
         let i = inner.len();
         let Some(link) = robot.link(i) else {
             break;
         };
-        let inertia = body_inertia(effects, i, &link);
         let Articulated {
             mut ia,
             mut pa,
-            mut magnitude,
-        } = sums.of(i);
-        ia += inertia;
-        pa += body.pa;
-        magnitude += Magnitude::from(&inertia);
+            magnitude,
+        } = sums.of(i, |sum: &mut Articulated<R>| {
+            let inertia = body_inertia(effects, i, &link);
+            sum.ia += inertia;
+            sum.pa += body.pa;
+            sum.magnitude += Magnitude::from(&inertia);
+        });
         let mut pivots = PivotCheck::of(magnitude);
         let mut free = None;
         for (k, joint) in link.coordinates().enumerate().rev() {
@@ -265,7 +274,11 @@ where
                     let tau = transmitted(effects, joint, at, tau);
                     let u = tau - joint_torque(effects, &link, state, joint) - s.dot(pa);
                     let u_a = with_rotor(effects, &link, u_a);
-                    if matches!(s, MotionSubspace::RevoluteZ) && effects.inertia(joint).is_none() {
+                    // Not in trees, where it would lose a sixth of a digit of the G1's accelerations.
+                    if D::CHAIN
+                        && matches!(s, MotionSubspace::RevoluteZ)
+                        && effects.inertia(joint).is_none()
+                    {
                         free = Some(ia.free_about_z(u_a, d_inv));
                     } else {
                         ia = ia.minus_outer(u_a, d_inv);

@@ -12,7 +12,7 @@ use super::tree_pass::{inward_sums, up_to_parent};
 use crate::algorithms::MassMatrix;
 use crate::algorithms::mass_matrix::inward_rows;
 use crate::effects::{Declared, Effect, Scene, add_inertia, body_inertia, rotor_force};
-use crate::model::RobotModel;
+use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
 use crate::spatial::inertia::CompositeInertia;
 use crate::state::{Configuration, JointTrig};
@@ -86,15 +86,15 @@ where
     }
 
     let mut rows = inward_rows(robot);
-    let mut sums = inward_sums(robot);
+    let own = |i, link: &LinkView<'_, R>| CompositeInertia::from(body_inertia(effects, i, link));
+    let mut sums = inward_sums(robot, own);
     let mut outer = rotations.as_slice();
     while let Some((rot, inner)) = outer.split_last() {
         let i = inner.len();
         let Some(link) = robot.link(i) else {
             break;
         };
-        let mut ic = CompositeInertia::from(body_inertia(effects, i, &link));
-        ic += sums.of(i);
+        let ic = sums.of(i, |sum| *sum += own(i, &link));
         if !inner.is_empty() {
             sums.add(link.parent, ic.at_parent(&link.xform_of(*rot, turns)));
         }

@@ -91,7 +91,7 @@ impl<'a, A> Inward<'a, A> {
     }
 }
 
-/// The sum of a quantity over the children of each body, which the inward pass adds to.
+/// The sum of a quantity over each body and its descendants, which the inward pass adds to.
 ///
 /// For a chain only what the next body has added is stored.
 pub(crate) struct InwardSums<A, T, const B: usize> {
@@ -100,7 +100,7 @@ pub(crate) struct InwardSums<A, T, const B: usize> {
     topology: PhantomData<T>,
 }
 
-/// The sums over `robot`, zero as yet.
+/// The sums over `robot`, of each body alone as yet: `own`.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn inward_sums<
     A: Copy + Default,
@@ -110,24 +110,33 @@ pub(crate) fn inward_sums<
     const Q: usize,
     const V: usize,
 >(
-    _: &D,
+    robot: &D,
+    own: impl Fn(usize, &LinkView<'_, R>) -> A,
 ) -> InwardSums<A, Tree<D, R, B, Q, V>, B>
 where
     D: RobotModel<R, B, Q, V>,
 {
+    let mut all = [A::default(); B];
+    if !D::CHAIN {
+        for (i, (link, sum)) in robot.links().zip(&mut all).enumerate() {
+            *sum = own(i, &link);
+        }
+    }
     InwardSums {
         next: A::default(),
-        all: [A::default(); B],
+        all,
         topology: PhantomData,
     }
 }
 
 impl<A: Copy + Default + AddAssign, T: Topology, const B: usize> InwardSums<A, T, B> {
-    /// The sum over the children of body `i`.
+    /// The sum over body `i` and its descendants; of a chain the body itself is added by `add`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn of(&self, i: usize) -> A {
+    pub(crate) fn of(&self, i: usize, add: impl FnOnce(&mut A)) -> A {
         if T::CHAIN {
-            self.next
+            let mut sum = self.next;
+            add(&mut sum);
+            sum
         } else {
             self.all.get(i).copied().unwrap_or_default()
         }

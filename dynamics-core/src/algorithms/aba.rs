@@ -90,9 +90,10 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let given = |joint| Prescribed::Torque(entry(tau, joint));
-    let response = match robot.as_revolute_chain() {
-        Some(robot) => sweep(&robot, trig, state, effects, given)?,
-        None => sweep(robot, trig, state, effects, given)?,
+    let response = match (robot.as_revolute_chain(), robot.as_all_revolute()) {
+        (Some(robot), _) => sweep(&robot, trig, state, effects, given)?,
+        (_, Some(robot)) => sweep(&robot, trig, state, effects, given)?,
+        _ => sweep(robot, trig, state, effects, given)?,
     };
     Ok(response.qdd)
 }

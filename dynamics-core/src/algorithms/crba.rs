@@ -62,9 +62,10 @@ where
     const { Scene::<R, E, B, V>::OF_CORE };
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
-    match robot.as_revolute_chain() {
-        Some(robot) => sweep(&robot, trig, effects),
-        None => sweep(robot, trig, effects),
+    match (robot.as_revolute_chain(), robot.as_all_revolute()) {
+        (Some(robot), _) => sweep(&robot, trig, effects),
+        (_, Some(robot)) => sweep(&robot, trig, effects),
+        _ => sweep(robot, trig, effects),
     }
 }
 

@@ -10,9 +10,8 @@ use heapless::Vec;
 
 use super::tree_pass::{inward_sums, up_to_parent};
 use crate::algorithms::MassMatrix;
-use crate::algorithms::mass_matrix::inward_rows;
 use crate::effects::{Declared, Effect, Scene, add_inertia, body_inertia, rotor_force};
-use crate::model::{LinkView, RobotModel};
+use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::spatial::inertia::CompositeInertia;
 use crate::state::{Configuration, JointTrig};
@@ -62,10 +61,9 @@ where
     const { Scene::<R, E, B, V>::OF_CORE };
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
-    match (robot.as_revolute_chain(), robot.as_all_revolute()) {
-        (Some(robot), _) => sweep(&robot, trig, effects),
-        (_, Some(robot)) => sweep(&robot, trig, effects),
-        _ => sweep(robot, trig, effects),
+    match robot.as_revolute_chain() {
+        Some(robot) => sweep(&robot, trig, effects),
+        None => sweep(robot, trig, effects),
     }
 }
 
@@ -86,28 +84,30 @@ where
         let _ = rotations.push(link.xform(turns).rot);
     }
 
-    let mut rows = inward_rows(robot);
-    let own = |i, link: &LinkView<'_, R>| CompositeInertia::from(body_inertia(effects, i, link));
-    let mut sums = inward_sums(robot, own);
+    let mut m = MassMatrix::ZERO;
+    let own = |i| {
+        let link = robot.link(i);
+        link.map(|link| CompositeInertia::from(body_inertia(effects, i, &link)))
+            .unwrap_or_default()
+    };
+    let mut sums = inward_sums(robot);
     let mut outer = rotations.as_slice();
     while let Some((rot, inner)) = outer.split_last() {
         let i = inner.len();
         let Some(link) = robot.link(i) else {
             break;
         };
-        let ic = sums.of(i, |sum| *sum += own(i, &link));
+        let ic = sums.of(i, || own(i), |sum| *sum += own(i));
         if !inner.is_empty() {
-            sums.add(link.parent, ic.at_parent(&link.xform_of(*rot, turns)));
+            let at_parent = ic.at_parent(&link.xform_of(*rot, turns));
+            sums.add(link.parent, at_parent, || own(link.parent));
         }
         for (k, joint) in link.coordinates().enumerate().rev() {
-            let Some(mut row) = rows.next(joint) else {
-                break;
-            };
             let mut f = ic.along(&link.subspace(turns, k));
             for (l, earlier) in link.coordinates().enumerate().take(k + 1) {
-                row.set(earlier, link.subspace(turns, l).dot(f));
+                m.set(joint, earlier, link.subspace(turns, l).dot(f));
             }
-            if let Some(diagonal) = row.diagonal_mut(joint) {
+            if let Some(diagonal) = m.diagonal_mut(joint) {
                 add_inertia(effects, joint, diagonal);
             }
             if E::GYROSCOPIC_ROTORS {
@@ -120,7 +120,7 @@ where
                 };
                 f = child.xform_of(*rot, turns).transpose_mul(f);
                 for (l, ancestor) in parent.coordinates().enumerate() {
-                    row.set(ancestor, parent.subspace(turns, l).dot(f));
+                    m.set(joint, ancestor, parent.subspace(turns, l).dot(f));
                 }
                 inner = up_to_parent(robot, before, &parent);
                 (child, rot) = (parent, parent_rot);
@@ -128,5 +128,5 @@ where
         }
         outer = inner;
     }
-    rows.matrix()
+    m
 }

@@ -69,10 +69,9 @@ where
     const { Scene::<R, E, B, V>::OF_CORE };
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
-    match (robot.as_revolute_chain(), robot.as_all_revolute()) {
-        (Some(robot), _) => sweep(&robot, trig, state, effects),
-        (_, Some(robot)) => sweep(&robot, trig, state, effects),
-        _ => sweep(robot, trig, state, effects),
+    match robot.as_revolute_chain() {
+        Some(robot) => sweep(&robot, trig, state, effects),
+        None => sweep(robot, trig, state, effects),
     }
 }
 

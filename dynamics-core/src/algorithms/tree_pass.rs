@@ -97,10 +97,12 @@ impl<'a, A> Inward<'a, A> {
 pub(crate) struct InwardSums<A, T, const B: usize> {
     next: A,
     all: [A; B],
+    /// Whether a child has added to the sum of a body.
+    begun: [bool; B],
     topology: PhantomData<T>,
 }
 
-/// The sums over `robot`, of each body alone as yet: `own`.
+/// The sums over `robot`, of nothing as yet.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn inward_sums<
     A: Copy + Default,
@@ -110,44 +112,45 @@ pub(crate) fn inward_sums<
     const Q: usize,
     const V: usize,
 >(
-    robot: &D,
-    own: impl Fn(usize, &LinkView<'_, R>) -> A,
+    _: &D,
 ) -> InwardSums<A, Tree<D, R, B, Q, V>, B>
 where
     D: RobotModel<R, B, Q, V>,
 {
-    let mut all = [A::default(); B];
-    if !D::CHAIN {
-        for (i, (link, sum)) in robot.links().zip(&mut all).enumerate() {
-            *sum = own(i, &link);
-        }
-    }
     InwardSums {
         next: A::default(),
-        all,
+        all: [A::default(); B],
+        begun: [false; B],
         topology: PhantomData,
     }
 }
 
 impl<A: Copy + Default + AddAssign, T: Topology, const B: usize> InwardSums<A, T, B> {
-    /// The sum over body `i` and its descendants; of a chain the body itself is added by `add`.
+    /// The sum over body `i`, which is `own` or what `add` adds, and its descendants.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn of(&self, i: usize, add: impl FnOnce(&mut A)) -> A {
+    pub(crate) fn of(&self, i: usize, own: impl FnOnce() -> A, add: impl FnOnce(&mut A)) -> A {
         if T::CHAIN {
             let mut sum = self.next;
             add(&mut sum);
-            sum
-        } else {
-            self.all.get(i).copied().unwrap_or_default()
+            return sum;
+        }
+        match (self.begun.get(i), self.all.get(i)) {
+            (Some(true), Some(sum)) => *sum,
+            _ => own(),
         }
     }
 
-    /// Adds to the sum of body `parent` the quantity of a child.
+    /// Adds to the sum of body `parent`, which begins with its `own`, the quantity of a child.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn add(&mut self, parent: usize, child: A) {
+    pub(crate) fn add(&mut self, parent: usize, child: A, own: impl FnOnce() -> A) {
         if T::CHAIN {
             self.next = child;
-        } else if let Some(sum) = self.all.get_mut(parent) {
+        } else if let (Some(begun), Some(sum)) =
+            (self.begun.get_mut(parent), self.all.get_mut(parent))
+        {
+            if !*begun {
+                (*begun, *sum) = (true, own());
+            }
             *sum += child;
         }
     }

@@ -10,13 +10,6 @@ pub(super) use ltdl::{Sizes, check, parent};
 pub use ltdl::{inverse, ltdl, solve};
 pub use spatial_operator::{spatial_operator_inverse, spatial_operator_ltdl};
 
-use core::array::from_fn;
-use core::marker::PhantomData;
-
-use heapless::Vec;
-
-use super::tree_pass::{Topology, Tree};
-use crate::model::RobotModel;
 use crate::scalar::Real;
 
 /// M(q), symmetric, V × V: kg·m² between revolute joints, kg between prismatic ones, kg·m mixed.
@@ -115,90 +108,6 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn diagonal_mut(&mut self, i: usize) -> Option<&mut R> {
         self.rows.get_mut(i).and_then(|row| row.get_mut(i))
-    }
-}
-
-/// M as the inward pass writes it, from the last row to the first.
-///
-/// Of a chain each entry is written once, into its row; of other trees, where most entries are zero, into the matrix.
-pub(super) struct InwardRows<R, T, const V: usize> {
-    rows: Vec<[R; V], V>,
-    matrix: MassMatrix<R, V>,
-    topology: PhantomData<T>,
-}
-
-/// No row yet of the matrix of `robot`.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn inward_rows<D, R: Real, const B: usize, const Q: usize, const V: usize>(
-    _: &D,
-) -> InwardRows<R, Tree<D, R, B, Q, V>, V>
-where
-    D: RobotModel<R, B, Q, V>,
-{
-    InwardRows {
-        rows: Vec::new(),
-        matrix: MassMatrix::ZERO,
-        topology: PhantomData,
-    }
-}
-
-impl<R: Real, T: Topology, const V: usize> InwardRows<R, T, V> {
-    /// Begins row i, of zeros.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn next(&mut self, i: usize) -> Option<InwardRow<'_, R, V>> {
-        if !T::CHAIN {
-            return Some(InwardRow::InMatrix(&mut self.matrix, i));
-        }
-        let _ = self.rows.push([R::ZERO; V]);
-        self.rows.last_mut().map(InwardRow::Alone)
-    }
-
-    /// The whole matrix.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn matrix(self) -> MassMatrix<R, V> {
-        if !T::CHAIN {
-            return self.matrix;
-        }
-        let Ok(rows) = <&[[R; V]; V]>::try_from(self.rows.as_slice()) else {
-            return MassMatrix::ZERO;
-        };
-        let entry = |i: usize, j: usize| {
-            let row = rows.get(V - 1 - i.max(j));
-            row.and_then(|row| row.get(i.min(j))).copied()
-        };
-        MassMatrix {
-            rows: from_fn(|i| from_fn(|j| entry(i, j).unwrap_or_default())),
-        }
-    }
-}
-
-/// A row of M up to the diagonal: by itself, or with the column that equals it.
-pub(super) enum InwardRow<'a, R, const V: usize> {
-    Alone(&'a mut [R; V]),
-    InMatrix(&'a mut MassMatrix<R, V>, usize),
-}
-
-impl<R: Real, const V: usize> InwardRow<'_, R, V> {
-    /// Sets M_ij, j ≤ i.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn set(&mut self, j: usize, value: R) {
-        match self {
-            Self::InMatrix(m, i) => m.set(*i, j, value),
-            Self::Alone(row) => {
-                if let Some(entry) = row.get_mut(j) {
-                    *entry = value;
-                }
-            }
-        }
-    }
-
-    /// M_ii.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn diagonal_mut(&mut self, i: usize) -> Option<&mut R> {
-        match self {
-            Self::InMatrix(m, i) => m.diagonal_mut(*i),
-            Self::Alone(row) => row.get_mut(i),
-        }
     }
 }
 

@@ -8,11 +8,12 @@ use core::borrow::Borrow;
 
 use heapless::Vec;
 
-use super::tree_pass::{inward_sums, up_to_parent};
+use super::tree_pass::inward;
 use crate::algorithms::MassMatrix;
 use crate::effects::{Declared, Effect, Scene, add_inertia, body_inertia, rotor_force};
-use crate::model::RobotModel;
+use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
+use crate::spatial::Xform;
 use crate::spatial::inertia::CompositeInertia;
 use crate::state::{Configuration, JointTrig};
 
@@ -61,10 +62,17 @@ where
     const { Scene::<R, E, B, V>::OF_CORE };
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
-    match robot.as_revolute_chain() {
+    match robot.as_all_revolute() {
         Some(robot) => sweep(&robot, trig, effects),
         None => sweep(robot, trig, effects),
     }
+}
+
+/// The results of the outward pass for the inward one.
+struct Body<'a, R: Real> {
+    link: LinkView<'a, R>,
+    x: Xform<R>,
+    ic: CompositeInertia<R>,
 }
 
 /// The two passes.
@@ -79,54 +87,42 @@ where
     E: Effect<R, B, V>,
 {
     let turns = &trig.coordinates;
-    let mut rotations: Vec<R::Mat3, B> = Vec::new();
-    for link in robot.links() {
-        let _ = rotations.push(link.xform(turns).rot);
-    }
-
-    let mut m = MassMatrix::ZERO;
-    let own = |i| {
-        let link = robot.link(i);
-        link.map(|link| CompositeInertia::from(body_inertia(effects, i, &link)))
-            .unwrap_or_default()
-    };
-    let mut sums = inward_sums(robot);
-    let mut outer = rotations.as_slice();
-    while let Some((rot, inner)) = outer.split_last() {
-        let i = inner.len();
+    let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
+    for i in 0..B {
         let Some(link) = robot.link(i) else {
             break;
         };
-        let ic = sums.of(i, || own(i), |sum| *sum += own(i));
-        if !inner.is_empty() {
-            let at_parent = ic.at_parent(&link.xform_of(*rot, turns));
-            sums.add(link.parent, at_parent, || own(link.parent));
+        let ic = body_inertia(effects, i, &link).into();
+        let x = link.xform(turns);
+        let _ = bodies.push(Body { link, x, ic });
+    }
+
+    let mut m = MassMatrix::ZERO;
+    let mut pass = inward(&mut bodies);
+    while let Some((body, inner)) = pass.next() {
+        if let Some(parent) = inner.get_mut(body.link.parent) {
+            parent.ic += body.ic.at_parent(&body.x);
         }
-        for (k, joint) in link.coordinates().enumerate().rev() {
-            let mut f = ic.along(&link.subspace(turns, k));
-            for (l, earlier) in link.coordinates().enumerate().take(k + 1) {
-                m.set(joint, earlier, link.subspace(turns, l).dot(f));
+        for (k, joint) in body.link.coordinates().enumerate() {
+            let mut f = body.ic.along(&body.link.subspace(turns, k));
+            for (l, earlier) in body.link.coordinates().enumerate().take(k + 1) {
+                m.set(joint, earlier, body.link.subspace(turns, l).dot(f));
             }
             if let Some(diagonal) = m.diagonal_mut(joint) {
                 add_inertia(effects, joint, diagonal);
             }
             if E::GYROSCOPIC_ROTORS {
-                f += rotor_force(effects, &link);
+                f += rotor_force(effects, &body.link);
             }
-            let (mut child, mut rot, mut inner) = (link, rot, up_to_parent(robot, inner, &link));
-            while let Some((parent_rot, before)) = inner.split_last() {
-                let Some(parent) = robot.link(before.len()) else {
-                    break;
-                };
-                f = child.xform_of(*rot, turns).transpose_mul(f);
-                for (l, ancestor) in parent.coordinates().enumerate() {
-                    m.set(joint, ancestor, parent.subspace(turns, l).dot(f));
+            let mut child = &*body;
+            while let Some(parent) = inner.get(child.link.parent) {
+                f = child.x.transpose_mul(f);
+                for (l, ancestor) in parent.link.coordinates().enumerate() {
+                    m.set(joint, ancestor, parent.link.subspace(turns, l).dot(f));
                 }
-                inner = up_to_parent(robot, before, &parent);
-                (child, rot) = (parent, parent_rot);
+                child = parent;
             }
         }
-        outer = inner;
     }
     m
 }

@@ -26,7 +26,7 @@ const ROUNDINGS: f64 = 8.0;
 const MOST: usize = 6;
 
 /// Mass, largest first moment and largest ∫ r² dm of the bodies that a joint moves, about its frame's origin.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 pub(crate) struct Magnitude<R> {
     mass: R,
     first_moment: R,

@@ -1,7 +1,6 @@
 //! The two passes over a tree: outward, from the base to the tips, and inward.
 
 use core::marker::PhantomData;
-use core::ops::AddAssign;
 
 use heapless::Vec;
 
@@ -88,87 +87,5 @@ impl<'a, A> Inward<'a, A> {
         let (body, before) = core::mem::take(&mut self.0).split_last_mut()?;
         self.0 = before;
         Some((body, self.0))
-    }
-}
-
-/// The sum of a quantity over each body and its descendants, which the inward pass adds to.
-///
-/// For a chain only what the next body has added is stored.
-pub(crate) struct InwardSums<A, T, const B: usize> {
-    next: A,
-    all: [A; B],
-    /// Whether a child has added to the sum of a body.
-    begun: [bool; B],
-    topology: PhantomData<T>,
-}
-
-/// The sums over `robot`, of nothing as yet.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn inward_sums<
-    A: Copy + Default,
-    D,
-    R: Real,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
->(
-    _: &D,
-) -> InwardSums<A, Tree<D, R, B, Q, V>, B>
-where
-    D: RobotModel<R, B, Q, V>,
-{
-    InwardSums {
-        next: A::default(),
-        all: [A::default(); B],
-        begun: [false; B],
-        topology: PhantomData,
-    }
-}
-
-impl<A: Copy + Default + AddAssign, T: Topology, const B: usize> InwardSums<A, T, B> {
-    /// The sum over body `i`, which is `own` or what `add` adds, and its descendants.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn of(&self, i: usize, own: impl FnOnce() -> A, add: impl FnOnce(&mut A)) -> A {
-        if T::CHAIN {
-            let mut sum = self.next;
-            add(&mut sum);
-            return sum;
-        }
-        match (self.begun.get(i), self.all.get(i)) {
-            (Some(true), Some(sum)) => *sum,
-            _ => own(),
-        }
-    }
-
-    /// Adds to the sum of body `parent`, which begins with its `own`, the quantity of a child.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn add(&mut self, parent: usize, child: A, own: impl FnOnce() -> A) {
-        if T::CHAIN {
-            self.next = child;
-        } else if let (Some(begun), Some(sum)) =
-            (self.begun.get_mut(parent), self.all.get_mut(parent))
-        {
-            if !*begun {
-                (*begun, *sum) = (true, own());
-            }
-            *sum += child;
-        }
-    }
-}
-
-/// Of what stands for the bodies before `link`, that of its parent and of those before it.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn up_to_parent<'a, A, D, R: Real, const B: usize, const Q: usize, const V: usize>(
-    _: &D,
-    before: &'a [A],
-    link: &LinkView<'_, R>,
-) -> &'a [A]
-where
-    D: RobotModel<R, B, Q, V>,
-{
-    if D::CHAIN {
-        before
-    } else {
-        before.get(..=link.parent).unwrap_or_default()
     }
 }

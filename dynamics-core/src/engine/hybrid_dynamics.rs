@@ -124,7 +124,7 @@ where
             }
         }
     });
-    let d_inv = decompose::<R, C, V>(&mut rows, &pivots, &[false; V])?;
+    let d_inv = decompose::<R, C, V>(&mut rows, &pivots)?;
     substitute::<R, C, V>(&rows, &d_inv, &mut qdd);
 
     let moved = times::<R, C, V>(&m, &qdd);

@@ -73,7 +73,6 @@ mod ltdl;
 mod momentum;
 mod named;
 mod operational_space;
-mod parallel_axes;
 mod pass;
 mod pivot_noise;
 mod pose;

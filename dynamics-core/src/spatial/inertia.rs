@@ -26,17 +26,6 @@ impl<R: Real> From<SpatialInertia<R>> for CompositeInertia<R> {
     }
 }
 
-impl<R: Real> Default for CompositeInertia<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn default() -> Self {
-        Self {
-            mass: R::ZERO,
-            first_moment: R::Vec3::ZERO,
-            inertia: Symmetric::ZERO,
-        }
-    }
-}
-
 impl<R: Real> AddAssign for CompositeInertia<R> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_assign(&mut self, o: Self) {

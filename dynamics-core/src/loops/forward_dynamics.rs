@@ -45,7 +45,7 @@ pub struct LoopMotion<R: Real, const V: usize, const L: usize, const C: usize> {
 ///
 /// # Cost
 /// That of [`rnea`](crate::algorithms::rnea()), [`crba`](crate::algorithms::crba()),
-/// [`ltdl`](crate::algorithms::ltdl()), [`constraints()`] and [`coordinate_map`](super::coordinate_map()); with n degrees
+/// [`ltdl`](crate::algorithms::ltdl()), [`constraints`](super::constraints()) and [`coordinate_map`](super::coordinate_map()); with n degrees
 /// of freedom 4 n² V flops for the motion.
 ///
 /// # Source

@@ -46,7 +46,7 @@ pub struct LoopTorque<R: Real, const Q: usize, const V: usize, const C: usize, c
 /// A.
 ///
 /// # Cost
-/// That of [`rnea`](crate::algorithms::rnea()), of [`constraints()`] twice and of
+/// That of [`rnea`](crate::algorithms::rnea()), of [`constraints`](super::constraints()) twice and of
 /// [`coordinate_map`](super::coordinate_map()). Near a dead point V² C + 3 V³ flops more.
 ///
 /// # Source

@@ -127,7 +127,7 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("tree", "step along a difference", 2e-14, NONE),
     ("tree", "power of a step", 4e-11, NONE),
     ("ur5e", "engine forward", NONE, 3e-5),
-    ("ur5e", "engine crba", NONE, 8e-7),
+    ("ur5e", "engine crba", NONE, 5e-7),
     ("panda", "engine crba", 1.2e-15, NONE),
     ("iiwa14", "engine forward", 1.2e-12, NONE),
     ("a1", "engine crba", 2e-15, NONE),

@@ -9,6 +9,7 @@ use core::borrow::Borrow;
 
 use heapless::Vec;
 
+use super::aba_chain;
 use super::hybrid_dynamics::{prescribed_factor, prescribed_torque};
 use super::pivot_check::{Magnitude, PivotCheck};
 use super::rnea::external_force;
@@ -86,12 +87,22 @@ where
     E: Effect<R, B, V>,
 {
     const { Scene::<R, E, B, V>::OF_CORE };
+    const {
+        assert!(
+            E::ACCELERATIONS,
+            "forward dynamics needs `Inertia` in the scene"
+        )
+    };
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let given = |joint| Prescribed::Torque(entry(tau, joint));
-    let response = match robot.as_all_revolute() {
-        Some(robot) => sweep(&robot, trig, state, effects, given)?,
-        None => sweep(robot, trig, state, effects, given)?,
+    let response = match (robot.as_revolute_chain(), robot.as_all_revolute()) {
+        (Some(robot), _) => return aba_chain::sweep(&robot, trig, state, effects, tau),
+        (_, Some(robot)) => sweep(&robot, trig, state, effects, given)?,
+        _ if const { D::CHAIN && D::SINGLE } => {
+            return aba_chain::sweep(robot, trig, state, effects, tau);
+        }
+        _ => sweep(robot, trig, state, effects, given)?,
     };
     Ok(response.qdd)
 }
@@ -127,12 +138,6 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    const {
-        assert!(
-            E::ACCELERATIONS,
-            "forward dynamics needs `Inertia` in the scene"
-        )
-    };
     let (v_0, a_0) = base_motion(effects);
     let mut bodies = Vec::new();
     outward_velocities(robot, trig, state, effects, v_0, &mut bodies);

@@ -8,6 +8,7 @@ use core::borrow::Borrow;
 
 use heapless::Vec;
 
+use super::crba_chain;
 use super::tree_pass::inward;
 use crate::algorithms::MassMatrix;
 use crate::effects::{Declared, Effect, Scene, add_inertia, body_inertia, rotor_force};
@@ -62,9 +63,11 @@ where
     const { Scene::<R, E, B, V>::OF_CORE };
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
-    match robot.as_all_revolute() {
-        Some(robot) => sweep(&robot, trig, effects),
-        None => sweep(robot, trig, effects),
+    match (robot.as_revolute_chain(), robot.as_all_revolute()) {
+        (Some(robot), _) => crba_chain::sweep(&robot, trig, effects),
+        (_, Some(robot)) => sweep(&robot, trig, effects),
+        _ if const { D::CHAIN && D::SINGLE } => crba_chain::sweep(robot, trig, effects),
+        _ => sweep(robot, trig, effects),
     }
 }
 

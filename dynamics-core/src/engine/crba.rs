@@ -11,11 +11,13 @@ use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointMotion, JointP
 use super::displacement::Displacement;
 use super::folding::Folded;
 use super::gate::EngineScene;
+use super::joint_rates::Twist;
+use super::parallel_axes::Felt;
 use super::rnea::matrix_inertia;
 use super::rotors::{borne, coupling};
 use super::{Engine, Specialised, only_if};
 use crate::algorithms::MassMatrix;
-use crate::effects::{Effect, add_inertia};
+use crate::effects::{Declared, Effect, add_inertia};
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::Real;
 use crate::state::Configuration;
@@ -74,6 +76,16 @@ struct Task<'a, R, E, const Q: usize, const V: usize> {
     m: &'a mut MassMatrix<R, V>,
 }
 
+impl<R: Real, E, const Q: usize, const V: usize> Task<'_, R, E, Q, V> {
+    /// Writes the entry of joint I and the joint on the base.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn both<C: Compiled, const I: usize>(&mut self, entry: Folded<R>) {
+        let (root, entry) = (CompiledJoint::<C, I>::ROOT, entry.get());
+        self.m.rows[I][root] = entry;
+        self.m.rows[root][I] = entry;
+    }
+}
+
 /// Writes M(q), both triangles; what is zero by the tree's branches stays as it is.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn mass_matrix<R, C, E, const B: usize, const Q: usize, const V: usize>(
@@ -95,24 +107,38 @@ pub(crate) fn mass_matrix<R, C, E, const B: usize, const Q: usize, const V: usiz
                 )
             }
         {
-            let _ = composite(&mut task);
+            let _ = composite(&mut task, &Twist::ZERO);
         }
     });
 }
 
-type Composite<R, E, const Q: usize, const V: usize> = fn(&mut Task<'_, R, E, Q, V>) -> Inertia<R>;
+type Composite<R, E, const Q: usize, const V: usize> =
+    fn(&mut Task<'_, R, E, Q, V>, &Twist<R>) -> (Inertia<R>, Felt<R>);
 
-/// Writes the columns of joint I and of its descendants; returns their inertia in the parent's
-/// frame.
+/// Writes the columns of joint I and of its descendants; returns their inertia in the parent's frame, or what joints on
+/// parallel axes feel of it. `root` is the motion of the joint on the base at rate −1, in the frame of the parent, or in that of the
+/// last ancestor on parallel axes.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn composite<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
-) -> Inertia<R>
+    root: &Twist<R>,
+) -> (Inertia<R>, Felt<R>)
 where
     R: Real,
     C: Compiled,
     E: Effect<R, B, V>,
 {
+    let at = Displacement::of::<C, Q, I>(task.turns);
+    let joint = CompiledJoint::<C, I>::JOINT;
+    let length_inv = Folded::constant(C::LENGTH_INV);
+    let own = if CompiledJoint::<C, I>::IS_ON_BASE {
+        // At rate −1, entries of its row need no negation.
+        Twist::along(joint, C::LENGTH_INV, Folded::constant(-1.0))
+    } else if CompiledJoint::<C, I>::IS_PARALLEL {
+        root.carried::<C, I>(&at)
+    } else {
+        *root
+    };
     let (mut body, mut spin) = (Inertia::NONE, Folded::ZERO);
     if let Some(inertia) = const {
         only_if(
@@ -122,6 +148,7 @@ where
     } {
         (body, spin) = inertia(task.effects);
     }
+    let mut beyond = Felt::NONE;
     for_each_joint!(J, {
         if JointPair::<C, I, J>::IS_PARENT
             && let Some(composite) = const {
@@ -131,12 +158,21 @@ where
                 )
             }
         {
-            body = body + composite(task);
+            let (inertia, felt) = composite(task, &own);
+            body = body + inertia;
+            beyond = beyond + felt;
         }
     });
-    let at = Displacement::of::<C, Q, I>(task.turns);
-    let joint = CompiledJoint::<C, I>::JOINT;
-    let length_inv = Folded::constant(C::LENGTH_INV);
+    if CompiledJoint::<C, I>::IS_PARALLEL {
+        let felt = Felt::of(&body, own_spin::<R, C, E, B, V, I>(spin), &own) + beyond;
+        task.both::<C, I>(felt.between);
+        column::<R, C, E, B, Q, V, I>(task, felt.about, &felt.wrench::<C, I>(&at), root);
+        let left = felt.to_parent::<C, I>(&at, root);
+        if CompiledJoint::<C, I>::PARENT.parent == BASE {
+            return (left.on_root(), Felt::NONE);
+        }
+        return (Inertia::NONE, left);
+    }
     let turned = body.turned::<C, I>(&at);
     if const { keeps_axis(CompiledJoint::<C, I>::MOTION) } {
         // Of the turned body, so that column I and the composite of the parent share the turn's products.
@@ -144,13 +180,13 @@ where
         if !joint.prismatic {
             wrench.n.0[2] = body.second.xx + body.second.yy + spin;
         }
-        column::<R, C, E, B, Q, V, I>(task, wrench.along(joint, length_inv), &wrench);
+        column::<R, C, E, B, Q, V, I>(task, wrench.along(joint, length_inv), &wrench, root);
     } else {
         let wrench = body.wrench_of(joint, length_inv);
         let diagonal = wrench.along(joint, length_inv);
-        column::<R, C, E, B, Q, V, I>(task, diagonal, &wrench.turned::<C, I>(&at));
+        column::<R, C, E, B, Q, V, I>(task, diagonal, &wrench.turned::<C, I>(&at), root);
     }
-    turned.turned_to_parent::<C, I>(&at)
+    (turned.turned_to_parent::<C, I>(&at), Felt::NONE)
 }
 
 /// Whether a rotation of the joint's body leaves the axis of its coordinate as it is: body and wrench may be turned in either
@@ -163,12 +199,13 @@ const fn keeps_axis(motion: JointMotion) -> bool {
 }
 
 /// Column I of M: its diagonal entry, and the wrench of joint I's unit acceleration, in the joint's frame, projected on each
-/// ancestor.
+/// ancestor. Where it meets `root`, that of the joint on the base, their product is the entry of both.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     diagonal: Folded<R>,
     wrench: &Wrench<R>,
+    root: &Twist<R>,
 ) where
     R: Real,
     C: Compiled,
@@ -192,10 +229,31 @@ fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usiz
                     wrench.to_parent::<C, K>(&at)
                 };
                 let parent = CompiledJoint::<C, K>::PARENT;
-                let entry = wrench.along(parent, length_inv).get();
-                task.m.rows[I][joint.parent] = entry;
-                task.m.rows[joint.parent][I] = entry;
+                if !(CompiledJoint::<C, I>::MEETS_ROOT && CompiledJoint::<C, K>::PARENT_ON_BASE) {
+                    let entry = wrench.along(parent, length_inv).get();
+                    task.m.rows[I][joint.parent] = entry;
+                    task.m.rows[joint.parent][I] = entry;
+                }
+                if JointPair::<C, K, I>::IS_MEETING {
+                    let power = root.ang.dot(wrench.n) + root.lin.dot(wrench.f);
+                    task.both::<C, I>(-power);
+                }
             }
         }
     });
+}
+
+/// Of the inertia `spin` that joint I's own rotation feels, what those of the children on parallel axes do not contain.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn own_spin<R, C, E, const B: usize, const V: usize, const I: usize>(spin: Folded<R>) -> Folded<R>
+where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    if E::BASE_PARAMETERS > 0 {
+        spin
+    } else {
+        Folded::constant(CompiledJoint::<C, I>::OWN_SPIN)
+    }
 }

@@ -11,7 +11,7 @@ use super::compile::{Compiled, CompiledRobot};
 use super::crba::mass_matrix;
 use super::gate::EngineScene;
 use super::ltdl::{decompose, substitute};
-use super::pivot_noise::noise;
+use super::pivot_noise::{certain, noise};
 use super::rnea::{joint_state, torques};
 use super::{Engine, Index, Specialised};
 use crate::algorithms::MassMatrix;
@@ -157,7 +157,8 @@ where
     let mut m = MassMatrix::ZERO;
     mass_matrix::<R, C, E, B, Q, V>(&trig.coordinates, effects, &mut m);
     let noise = noise::<R, C, E, B, Q, V>(&trig.coordinates, effects);
-    let d_inv = decompose::<R, C, V>(&mut m.rows, &noise)?;
+    let certain = certain::<R, C, E, B, Q, V>(effects);
+    let d_inv = decompose::<R, C, V>(&mut m.rows, &noise, &certain)?;
     // A copy, since the array that the compiler cannot see through would stay in memory to the end.
     let mut x = rest;
     substitute::<R, C, V>(&m.rows, &d_inv, &mut x);

@@ -124,7 +124,7 @@ where
             }
         }
     });
-    let d_inv = decompose::<R, C, V>(&mut rows, &pivots)?;
+    let d_inv = decompose::<R, C, V>(&mut rows, &pivots, &[false; V])?;
     substitute::<R, C, V>(&rows, &d_inv, &mut qdd);
 
     let moved = times::<R, C, V>(&m, &qdd);

@@ -1,7 +1,8 @@
 //! The rates of a joint as its body's field needs them.
 
-use super::compile::{Compiled, CompiledJoint, JointMotion};
-use super::folding::{Folded, Vec3};
+use super::compile::{Compiled, CompiledJoint, Joint, JointMotion};
+use super::displacement::Displacement;
+use super::folding::{Folded, Mat3, Vec3};
 use crate::scalar::Real;
 
 /// Rates of a joint, in units of length; zero where no effect needs them.
@@ -35,6 +36,33 @@ impl<R: Real> Twist<R> {
         ang: Vec3::ZERO,
         lin: Vec3::ZERO,
     };
+
+    /// The motion of a joint's body at this rate of its coordinate.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn along(joint: &Joint, length_inv: f64, rate: Folded<R>) -> Self {
+        let mut motion = Self::ZERO;
+        if joint.prismatic {
+            motion.lin.0[joint.axis] = rate * Folded::constant(length_inv);
+        } else {
+            motion.ang.0[joint.axis] = rate;
+        }
+        if matches!(joint.motion, JointMotion::Screw) {
+            motion.lin.0[2] = rate * Folded::constant(joint.pitch);
+        }
+        motion
+    }
+
+    /// A motion of the parent as one of the body behind joint I.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn carried<C: Compiled, const I: usize>(&self, at: &Displacement<R>) -> Self {
+        let joint = CompiledJoint::<C, I>::JOINT;
+        let rot = Mat3::constant(&joint.rot);
+        let p = Vec3::constant(joint.pos) + at.shift::<C, I>();
+        Self {
+            ang: at.enter::<C, I>(&rot, self.ang),
+            lin: at.enter::<C, I>(&rot, self.lin + self.ang.cross(p)),
+        }
+    }
 
     /// The motion of joint I, a planar, spherical or free one, of all `rates`; zero unless it is needed.
     #[cfg_attr(not(debug_assertions), inline(always))]

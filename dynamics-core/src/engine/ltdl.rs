@@ -50,7 +50,7 @@ impl<T, K> Engine<T, K> {
                     rows[J][J] * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS)) + R::MIN_POSITIVE;
             }
         });
-        let d_inv = decompose::<R, CompiledRobot<T, B, Q, V>, V>(&mut rows, &noise)?;
+        let d_inv = decompose::<R, CompiledRobot<T, B, Q, V>, V>(&mut rows, &noise, &[false; V])?;
         Ok(Ltdl { rows, d_inv })
     }
 
@@ -76,11 +76,13 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-/// M's lower triangle becomes L; returns the reciprocals of D, whose pivots must exceed `noise`.
+/// M's lower triangle becomes L; returns the reciprocals of D, whose pivots must exceed `noise`. Those that are certain to, in any
+/// state of numbers, are looked at only if that of a joint on the base does not, to which a NaN spreads.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn decompose<R: Real, C, const V: usize>(
     m: &mut [[R; V]; V],
     noise: &[R; V],
+    certain: &[bool; V],
 ) -> Result<[R; V], NotPositiveDefinite>
 where
     C: Compiled,
@@ -91,12 +93,21 @@ where
             && let Some(eliminate) =
                 const { only_if(K < V, eliminate::<R, C, V, K> as fn(&mut [[R; V]; V], R)) }
         {
-            singular.note::<R, K>(m[K][K], noise[K]);
+            if !certain[K] {
+                singular.note::<R, K>(m[K][K], noise[K]);
+            }
             d_inv[K] = R::ONE / m[K][K];
             eliminate(m, d_inv[K]);
         }
     });
-    singular.outermost()?;
+    if singular.is_any() {
+        for_each_joint!(K, {
+            if Index::<K, V>::IS_BELOW && certain[K] {
+                singular.note::<R, K>(d_inv[K], -R::ONE);
+            }
+        });
+        singular.outermost()?;
+    }
     Ok(d_inv)
 }
 

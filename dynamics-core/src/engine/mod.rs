@@ -73,6 +73,7 @@ mod ltdl;
 mod momentum;
 mod named;
 mod operational_space;
+mod parallel_axes;
 mod pass;
 mod pivot_noise;
 mod pose;

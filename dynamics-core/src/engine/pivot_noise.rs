@@ -5,7 +5,7 @@
 //! it. Turns do not change them, so that they are constants of the robot; slides and a payload add to them.
 
 use super::compile::{
-    Compiled, CompiledJoint, JointMotion, JointPair, is_slide_beyond, place, supports,
+    Compiled, CompiledJoint, JointMotion, JointPair, is_slide_beyond, joint, place, supports,
 };
 use super::{Index, only_if};
 use crate::algorithms::NotPositiveDefinite;
@@ -114,6 +114,12 @@ const fn length(v: DVec3) -> f64 {
 pub(crate) struct Singular(u32);
 
 impl Singular {
+    /// Whether a joint was noted.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn is_any(self) -> bool {
+        self.0 != 0
+    }
+
     /// Notes joint J unless its pivot is a number and more than `noise`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn note<R: Real, const J: usize>(&mut self, pivot: R, noise: R) {
@@ -158,6 +164,46 @@ where
         }
     });
     noise
+}
+
+/// Whether the pivots of forward dynamics exceed their noise in any state, of joints on a parent: of numbers, only a NaN does not.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn certain<R, C, E, const B: usize, const Q: usize, const V: usize>(
+    effects: &E,
+) -> [bool; V]
+where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    let mut certain = [false; V];
+    for_each_joint!(J, {
+        if Index::<J, V>::IS_BELOW {
+            certain[J] = const { is_certain::<R, C, E, B, V>(J) } && effects.inertia(J).is_none();
+        }
+    });
+    certain
+}
+
+/// The same of joint `i` without its rotor, by the inertia of its body alone.
+const fn is_certain<R: Real, C: Compiled, E, const B: usize, const V: usize>(i: usize) -> bool
+where
+    E: Effect<R, B, V>,
+{
+    let joint = joint::<C>(i);
+    let size = Sizes::<C, B, V>::of(i);
+    let most = if joint.prismatic {
+        size.mass
+    } else {
+        size.second
+    };
+    // The rounding errors of f32, and as much again for those of the pivot.
+    let noise = 2.0 * ROUNDINGS * f32::EPSILON as f64 * most + f32::MIN_POSITIVE as f64;
+    joint.parent != BASE
+        && joint.alone > noise
+        && E::BASE_PARAMETERS == 0
+        && load::<C>(i, 0, &E::PAYLOAD) == B
+        && !slides_beyond::<C>(i)
 }
 
 /// The same of joint I. A pivot that exceeds it has a finite reciprocal: neither the smallest numbers nor, of an infinite

@@ -19,6 +19,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             links,
             lambda: self.lambda,
             kinds: self.kinds,
+            chain: self.chain,
         }
     }
 }

@@ -53,6 +53,14 @@ impl<R: Real> LinkView<'_, R> {
         Xform { rot, pos }
     }
 
+    /// The same, of which the rotation is given: the origin is a constant of most joints, so that storing it costs more than
+    /// computing it.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn xform_of(&self, rot: R::Mat3, turns: &[JointCoordinate<R>]) -> Xform<R> {
+        let pos = self.origin(turns);
+        Xform { rot, pos }
+    }
+
     /// The origin of the body in its parent's aligned frame, m.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn origin(&self, turns: &[JointCoordinate<R>]) -> R::Vec3 {
@@ -146,6 +154,12 @@ impl<R: Real> LinkView<'_, R> {
             }
             _ => a + v.cross(self.motion(turns, y)),
         }
+    }
+
+    /// a + ω × S q̇ of a joint that turns: α and the acceleration of the origin, which lies on the axis; w is the body's angular velocity.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn plus_turning_product(&self, a: Motion<R>, rates: &[R], w: R::Vec3) -> Motion<R> {
+        Motion::new(plus_cross_z(a.ang, w, entry(rates, self.idx_v)), a.lin)
     }
 
     /// Column k of S̊ + v × S, the rate of S in a body of velocity v.

@@ -91,7 +91,7 @@ pub use link_view::LinkView;
 pub use named::{Bodies, BodyNumber, OnBody};
 pub use pruned::Pruned;
 pub use robot::{Arm, Robot, model};
-pub use source::{AllRevolute, Calibrated, RobotModel, Static};
+pub use source::{AllRevolute, Calibrated, RevoluteChain, RobotModel, Static};
 
 use self::aligned::{aligned, is_finite};
 use crate::scalar::Real;
@@ -153,6 +153,8 @@ pub struct Model<R: Real, const B: usize, const Q: usize, const V: usize> {
     pub lambda: [usize; V],
     /// The kinds of its joints.
     kinds: JointKinds,
+    /// Whether the parent of every body is the one before it.
+    chain: bool,
 }
 
 /// A robot of N bodies on N joints of one degree of freedom.
@@ -181,7 +183,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// V of its joints.
     pub const fn try_new(name: &'static str, bodies: [Body; B]) -> Result<Self, ModelError> {
         let mut links = [EMPTY; B];
-        let (mut lambda, mut kinds) = ([BASE; V], JointKinds::NONE);
+        let (mut lambda, mut kinds, mut chain) = ([BASE; V], JointKinds::NONE, true);
         let (mut idx_q, mut idx_v, mut i) = (0, 0, 0);
         while i < B {
             let body = &bodies[i];
@@ -203,6 +205,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             link.idx_v = if nv == 0 { BASE } else { idx_v };
             links[i] = link;
             kinds = kinds.with(link.joint.kind);
+            chain &= body.parent == i.wrapping_sub(1);
             let (mut parent, mut k) = (last_coordinate(&links, body.parent), 0);
             while k < nv && idx_v + k < V {
                 lambda[idx_v + k] = parent;
@@ -227,6 +230,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             links,
             lambda,
             kinds,
+            chain,
         })
     }
 
@@ -237,14 +241,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
 
     /// Whether the parent of every body is the one before it.
     pub(crate) const fn is_chain(&self) -> bool {
-        let mut i = 0;
-        while i < B {
-            if self.links[i].parent != i.wrapping_sub(1) {
-                return false;
-            }
-            i += 1;
-        }
-        true
+        self.chain
     }
 
     /// Placement and inertia of link `i` in the frames of its description, as in a URDF; up to rounding where an axis

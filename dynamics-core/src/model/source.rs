@@ -20,14 +20,23 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     const CHAIN: bool = false;
     /// Whether every body is known to have one coordinate.
     const SINGLE: bool = false;
+    /// Whether every joint is known to turn about an axis that is fixed in its bodies.
+    const TURNING: bool = Self::KINDS.are_revolute();
 
     /// The robot's numbers.
     fn model(&self) -> &Model<R, B, Q, V>;
 
-    /// The same robot as one of revolute joints only, if all joints of a model loaded at run time are revolute: for algorithms
-    /// that are compiled a second time for this case. None if the robot is known at compile time.
+    /// The same robot as one of revolute joints only, if all joints of a model loaded at run time are revolute. None if the
+    /// robot is known at compile time.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn as_all_revolute(&self) -> Option<AllRevolute<'_, R, B, Q, V>> {
+        None
+    }
+
+    /// The same robot as a chain of revolute joints, if a model loaded at run time is one: for algorithms that are compiled a
+    /// second time for this case. None if the robot is known at compile time.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn as_revolute_chain(&self) -> Option<RevoluteChain<'_, R, B, Q, V>> {
         None
     }
 
@@ -38,7 +47,7 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
         R: 'a,
     {
         let links = self.model().links.iter().enumerate();
-        links.map(|(i, link)| LinkView::new(i, link, Self::KINDS, Self::SINGLE))
+        links.map(|(i, link)| LinkView::new::<Self, B, Q, V>(i, link))
     }
 
     /// Link `i`.
@@ -48,7 +57,7 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
         R: 'a,
     {
         let link = self.model().links.get(i)?;
-        Some(LinkView::new(i, link, Self::KINDS, Self::SINGLE))
+        Some(LinkView::new::<Self, B, Q, V>(i, link))
     }
 }
 
@@ -67,23 +76,40 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
         let only = B == Q && B == V && self.kinds.are_revolute();
         only.then_some(AllRevolute(self))
     }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn as_revolute_chain(&self) -> Option<RevoluteChain<'_, R, B, Q, V>> {
+        let only = B == Q && B == V && self.kinds.are_revolute() & self.chain;
+        only.then_some(AllRevolute(self))
+    }
 }
 
 /// A [`Model`] whose joints are all known to be revolute.
 ///
-/// [`RobotModel::as_all_revolute`] makes it. A loop over it has no branch on the kind of joint, which saves a fifth of inverse dynamics
-/// on a host.
+/// [`RobotModel::as_all_revolute`] makes it, and with `SERIAL` for a chain [`RobotModel::as_revolute_chain`]. A loop over it has no
+/// branch on the kind of joint, and over a chain each body finds its parent's results where the loop left them.
 #[derive(Clone, Copy, Debug)]
 #[doc(hidden)]
-pub struct AllRevolute<'a, R: Real, const B: usize, const Q: usize, const V: usize>(
-    &'a Model<R, B, Q, V>,
-);
+pub struct AllRevolute<
+    'a,
+    R: Real,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const SERIAL: bool = false,
+>(&'a Model<R, B, Q, V>);
 
-impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q, V>
-    for AllRevolute<'_, R, B, Q, V>
+/// A [`Model`] known to be a chain of revolute joints.
+#[doc(hidden)]
+pub type RevoluteChain<'a, R, const B: usize, const Q: usize, const V: usize> =
+    AllRevolute<'a, R, B, Q, V, true>;
+
+impl<R: Real, const B: usize, const Q: usize, const V: usize, const SERIAL: bool>
+    RobotModel<R, B, Q, V> for AllRevolute<'_, R, B, Q, V, SERIAL>
 {
     type Kernel = Native;
     const KINDS: JointKinds = JointKinds::REVOLUTE;
+    const CHAIN: bool = SERIAL;
     const SINGLE: bool = true;
 
     #[cfg_attr(not(debug_assertions), inline(always))]

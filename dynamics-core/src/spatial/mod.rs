@@ -11,12 +11,14 @@
 //! let _ = v + f; // a velocity is not a force
 //! ```
 
+mod acceleration_field;
 mod body_coriolis;
 pub(crate) mod inertia;
 mod motion_subspace;
 pub(crate) mod rotation;
 pub(crate) mod symmetric;
 
+pub(crate) use acceleration_field::AccelerationField;
 pub(crate) use body_coriolis::BodyCoriolis;
 pub(crate) use motion_subspace::{MotionSubspace, raised};
 
@@ -238,10 +240,15 @@ impl<R: Real> SpatialInertia<R> {
         )
     }
 
-    /// v ×* I v: the force that keeps a body moving with v without acceleration. 102 flops with what is not folded.
+    /// v ×* I v: the force that keeps a body moving with v without acceleration. [`Self::force`] without its zeros, 69 flops.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn bias_force(&self, v: Motion<R>) -> Force<R> {
-        self.force(Motion::ZERO, v)
+        let (w, h) = (v.ang, self.first_moment);
+        let point = w.cross(v.lin);
+        Force::new(
+            h.cross(point) + w.cross(self.turn(w)),
+            point * self.mass + w.cross(w.cross(h)),
+        )
     }
 
     /// Ī w, reading the upper triangle of Ī. 15 flops.

@@ -5,6 +5,7 @@ use core::f64::consts::FRAC_PI_2;
 use dynamics_core::Engine;
 use dynamics_core::effects::{Effect, Payload, RIGID_BODY};
 use dynamics_core::model::{BASE, Body, BodyInertia, Joint, Model, Robot};
+use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use host_tests::random::{random_numbers, within};
@@ -164,4 +165,45 @@ fn a_wrist_out_of_gimbal_lock_is_regular() {
     }
     regular::<f64>(1e-6);
     regular::<f32>(1e-2);
+}
+
+/// Pivots that are certain to exceed their rounding errors are not compared with them; a NaN among them is named all the same.
+#[test]
+fn a_nan_angle_names_the_outermost_joint_that_feels_it() {
+    fn named<R: Real, T: Robot<N, N, N>, const N: usize>() {
+        for k in 0..N {
+            let mut q = [R::from_f64(0.4); N];
+            q[k] = R::from_f64(f64::NAN);
+            let got = Engine::<T>::forward_dynamics(&State::at(q), &[R::ONE; N], &RIGID_BODY).err();
+            // This compares each pivot.
+            let want = Engine::<T>::ltdl(&Engine::<T>::crba(&q, &RIGID_BODY)).err();
+            assert_eq!(got, want, "{}, joint {k}", T::MODEL.name);
+            let felt = got.is_some();
+            assert!(felt || k == 0 || k == N - 1, "{}, joint {k}", T::MODEL.name);
+        }
+    }
+    named::<f64, Ur5e, 6>();
+    named::<f32, Ur5e, 6>();
+    named::<f32, Panda, 7>();
+}
+
+/// A joint whose descendants are free moves at least the inertia of its own body.
+#[test]
+fn no_pivot_is_less_than_its_body_alone() {
+    fn least<T: Robot<N, N, N>, const N: usize>() {
+        let (rng, mut least) = (&mut random_numbers(), f64::INFINITY);
+        for _ in 0..1000 {
+            let m = Engine::<T>::crba(&within(rng, 3.0), &RIGID_BODY);
+            let factors = Engine::<T>::ltdl(&m).expect("a regular M");
+            for (link, d_inv) in T::MODEL.links.iter().zip(factors.d_inv()) {
+                // The axis of each joint is z.
+                least = least.min(1.0 / (d_inv * link.inertia.rotational.z_axis.z));
+            }
+        }
+        println!("{}: {least}", T::MODEL.name);
+        // The last body has no descendants.
+        assert!((least - 1.0).abs() < 1e-9, "{}: {least}", T::MODEL.name);
+    }
+    least::<Ur5e, 6>();
+    least::<Panda, 7>();
 }

@@ -10,6 +10,8 @@ pub(super) use ltdl::{Sizes, check, parent};
 pub use ltdl::{inverse, ltdl, solve};
 pub use spatial_operator::{spatial_operator_inverse, spatial_operator_ltdl};
 
+use core::array::from_fn;
+
 use crate::scalar::Real;
 
 /// M(q), symmetric, V × V: kg·m² between revolute joints, kg between prismatic ones, kg·m mixed.
@@ -101,6 +103,14 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
         }
         if let Some(entry) = self.rows.get_mut(j).and_then(|row| row.get_mut(i)) {
             *entry = value;
+        }
+    }
+
+    /// The symmetric matrix of which the triangle up to the diagonal is written.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn mirrored(&self) -> Self {
+        Self {
+            rows: from_fn(|i| from_fn(|j| self.get(i.max(j), i.min(j)))),
         }
     }
 

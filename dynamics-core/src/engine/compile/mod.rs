@@ -10,6 +10,7 @@
 //! 7. The unit of length becomes a joint offset, so that this offset is 1, and the unit of mass such that Σ keeps its
 //!    numbers: p/L, h·L, m·L².
 
+mod alone;
 mod base_parameters;
 mod matrix_parameters;
 mod prune;
@@ -21,12 +22,13 @@ mod tree;
 pub(crate) use remainder::{Distribution, Remainder};
 pub(crate) use topology::{
     Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair, is_parent, is_slide_beyond,
-    last, load, loads, place, supports,
+    joint, last, load, loads, place, supports,
 };
 pub(crate) use tree::{BodyPlacement, CompiledTree, Joint, JointMotion};
 
 use glam::{DMat3, DVec3};
 
+use self::alone::inertia_alone;
 use self::base_parameters::{mat_add, outer, regroup, second_moment};
 use self::matrix_parameters::regroup_for_matrix;
 use self::prune::prune;
@@ -74,6 +76,9 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
             joint.mass += mass;
         }
         i += 1;
+    }
+    if negligible == 0.0 {
+        inertia_alone(&mut joints, &model.links);
     }
     regroup(&mut joints);
     prune(&mut joints, negligible);
@@ -226,10 +231,10 @@ const fn at_once<const V: usize>(
 const fn unit_of_length<const V: usize>(joints: &[Joint; V]) -> f64 {
     let (mut best, mut most, mut i) = (1.0, 0, 0);
     while i < 3 * V {
-        let length = offset(&joints[i / 3], i % 3);
+        let length = offset(joints, i / 3, i % 3);
         let (mut count, mut k) = (0, 0);
         while length != 0.0 && k < 3 * V {
-            if offset(&joints[k / 3], k % 3) == length {
+            if offset(joints, k / 3, k % 3) == length {
                 count += 1;
             }
             k += 1;
@@ -247,12 +252,19 @@ const fn divide(v: DVec3, s: f64) -> DVec3 {
     DVec3::new(v.x / s, v.y / s, v.z / s)
 }
 
-const fn offset(joint: &Joint, k: usize) -> f64 {
+/// Component `k` of the offset of joint `i`, or zero if no product contains it.
+const fn offset<const V: usize>(joints: &[Joint; V], i: usize, k: usize) -> f64 {
+    let joint = &joints[i];
     let constant = matches!(
         joint.motion,
         JointMotion::Turn | JointMotion::Spherical | JointMotion::Still
     );
     if joint.parent == BASE || !constant {
+        return 0.0;
+    }
+    let parent = &joints[joint.parent];
+    if k == 2 && parent.parent == BASE && matches!(parent.motion, JointMotion::Turn) {
+        // Points on an axis that stands still do not move.
         return 0.0;
     }
     match k {

@@ -141,6 +141,68 @@ pub(crate) const fn last<C: Compiled>(i: usize) -> usize {
     joint.first + joint.count - 1
 }
 
+/// Whether joint `i` is one of several joints in a row on parallel axes, of which the first is on the joint on the base and
+/// perpendicular to it.
+const fn is_parallel<C: Compiled>(i: usize) -> bool {
+    let own = joint::<C>(i);
+    let first = joint::<C>(own.parent);
+    if own.parent == BASE || !is_turn(&own) {
+        return false;
+    }
+    if first.parent != BASE {
+        return follows(&own) && is_parallel::<C>(own.parent);
+    }
+    let z = own.rot.z_axis;
+    let perpendicular = z.z == 0.0 && own.pos.x * z.x + own.pos.y * z.y == 0.0;
+    let mut k = 0;
+    while k < C::JOINTS.len() {
+        if C::JOINTS[k].parent == i && follows(&C::JOINTS[k]) {
+            return perpendicular && is_turn(&first);
+        }
+        k += 1;
+    }
+    false
+}
+
+/// Whether a joint turns about an axis parallel to its parent's.
+const fn follows(joint: &Joint) -> bool {
+    is_turn(joint) && joint.rot.z_axis.z.abs() == 1.0 && joint.pos.z == 0.0
+}
+
+const fn is_turn(joint: &Joint) -> bool {
+    matches!(joint.motion, JointMotion::Turn) && joint.count == 1
+}
+
+/// The last ancestor of joint `i` that is one of them, or the base.
+const fn last_parallel<C: Compiled>(i: usize) -> usize {
+    let mut k = joint::<C>(i).parent;
+    while k != BASE && !is_parallel::<C>(k) {
+        k = joint::<C>(k).parent;
+    }
+    k
+}
+
+/// The spin of joint `i` without those of its children on parallel axes.
+const fn own_spin<C: Compiled>(i: usize) -> f64 {
+    let (mut spin, mut k) = (joint::<C>(i).spin, 0);
+    while k < C::JOINTS.len() {
+        if C::JOINTS[k].parent == i && is_parallel::<C>(k) {
+            spin -= C::JOINTS[k].spin;
+        }
+        k += 1;
+    }
+    spin
+}
+
+/// The joint on the base that supports joint `i`.
+const fn root<C: Compiled>(i: usize) -> usize {
+    let mut k = i;
+    while joint::<C>(k).parent != BASE {
+        k = joint::<C>(k).parent;
+    }
+    k
+}
+
 /// How many of the bodies that are `loaded` move with joint `i`.
 pub(crate) const fn loads<C: Compiled>(i: usize, loaded: &[bool]) -> usize {
     let (mut count, mut body) = (0, 0);
@@ -242,12 +304,27 @@ impl<C: Compiled, const I: usize> CompiledJoint<C, I> {
     pub(crate) const BODIES: usize = bodies_on::<C>(Self::LAST);
     /// Whether it is a last joint, and what regrouping left to its body is the same after any turn.
     pub(crate) const IS_ROUND: bool = is_round::<C>(I);
+    /// Whether it is one of several joints in a row on parallel axes, perpendicular to that of the joint on the base.
+    pub(crate) const IS_PARALLEL: bool = is_parallel::<C>(I);
+    /// Whether CRBA multiplies its wrench by the motion of the joint on the base in the frame of one of them.
+    pub(crate) const MEETS_ROOT: bool = Self::IS_PARALLEL || last_parallel::<C>(I) != BASE;
+    /// Of the inertia that only its own rotation feels, what it does not share with children on parallel axes.
+    pub(crate) const OWN_SPIN: f64 = own_spin::<C>(I);
+    /// Whether its parent is the joint on the base.
+    pub(crate) const PARENT_ON_BASE: bool =
+        Self::JOINT.parent != BASE && Self::PARENT.parent == BASE;
+    /// The joint on the base that supports it.
+    pub(crate) const ROOT: usize = root::<C>(I);
 }
 
 /// Joints I and J of a compiled robot.
 pub(crate) struct JointPair<C, const I: usize, const J: usize>(PhantomData<C>);
 
 impl<C: Compiled, const I: usize, const J: usize> JointPair<C, I, J> {
+    /// Whether J's wrench, in the frame of I's parent, meets the motion of the joint on the base there.
+    pub(crate) const IS_MEETING: bool = !CompiledJoint::<C, J>::IS_PARALLEL
+        && last_parallel::<C>(J) != BASE
+        && last_parallel::<C>(J) == CompiledJoint::<C, I>::JOINT.parent;
     /// Whether I is the parent of J.
     pub(crate) const IS_PARENT: bool = is_parent::<C>(I, J);
     /// Whether the body of joint I is the parent of J.

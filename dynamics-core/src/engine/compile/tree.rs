@@ -60,6 +60,8 @@ pub(crate) struct Joint {
     /// Σ in M, which [`super::matrix_parameters`] leaves to it, and the inertia that only its own joint's rotation feels.
     pub(crate) matrix_second: DMat3,
     pub(crate) spin: f64,
+    /// The inertia of the body alone along this coordinate, kg·m² or kg: its pivot is no smaller. Zero if that is not known.
+    pub(crate) alone: f64,
 }
 
 /// The placement of a body of the description: x_engine = rot x_user + pos on `joint`.
@@ -100,6 +102,7 @@ pub(super) const PADDING_JOINT: Joint = Joint {
     second_moment_only: DMat3::ZERO,
     matrix_second: DMat3::ZERO,
     spin: 0.0,
+    alone: 0.0,
 };
 
 /// The base itself.

@@ -13,9 +13,9 @@ use core::marker::PhantomData;
 use self::power::BodyPower;
 use super::acceleration_field::AccelerationField;
 use super::base::base;
-use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion, JointPair};
+use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointPair};
 use super::displacement::Displacement;
-use super::folding::{Folded, Mat3, Vec3};
+use super::folding::Folded;
 use super::gate::EngineScene;
 use super::joint_rates::Twist;
 use super::named::{AllBodies, Named, joints};
@@ -203,9 +203,9 @@ where
         };
         for_each_joint!(K, {
             if JointPair::<C, I, K>::IS_COORDINATE {
-                body.by[K] = unit(CompiledJoint::<C, K>::JOINT, C::LENGTH_INV, Folded::ONE);
+                body.by[K] = Twist::along(CompiledJoint::<C, K>::JOINT, C::LENGTH_INV, Folded::ONE);
             } else if JointPair::<C, K, I>::IS_ANCESTOR {
-                body.by[K] = carried::<R, C, I>(&parent.by[K], &at);
+                body.by[K] = parent.by[K].carried::<C, I>(&at);
             }
         });
         const { Named::<C, L, N, I, 0>::ARE_FEW };
@@ -279,31 +279,4 @@ where
         accel: E::ACCELERATIONS,
     };
     moved::<R, C, Q, V, I>(parent, turns, &rates)
-}
-
-/// The motion of a joint's body at this rate of its coordinate.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn unit<R: Real>(joint: &'static Joint, length_inv: f64, rate: Folded<R>) -> Twist<R> {
-    let mut motion = Twist::ZERO;
-    if joint.prismatic {
-        motion.lin.0[joint.axis] = rate * Folded::constant(length_inv);
-    } else {
-        motion.ang.0[joint.axis] = rate;
-    }
-    if matches!(joint.motion, JointMotion::Screw) {
-        motion.lin.0[2] = rate * Folded::constant(joint.pitch);
-    }
-    motion
-}
-
-/// A motion of the parent as one of the body behind joint I.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn carried<R: Real, C: Compiled, const I: usize>(s: &Twist<R>, at: &Displacement<R>) -> Twist<R> {
-    let joint = CompiledJoint::<C, I>::JOINT;
-    let rot = Mat3::constant(&joint.rot);
-    let p = Vec3::constant(joint.pos) + at.shift::<C, I>();
-    Twist {
-        ang: at.enter::<C, I>(&rot, s.ang),
-        lin: at.enter::<C, I>(&rot, s.lin + s.ang.cross(p)),
-    }
 }

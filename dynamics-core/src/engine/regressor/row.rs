@@ -3,8 +3,8 @@
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 
+use super::field_of;
 use super::power::BodyPower;
-use super::{carried, field_of, unit};
 use crate::effects::Effect;
 use crate::engine::acceleration_field::AccelerationField;
 use crate::engine::base::base;
@@ -139,12 +139,12 @@ where
     fn enter<const I: usize>(&mut self, parent: &Moving<R>) -> Moving<R> {
         let field = field_of::<R, C, E, B, Q, V, I>(&parent.field, self.turns, self.state);
         let at = Displacement::of::<C, Q, I>(self.turns);
-        let mut by = carried::<R, C, I>(&parent.by, &at);
+        let mut by = parent.by.carried::<C, I>(&at);
         for_each_joint!(K, {
             if JointPair::<C, I, K>::IS_COORDINATE {
                 // What moves an ancestor does not move this joint: one of the two is zero.
                 let rate = Folded::runtime(R::either(self.coordinate == K, R::ONE, R::ZERO));
-                let own = unit(CompiledJoint::<C, K>::JOINT, C::LENGTH_INV, rate);
+                let own = Twist::along(CompiledJoint::<C, K>::JOINT, C::LENGTH_INV, rate);
                 (by.ang, by.lin) = (by.ang + own.ang, by.lin + own.lin);
             }
         });

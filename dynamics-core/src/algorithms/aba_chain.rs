@@ -1,0 +1,164 @@
+//! Forward dynamics of a chain of joints with one coordinate each: the articulated-body algorithm where nothing branches.
+//!
+//! The passes of [`aba`](super::aba()), Featherstone, RBDA (2008), table 7.1. One articulated inertia runs from the tip to the
+//! base, of which the row that a free turn about z cannot feel is left out; of the first body only its pivot is computed.
+
+use heapless::Vec;
+
+use super::NotPositiveDefinite;
+use super::aba::JointFactor;
+use super::pivot_check::{Magnitude, PivotCheck};
+use super::rnea::external_force;
+use super::rotors::with_rotor;
+use super::tree_pass::per_body;
+use crate::effects::{
+    Declared, Effect, add_inertia, base_motion, body_inertia, gyroscopic, joint_state,
+    joint_torque, transmitted,
+};
+use crate::model::RobotModel;
+use crate::scalar::{Matrix, Real};
+use crate::spatial::inertia::ArticulatedInertia;
+use crate::spatial::{Force, Motion, MotionSubspace, Xform};
+use crate::state::{JointTrig, State, entry};
+
+/// What the first pass leaves of a body: its rotation from its parent, c and pᴬ of the body alone.
+struct Body<R: Real> {
+    rot: R::Mat3,
+    c: Motion<R>,
+    pa: Force<R>,
+}
+
+/// Iᵃ, pᵃ and the sizes of the bodies beyond a joint, at the parent's frame.
+struct Beyond<R: Real> {
+    ia: ArticulatedInertia<R>,
+    pa: Force<R>,
+    magnitude: Magnitude<R>,
+}
+
+/// q̈ of a chain: `D::CHAIN` and `D::SINGLE` hold.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    trig: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    effects: &E,
+    tau: &[R; V],
+) -> Result<[R; V], NotPositiveDefinite>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let turns = &trig.coordinates;
+    let (v_0, a_0) = base_motion(effects);
+    let mut bodies = Vec::new();
+    outward_velocities(robot, trig, state, effects, v_0, &mut bodies);
+
+    let mut factors: Vec<JointFactor<R>, V> = Vec::new();
+    let mut beyond: Option<Beyond<R>> = None;
+    for i in (0..V).rev() {
+        let (Some(link), Some(body)) = (robot.link(i), bodies.get(i)) else {
+            continue;
+        };
+        let inertia = body_inertia(effects, i, &link);
+        let mut ia = ArticulatedInertia::from(inertia);
+        let (mut pa, mut magnitude) = (body.pa, Magnitude::from(&inertia));
+        if let Some(beyond) = &beyond {
+            ia = beyond.ia;
+            ia += inertia;
+            pa += beyond.pa;
+            magnitude += beyond.magnitude;
+        }
+        let s = link.subspace(turns, 0);
+        let u_a = ia.along(&s);
+        let mut d = s.dot(u_a);
+        add_inertia(effects, i, &mut d);
+        PivotCheck::of(magnitude).check((&link, 0), turns, (u_a, d), i)?;
+        let d_inv = R::ONE / d;
+        let tau = transmitted(effects, i, joint_state(&link, state, i), entry(tau, i));
+        let u = tau - joint_torque(effects, &link, state, i) - s.dot(pa);
+        let u_a = with_rotor(effects, &link, u_a);
+        let _ = factors.push(JointFactor { u_a, d_inv, u });
+        if i == 0 {
+            break;
+        }
+        pa += u_a * (u * d_inv);
+        let x = link.xform_of(body.rot, turns);
+        // Iᵃ c after the update of Iᴬ: pᵃ = pᴬ + Iᵃ c + U D⁻¹ u.
+        let (ia_c, ia) = if matches!(s, MotionSubspace::RevoluteZ) && effects.inertia(i).is_none() {
+            let free = ia.free_about_z(u_a, d_inv);
+            (free.times_across(body.c), free.at_parent(&x))
+        } else {
+            let rest = ia.minus_outer(u_a, d_inv);
+            (rest.times(body.c), rest.at_parent(&x))
+        };
+        beyond = Some(Beyond {
+            ia,
+            pa: x.transpose_mul(pa + ia_c),
+            magnitude: magnitude.at_parent(x.pos),
+        });
+    }
+    Ok(outward_accelerations(robot, &bodies, trig, a_0, &factors))
+}
+
+/// vᵢ, cᵢ = v × S q̇, and pᴬ = v ×* I v − fˣ of each body alone.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn outward_velocities<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    trig: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    effects: &E,
+    v_0: Motion<R>,
+    bodies: &mut Vec<Body<R>, V>,
+) where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let turns = &trig.coordinates;
+    let (mut v, mut poses) = (v_0, per_body(robot, Xform::IDENTITY));
+    for (i, link) in robot.links().enumerate() {
+        let x = link.xform(turns);
+        v = link.plus_motion(x * v, turns, &state.qd);
+        let (mut c, mut pa) = (Motion::ZERO, Force::ZERO);
+        if E::VELOCITY_PRODUCTS {
+            c = link.plus_velocity_product(Motion::ZERO, turns, &state.qd, v);
+            pa = body_inertia(effects, i, &link).bias_force(v);
+        }
+        if E::WRENCH {
+            pa -= external_force(effects, i, &link, &x, &mut poses, v);
+        }
+        if E::GYROSCOPIC_ROTORS
+            && E::VELOCITY_PRODUCTS
+            && let Some(parent) = bodies.last_mut()
+        {
+            let rate = entry(&state.qd, i);
+            let couple = gyroscopic(effects, &link, v.ang, rate, R::ZERO);
+            parent.pa.ang += x.rot.transpose_mul(couple);
+        }
+        if bodies.push(Body { rot: x.rot, c, pa }).is_err() {
+            break;
+        }
+    }
+}
+
+/// q̈ᵢ = D⁻¹ (u − Uᵀ a′) with a′ = X a + c, and aᵢ = a′ + S q̈.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn outward_accelerations<R: Real, D, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    bodies: &[Body<R>],
+    trig: &JointTrig<R, Q>,
+    a_0: Motion<R>,
+    factors: &[JointFactor<R>],
+) -> [R; V]
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    let turns = &trig.coordinates;
+    let (mut qdd, mut a) = ([R::ZERO; V], a_0);
+    let bodies = robot.links().zip(bodies).zip(factors.iter().rev());
+    for (((link, body), factor), qdd) in bodies.zip(&mut qdd) {
+        let a_parent = link.xform_of(body.rot, turns) * a + body.c;
+        *qdd = (factor.u - a_parent.dot(factor.u_a)) * factor.d_inv;
+        a = link.subspace(turns, 0).add_scaled_to(a_parent, *qdd);
+    }
+    qdd
+}

@@ -9,7 +9,7 @@ use core::borrow::Borrow;
 
 use heapless::Vec;
 
-use super::aba_chain;
+use super::chain;
 use super::hybrid_dynamics::{prescribed_factor, prescribed_torque};
 use super::pivot_check::{Magnitude, PivotCheck};
 use super::rnea::external_force;
@@ -97,10 +97,10 @@ where
     let (trig, state) = (trig.borrow(), state.state());
     let given = |joint| Prescribed::Torque(entry(tau, joint));
     let response = match (robot.as_revolute_chain(), robot.as_all_revolute()) {
-        (Some(robot), _) => return aba_chain::sweep(&robot, trig, state, effects, tau),
+        (Some(robot), _) => return chain::aba::sweep(&robot, trig, state, effects, tau),
         (_, Some(robot)) => sweep(&robot, trig, state, effects, given)?,
         _ if const { D::CHAIN && D::SINGLE } => {
-            return aba_chain::sweep(robot, trig, state, effects, tau);
+            return chain::aba::sweep(robot, trig, state, effects, tau);
         }
         _ => sweep(robot, trig, state, effects, given)?,
     };

@@ -8,7 +8,7 @@ use core::borrow::Borrow;
 
 use heapless::Vec;
 
-use super::crba_chain;
+use super::chain;
 use super::tree_pass::inward;
 use crate::algorithms::MassMatrix;
 use crate::effects::{Declared, Effect, Scene, add_inertia, body_inertia, rotor_force};
@@ -64,9 +64,9 @@ where
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
     match (robot.as_revolute_chain(), robot.as_all_revolute()) {
-        (Some(robot), _) => crba_chain::sweep(&robot, trig, effects),
+        (Some(robot), _) => chain::crba::sweep(&robot, trig, effects),
         (_, Some(robot)) => sweep(&robot, trig, effects),
-        _ if const { D::CHAIN && D::SINGLE } => crba_chain::sweep(robot, trig, effects),
+        _ if const { D::CHAIN && D::SINGLE } => chain::crba::sweep(robot, trig, effects),
         _ => sweep(robot, trig, effects),
     }
 }

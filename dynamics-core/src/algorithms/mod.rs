@@ -1,11 +1,10 @@
 //! The algorithms, one a file, for every tree and joint.
 
 mod aba;
-mod aba_chain;
 mod articulated_pass;
+mod chain;
 mod coriolis_matrix;
 mod crba;
-mod crba_chain;
 mod crba_jacobian;
 mod energy;
 mod error;

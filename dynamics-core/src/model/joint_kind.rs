@@ -95,7 +95,7 @@ impl JointKinds {
 
     /// Whether each is one of these.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) const fn are_revolute(self) -> bool {
+    pub(crate) const fn are_revolute(self) -> bool {
         self.0 & !Self::REVOLUTE.0 == 0
     }
 

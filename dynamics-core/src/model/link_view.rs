@@ -2,8 +2,8 @@
 
 use core::ops::Deref;
 
-use super::joint_kind::JointKind;
-use super::{Link, RobotModel};
+use super::Link;
+use super::joint_kind::{JointKind, JointKinds};
 use crate::math::entry;
 use crate::scalar::Real;
 
@@ -11,13 +11,9 @@ use crate::scalar::Real;
 #[derive(Clone, Copy, Debug)]
 pub struct LinkView<'a, R: Real> {
     link: &'a Link<R>,
-    /// Index of its parent, or [`super::BASE`]: of a chain, a constant of the loop over it.
-    pub(crate) parent: usize,
     pub(super) kind: JointKind,
     pub(super) idx_q: usize,
     pub(super) idx_v: usize,
-    /// Whether it is known to have one coordinate.
-    single: bool,
 }
 
 impl<R: Real> Deref for LinkView<'_, R> {
@@ -29,32 +25,19 @@ impl<R: Real> Deref for LinkView<'_, R> {
 }
 
 impl<'a, R: Real> LinkView<'a, R> {
-    /// Link `i` of a robot D.
+    /// Link `i`, its joint one of `kinds`; `single`: every body has one coordinate.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn new<D, const B: usize, const Q: usize, const V: usize>(
-        i: usize,
-        link: &'a Link<R>,
-    ) -> Self
-    where
-        D: RobotModel<R, B, Q, V> + ?Sized,
-    {
-        let (idx_q, idx_v) = if D::SINGLE {
+    pub(super) fn new(i: usize, link: &'a Link<R>, kinds: JointKinds, single: bool) -> Self {
+        let (idx_q, idx_v) = if single {
             (i, i)
         } else {
             (link.idx_q, link.idx_v)
         };
-        let parent = if D::CHAIN {
-            i.wrapping_sub(1)
-        } else {
-            link.parent
-        };
         Self {
             link,
-            parent,
-            kind: D::KINDS.of(link.joint.kind),
+            kind: kinds.of(link.joint.kind),
             idx_q,
             idx_v,
-            single: D::SINGLE,
         }
     }
 
@@ -79,11 +62,7 @@ impl<'a, R: Real> LinkView<'a, R> {
     /// Its velocity coordinates, as indices of q̇.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn coordinates(&self) -> core::ops::Range<usize> {
-        let count = if self.single {
-            1
-        } else {
-            self.kind.coordinates().1
-        };
+        let (_, count) = self.kind.coordinates();
         if count == 0 {
             return 0..0;
         }

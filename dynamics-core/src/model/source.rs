@@ -20,8 +20,6 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     const CHAIN: bool = false;
     /// Whether every body is known to have one coordinate.
     const SINGLE: bool = false;
-    /// Whether every joint is known to turn about an axis that is fixed in its bodies.
-    const TURNING: bool = Self::KINDS.are_revolute();
 
     /// The robot's numbers.
     fn model(&self) -> &Model<R, B, Q, V>;
@@ -47,7 +45,7 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
         R: 'a,
     {
         let links = self.model().links.iter().enumerate();
-        links.map(|(i, link)| LinkView::new::<Self, B, Q, V>(i, link))
+        links.map(|(i, link)| LinkView::new(i, link, Self::KINDS, Self::SINGLE))
     }
 
     /// Link `i`.
@@ -57,7 +55,7 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
         R: 'a,
     {
         let link = self.model().links.get(i)?;
-        Some(LinkView::new::<Self, B, Q, V>(i, link))
+        Some(LinkView::new(i, link, Self::KINDS, Self::SINGLE))
     }
 }
 

@@ -16,10 +16,10 @@ use core::borrow::Borrow;
 use heapless::Vec;
 
 use self::power::BodyPower;
-use super::rnea::velocity;
+use super::rnea::{acceleration, velocity};
 use super::tree_pass::per_body;
 use crate::effects::{Effect, base_motion};
-use crate::model::{JointCoordinate, LinkView, RobotModel};
+use crate::model::{LinkView, RobotModel};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Motion, Xform};
 use crate::state::{Configuration, JointTrig, RobotState, State};
@@ -314,27 +314,4 @@ fn climb<R: Real, D, const B: usize, const Q: usize, const V: usize>(
         }
         (at, x) = (link.parent, x * up);
     }
-}
-
-/// aᵢ from X a_parent: S q̈ with [`crate::effects::Inertia`], S̊ q̇ + v × S q̇ with [`crate::effects::Coriolis`].
-/// Featherstone & Orin (4).
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn acceleration<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-    _: &E,
-    link: &LinkView<'_, R>,
-    mut a: Motion<R>,
-    v_i: Motion<R>,
-    turns: &[JointCoordinate<R>],
-    state: &State<R, Q, V>,
-) -> Motion<R>
-where
-    E: Effect<R, B, V>,
-{
-    if E::ACCELERATIONS {
-        a = link.plus_motion(a, turns, &state.qdd);
-    }
-    if E::VELOCITY_PRODUCTS {
-        a = link.plus_velocity_product(a, turns, &state.qd, v_i);
-    }
-    a
 }

@@ -1,16 +1,16 @@
 //! Forward dynamics of a chain of joints with one coordinate each: the articulated-body algorithm where nothing branches.
 //!
-//! The passes of [`aba`](super::aba()), Featherstone, RBDA (2008), table 7.1. One articulated inertia runs from the tip to the
+//! The passes of [`aba`](crate::algorithms::aba()), Featherstone, RBDA (2008), table 7.1. One articulated inertia runs from the tip to the
 //! base, of which the row that a free turn about z cannot feel is left out; of the first body only its pivot is computed.
 
 use heapless::Vec;
 
-use super::NotPositiveDefinite;
-use super::aba::JointFactor;
-use super::pivot_check::{Magnitude, PivotCheck};
-use super::rnea::external_force;
-use super::rotors::with_rotor;
-use super::tree_pass::per_body;
+use crate::algorithms::NotPositiveDefinite;
+use crate::algorithms::aba::JointFactor;
+use crate::algorithms::pivot_check::{Magnitude, PivotCheck};
+use crate::algorithms::rnea::external_force;
+use crate::algorithms::rotors::with_rotor;
+use crate::algorithms::tree_pass::per_body;
 use crate::effects::{
     Declared, Effect, add_inertia, base_motion, body_inertia, gyroscopic, joint_state,
     joint_torque, transmitted,
@@ -37,7 +37,7 @@ struct Beyond<R: Real> {
 
 /// q̈ of a chain: `D::CHAIN` and `D::SINGLE` hold.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+pub(in crate::algorithms) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,

@@ -1,11 +1,11 @@
 //! The joint-space inertia matrix of a chain of joints with one coordinate each.
 //!
-//! [`crba`](super::crba()) where nothing branches: one composite inertia runs from the tip to the base, and row i of M is the
+//! [`crba`](crate::algorithms::crba()) where nothing branches: one composite inertia runs from the tip to the base, and row i of M is the
 //! force of joint i's unit acceleration on it, carried down to the base. Links are visited anew rather than stored.
 
 use heapless::Vec;
 
-use super::MassMatrix;
+use crate::algorithms::MassMatrix;
 use crate::effects::{Declared, Effect, add_inertia, body_inertia, rotor_force};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
@@ -14,7 +14,7 @@ use crate::state::JointTrig;
 
 /// M of a chain: `D::CHAIN` and `D::SINGLE` hold.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+pub(in crate::algorithms) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
     effects: &E,

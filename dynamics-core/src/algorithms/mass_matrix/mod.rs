@@ -10,8 +10,6 @@ pub(super) use ltdl::{Sizes, check, parent};
 pub use ltdl::{inverse, ltdl, solve};
 pub use spatial_operator::{spatial_operator_inverse, spatial_operator_ltdl};
 
-use core::array::from_fn;
-
 use crate::scalar::Real;
 
 /// M(q), symmetric, V × V: kg·m² between revolute joints, kg between prismatic ones, kg·m mixed.
@@ -108,10 +106,18 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
 
     /// The symmetric matrix of which the triangle up to the diagonal is written.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn mirrored(&self) -> Self {
-        Self {
-            rows: from_fn(|i| from_fn(|j| self.get(i.max(j), i.min(j)))),
+    pub(crate) fn mirrored(mut self) -> Self {
+        for i in 1..V {
+            let Some((above, [row, ..])) = self.rows.split_at_mut_checked(i) else {
+                break;
+            };
+            for (column, &entry) in above.iter_mut().zip(&*row) {
+                if let Some(mirror) = column.get_mut(i) {
+                    *mirror = entry;
+                }
+            }
         }
+        self
     }
 
     /// M_ii.

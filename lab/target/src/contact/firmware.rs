@@ -62,13 +62,13 @@ impl Sensing {
     pub const BITS_14: Self = Self {
         step: core::f32::consts::TAU / 16_384.0,
         bandwidth: 60.0,
-        margin: [2.3, 3.12, 2.15, 0.33, 0.3, 0.3],
+        margin: [2.4, 3.25, 2.25, 0.33, 0.3, 0.3],
         sticks: false,
     };
     pub const BITS_20: Self = Self {
         step: core::f32::consts::TAU / 1_048_576.0,
         bandwidth: 400.0,
-        margin: [1.0, 1.1, 0.75, 0.22, 0.18, 0.22],
+        margin: [1.0, 1.05, 0.75, 0.22, 0.18, 0.22],
         ..Self::BITS_14
     };
 

@@ -107,6 +107,10 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     /// The symmetric matrix of which the triangle up to the diagonal is written.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn mirrored(mut self) -> Self {
+        if V > UNROLLED {
+            mirror(self.rows.as_flattened_mut(), V);
+            return self;
+        }
         for i in 1..V {
             let Some((above, [row, ..])) = self.rows.split_at_mut_checked(i) else {
                 break;
@@ -124,6 +128,22 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn diagonal_mut(&mut self, i: usize) -> Option<&mut R> {
         self.rows.get_mut(i).and_then(|row| row.get_mut(i))
+    }
+}
+
+/// The largest order whose copies the compiler writes out.
+const UNROLLED: usize = 8;
+
+/// Writes the triangle up to the diagonal of a matrix of this order into the other: one function for all orders.
+#[inline(never)]
+fn mirror<R: Copy>(rows: &mut [R], order: usize) {
+    for i in 1..order {
+        let Some((above, row)) = rows.split_at_mut_checked(i * order) else {
+            break;
+        };
+        for (mirror, &entry) in above.iter_mut().skip(i).step_by(order).zip(&*row) {
+            *mirror = entry;
+        }
     }
 }
 

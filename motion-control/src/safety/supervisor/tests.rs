@@ -3,6 +3,7 @@ use super::*;
 mod protocol;
 mod states;
 mod stops;
+mod transitions;
 
 const LIMITS: SafetyLimits<f32, 2> = SafetyLimits {
     torque: [10.0, 5.0],

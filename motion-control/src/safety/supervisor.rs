@@ -43,6 +43,9 @@ const FAR: f64 = f32::MAX as f64;
 /// without limits the angle within a turn is measured, `MultiTurnEncoder::within_turn` of `joint-drivers`.
 const RANGE: f64 = 1e4;
 
+/// The count of good ticks in a stop before a tick that is not to be counted: the next one makes it zero.
+const NOT_COUNTED: u32 = u32::MAX;
+
 /// The parameters of the safety gate of a [`MotionController`](crate::MotionController): those of the arm and of the loop.
 ///
 /// ```
@@ -526,7 +529,9 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         } else if (in_hold > 0) & matches!(self.state, State::Full | State::Torqueless) {
             self.state = State::Held;
         }
-        if !matches!(self.state, State::Full) {
+        if self.state.required().is_some() {
+            self.ramp = NOT_COUNTED;
+        } else if !matches!(self.state, State::Full) {
             self.ramp = 0;
         }
     }

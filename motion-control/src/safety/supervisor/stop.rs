@@ -1,6 +1,6 @@
 //! Stops that are required from outside, and what follows a controlled one.
 
-use super::{State, Supervisor};
+use super::{NOT_COUNTED, State, Supervisor};
 use crate::limits::{Command, Fault, Mode, Reaction};
 use crate::safety::stop_category::{Ending, Required, StopCategory, Stopping};
 use dynamics_core::scalar::Real;
@@ -84,7 +84,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             ticks: self.hold_ticks,
         };
         self.fault = Some(reason);
-        self.ramp = 0;
+        self.ramp = NOT_COUNTED;
     }
 
     /// The ticks after the ride-through for which a lasting fault holds the arm.
@@ -131,12 +131,13 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// While the arm is held with power, faults are forgotten as in the full law. The ramp, which is not used in a
     /// hold, counts the good ticks.
     fn forget_faults(&mut self) {
-        self.ramp = if self.accepted & !self.faulted {
-            self.ramp.saturating_add(1)
-        } else {
-            0
-        };
-        if self.ramp >= self.reentry_ticks {
+        if self.faulted {
+            self.ramp = NOT_COUNTED; // the tick that begins has a fault already
+            return;
+        }
+        let good = self.ramp.wrapping_add(1);
+        self.ramp = if self.accepted { good } else { 0 };
+        if self.ramp >= self.reentry_ticks.max(1) {
             self.faults = 0;
             self.ramp = 0;
         }

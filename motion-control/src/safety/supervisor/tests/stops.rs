@@ -86,6 +86,33 @@ fn category_2_without_measurements_ends_as_category_1() {
 }
 
 #[test]
+fn a_standing_arm_with_a_lasting_fault_is_stopped() {
+    for reentry_ticks in 0..3 {
+        let mut config = CONFIG;
+        config.reentry_ticks = reentry_ticks;
+        let standing = || {
+            let mut supervisor = Supervisor::new(config);
+            good(&mut supervisor, [3.0; 2]);
+            supervisor.stop_by(Fault::External, StopCategory::ControlledHold);
+            modes(&mut supervisor, 20);
+            supervisor
+        };
+        let mut fast = standing();
+        for _ in 0..10 {
+            let q = fast.last_good;
+            fast.accept_measurement(Ok(&q));
+            fast.check_speed(&[9.0; 2]);
+            fast.gate(&[3.0; 2], &[9.0; 2]);
+        }
+        let mut lost = standing();
+        for _ in 0..10 {
+            bad(&mut lost, [3.0; 2]);
+        }
+        assert_eq!((fast.mode(), lost.mode()), (Mode::Stopped, Mode::Stopped));
+    }
+}
+
+#[test]
 fn the_configured_category_is_that_of_lasting_faults() {
     let after = |category| {
         let mut supervisor = riding(2).with_stop(category);

@@ -26,7 +26,7 @@ const CATEGORIES: [StopCategory<f32, 1>; 4] = [
     StopCategory::DampedLowering { damping: [1.0] },
 ];
 /// `ride_through_ticks`, `hold_ticks` and `reentry_ticks`; without a ride-through, a first fault is held or lasting.
-const TICKS: [[u32; 3]; 2] = [[2, 3, 1], [0, 1, 2]];
+const TICKS: [[u32; 3]; 3] = [[2, 3, 1], [0, 1, 2], [1, 1, 0]];
 /// Faults that no input has: of the tick before, of a report, and the reason of a stop.
 const BEFORE: Fault = Fault::Model;
 const REPORTED: Fault = Fault::Overrun;

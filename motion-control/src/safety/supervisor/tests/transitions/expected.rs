@@ -70,6 +70,8 @@ pub struct Expected {
     /// The next tick is late, and why.
     late: Option<Fault>,
     faulted: bool,
+    /// The tick is not counted as a good one.
+    spoilt: bool,
     braked: bool,
 }
 
@@ -210,7 +212,7 @@ impl Expected {
 
     fn count(&mut self, faults: u32) {
         if !self.is_stopped() {
-            (self.faults, self.faulted) = (faults, true);
+            (self.faults, self.faulted, self.spoilt) = (faults, true, true);
         }
     }
 
@@ -242,10 +244,10 @@ impl Expected {
         (class, fault)
     }
 
-    /// The tick before counts as good by its positions alone, also if its speed was too great.
     fn forget(&mut self) {
-        self.ramp = (self.ramp + 1) * u32::from(self.accepted);
-        if self.ramp >= self.ticks[2] {
+        let good = self.accepted & !core::mem::take(&mut self.spoilt);
+        self.ramp = (self.ramp + 1) * u32::from(good);
+        if self.ramp >= self.ticks[2].max(1) {
             (self.faults, self.ramp) = (0, 0);
         }
     }
@@ -283,7 +285,7 @@ impl Expected {
 
     fn stop(&mut self, fault: Fault) -> Option<Fault> {
         if !self.is_required() {
-            (self.left, self.ramp) = (self.ticks[1], 0);
+            (self.left, self.ramp, self.spoilt) = (self.ticks[1], 0, true);
         }
         Some(self.unless_stopped(fault))
     }
@@ -321,7 +323,7 @@ impl Expected {
             self.ramp = 0;
         }
         if !self.is_required() {
-            (self.left, self.stopped_again) = (0, false);
+            (self.left, self.stopped_again, self.spoilt) = (0, false, false);
         }
     }
 
@@ -331,8 +333,9 @@ impl Expected {
             self.ramp = (self.ramp + 1).min(reentry);
         }
         self.braked &= !full | limited;
-        self.quiet = (self.quiet + 1).min(reentry) * u32::from(full & !self.faulted);
-        if self.quiet >= reentry {
+        let quiet = full & !self.faulted;
+        self.quiet = (self.quiet + 1).min(reentry) * u32::from(quiet);
+        if quiet & (self.quiet >= reentry) {
             self.faults = 0;
         }
         (self.begun, self.late, self.faulted) = (false, None, false);

@@ -28,7 +28,7 @@ const OFF: State = State::Stopped { lowers: false };
 type Mistake = (Cell, fn(&One, Input, &mut One));
 const MISTAKES: [Mistake; 8] = [
     // Faults are never forgotten, or a tick early, or the first is not counted.
-    (("full", "late: bridged"), |before, input, after| {
+    (("full", "bad: bridged"), |before, input, after| {
         if input == Torque {
             after.faults = before.faults;
         }
@@ -49,7 +49,7 @@ const MISTAKES: [Mistake; 8] = [
             *ticks = ticks.saturating_sub(1);
         }
     }),
-    (("to stand, over", "fault: held"), |_, input, after| {
+    (("to off, over", "fault: held"), |_, input, after| {
         if let (StopBy(1), State::Stopping { ticks, .. }) = (input, &mut after.state) {
             *ticks = after.hold_ticks;
         }

@@ -5,7 +5,7 @@
 //! followed turn by turn, as the processor does. At a branch that depends on data both ways are followed to where they meet again, and
 //! what they leave behind is joined. What has no bound is declined, with its address.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
 use cycle_meter::{Class, Pipe, Reading};
@@ -23,7 +23,7 @@ const LEAD: usize = 24;
 /// The turns of a loop on data after which nothing bounds it.
 const MOST_TURNS: usize = 256;
 /// More instructions than are followed in one region.
-const MOST: u64 = 4_000_000;
+const MOST: u64 = 200_000;
 
 /// Why there is no bound, and the address of what has none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, thiserror::Error)]
@@ -81,6 +81,8 @@ pub struct Region {
     pub cycles: Option<u64>,
     /// Why it has no such bound.
     pub declined: Option<Declined>,
+    /// The branches on data that were followed both ways.
+    pub branches: Vec<u32>,
 }
 
 /// The regions 0 of a program, each from `dbg #0` to `dbg #1`.
@@ -93,7 +95,7 @@ pub fn regions(image: &Image) -> Vec<Region> {
 pub fn region(image: &Image, at: u32, callee: Option<u32>) -> Option<Region> {
     let function = image.function(at)?;
     let whole = Flow::of(image, function.0, |to| is_within(function, to), false);
-    let pipes = pipes_at(image, &whole, at)?;
+    let (row, pipes) = before(image, &whole, at)?;
     let inside = Rc::new(Flow::of(image, at, |to| is_within(function, to), true));
     let called = |one: &Fetched| match one.ways(image)[..] {
         [Way::Call(to)] => Some(to),
@@ -104,13 +106,16 @@ pub fn region(image: &Image, at: u32, callee: Option<u32>) -> Option<Region> {
     run.callee = callee;
     run.flows.insert(at, inside);
     run.calls.push(at);
-    let start = Machine::new(&mut run.names, pipes);
+    let mut start = Machine::new(&mut run.names, pipes);
+    row.iter()
+        .for_each(|one| run.execute(&mut start, one, one.condition.map(|_| None)));
     let bound = run.run(start, at, at, None).map(|end| end.cycles());
     Some(Region {
         at,
         calls,
         cycles: bound.ok(),
         declined: bound.err(),
+        branches: run.branches.into_iter().collect(),
     })
 }
 
@@ -132,9 +137,12 @@ fn is_within((start, size): (u32, u32), at: u32) -> bool {
     (start..start.saturating_add(size)).contains(&at)
 }
 
-/// What the pipeline can hold at a mark: the instructions before it are followed from as far as they stand in a row, and a branch to
-/// the mark leaves nothing pending.
-fn pipes_at(image: &Image, whole: &Flow, mark: u32) -> Option<Vec<(Pipe, u64)>> {
+/// The instructions that stand in a row before a mark, and what the pipeline can hold at it: a branch to the mark leaves nothing pending.
+fn before<'a>(
+    image: &Image,
+    whole: &'a Flow,
+    mark: u32,
+) -> Option<(Vec<&'a Fetched>, Vec<(Pipe, u64)>)> {
     whole.code.get(&mark)?;
     let mut row = Vec::new();
     let mut expected = mark;
@@ -145,25 +153,23 @@ fn pipes_at(image: &Image, whole: &Flow, mark: u32) -> Option<Vec<(Pipe, u64)>> 
         .map(|(_, one)| one)
         .take(LEAD)
     {
-        if one.next() != expected || !one.ways(image).contains(&Way::Next) {
+        if one.next() != expected || one.ways(image) != [Way::Next] {
             break;
         }
         expected = one.at;
         row.push(one);
     }
+    row.reverse();
     let mut pipe = Pipe::clear(Reading::Chosen);
-    row.iter().rev().for_each(|one| {
+    row.iter().for_each(|one| {
         pipe.step(&one.insn);
     });
     let mut pipes = vec![(pipe, 0)];
-    let branches = whole
-        .code
-        .values()
-        .any(|one| one.ways(image).contains(&Way::To(mark)));
-    if branches && !pipe.is_clear() {
+    let branches = |one: &Fetched| one.ways(image).contains(&Way::To(mark));
+    if whole.code.values().any(branches) && !pipe.is_clear() {
         pipes.push((pipe.cleared(), 0));
     }
-    Some(pipes)
+    Some((row, pipes))
 }
 
 /// Where a way leads.
@@ -183,6 +189,7 @@ struct Run<'a> {
     /// How often both ways of a branch are being followed, by its address and the depth of calls.
     turns: HashMap<(u32, usize), usize>,
     executed: u64,
+    branches: BTreeSet<u32>,
     /// What the region calls through a register.
     callee: Option<u32>,
 }
@@ -197,6 +204,7 @@ impl<'a> Run<'a> {
             calls: Vec::new(),
             turns: HashMap::new(),
             executed: 0,
+            branches: BTreeSet::new(),
             callee: None,
         }
     }
@@ -281,6 +289,7 @@ impl<'a> Run<'a> {
         ways: &[Way],
         meeting: Option<u32>,
     ) -> Result<Machine> {
+        self.branches.insert(one.at);
         let place = (one.at, self.calls.len());
         let turns = self.turns.entry(place).or_default();
         *turns += 1;

@@ -132,8 +132,10 @@ pub enum Instruction {
         by: Operand,
         flags: bool,
     },
-    /// d = ¬m, with flags
-    Not { d: u8, m: u8 },
+    /// d = ¬m
+    Not { d: u8, m: u8, flags: bool },
+    /// Makes the next instructions conditional.
+    IfThen,
     /// d = n m + a
     MultiplyAdd { d: u8, n: u8, m: u8, a: u8 },
     /// Memory of any size at n + offset.
@@ -231,6 +233,7 @@ pub fn short(code: u16) -> Option<Instruction> {
         0x43 if field(6, 4) == 15 => Instruction::Not {
             d: low(0),
             m: low(3),
+            flags: true,
         },
         0x40 | 0x43 if [0, 1, 12, 13, 14].contains(&field(6, 4)) => {
             let op = match field(6, 4) {
@@ -370,6 +373,7 @@ pub fn short(code: u16) -> Option<Instruction> {
             writes_back: true,
         },
         0xbf if code == 0xbf00 => Nop,
+        0xbf if code & 15 != 0 => Instruction::IfThen,
         0xc0..=0xcf => Words {
             n: third,
             registers: byte as u16,
@@ -466,6 +470,7 @@ fn shifted(first: u16, second: u16) -> Option<Instruction> {
             integer(Integer::Right, m, Operand::Constant(shift.into()))
         }
         (2, _) if n == PC => integer(Integer::Multiply, m, Operand::Constant(1 << shift)),
+        (3, Operand::Register(m, 0)) if n == PC => Instruction::Not { d, m, flags },
         (3, _) if n == PC => return None,
         (0, _) => integer(Integer::And, n, by),
         (1, _) => integer(Integer::Clear, n, by),

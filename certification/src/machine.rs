@@ -15,8 +15,11 @@ pub struct Word {
     offset: u32,
 }
 
-/// The stack pointer at the start, which is a multiple of eight.
+/// The stack pointer at the start, which is a multiple of eight, and its negative.
 const STACK: Word = Word { name: 1, offset: 0 };
+const NEGATED: u32 = 2;
+/// The bit of the names of words that were computed from others.
+const DERIVED: u32 = 1 << 31;
 
 impl Word {
     pub fn number(self) -> Option<u32> {
@@ -43,7 +46,7 @@ pub struct Names {
 impl Names {
     pub fn new() -> Self {
         Self {
-            last: STACK.name,
+            last: NEGATED,
             derived: HashMap::new(),
         }
     }
@@ -67,13 +70,14 @@ impl Names {
         words
             .iter()
             .for_each(|word| roots.extend(self.roots(*word)));
-        let word = self.fresh();
+        let mut word = self.fresh();
+        word.name |= DERIVED;
         self.derived.insert(word.name, roots);
         word
     }
 
     fn may_meet(&self, a: Word, b: Word) -> bool {
-        let is_plain = |word: Word| !self.derived.contains_key(&word.name);
+        let is_plain = |word: Word| word.name & DERIVED == 0;
         match is_plain(a) && is_plain(b) {
             true => a.name == b.name,
             false => !self.roots(a).is_disjoint(&self.roots(b)),
@@ -319,7 +323,13 @@ impl Machine {
             return number(x.wrapping_sub(y));
         }
         self.compare(sets, a, b, true);
-        names.of(&[a, b])
+        match a.number() {
+            Some(value) if b.name == STACK.name => Word {
+                name: NEGATED,
+                offset: value.wrapping_sub(b.offset),
+            },
+            _ => names.of(&[a, b]),
+        }
     }
 
     fn add(&mut self, names: &mut Names, a: Word, b: Word, sets: bool) -> Word {
@@ -353,7 +363,7 @@ impl Machine {
             _ => match (a.number(), b.number()) {
                 (Some(a), Some(b)) => number(of(a, b)),
                 // The stack is aligned.
-                (None, Some(mask)) if op == Integer::And && a.name == STACK.name && mask < 8 => {
+                (None, Some(mask)) if op == Integer::And && a.name <= NEGATED && mask < 8 => {
                     number(a.offset & mask)
                 }
                 (None, Some(1)) if op == Integer::Multiply => a,
@@ -382,7 +392,7 @@ impl Machine {
     ) -> bool {
         use Instruction as I;
         match instruction {
-            I::Nop => {}
+            I::Nop | I::IfThen => {}
             I::Add { d, n, by, flags } => {
                 let by = self.operand(names, by);
                 let sum = self.add(names, self.core(n), by, flags);
@@ -404,8 +414,8 @@ impl Machine {
                 let result = self.integer(names, op, (self.core(n), by), flags);
                 self.set(d, result);
             }
-            I::Not { d, m } => {
-                let result = self.integer(names, Integer::Xor, (self.core(m), number(!0)), true);
+            I::Not { d, m, flags } => {
+                let result = self.integer(names, Integer::Xor, (self.core(m), number(!0)), flags);
                 self.set(d, result);
             }
             I::MultiplyAdd { d, n, m, a } => {

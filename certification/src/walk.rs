@@ -360,7 +360,8 @@ impl Walk<'_> {
                 self.next = self.bits(m)? & !1;
                 Ok(())
             }
-            I::Address { .. }
+            I::IfThen
+            | I::Address { .. }
             | I::Integer { .. }
             | I::Not { .. }
             | I::MultiplyAdd { .. }

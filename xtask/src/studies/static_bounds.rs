@@ -49,6 +49,7 @@ struct Declined {
 struct Region {
     cycles: Option<u64>,
     declined: Option<Declined>,
+    branches: Vec<u32>,
 }
 
 /// A row's bounds beside what was measured; the fields are those of the JSON.
@@ -62,6 +63,8 @@ struct Bound {
     measured_cycles: u64,
     cycles: Option<u64>,
     declined: Option<Declined>,
+    /// The branches on data, whose longer way counts although no measured call may have taken it.
+    branches: Vec<u32>,
     /// The function that the declined address is in.
     within: Option<String>,
     measured_stack: u64,
@@ -144,6 +147,7 @@ fn of_row(image: &Image, row: &Row, region: Region) -> Bound {
         cycles: region.cycles,
         within: region.declined.as_ref().and_then(within),
         declined: region.declined,
+        branches: region.branches,
         measured_stack: row.stack_bytes,
         stack_declined: stack.as_ref().err().map(ToString::to_string),
         stack: stack.ok(),

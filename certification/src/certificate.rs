@@ -39,6 +39,16 @@ impl Function {
         }
     }
 
+    /// Its name in a file's.
+    pub fn short(self) -> &'static str {
+        match self {
+            Self::Rnea => "rnea",
+            Self::Gravity => "gravity",
+            Self::Crba => "crba",
+            Self::Core => "core",
+        }
+    }
+
     /// The variable of the program that holds its address.
     fn variable(self) -> &'static str {
         match self {

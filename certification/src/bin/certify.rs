@@ -10,7 +10,7 @@ use certification::image::Image;
 use certification::program::{self, LIBRARY, Program};
 use certification::search::Effort;
 use certification::state_box::Robot;
-use certification::{check, page, picture, sines};
+use certification::{check, fpcore, page, picture, sines};
 use clap::Parser;
 
 /// Proven rounding errors of a robot's functions over the whole box of its joints
@@ -52,6 +52,9 @@ struct Args {
     /// Let Gappa check a part of the box around the worst state of each result
     #[arg(long)]
     gappa: bool,
+    /// Only write each result as a benchmark in the form of FPBench into this directory: FUNCTION_ROBOT.fpcore
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["json", "gappa", "write_docs", "hashes"])]
+    fpcore: Option<PathBuf>,
     /// Rewrite docs/certificates.md with its picture
     #[arg(long, conflicts_with_all = ["robot", "json"])]
     write_docs: bool,
@@ -114,6 +117,9 @@ fn run(args: &Args) -> Result<String> {
         )
     };
     let robots = programs.iter().map(boxed).collect::<Result<Vec<_>>>()?;
+    if let Some(folder) = &args.fpcore {
+        return benchmarks(args, folder, &programs, &robots);
+    }
     // Once for all robots: what holds over the widest ranges holds over each.
     let joints: Vec<_> = robots
         .iter()
@@ -145,6 +151,31 @@ fn run(args: &Args) -> Result<String> {
         }
     }
     finish(args, &docs, &certificates, written)
+}
+
+/// Writes what each function of each robot computes.
+fn benchmarks(
+    args: &Args,
+    folder: &Path,
+    programs: &[Program],
+    robots: &[Robot],
+) -> Result<String> {
+    let mut written = Vec::new();
+    for (program, robot) in programs.iter().zip(robots) {
+        let image = Image::read(&program.elf)?;
+        for function in &args.function {
+            let graph = certificate::expression(&image, *function)?.graph;
+            let name = format!("{}: {}", program.robot, function.name().replace('`', ""));
+            let cores = (0..graph.outputs.len())
+                .map(|output| fpcore::fpcore(&graph, output, robot, &name))
+                .collect::<Option<Vec<_>>>()
+                .ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
+            let file = folder.join(format!("{}_{}.fpcore", function.short(), program.robot));
+            program::write(&file, &cores.join("\n"))?;
+            written.push(file.display().to_string());
+        }
+    }
+    Ok(format!("written: {}", written.join(", ")))
 }
 
 fn spent(args: &Args) -> Spent {

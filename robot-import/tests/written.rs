@@ -13,8 +13,9 @@ use std::path::Path;
 use dynamics_core::algorithms::rnea;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::loops::{LoopRobot, constraints};
-use dynamics_core::model::{ArmModel, Robot};
+use dynamics_core::model::{ArmModel, Robot, RobotModel};
 use dynamics_core::robots::So101;
+use dynamics_core::scalar::Native;
 use dynamics_core::state::State;
 use robot_import::import::{Args, Options, import};
 use robot_import::model::{AnyModel, Motion};
@@ -47,13 +48,24 @@ fn imported(file: &str, name: &str, without: &[&str], written: &str) -> (String,
     (imported.source, imported.tree)
 }
 
+/// A model of which nothing is known, as of a checked tree: a chain's dynamics have other roundings.
+struct Unknown<'a, const N: usize>(&'a ArmModel<f64, N>);
+
+impl<const N: usize> RobotModel<f64, N, N, N> for Unknown<'_, N> {
+    type Kernel = Native;
+
+    fn model(&self) -> &ArmModel<f64, N> {
+        self.0
+    }
+}
+
 /// The torques of the file's model are those of the checked tree, bit by bit.
 fn same_numbers<const N: usize>(written: &ArmModel<f64, N>, tree: &Tree) {
     let checked = AnyModel::of(tree).expect("few joints");
     for k in 0..10 {
         let number = |i: usize, size: f64| size * (1.3 * k as f64 + 2.1 * i as f64).sin();
         let [q, qd, qdd] = [1.5, 3.0, 10.0].map(|size| std::array::from_fn(|i| number(i, size)));
-        let torque = rnea(written, &State { q, qd, qdd }, &RIGID_BODY);
+        let torque = rnea(&Unknown(written), &State { q, qd, qdd }, &RIGID_BODY);
         let motion = Motion {
             q: q.into(),
             qd: qd.into(),

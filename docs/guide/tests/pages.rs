@@ -37,6 +37,19 @@ fn words(code: &str) -> String {
         .replace(",]", "]")
 }
 
+/// The enumeration of the supervisor's states reads the copy.
+#[test]
+fn the_tables_of_transitions_are_those_of_the_enumeration() {
+    let page = include_str!("../src/faults.md");
+    let copy =
+        include_str!("../../../motion-control/src/safety/supervisor/tests/transitions/table.md");
+    let (_, rest) = page
+        .split_once("<!-- transitions:begin -->")
+        .expect("a begin");
+    let (tables, _) = rest.split_once("<!-- transitions:end -->").expect("an end");
+    assert_eq!(tables.trim(), copy.trim());
+}
+
 #[test]
 fn the_programs_on_the_page_are_those_that_are_compiled() {
     for program in [

@@ -1,5 +1,5 @@
 //! All states of supervisors with small numbers of ticks, in each of which everything happens that can, against the
-//! table of transitions in the guide.
+//! table of transitions in the guide, of which `transitions/table.md` is the copy that this crate carries.
 
 use std::collections::{HashMap, HashSet};
 use std::mem::{Discriminant, discriminant};
@@ -105,9 +105,7 @@ fn canonical(mut one: One) -> One {
 
 /// The cells of the guide's tables that can occur.
 fn table() -> Table {
-    let page = include_str!("../../../../../docs/guide/src/faults.md");
-    let (_, rest) = page.split_once("<!-- transitions:begin -->").unwrap();
-    let (tables, _) = rest.split_once("<!-- transitions:end -->").unwrap();
+    let tables = include_str!("transitions/table.md").trim_end();
     let mut cells = Table::new();
     let is_table = |part: &&str| part.starts_with('|');
     for table in tables.split("\n\n").filter(is_table) {

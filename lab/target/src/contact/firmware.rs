@@ -62,7 +62,7 @@ impl Sensing {
     pub const BITS_14: Self = Self {
         step: core::f32::consts::TAU / 16_384.0,
         bandwidth: 60.0,
-        margin: [2.4, 3.25, 2.25, 0.33, 0.3, 0.3],
+        margin: [2.4, 3.4, 2.25, 0.33, 0.3, 0.3],
         sticks: false,
     };
     pub const BITS_20: Self = Self {

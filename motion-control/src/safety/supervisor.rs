@@ -43,7 +43,8 @@ const FAR: f64 = f32::MAX as f64;
 /// without limits the angle within a turn is measured, `MultiTurnEncoder::within_turn` of `joint-drivers`.
 const RANGE: f64 = 1e4;
 
-/// The count of good ticks in a stop before a tick that is not to be counted: the next one makes it zero.
+/// Value of `ramp` during a stop if the current tick has a fault: the increment at the begin of the next tick wraps it to
+/// zero, so that this tick does not count as a good one.
 const NOT_COUNTED: u32 = u32::MAX;
 
 /// The parameters of the safety gate of a [`MotionController`](crate::MotionController): those of the arm and of the loop.

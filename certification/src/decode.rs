@@ -12,6 +12,8 @@ pub enum Operand {
     Constant(u32),
     /// A register, shifted left.
     Register(u8, u8),
+    /// A register, shifted right.
+    Right(u8, u8),
 }
 
 /// The arithmetic of the floating-point unit in single precision.
@@ -25,6 +27,27 @@ pub enum Arithmetic {
     Mul,
     /// −(n m)
     NegatedMul,
+}
+
+/// The other operations on integers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Integer {
+    /// n − m
+    Sub,
+    /// m − n
+    ReverseSub,
+    /// n ∧ m
+    And,
+    /// n ∨ m
+    Or,
+    /// n xor m
+    Xor,
+    /// n ∧ ¬m
+    Clear,
+    /// n m
+    Multiply,
+    /// n, shifted right by m
+    Right,
 }
 
 /// One decoded instruction.
@@ -99,6 +122,47 @@ pub enum Instruction {
     BranchIfZero { n: u8, offset: i32, if_not: bool },
     /// Goes on at a register's address.
     BranchTo { m: u8 },
+    /// d = the word's address of the instruction plus an offset
+    Address { d: u8, offset: i32 },
+    /// d = n op operand, and whether flags are set.
+    Integer {
+        op: Integer,
+        d: u8,
+        n: u8,
+        by: Operand,
+        flags: bool,
+    },
+    /// d = ¬m
+    Not { d: u8, m: u8, flags: bool },
+    /// Makes the next instructions conditional.
+    IfThen,
+    /// d = n m + a
+    MultiplyAdd { d: u8, n: u8, m: u8, a: u8 },
+    /// Memory of any size at n + offset.
+    Access(Access),
+}
+
+/// A load or store.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Access {
+    /// The register.
+    pub t: u8,
+    /// The one of the next word, [`NOWHERE`] if there is none.
+    pub second: u8,
+    /// The base.
+    pub n: u8,
+    /// What is added to it.
+    pub offset: Operand,
+    /// 1, 2 or 4.
+    pub bytes: u8,
+    /// Whether a narrow number has a sign.
+    pub is_signed: bool,
+    /// From memory.
+    pub load: bool,
+    /// Whether the offset counts for the address.
+    pub before: bool,
+    /// Whether n moves.
+    pub writes_back: bool,
 }
 
 /// A branch that is always taken.
@@ -137,7 +201,75 @@ pub fn short(code: u16) -> Option<Instruction> {
         offset: 4 * words as i32,
         load,
     };
+    let integer = |op, by| Instruction::Integer {
+        op,
+        d: low(0),
+        n: low(3),
+        by,
+        flags: true,
+    };
+    let access = |bytes, offset, load| {
+        Instruction::Access(Access {
+            t: low(0),
+            second: NOWHERE,
+            n: low(3),
+            offset,
+            bytes,
+            is_signed: false,
+            load,
+            before: true,
+            writes_back: false,
+        })
+    };
     Some(match code >> 8 {
+        0x00..=0x07 => Instruction::Integer {
+            op: Integer::Multiply,
+            d: low(0),
+            n: low(3),
+            by: by(1 << field(6, 5)),
+            flags: true,
+        },
+        0x08..=0x0f if field(6, 5) > 0 => integer(Integer::Right, by(field(6, 5))),
+        0x43 if field(6, 4) == 15 => Instruction::Not {
+            d: low(0),
+            m: low(3),
+            flags: true,
+        },
+        0x40 | 0x43 if [0, 1, 12, 13, 14].contains(&field(6, 4)) => {
+            let op = match field(6, 4) {
+                0 => Integer::And,
+                1 => Integer::Xor,
+                12 => Integer::Or,
+                13 => Integer::Multiply,
+                _ => Integer::Clear,
+            };
+            Instruction::Integer {
+                op,
+                d: low(0),
+                n: low(0),
+                by: Operand::Register(low(3), 0),
+                flags: true,
+            }
+        }
+        0x50..=0x5f => {
+            let (bytes, load) = match field(9, 3) {
+                0 => (4, false),
+                1 => (2, false),
+                2 => (1, false),
+                4 => (4, true),
+                5 => (2, true),
+                6 => (1, true),
+                // LDRSB, LDRSH
+                _ => return None,
+            };
+            access(bytes, Operand::Register(low(6), 0), load)
+        }
+        0x70..=0x7f => access(1, by(field(6, 5)), code & 0x800 != 0),
+        0x80..=0x8f => access(2, by(2 * field(6, 5)), code & 0x800 != 0),
+        0xa0..=0xa7 => Instruction::Address {
+            d: third,
+            offset: 4 * byte as i32,
+        },
         0x18 | 0x19 => Add {
             d: low(0),
             n: low(3),
@@ -241,6 +373,7 @@ pub fn short(code: u16) -> Option<Instruction> {
             writes_back: true,
         },
         0xbf if code == 0xbf00 => Nop,
+        0xbf if code & 15 != 0 => Instruction::IfThen,
         0xc0..=0xcf => Words {
             n: third,
             registers: byte as u16,
@@ -269,6 +402,8 @@ pub fn long(first: u16, second: u16) -> Option<Instruction> {
         0xee => real_data(first, second),
         0xe8..=0xeb => multiple_or_shifted(first, second),
         0xf8 => single(first, second),
+        0xf9 => access(first, second),
+        0xfb => multiply(first, second),
         0xf0..=0xf7 => immediate_or_branch(first, second),
         _ => None,
     }
@@ -287,14 +422,122 @@ fn multiple_or_shifted(first: u16, second: u16) -> Option<Instruction> {
             down: first & 0x100 != 0,
             writes_back: first & 0x20 != 0,
         },
-        0xeb00 if second & 0x8030 == 0 && n != PC => Instruction::Add {
-            d,
+        0xeb00 | 0xeb10 if second & 0x8020 == 0 && n != PC => Instruction::Add {
+            d: if d == PC { NOWHERE } else { d },
             n,
-            by: Operand::Register(m, shift),
-            flags: false,
+            by: shifted_by(m, shift, second)?,
+            flags: first & 0x10 != 0,
         },
+        0xe840..=0xe9ff if first & 0x40 != 0 && first & 0x120 != 0 => {
+            let bytes = 4 * u32::from(second & 0xff);
+            Instruction::Access(Access {
+                t: (second >> 12) as u8,
+                second: d,
+                n,
+                offset: Operand::Constant(if first & 0x80 == 0 {
+                    bytes.wrapping_neg()
+                } else {
+                    bytes
+                }),
+                bytes: 4,
+                is_signed: false,
+                load: first & 0x10 != 0,
+                before: first & 0x100 != 0,
+                writes_back: first & 0x20 != 0,
+            })
+        }
+        _ if first >> 9 == 0x75 && second & 0x8000 == 0 => return shifted(first, second),
         _ => return None,
     })
+}
+
+/// Data processing with a shifted register: A5.3.11.
+fn shifted(first: u16, second: u16) -> Option<Instruction> {
+    let (n, d, m) = (first & 15, (second >> 8 & 15) as u8, (second & 15) as u8);
+    let shift = ((second >> 12 & 7) << 2 | second >> 6 & 3) as u8;
+    let flags = first & 0x10 != 0;
+    let integer = |op, n, by| Instruction::Integer {
+        op,
+        d: if d == PC { NOWHERE } else { d },
+        n,
+        by,
+        flags,
+    };
+    let by = shifted_by(m, shift, second)?;
+    let n = n as u8;
+    Some(match (first >> 5 & 15, by) {
+        (2, Operand::Right(..)) if n == PC => {
+            integer(Integer::Right, m, Operand::Constant(shift.into()))
+        }
+        (2, _) if n == PC => integer(Integer::Multiply, m, Operand::Constant(1 << shift)),
+        (3, Operand::Register(m, 0)) if n == PC => Instruction::Not { d, m, flags },
+        (3, _) if n == PC => return None,
+        (0, _) => integer(Integer::And, n, by),
+        (1, _) => integer(Integer::Clear, n, by),
+        (2, _) => integer(Integer::Or, n, by),
+        (4, _) => integer(Integer::Xor, n, by),
+        (13, _) => integer(Integer::Sub, n, by),
+        (14, _) => integer(Integer::ReverseSub, n, by),
+        _ => return None,
+    })
+}
+
+/// A register as its shift leaves it: by a number to the left, or by at least one to the right.
+fn shifted_by(m: u8, shift: u8, second: u16) -> Option<Operand> {
+    match second >> 4 & 3 {
+        0 => Some(Operand::Register(m, shift)),
+        1 if shift > 0 => Some(Operand::Right(m, shift)),
+        _ => None,
+    }
+}
+
+/// Multiplications whose result is a word: A5.3.16.
+fn multiply(first: u16, second: u16) -> Option<Instruction> {
+    let (n, d, m) = (
+        (first & 15) as u8,
+        (second >> 8 & 15) as u8,
+        (second & 15) as u8,
+    );
+    let a = (second >> 12) as u8;
+    (first & 0xfff0 == 0xfb00 && second & 0xf0 == 0).then_some(Instruction::MultiplyAdd {
+        d,
+        n,
+        m,
+        a: if a == PC { NOWHERE } else { a },
+    })
+}
+
+/// Loads and stores of one register: A5.3.7 to A5.3.10.
+fn access(first: u16, second: u16) -> Option<Instruction> {
+    let size = first >> 5 & 3;
+    let (n, t, load) = ((first & 15) as u8, (second >> 12) as u8, first & 0x10 != 0);
+    if size == 3 || n == PC || t == PC {
+        return None;
+    }
+    let constant = |bytes: u16, up| {
+        let bytes = u32::from(bytes);
+        Operand::Constant(if up { bytes } else { bytes.wrapping_neg() })
+    };
+    let (offset, before, writes_back) = if first & 0x80 != 0 {
+        (constant(second & 0xfff, true), true, false)
+    } else if second & 0x800 != 0 {
+        let offset = constant(second & 0xff, second & 0x200 != 0);
+        (offset, second & 0x400 != 0, second & 0x100 != 0)
+    } else {
+        let register = Operand::Register((second & 15) as u8, (second >> 4 & 3) as u8);
+        (register, true, false)
+    };
+    Some(Instruction::Access(Access {
+        t,
+        second: NOWHERE,
+        n,
+        offset,
+        bytes: 1 << size,
+        is_signed: first & 0x100 != 0,
+        load,
+        before,
+        writes_back,
+    }))
 }
 
 fn single(first: u16, second: u16) -> Option<Instruction> {
@@ -320,7 +563,7 @@ fn single(first: u16, second: u16) -> Option<Instruction> {
                 writes_back: true,
             }
         }
-        _ => return None,
+        _ => return access(first, second),
     })
 }
 
@@ -347,8 +590,16 @@ fn immediate_or_branch(first: u16, second: u16) -> Option<Instruction> {
     let half = (one & 15) << 12 | code;
     let by = Operand::Constant;
     let to = if d == PC { NOWHERE } else { d };
+    let integer = |op| Instruction::Integer {
+        op,
+        d: to,
+        n,
+        by: by(expanded(code)),
+        flags: one & 0x10 != 0,
+    };
     Some(match first & 0xfbf0 {
-        0xf040 | 0xf050 if n == PC => Constant {
+        0xf050 if n == PC => return None,
+        0xf040 if n == PC => Constant {
             d,
             value: expanded(code),
         },
@@ -386,6 +637,23 @@ fn immediate_or_branch(first: u16, second: u16) -> Option<Instruction> {
             n,
             by: by(code.wrapping_neg()),
             flags: false,
+        },
+        0xf000 | 0xf010 => integer(Integer::And),
+        0xf020 | 0xf030 => integer(Integer::Clear),
+        0xf040 | 0xf050 => integer(Integer::Or),
+        0xf060 if n == PC => Constant {
+            d,
+            value: !expanded(code),
+        },
+        0xf080 | 0xf090 => integer(Integer::Xor),
+        0xf1c0 | 0xf1d0 => integer(Integer::ReverseSub),
+        0xf200 => Instruction::Address {
+            d,
+            offset: code as i32,
+        },
+        0xf2a0 => Instruction::Address {
+            d,
+            offset: -(code as i32),
         },
         0xf240 => Constant { d, value: half },
         0xf2c0 => Upper { d, value: half },

@@ -68,6 +68,24 @@ impl Image {
         Some(u32::from_le_bytes(*self.from(address)?.first_chunk()?))
     }
 
+    /// First address and size of the function that holds an address.
+    pub fn function(&self, at: u32) -> Option<(u32, u32)> {
+        let symbols = self.symbols.iter().map(|(_, start, size)| (*start, *size));
+        let mut holding = symbols.filter(|(start, size)| at.wrapping_sub(*start) < *size);
+        holding.next()
+    }
+
+    /// Where these halfwords stand.
+    pub fn places(&self, code: [u16; 2]) -> Vec<u32> {
+        let bytes: Vec<u8> = code.iter().flat_map(|half| half.to_le_bytes()).collect();
+        let of = |(start, section): &(u32, Vec<u8>)| {
+            let pairs = section.windows(4).enumerate().step_by(2);
+            let found = pairs.filter(|(_, pair)| **pair == bytes[..]);
+            found.map(|(k, _)| start + k as u32).collect::<Vec<_>>()
+        };
+        self.sections.iter().flat_map(of).collect()
+    }
+
     /// The address and the words of the variable of a name, whatever its path and hash.
     ///
     /// # Errors

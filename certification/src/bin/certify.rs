@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use certification::certificate::{self, Certificate, Function, Spent};
+use certification::cycles;
 use certification::error::{Error, Result};
 use certification::image::Image;
 use certification::program::{self, LIBRARY, Program};
@@ -58,8 +59,20 @@ struct Args {
     /// Only compare the hashes in docs/certificates.md with today's machine code
     #[arg(long, conflicts_with_all = ["robot", "write_docs"])]
     hashes: bool,
+    /// Bound the cycles of the regions 0 of a program, each from `dbg #0` to `dbg #1`
+    #[arg(long, value_name = "ELF", conflicts_with_all = ["robot", "write_docs", "hashes"])]
+    cycles: Option<PathBuf>,
+    /// Only of the region at an address, which calls the function at the other if it calls through a register; both in decimal
+    #[arg(long, value_name = "AT:FUNCTION", requires = "cycles", value_delimiter = ',', value_parser = call)]
+    call: Vec<(u32, u32)>,
     #[command(flatten)]
     options: robot_import::import::Options,
+}
+
+fn call(text: &str) -> std::result::Result<(u32, u32), String> {
+    let number = |text: &str| text.parse().map_err(|error| format!("{text}: {error}"));
+    let (at, function) = text.split_once(':').ok_or("there is no colon")?;
+    Ok((number(at)?, number(function)?))
 }
 
 /// The share of each range that the parts have which Gappa checks.
@@ -86,6 +99,9 @@ fn run(args: &Args) -> Result<String> {
         let path = docs.join(PAGE);
         std::fs::read_to_string(&path).map_err(|source| Error::File { path, source })
     };
+    if let Some(elf) = &args.cycles {
+        return cycles(args, elf);
+    }
     let robots: Vec<&str> = match &args.robot {
         Some(robot) => vec![robot],
         None => LIBRARY.map(|(name, _)| name).to_vec(),
@@ -145,6 +161,35 @@ fn run(args: &Args) -> Result<String> {
         }
     }
     finish(args, &docs, &certificates, written)
+}
+
+/// The bounds of the regions of a program, as JSON or a line each.
+fn cycles(args: &Args, elf: &Path) -> Result<String> {
+    let bytes = std::fs::read(elf).map_err(|source| Error::File {
+        path: elf.to_owned(),
+        source,
+    })?;
+    let image = Image::read(&bytes)?;
+    let called = args.call.iter().map(|(at, function)| {
+        let missing = || Error::Missing(format!("measured region at {at:#x}"));
+        cycles::region(&image, *at, Some(*function)).ok_or_else(missing)
+    });
+    let regions = match args.call.is_empty() {
+        true => cycles::regions(&image),
+        false => called.collect::<Result<Vec<_>>>()?,
+    };
+    if args.json {
+        return serde_json::to_string_pretty(&regions).map_err(|e| Error::Robot(e.to_string()));
+    }
+    let line = |one: &cycles::Region| match (one.cycles, one.declined) {
+        (_, Some(declined)) => format!("{:#x}: declined: {declined}", one.at),
+        (cycles, None) => format!(
+            "{:#x}: at most {} cycles",
+            one.at,
+            cycles.unwrap_or_default()
+        ),
+    };
+    Ok(regions.iter().map(line).collect::<Vec<_>>().join("\n"))
 }
 
 fn spent(args: &Args) -> Spent {

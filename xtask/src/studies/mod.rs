@@ -18,6 +18,7 @@ pub mod mutants;
 pub mod peers;
 pub mod robots;
 pub mod scenes;
+pub mod static_bounds;
 pub mod study;
 pub mod trial;
 
@@ -75,6 +76,12 @@ pub const STUDIES: &[Study] = &[
             let words = "--quiet --profile simulated --package certification -- --hashes".split(' ');
             shell::cargo(bench.workspace.cargo("run").args(words)).map(|_| String::new())
         }),
+    },
+    Study {
+        name: "static", about: "Bound the cycles and the stack of each algorithm by its machine code, rewrite a part of docs/certificates.md",
+        files: &["docs/certificates.md"],
+        held: Step(Target, Full, "no call takes more cycles or stack than its machine code says, a constant one exactly as many"),
+        form: Part(static_bounds::measure),
     },
     Study {
         name: "accuracy", about: "Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration",

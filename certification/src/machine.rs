@@ -1,0 +1,603 @@
+//! The state of a processor of which only a part is known: integers and addresses are followed, other data is not.
+
+use std::collections::{BTreeSet, HashMap};
+
+use cycle_meter::{Class, Insn, Pipe};
+
+use crate::decode::{Access, Condition, Instruction, Integer, LR, NOWHERE, Operand, PC, SP};
+use crate::flags;
+use crate::image::Image;
+
+/// A number plus what a name stands for: nothing if the name is 0, else a word of which nothing is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Word {
+    name: u32,
+    offset: u32,
+}
+
+/// The stack pointer at the start, which is a multiple of eight, and its negative.
+const STACK: Word = Word { name: 1, offset: 0 };
+const NEGATED: u32 = 2;
+/// The bit of the names of words that were computed from others.
+const DERIVED: u32 = 1 << 31;
+
+impl Word {
+    pub fn number(self) -> Option<u32> {
+        (self.name == 0).then_some(self.offset)
+    }
+
+    fn plus(self, offset: u32) -> Self {
+        let offset = self.offset.wrapping_add(offset);
+        Self { offset, ..self }
+    }
+}
+
+fn number(offset: u32) -> Word {
+    Word { name: 0, offset }
+}
+
+/// The names that were given, and what addresses they can be derived from.
+#[derive(Debug)]
+pub struct Names {
+    last: u32,
+    derived: HashMap<u32, BTreeSet<u32>>,
+}
+
+impl Names {
+    pub fn new() -> Self {
+        Self {
+            last: NEGATED,
+            derived: HashMap::new(),
+        }
+    }
+
+    fn fresh(&mut self) -> Word {
+        self.last += 1;
+        Word {
+            name: self.last,
+            offset: 0,
+        }
+    }
+
+    fn roots(&self, word: Word) -> BTreeSet<u32> {
+        let derived = self.derived.get(&word.name).cloned();
+        derived.unwrap_or_else(|| BTreeSet::from([word.name]))
+    }
+
+    /// An unknown word that was computed from these.
+    fn of(&mut self, words: &[Word]) -> Word {
+        let mut roots = BTreeSet::new();
+        words
+            .iter()
+            .for_each(|word| roots.extend(self.roots(*word)));
+        let mut word = self.fresh();
+        word.name |= DERIVED;
+        self.derived.insert(word.name, roots);
+        word
+    }
+
+    fn may_meet(&self, a: Word, b: Word) -> bool {
+        let is_plain = |word: Word| word.name & DERIVED == 0;
+        match is_plain(a) && is_plain(b) {
+            true => a.name == b.name,
+            false => !self.roots(a).is_disjoint(&self.roots(b)),
+        }
+    }
+}
+
+/// What is known of the processor, and the cycles so far for each state of the pipeline.
+#[derive(Clone, Debug)]
+pub struct Machine {
+    core: [Word; 15],
+    real: [Word; 32],
+    /// Negative, zero, carry, overflow.
+    flags: [Option<bool>; 4],
+    /// Words in memory, and whether they are registers that a prologue saves: no pointer reaches these.
+    memory: HashMap<Word, (Word, bool)>,
+    pipes: Vec<(Pipe, u64)>,
+}
+
+impl Machine {
+    pub fn new(names: &mut Names, pipes: Vec<(Pipe, u64)>) -> Self {
+        let mut core = [STACK; 15];
+        core[..13].fill_with(|| names.fresh());
+        core[usize::from(LR)] = names.fresh();
+        Self {
+            core,
+            real: [STACK; 32].map(|_| names.fresh()),
+            flags: [None; 4],
+            memory: HashMap::new(),
+            pipes,
+        }
+    }
+
+    /// The largest sum of cycles.
+    pub fn cycles(&self) -> u64 {
+        self.pipes.iter().map(|pipe| pipe.1).max().unwrap_or(0)
+    }
+
+    pub fn charge(&mut self, insn: &Insn) {
+        self.advance(|pipe| pipe.step(insn));
+    }
+
+    pub fn refill(&mut self) {
+        self.advance(Pipe::refill);
+    }
+
+    fn advance(&mut self, by: impl Fn(&mut Pipe) -> u32) {
+        let before = std::mem::take(&mut self.pipes);
+        for (mut pipe, cycles) in before {
+            let cycles = cycles + u64::from(by(&mut pipe));
+            self.keep(pipe, cycles);
+        }
+    }
+
+    fn keep(&mut self, pipe: Pipe, cycles: u64) {
+        match self.pipes.iter_mut().find(|(other, _)| *other == pipe) {
+            Some((_, most)) => *most = cycles.max(*most),
+            None => self.pipes.push((pipe, cycles)),
+        }
+    }
+
+    /// Whatever is true of both.
+    pub fn join(&mut self, names: &mut Names, other: &Self) {
+        let registers = self.core.iter_mut().chain(&mut self.real);
+        for (mine, theirs) in registers.zip(other.core.iter().chain(&other.real)) {
+            if mine != theirs {
+                *mine = names.of(&[*mine, *theirs]);
+            }
+        }
+        for (mine, theirs) in self.flags.iter_mut().zip(other.flags) {
+            *mine = mine.filter(|_| *mine == theirs);
+        }
+        let is_same = |at: &Word, word: &mut (Word, bool)| other.memory.get(at) == Some(word);
+        self.memory.retain(is_same);
+        for (pipe, cycles) in &other.pipes {
+            self.keep(*pipe, *cycles);
+        }
+    }
+
+    pub fn holds(&self, condition: Condition) -> Option<bool> {
+        flags::holds(condition, self.flags)
+    }
+
+    pub fn core(&self, register: u8) -> Word {
+        self.core
+            .get(usize::from(register))
+            .copied()
+            .unwrap_or(number(0))
+    }
+
+    /// Whether a register is zero.
+    pub fn is_zero(&self, register: u8) -> Option<bool> {
+        let word = self.core(register);
+        if word.name == STACK.name {
+            return Some(false);
+        }
+        word.number().map(|number| number == 0)
+    }
+
+    /// Sets a register of the core, the program counter apart.
+    fn set(&mut self, register: u8, word: Word) {
+        if let Some(place) = self.core.get_mut(usize::from(register)) {
+            *place = word;
+        }
+    }
+
+    fn load(&mut self, (names, image): (&mut Names, &Image), at: Word) -> Word {
+        if let Some((word, _)) = self.memory.get(&at) {
+            return *word;
+        }
+        if let Some(word) = at.number().and_then(|at| image.word(at)) {
+            return number(word);
+        }
+        let word = names.fresh();
+        self.memory.insert(at, (word, false));
+        word
+    }
+
+    /// Forgets what a store of unknown bytes can change.
+    fn spoil(&mut self, names: &Names, at: Word, bytes: u32) {
+        self.memory.retain(|place, (_, is_saved)| {
+            let distance = place.offset.wrapping_sub(at.offset);
+            let is_apart = distance >= bytes && distance.wrapping_neg() >= 4;
+            match place.name == at.name {
+                true => is_apart,
+                false => *is_saved || !names.may_meet(*place, at),
+            }
+        });
+    }
+
+    fn store(&mut self, names: &Names, at: Word, word: Word, is_saved: bool) {
+        self.spoil(names, at, 4);
+        self.memory.insert(at, (word, is_saved));
+    }
+
+    fn operand(&self, names: &mut Names, by: Operand) -> Word {
+        match by {
+            Operand::Constant(value) => number(value),
+            Operand::Register(m, 0) => self.core(m),
+            Operand::Register(m, shift) | Operand::Right(m, shift) => {
+                let is_right = matches!(by, Operand::Right(..));
+                match self.core(m).number() {
+                    Some(value) => number(if is_right {
+                        value >> shift
+                    } else {
+                        value << shift
+                    }),
+                    None => names.of(&[self.core(m)]),
+                }
+            }
+        }
+    }
+
+    /// Executes what an instruction does apart from branching. `under` is nothing outside an IT block, else whether its condition is
+    /// known to hold; if it is not, what the instruction writes is unknown.
+    pub fn execute(
+        &mut self,
+        (names, image): (&mut Names, &Image),
+        here: u32,
+        (insn, decoded): (&Insn, Option<Instruction>),
+        under: Option<bool>,
+    ) {
+        let is_sure = under != Some(false);
+        let (core, real, flags) = (self.core, self.real, self.flags);
+        let known =
+            decoded.is_some_and(|one| self.follow((&mut *names, image), here, one, is_sure));
+        if !known {
+            self.havoc(names, insn);
+        }
+        use Instruction::{Constant, Sub};
+        if insn.size == 2 && under.is_some() && !matches!(decoded, Some(Sub { d: NOWHERE, .. })) {
+            self.flags = flags;
+        } else if let Some(Constant { value, .. }) = decoded.filter(|_| insn.size == 2) {
+            [self.flags[0], self.flags[1]] = [value >> 31 != 0, value == 0].map(Some);
+        }
+        if !is_sure {
+            let registers = self.core.iter_mut().chain(&mut self.real);
+            for (now, before) in registers.zip(core.iter().chain(&real)) {
+                if now != before {
+                    *now = names.of(&[*now, *before]);
+                }
+            }
+            self.flags = if self.flags == flags {
+                flags
+            } else {
+                [None; 4]
+            };
+        }
+    }
+
+    /// After an instruction of which only the registers are known.
+    fn havoc(&mut self, names: &mut Names, insn: &Insn) {
+        let all = self.core;
+        for register in 0..15 {
+            if insn.core_writes >> register & 1 != 0 || insn.address >> register & 1 != 0 {
+                self.core[register] = names.of(&all);
+            }
+        }
+        for register in 0..32 {
+            if insn.float_writes >> register & 1 != 0 {
+                self.real[register] = names.fresh();
+            }
+        }
+        let is_memory = matches!(insn.class, Class::Load | Class::Store | Class::Words(_));
+        if is_memory {
+            let bases = all
+                .iter()
+                .zip(0..)
+                .filter(|(_, n)| insn.address >> n & 1 != 0);
+            let bases: Vec<Word> = bases.map(|(word, _)| *word).collect();
+            let at = names.of(&bases);
+            self.spoil(names, at, 4);
+        } else if !insn.float || insn.class == Class::FloatMove {
+            self.flags = [None; 4];
+        }
+    }
+
+    fn compare(&mut self, sets: bool, a: Word, b: Word, carry: bool) {
+        if !sets {
+            return;
+        }
+        self.flags = match (a.number(), b.number()) {
+            (Some(a), Some(b)) => flags::of_sum(a, b, carry).map(Some),
+            _ => [None; 4],
+        };
+    }
+
+    fn subtract(&mut self, names: &mut Names, a: Word, b: Word, sets: bool) -> Word {
+        if let Some(value) = b.number() {
+            self.compare(sets, a, number(!value), true);
+            if sets && a.name == STACK.name {
+                self.flags[1] = Some(false).filter(|_| value == 0);
+            }
+            return a.plus(value.wrapping_neg());
+        }
+        if a.name == b.name {
+            let (x, y) = (a.offset, b.offset);
+            if sets {
+                // The stack does not reach around the end of memory.
+                let carry = (a.name == STACK.name).then_some(x as i32 >= y as i32);
+                self.flags = [None, Some(x == y), carry, None];
+            }
+            return number(x.wrapping_sub(y));
+        }
+        self.compare(sets, a, b, true);
+        match a.number() {
+            Some(value) if b.name == STACK.name => Word {
+                name: NEGATED,
+                offset: value.wrapping_sub(b.offset),
+            },
+            _ => names.of(&[a, b]),
+        }
+    }
+
+    fn add(&mut self, names: &mut Names, a: Word, b: Word, sets: bool) -> Word {
+        self.compare(sets, a, b, false);
+        match (a.number(), b.number()) {
+            (_, Some(b)) => a.plus(b),
+            (Some(a), _) => b.plus(a),
+            _ => names.of(&[a, b]),
+        }
+    }
+
+    fn integer(
+        &mut self,
+        names: &mut Names,
+        op: Integer,
+        (a, b): (Word, Word),
+        sets: bool,
+    ) -> Word {
+        let of = |a: u32, b: u32| match op {
+            Integer::And => a & b,
+            Integer::Or => a | b,
+            Integer::Xor => a ^ b,
+            Integer::Clear => a & !b,
+            Integer::Multiply => a.wrapping_mul(b),
+            Integer::Right => a >> b,
+            Integer::Sub | Integer::ReverseSub => unreachable!("they are differences"),
+        };
+        let result = match op {
+            Integer::Sub => return self.subtract(names, a, b, sets),
+            Integer::ReverseSub => return self.subtract(names, b, a, sets),
+            _ => match (a.number(), b.number()) {
+                (Some(a), Some(b)) => number(of(a, b)),
+                // The stack is aligned.
+                (None, Some(mask)) if op == Integer::And && a.name <= NEGATED && mask < 8 => {
+                    number(a.offset & mask)
+                }
+                (None, Some(1)) if op == Integer::Multiply => a,
+                _ => names.of(&[a, b]),
+            },
+        };
+        if sets {
+            let value = result.number();
+            self.flags = [
+                value.map(|n| n >> 31 != 0),
+                value.map(|n| n == 0),
+                None,
+                None,
+            ];
+        }
+        result
+    }
+
+    /// Whether what the instruction does is followed.
+    fn follow(
+        &mut self,
+        (names, image): (&mut Names, &Image),
+        here: u32,
+        instruction: Instruction,
+        is_sure: bool,
+    ) -> bool {
+        use Instruction as I;
+        match instruction {
+            I::Nop | I::IfThen => {}
+            I::Add { d, n, by, flags } => {
+                let by = self.operand(names, by);
+                let sum = self.add(names, self.core(n), by, flags);
+                self.set(d, sum);
+            }
+            I::Sub { d, n, by } => {
+                let by = self.operand(names, by);
+                let difference = self.subtract(names, self.core(n), by, true);
+                self.set(d, difference);
+            }
+            I::Integer {
+                op,
+                d,
+                n,
+                by,
+                flags,
+            } => {
+                let by = self.operand(names, by);
+                let result = self.integer(names, op, (self.core(n), by), flags);
+                self.set(d, result);
+            }
+            I::Not { d, m, flags } => {
+                let result = self.integer(names, Integer::Xor, (self.core(m), number(!0)), flags);
+                self.set(d, result);
+            }
+            I::MultiplyAdd { d, n, m, a } => {
+                let words = (self.core(n), self.core(m));
+                let product = self.integer(names, Integer::Multiply, words, false);
+                let sum = match a {
+                    NOWHERE => product,
+                    a => self.add(names, product, self.core(a), false),
+                };
+                self.set(d, sum);
+            }
+            I::Constant { d, value } => self.set(d, number(value)),
+            I::Address { d, offset } => {
+                self.set(d, number(((here + 4) & !3).wrapping_add_signed(offset)));
+            }
+            I::Upper { d, value } => match self.core(d).number() {
+                Some(low) => self.set(d, number(value << 16 | low & 0xffff)),
+                None => return false,
+            },
+            I::Move { d, m } => self.set(d, self.core(m)),
+            I::Word { t, n, offset, load } => {
+                let base = if n == PC {
+                    number((here + 4) & !3)
+                } else {
+                    self.core(n)
+                };
+                self.word((names, image), (t, base.plus(offset as u32)), load, is_sure);
+            }
+            I::Access(access) => self.access((names, image), access, is_sure),
+            I::Words {
+                n,
+                registers,
+                load,
+                down,
+                writes_back,
+            } => {
+                let named = (0..16).filter(|register| registers >> register & 1 != 0);
+                let base = self.core(n);
+                let (low, end) = span(base, registers.count_ones(), down);
+                let is_saved = n == SP && !load && down && writes_back;
+                if writes_back {
+                    self.set(n, end);
+                }
+                for (k, register) in (0..).zip(named) {
+                    let at = low.plus(4 * k);
+                    match (load, is_saved && is_sure) {
+                        (false, true) => self.store(names, at, self.core(register), true),
+                        _ => self.word((&mut *names, image), (register, at), load, is_sure),
+                    }
+                }
+            }
+            I::Reals {
+                first,
+                count,
+                n,
+                offset,
+                load,
+            } => {
+                let base = if n == PC {
+                    number((here + 4) & !3)
+                } else {
+                    self.core(n)
+                };
+                self.reals(
+                    (names, image),
+                    (first, count),
+                    base.plus(offset as u32),
+                    load,
+                    is_sure,
+                );
+            }
+            I::RealsMoving {
+                first,
+                count,
+                n,
+                load,
+                down,
+                writes_back,
+            } => {
+                let (low, end) = span(self.core(n), count.into(), down);
+                self.reals((names, image), (first, count), low, load, is_sure);
+                if n == SP && !load && down && is_sure {
+                    let saved = (low.offset..).step_by(4).take(count.into());
+                    let places = saved.map(|offset| Word { offset, ..low });
+                    places.for_each(|at| {
+                        self.memory.entry(at).and_modify(|word| word.1 = true);
+                    });
+                }
+                if writes_back {
+                    self.set(n, end);
+                }
+            }
+            I::Copy { d, m } => self.real[usize::from(d)] = self.real[usize::from(m)],
+            I::Real { d, value } => self.real[usize::from(d)] = number(value.to_bits()),
+            I::Transfer {
+                core,
+                real,
+                to_core: true,
+            } => self.set(core, self.real[usize::from(real)]),
+            I::Transfer { core, real, .. } => self.real[usize::from(real)] = self.core(core),
+            _ => return false,
+        }
+        true
+    }
+
+    /// Moves a word between a register and memory.
+    fn word(
+        &mut self,
+        world: (&mut Names, &Image),
+        (t, at): (u8, Word),
+        load: bool,
+        is_sure: bool,
+    ) {
+        match (load, is_sure) {
+            (true, _) => {
+                let word = self.load(world, at);
+                self.set(t, word);
+            }
+            (false, true) => self.store(world.0, at, self.core(t), false),
+            (false, false) => self.spoil(world.0, at, 4),
+        }
+    }
+
+    fn reals(
+        &mut self,
+        (names, image): (&mut Names, &Image),
+        (first, count): (u8, u8),
+        low: Word,
+        load: bool,
+        is_sure: bool,
+    ) {
+        for k in 0..count {
+            let at = low.plus(4 * u32::from(k));
+            let Some(register) = Some(usize::from(first + k)).filter(|n| *n < 32) else {
+                continue;
+            };
+            match (load, is_sure) {
+                (true, _) => self.real[register] = self.load((&mut *names, image), at),
+                (false, true) => self.store(names, at, self.real[register], false),
+                (false, false) => self.spoil(names, at, 4),
+            }
+        }
+    }
+
+    fn access(&mut self, (names, image): (&mut Names, &Image), one: Access, is_sure: bool) {
+        let base = match one.n {
+            PC => names.fresh(),
+            n => self.core(n),
+        };
+        let offset = self.operand(names, one.offset);
+        let moved = self.add(names, base, offset, false);
+        let at = if one.before { moved } else { base };
+        if one.writes_back {
+            self.set(one.n, moved);
+        }
+        if one.bytes == 4 {
+            self.word((&mut *names, image), (one.t, at), one.load, is_sure);
+            if one.second != NOWHERE {
+                self.word((names, image), (one.second, at.plus(4)), one.load, is_sure);
+            }
+        } else if one.load {
+            let bits = at.number().and_then(|at| image.word(at));
+            let mask = (1 << (8 * u32::from(one.bytes))) - 1;
+            let word = match bits.filter(|_| !one.is_signed) {
+                Some(bits) => number(bits & mask),
+                None => names.fresh(),
+            };
+            self.set(one.t, word);
+        } else {
+            self.spoil(names, at, one.bytes.into());
+        }
+    }
+}
+
+/// The lowest address of so many words, and where the base goes.
+fn span(base: Word, words: u32, down: bool) -> (Word, Word) {
+    let bytes = 4 * words;
+    match down {
+        true => (
+            base.plus(bytes.wrapping_neg()),
+            base.plus(bytes.wrapping_neg()),
+        ),
+        false => (base, base.plus(bytes)),
+    }
+}

@@ -14,10 +14,9 @@ use serde::Serialize;
 use crate::decode::Instruction;
 use crate::flow::{Fetched, Flow, Way};
 use crate::image::Image;
-use crate::machine::{Machine, Names};
+use crate::machine::Machine;
+use crate::words::Names;
 
-/// The mark that opens the measured region.
-const OPENS: [u16; 2] = [0xf3af, 0x80f0];
 /// The instructions before the mark whose pipeline the region finds.
 const LEAD: usize = 24;
 /// The turns of a loop on data after which nothing bounds it.
@@ -60,6 +59,12 @@ pub enum Declined {
         /// Of the function.
         at: u32,
     },
+    /// What the stack pointer is there, the code does not say.
+    #[error("the stack pointer at {at:#x} is not known")]
+    StackPointer {
+        /// Of the instruction.
+        at: u32,
+    },
     /// More instructions than are followed.
     #[error("the path is still not at its end at {at:#x}")]
     TooLong {
@@ -68,40 +73,52 @@ pub enum Declined {
     },
 }
 
+impl Declined {
+    /// The address of what has no bound.
+    pub fn at(self) -> u32 {
+        match self {
+            Self::Loop { at }
+            | Self::IndirectJump { at }
+            | Self::IndirectCall { at }
+            | Self::UnknownInstruction { at }
+            | Self::Recursion { at }
+            | Self::StackPointer { at }
+            | Self::TooLong { at } => at,
+        }
+    }
+
+    /// Its name in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Loop { .. } => "loop",
+            Self::IndirectJump { .. } => "indirect_jump",
+            Self::IndirectCall { .. } => "indirect_call",
+            Self::UnknownInstruction { .. } => "unknown_instruction",
+            Self::Recursion { .. } => "recursion",
+            Self::StackPointer { .. } => "stack_pointer",
+            Self::TooLong { .. } => "too_long",
+        }
+    }
+}
+
 type Result<T> = std::result::Result<T, Declined>;
 
-/// A measured region, and its bound.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Region {
-    /// The address of the mark that opens it.
-    pub at: u32,
-    /// The functions that it calls itself.
-    pub calls: Vec<u32>,
-    /// The most cycles that it takes.
-    pub cycles: Option<u64>,
-    /// Why it has no such bound.
-    pub declined: Option<Declined>,
-    /// The branches on data that were followed both ways.
+/// The most cycles of a measured region, and the branches on data in it, of which both ways were followed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Bound {
+    /// Its cycles, or why they have no bound.
+    pub cycles: Result<u64>,
+    /// The addresses of the branches.
     pub branches: Vec<u32>,
 }
 
-/// The regions 0 of a program, each from `dbg #0` to `dbg #1`.
-pub fn regions(image: &Image) -> Vec<Region> {
-    let places = image.places(OPENS).into_iter();
-    places.filter_map(|at| region(image, at, None)).collect()
-}
-
-/// The region that opens at an address; what it calls itself through a register is the function at another.
-pub fn region(image: &Image, at: u32, callee: Option<u32>) -> Option<Region> {
+/// The bound of the region that opens with the mark at an address; what it calls itself through a register is the function at another.
+/// Nothing if no function holds the mark.
+pub fn region(image: &Image, at: u32, callee: Option<u32>) -> Option<Bound> {
     let function = image.function(at)?;
     let whole = Flow::of(image, function.0, |to| is_within(function, to), false);
     let (row, pipes) = before(image, &whole, at)?;
     let inside = Rc::new(Flow::of(image, at, |to| is_within(function, to), true));
-    let called = |one: &Fetched| match one.ways(image)[..] {
-        [Way::Call(to)] => Some(to),
-        _ => None,
-    };
-    let calls: Vec<u32> = inside.code.values().filter_map(called).collect();
     let mut run = Run::new(image, function);
     run.callee = callee;
     run.flows.insert(at, inside);
@@ -109,50 +126,49 @@ pub fn region(image: &Image, at: u32, callee: Option<u32>) -> Option<Region> {
     let mut start = Machine::new(&mut run.names, pipes);
     row.iter()
         .for_each(|one| run.execute(&mut start, one, one.condition.map(|_| None)));
-    let bound = run.run(start, at, at, None).map(|end| end.cycles());
-    Some(Region {
-        at,
-        calls,
-        cycles: bound.ok(),
-        declined: bound.err(),
+    let cycles = run.run(start, at, at, None).map(|end| end.cycles());
+    Some(Bound {
+        cycles,
         branches: run.branches.into_iter().collect(),
     })
 }
 
-/// The most cycles of a call of the function at an address, from its first instruction to its return, with nothing pending in the
-/// pipeline.
-///
-/// # Errors
-/// [`Declined`].
-pub fn function(image: &Image, at: u32) -> Result<u64> {
+/// The same of a call of the function at an address, from its first instruction to its return, with nothing pending in the pipeline.
+pub fn function(image: &Image, at: u32) -> Bound {
     let at = at & !1;
     let range = image.function(at).unwrap_or((at, u32::MAX));
     let mut run = Run::new(image, range);
     let pipes = vec![(Pipe::clear(Reading::Chosen), 0)];
     let start = Machine::new(&mut run.names, pipes);
-    Ok(run.call(start, at)?.cycles())
+    let cycles = run.call(start, at).map(|end| end.cycles());
+    Bound {
+        cycles,
+        branches: run.branches.into_iter().collect(),
+    }
 }
 
-fn is_within((start, size): (u32, u32), at: u32) -> bool {
+pub(crate) fn is_within((start, size): (u32, u32), at: u32) -> bool {
     (start..start.saturating_add(size)).contains(&at)
 }
 
-/// The instructions that stand in a row before a mark, and what the pipeline can hold at it: a branch to the mark leaves nothing pending.
+/// The instructions that are executed in a row right before a mark whatever was executed before them, and what the pipeline can hold
+/// at the mark: a branch to it leaves nothing pending.
 fn before<'a>(
     image: &Image,
     whole: &'a Flow,
     mark: u32,
 ) -> Option<(Vec<&'a Fetched>, Vec<(Pipe, u64)>)> {
     whole.code.get(&mark)?;
-    let mut row = Vec::new();
-    let mut expected = mark;
-    for one in whole
-        .code
-        .range(..mark)
-        .rev()
-        .map(|(_, one)| one)
-        .take(LEAD)
-    {
+    let ways = whole.code.values().flat_map(|one| one.ways(image));
+    let targets: BTreeSet<u32> = ways
+        .filter_map(|way| match way {
+            Way::To(to) => Some(to),
+            _ => None,
+        })
+        .collect();
+    let (mut row, mut expected) = (Vec::new(), mark);
+    let earlier = whole.code.range(..mark).rev().map(|(_, one)| one);
+    for one in earlier.take(LEAD) {
         if one.next() != expected || one.ways(image) != [Way::Next] {
             break;
         }
@@ -165,10 +181,12 @@ fn before<'a>(
         pipe.step(&one.insn);
     });
     let mut pipes = vec![(pipe, 0)];
-    let branches = |one: &Fetched| one.ways(image).contains(&Way::To(mark));
-    if whole.code.values().any(branches) && !pipe.is_clear() {
+    if targets.contains(&mark) && !pipe.is_clear() {
         pipes.push((pipe.cleared(), 0));
     }
+    // What stands before the target of a branch is left out by the branch.
+    let last = targets.range(..=mark).next_back().copied().unwrap_or(0);
+    row.retain(|one| one.at >= last);
     Some((row, pipes))
 }
 
@@ -339,12 +357,16 @@ impl<'a> Run<'a> {
         if let Some((register, calls)) = one.through() {
             let given = self.callee.filter(|_| self.calls.len() == 1);
             let to = machine.core(register).number().or(given).map(|to| to & !1);
-            ways = match (to, calls) {
-                (Some(to), true) => vec![Way::Call(to)],
-                (Some(to), false) => vec![Way::To(to)],
+            let way = match (to, calls) {
+                (Some(to), true) => Some(Way::Call(to)),
+                (Some(to), false) => Some(Way::To(to)),
                 (None, true) => return Err(Declined::IndirectCall { at: one.at }),
-                (None, false) => ways,
+                (None, false) => None,
             };
+            if let Some(way) = way {
+                ways.retain(|way| *way == Way::Next);
+                ways.push(way);
+            }
         } else if one.insn.class == Class::TableBranch {
             let index = machine.core((one.code[1] & 15) as u8).number();
             let known = index.and_then(|index| ways.get(index as usize).copied());
@@ -373,6 +395,7 @@ impl<'a> Run<'a> {
             }
             Way::Call(to) => {
                 machine.refill();
+                machine.link(&mut self.names);
                 Ok(Led::On(self.call(machine, to)?, one.next()))
             }
             Way::Out if self.calls.len() > 1 || self.around.0 == self.calls[0] => {

@@ -50,6 +50,12 @@ impl Image {
         }
     }
 
+    /// The same with a function that has a name.
+    pub fn with_function(mut self, name: &str, address: u32, size: u32) -> Self {
+        self.symbols.push((name.to_owned(), address, size));
+        self
+    }
+
     /// The bytes from an address on.
     fn from(&self, address: u32) -> Option<&[u8]> {
         self.sections.iter().find_map(|(start, bytes)| {
@@ -75,15 +81,22 @@ impl Image {
         holding.next()
     }
 
-    /// Where these halfwords stand.
-    pub fn places(&self, code: [u16; 2]) -> Vec<u32> {
-        let bytes: Vec<u8> = code.iter().flat_map(|half| half.to_le_bytes()).collect();
-        let of = |(start, section): &(u32, Vec<u8>)| {
-            let pairs = section.windows(4).enumerate().step_by(2);
-            let found = pairs.filter(|(_, pair)| **pair == bytes[..]);
-            found.map(|(k, _)| start + k as u32).collect::<Vec<_>>()
-        };
-        self.sections.iter().flat_map(of).collect()
+    /// The name of the function that holds an address: the last parts of its path, without the hash.
+    pub fn name(&self, at: u32) -> Option<String> {
+        let mut symbols = self.symbols.iter();
+        let (name, ..) = symbols.find(|(_, start, size)| at.wrapping_sub(*start) < *size)?;
+        let (mut parts, mut rest) = (Vec::new(), name.strip_prefix("_ZN").unwrap_or_default());
+        while let Some(end) = rest.find(|c: char| !c.is_ascii_digit()).filter(|end| *end > 0) {
+            let length = rest[..end].parse().unwrap_or(usize::MAX);
+            let Some((part, after)) = rest[end..].split_at_checked(length) else {
+                break;
+            };
+            parts.push(part);
+            rest = after;
+        }
+        parts.pop();
+        let last = parts.split_off(parts.len().saturating_sub(2));
+        Some(if last.is_empty() { name.clone() } else { last.join("::") })
     }
 
     /// The address and the words of the variable of a name, whatever its path and hash.

@@ -10,6 +10,8 @@
 //! | [`search`] | the worst error that is found |
 //! | [`certificate`], [`page`], [`picture`] | what was proven, as data, text and picture |
 //! | [`gappa`], [`check`] | checks of it by others |
+//! | [`cycles`], `flow`, `machine`, `words` | the most cycles of a path, by the cycle meter's model |
+//! | [`stack`], [`rows`] | the most stack, and both beside what was measured |
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
@@ -31,7 +33,10 @@ mod machine;
 pub mod page;
 pub mod picture;
 pub mod program;
+pub mod rows;
 pub mod search;
 pub mod sines;
+pub mod stack;
 pub mod state_box;
 pub mod walk;
+mod words;

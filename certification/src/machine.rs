@@ -1,89 +1,13 @@
 //! The state of a processor of which only a part is known: integers and addresses are followed, other data is not.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 
 use cycle_meter::{Class, Insn, Pipe};
 
 use crate::decode::{Access, Condition, Instruction, Integer, LR, NOWHERE, Operand, PC, SP};
 use crate::flags;
 use crate::image::Image;
-
-/// A number plus what a name stands for: nothing if the name is 0, else a word of which nothing is known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Word {
-    name: u32,
-    offset: u32,
-}
-
-/// The stack pointer at the start, which is a multiple of eight, and its negative.
-const STACK: Word = Word { name: 1, offset: 0 };
-const NEGATED: u32 = 2;
-/// The bit of the names of words that were computed from others.
-const DERIVED: u32 = 1 << 31;
-
-impl Word {
-    pub fn number(self) -> Option<u32> {
-        (self.name == 0).then_some(self.offset)
-    }
-
-    fn plus(self, offset: u32) -> Self {
-        let offset = self.offset.wrapping_add(offset);
-        Self { offset, ..self }
-    }
-}
-
-fn number(offset: u32) -> Word {
-    Word { name: 0, offset }
-}
-
-/// The names that were given, and what addresses they can be derived from.
-#[derive(Debug)]
-pub struct Names {
-    last: u32,
-    derived: HashMap<u32, BTreeSet<u32>>,
-}
-
-impl Names {
-    pub fn new() -> Self {
-        Self {
-            last: NEGATED,
-            derived: HashMap::new(),
-        }
-    }
-
-    fn fresh(&mut self) -> Word {
-        self.last += 1;
-        Word {
-            name: self.last,
-            offset: 0,
-        }
-    }
-
-    fn roots(&self, word: Word) -> BTreeSet<u32> {
-        let derived = self.derived.get(&word.name).cloned();
-        derived.unwrap_or_else(|| BTreeSet::from([word.name]))
-    }
-
-    /// An unknown word that was computed from these.
-    fn of(&mut self, words: &[Word]) -> Word {
-        let mut roots = BTreeSet::new();
-        words
-            .iter()
-            .for_each(|word| roots.extend(self.roots(*word)));
-        let mut word = self.fresh();
-        word.name |= DERIVED;
-        self.derived.insert(word.name, roots);
-        word
-    }
-
-    fn may_meet(&self, a: Word, b: Word) -> bool {
-        let is_plain = |word: Word| word.name & DERIVED == 0;
-        match is_plain(a) && is_plain(b) {
-            true => a.name == b.name,
-            false => !self.roots(a).is_disjoint(&self.roots(b)),
-        }
-    }
-}
+use crate::words::{Names, STACK, Word, number};
 
 /// What is known of the processor, and the cycles so far for each state of the pipeline.
 #[derive(Clone, Debug)]
@@ -94,6 +18,8 @@ pub struct Machine {
     flags: [Option<bool>; 4],
     /// Words in memory, and whether they are registers that a prologue saves: no pointer reaches these.
     memory: HashMap<Word, (Word, bool)>,
+    /// Whether an address of the stack was stored, so that a word from memory that is not known can be one.
+    is_exposed: bool,
     pipes: Vec<(Pipe, u64)>,
 }
 
@@ -107,6 +33,7 @@ impl Machine {
             real: [STACK; 32].map(|_| names.fresh()),
             flags: [None; 4],
             memory: HashMap::new(),
+            is_exposed: false,
             pipes,
         }
     }
@@ -152,6 +79,7 @@ impl Machine {
         }
         let is_same = |at: &Word, word: &mut (Word, bool)| other.memory.get(at) == Some(word);
         self.memory.retain(is_same);
+        self.is_exposed |= other.is_exposed;
         for (pipe, cycles) in &other.pipes {
             self.keep(*pipe, *cycles);
         }
@@ -171,7 +99,7 @@ impl Machine {
     /// Whether a register is zero.
     pub fn is_zero(&self, register: u8) -> Option<bool> {
         let word = self.core(register);
-        if word.name == STACK.name {
+        if word.is_on_stack() {
             return Some(false);
         }
         word.number().map(|number| number == 0)
@@ -191,26 +119,47 @@ impl Machine {
         if let Some(word) = at.number().and_then(|at| image.word(at)) {
             return number(word);
         }
-        let word = names.fresh();
+        let word = self.unknown(names);
         self.memory.insert(at, (word, false));
         word
     }
 
+    /// What lies in memory that is not known.
+    fn unknown(&self, names: &mut Names) -> Word {
+        if self.is_exposed {
+            names.any()
+        } else {
+            names.fresh()
+        }
+    }
+
+    /// A call writes the address after it.
+    pub fn link(&mut self, names: &mut Names) {
+        self.core[usize::from(LR)] = names.fresh();
+    }
+
     /// Forgets what a store of unknown bytes can change.
-    fn spoil(&mut self, names: &Names, at: Word, bytes: u32) {
+    fn spoil(&mut self, at: Word, bytes: u32) {
         self.memory.retain(|place, (_, is_saved)| {
             let distance = place.offset.wrapping_sub(at.offset);
             let is_apart = distance >= bytes && distance.wrapping_neg() >= 4;
-            match place.name == at.name {
+            match place.has_name_of(at) {
                 true => is_apart,
-                false => *is_saved || !names.may_meet(*place, at),
+                false => *is_saved || !place.may_meet(at),
             }
         });
     }
 
-    fn store(&mut self, names: &Names, at: Word, word: Word, is_saved: bool) {
-        self.spoil(names, at, 4);
+    fn store(&mut self, at: Word, word: Word, is_saved: bool) {
+        self.spoil(at, 4);
+        self.is_exposed |= !is_saved && word.may_be_on_stack();
         self.memory.insert(at, (word, is_saved));
+    }
+
+    /// A store that may be left out.
+    fn may_store(&mut self, at: Word, word: Word) {
+        self.spoil(at, 4);
+        self.is_exposed |= word.may_be_on_stack();
     }
 
     fn operand(&self, names: &mut Names, by: Operand) -> Word {
@@ -248,7 +197,9 @@ impl Machine {
             self.havoc(names, insn);
         }
         use Instruction::{Constant, Sub};
-        if insn.size == 2 && under.is_some() && !matches!(decoded, Some(Sub { d: NOWHERE, .. })) {
+        // Short instructions set no flags in an IT block, comparisons apart; of one that is not followed nothing is known.
+        let is_comparison = matches!(decoded, None | Some(Sub { d: NOWHERE, .. }));
+        if insn.size == 2 && under.is_some() && !is_comparison {
             self.flags = flags;
         } else if let Some(Constant { value, .. }) = decoded.filter(|_| insn.size == 2) {
             [self.flags[0], self.flags[1]] = [value >> 31 != 0, value == 0].map(Some);
@@ -289,7 +240,8 @@ impl Machine {
                 .filter(|(_, n)| insn.address >> n & 1 != 0);
             let bases: Vec<Word> = bases.map(|(word, _)| *word).collect();
             let at = names.of(&bases);
-            self.spoil(names, at, 4);
+            self.spoil(at, 4);
+            self.is_exposed |= insn.class != Class::Load;
         } else if !insn.float || insn.class == Class::FloatMove {
             self.flags = [None; 4];
         }
@@ -308,28 +260,23 @@ impl Machine {
     fn subtract(&mut self, names: &mut Names, a: Word, b: Word, sets: bool) -> Word {
         if let Some(value) = b.number() {
             self.compare(sets, a, number(!value), true);
-            if sets && a.name == STACK.name {
+            if sets && a.is_on_stack() {
                 self.flags[1] = Some(false).filter(|_| value == 0);
             }
             return a.plus(value.wrapping_neg());
         }
-        if a.name == b.name {
+        if a.has_name_of(b) {
             let (x, y) = (a.offset, b.offset);
             if sets {
                 // The stack does not reach around the end of memory.
-                let carry = (a.name == STACK.name).then_some(x as i32 >= y as i32);
+                let carry = a.is_on_stack().then_some(x as i32 >= y as i32);
                 self.flags = [None, Some(x == y), carry, None];
             }
             return number(x.wrapping_sub(y));
         }
         self.compare(sets, a, b, true);
-        match a.number() {
-            Some(value) if b.name == STACK.name => Word {
-                name: NEGATED,
-                offset: value.wrapping_sub(b.offset),
-            },
-            _ => names.of(&[a, b]),
-        }
+        let difference = a.number().and_then(|value| b.subtracted_from(value));
+        difference.unwrap_or_else(|| names.of(&[a, b]))
     }
 
     fn add(&mut self, names: &mut Names, a: Word, b: Word, sets: bool) -> Word {
@@ -362,11 +309,11 @@ impl Machine {
             Integer::ReverseSub => return self.subtract(names, b, a, sets),
             _ => match (a.number(), b.number()) {
                 (Some(a), Some(b)) => number(of(a, b)),
-                // The stack is aligned.
-                (None, Some(mask)) if op == Integer::And && a.name <= NEGATED && mask < 8 => {
-                    number(a.offset & mask)
-                }
                 (None, Some(1)) if op == Integer::Multiply => a,
+                (None, Some(mask)) if op == Integer::And => match a.aligned(mask) {
+                    Some(bits) => number(bits),
+                    None => names.of(&[a, b]),
+                },
                 _ => names.of(&[a, b]),
             },
         };
@@ -462,7 +409,7 @@ impl Machine {
                 for (k, register) in (0..).zip(named) {
                     let at = low.plus(4 * k);
                     match (load, is_saved && is_sure) {
-                        (false, true) => self.store(names, at, self.core(register), true),
+                        (false, true) => self.store(at, self.core(register), true),
                         _ => self.word((&mut *names, image), (register, at), load, is_sure),
                     }
                 }
@@ -498,10 +445,9 @@ impl Machine {
                 let (low, end) = span(self.core(n), count.into(), down);
                 self.reals((names, image), (first, count), low, load, is_sure);
                 if n == SP && !load && down && is_sure {
-                    let saved = (low.offset..).step_by(4).take(count.into());
-                    let places = saved.map(|offset| Word { offset, ..low });
-                    places.for_each(|at| {
-                        self.memory.entry(at).and_modify(|word| word.1 = true);
+                    (0..u32::from(count)).for_each(|k| {
+                        let place = self.memory.entry(low.plus(4 * k));
+                        place.and_modify(|word| word.1 = true);
                     });
                 }
                 if writes_back {
@@ -534,8 +480,8 @@ impl Machine {
                 let word = self.load(world, at);
                 self.set(t, word);
             }
-            (false, true) => self.store(world.0, at, self.core(t), false),
-            (false, false) => self.spoil(world.0, at, 4),
+            (false, true) => self.store(at, self.core(t), false),
+            (false, false) => self.may_store(at, self.core(t)),
         }
     }
 
@@ -554,8 +500,8 @@ impl Machine {
             };
             match (load, is_sure) {
                 (true, _) => self.real[register] = self.load((&mut *names, image), at),
-                (false, true) => self.store(names, at, self.real[register], false),
-                (false, false) => self.spoil(names, at, 4),
+                (false, true) => self.store(at, self.real[register], false),
+                (false, false) => self.may_store(at, self.real[register]),
             }
         }
     }
@@ -581,11 +527,11 @@ impl Machine {
             let mask = (1 << (8 * u32::from(one.bytes))) - 1;
             let word = match bits.filter(|_| !one.is_signed) {
                 Some(bits) => number(bits & mask),
-                None => names.fresh(),
+                None => self.unknown(names),
             };
             self.set(one.t, word);
         } else {
-            self.spoil(names, at, one.bytes.into());
+            self.spoil(at, one.bytes.into());
         }
     }
 }

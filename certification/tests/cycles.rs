@@ -2,12 +2,18 @@
 
 use certification::cycles::{Declined, function};
 use certification::image::Image;
+use certification::rows::{Measured, Report, bound as of_row};
+use certification::stack::{INTERRUPT_FRAME, stack};
 
 const BASE: u32 = 0x0800_0000;
 
-fn bound(code: &[u16]) -> Result<u64, Declined> {
+fn image(code: &[u16]) -> Image {
     let bytes: Vec<u8> = code.iter().flat_map(|half| half.to_le_bytes()).collect();
-    function(&Image::of(BASE, &bytes), BASE)
+    Image::of(BASE, &bytes)
+}
+
+fn bound(code: &[u16]) -> Result<u64, Declined> {
+    function(&image(code), BASE).cycles
 }
 
 /// A return costs its own cycle and two of the refill.
@@ -62,4 +68,112 @@ fn what_has_no_bound_is_declined_with_its_address() {
     assert_eq!(recursive, Err(Declined::Recursion { at: BASE }));
     let json = serde_json::to_string(&Declined::Loop { at: 2 }).expect("JSON");
     assert_eq!(json, r#"{"reason":"loop","at":2}"#);
+}
+
+#[test]
+fn the_short_way_counts_if_the_pipeline_makes_it_the_longer_one() {
+    // cbz r0, +0; vdiv s0, s0, s1 on one way; vadd s2, s0, s0 waits for it: 1 + 1 + 14 of the longer way.
+    let code = [0xb108, 0xee80, 0x0a20, 0xee30, 0x1a00, 0x4770];
+    assert_eq!(bound(&code), Ok(1 + 1 + 14 + RETURN));
+}
+
+#[test]
+fn a_comparison_in_an_it_block_sets_flags() {
+    // movs r2, #0; cmp r2, #0, which is equal; cmp r0, #1; it eq; tsteq r1, r1; beq over udiv: both ways are open.
+    let code = [0x2200, 0x2801, 0xbf08, 0x4209, 0xd001, 0xfbb0, 0xf0f1, 0x4770];
+    assert_eq!(bound(&code), Ok(5 + 12 + RETURN));
+    assert_eq!(function(&image(&code), BASE).branches, [BASE + 8]);
+}
+
+#[test]
+fn a_counter_that_a_pointer_may_reach_is_not_known() {
+    // movs r2, #3; str r2, [r0]; str r1, [r3]; ldr r2, [r0]; subs r2, #1; bne
+    let code = [0x2203, 0x6002, 0x6019, 0x6802, 0x3a01, 0xd1fd, 0x4770];
+    assert_eq!(bound(&code), Err(Declined::Loop { at: BASE + 10 }));
+    // The same on the stack, which is the compiler's own: push {r7, lr} …
+    let code = [
+        0xb580, 0x2203, 0x9200, 0x6019, 0x9a00, 0x3a01, 0xd1fd, 0xbd80,
+    ];
+    assert!(bound(&code).is_ok());
+}
+
+#[test]
+fn the_stack_is_the_deepest_chain_of_calls_and_an_interrupt() {
+    let of = |code: &[u16]| stack(&image(code), BASE);
+    // push {r4, lr}; sub sp, #8; add sp, #8; pop {r4, pc}
+    let frame = [0xb510, 0xb082, 0xb002, 0xbd10];
+    assert_eq!(of(&frame), Ok(16 + INTERRUPT_FRAME));
+    // push {r4, lr}; bl to the leaf behind; pop {r4, pc}; vpush {s16, s17}; vpop {s16, s17}; bx lr
+    let calls = [
+        0xb510, 0xf000, 0xf801, 0xbd10, 0xed2d, 0x8a02, 0xecbd, 0x8a02, 0x4770,
+    ];
+    let with_leaf = image(&calls)
+        .with_function("calls", BASE, 8)
+        .with_function("leaf", BASE + 8, 10);
+    assert_eq!(stack(&with_leaf, BASE), Ok(8 + 8 + INTERRUPT_FRAME));
+    // subs r0, #1; bne; bx lr: a loop on data takes none.
+    assert_eq!(of(&[0x3801, 0xd1fd, 0x4770]), Ok(INTERRUPT_FRAME));
+    // sub sp, r0
+    assert_eq!(
+        of(&[0xebad, 0x0d00, 0x4770]),
+        Err(Declined::StackPointer { at: BASE })
+    );
+    // A push at each turn.
+    assert_eq!(
+        of(&[0xb401, 0x3801, 0xd1fc, 0x4770]),
+        Err(Declined::StackPointer { at: BASE })
+    );
+    assert_eq!(of(&[0x4798, 0x4770]), Err(Declined::IndirectCall { at: BASE }));
+    assert_eq!(
+        of(&[0xf7ff, 0xfffe, 0x4770]),
+        Err(Declined::Recursion { at: BASE })
+    );
+    assert_eq!(INTERRUPT_FRAME, 108);
+}
+
+/// push {r4, lr}; dbg #0; three sums in a chain, moved to r0; dbg #1; pop {r4, pc}
+const MEASURED: [u16; 14] = [
+    0xb510, 0xf3af, 0x80f0, 0xee30, 0x0a20, 0xee30, 0x0a20, 0xee30, 0x0a20, 0xee10, 0x0a10, 0xf3af,
+    0x80f1, 0xbd10,
+];
+
+fn report(code: &[u16], cycles: [u64; 2], stack: u64) -> Report {
+    let image = image(code).with_function("arm::rnea", BASE, 2 * code.len() as u32);
+    let measured = Measured {
+        row: "arm rnea engine full".to_owned(),
+        cycles,
+        stack,
+        function: BASE,
+        region: BASE + 2,
+    };
+    Report::of(vec![of_row(&image, measured).expect("a region")])
+}
+
+#[test]
+fn a_bound_that_is_wrong_by_one_is_rejected() {
+    assert!(report(&MEASURED, [7, 7], 8).wrong.is_empty());
+    let said = |cycles, stack| report(&MEASURED, cycles, stack).wrong.join("; ");
+    assert!(said([8, 8], 8).contains("is below 8"));
+    assert!(said([6, 6], 8).contains("without a branch on data"));
+    assert!(said([7, 7], 12).contains("the bound of the stack, 116 B, is below 12 B"));
+    // The first sum is a quotient: a program that is not the one that was measured.
+    let mut other = MEASURED;
+    other[3] = 0xee80;
+    assert!(report(&other, [7, 7], 8).wrong[0].contains("the bound is 20 cycles"));
+    // cbz r0, to the end: the longer way is not known to be taken, so that the bound may be above.
+    let mut branches = MEASURED.to_vec();
+    branches.insert(3, 0xb128);
+    let report = report(&branches, [3, 3], 8);
+    assert!(report.wrong.is_empty(), "{:?}", report.wrong);
+    assert!(report.text.contains("| 3 | 8 | 166.7 % | 1 |"), "{}", report.text);
+}
+
+#[test]
+fn a_row_that_is_declined_is_listed_with_its_reason() {
+    let mut turns = MEASURED.to_vec();
+    turns.splice(3..5, [0x3801, 0xd1fd]);
+    let report = report(&turns, [100, 100], 8);
+    assert!(report.wrong.is_empty());
+    assert!(report.summary.contains("Of 1 rows 0 are bounded") && report.summary.contains("1 `loop`"));
+    assert!(report.text.contains("| `loop` in `arm::rnea` | arm rnea engine full |"));
 }

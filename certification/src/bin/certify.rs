@@ -5,10 +5,10 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use certification::certificate::{self, Certificate, Function, Spent};
-use certification::cycles;
 use certification::error::{Error, Result};
 use certification::image::Image;
 use certification::program::{self, LIBRARY, Program};
+use certification::rows::{self, Measured, Report};
 use certification::search::Effort;
 use certification::state_box::Robot;
 use certification::{check, page, picture, sines};
@@ -59,20 +59,11 @@ struct Args {
     /// Only compare the hashes in docs/certificates.md with today's machine code
     #[arg(long, conflicts_with_all = ["robot", "write_docs"])]
     hashes: bool,
-    /// Bound the cycles of the regions 0 of a program, each from `dbg #0` to `dbg #1`
-    #[arg(long, value_name = "ELF", conflicts_with_all = ["robot", "write_docs", "hashes"])]
-    cycles: Option<PathBuf>,
-    /// Only of the region at an address, which calls the function at the other if it calls through a register; both in decimal
-    #[arg(long, value_name = "AT:FUNCTION", requires = "cycles", value_delimiter = ',', value_parser = call)]
-    call: Vec<(u32, u32)>,
+    /// Bound the cycles and the stack of the measured rows of programs, as `cargo xtask static` passes them
+    #[arg(long, value_name = "JSON", conflicts_with_all = ["robot", "write_docs", "hashes"])]
+    rows: Option<PathBuf>,
     #[command(flatten)]
     options: robot_import::import::Options,
-}
-
-fn call(text: &str) -> std::result::Result<(u32, u32), String> {
-    let number = |text: &str| text.parse().map_err(|error| format!("{text}: {error}"));
-    let (at, function) = text.split_once(':').ok_or("there is no colon")?;
-    Ok((number(at)?, number(function)?))
 }
 
 /// The share of each range that the parts have which Gappa checks.
@@ -99,8 +90,8 @@ fn run(args: &Args) -> Result<String> {
         let path = docs.join(PAGE);
         std::fs::read_to_string(&path).map_err(|source| Error::File { path, source })
     };
-    if let Some(elf) = &args.cycles {
-        return cycles(args, elf);
+    if let Some(path) = &args.rows {
+        return rows(path);
     }
     let robots: Vec<&str> = match &args.robot {
         Some(robot) => vec![robot],
@@ -163,33 +154,25 @@ fn run(args: &Args) -> Result<String> {
     finish(args, &docs, &certificates, written)
 }
 
-/// The bounds of the regions of a program, as JSON or a line each.
-fn cycles(args: &Args, elf: &Path) -> Result<String> {
-    let bytes = std::fs::read(elf).map_err(|source| Error::File {
-        path: elf.to_owned(),
-        source,
-    })?;
-    let image = Image::read(&bytes)?;
-    let called = args.call.iter().map(|(at, function)| {
-        let missing = || Error::Missing(format!("measured region at {at:#x}"));
-        cycles::region(&image, *at, Some(*function)).ok_or_else(missing)
-    });
-    let regions = match args.call.is_empty() {
-        true => cycles::regions(&image),
-        false => called.collect::<Result<Vec<_>>>()?,
+/// The bounds of measured rows of programs, by the paths of these.
+fn rows(path: &Path) -> Result<String> {
+    let read = |path: &Path| {
+        std::fs::read(path).map_err(|source| Error::File {
+            path: path.to_owned(),
+            source,
+        })
     };
-    if args.json {
-        return serde_json::to_string_pretty(&regions).map_err(|e| Error::Robot(e.to_string()));
+    let json = |e: serde_json::Error| Error::Robot(format!("{}: {e}", path.display()));
+    let programs: Vec<(PathBuf, Vec<Measured>)> =
+        serde_json::from_slice(&read(path)?).map_err(json)?;
+    let mut bounds = Vec::new();
+    for (elf, rows) in programs {
+        let image = Image::read(&read(&elf)?)?;
+        for row in rows {
+            bounds.push(rows::bound(&image, row)?);
+        }
     }
-    let line = |one: &cycles::Region| match (one.cycles, one.declined) {
-        (_, Some(declined)) => format!("{:#x}: declined: {declined}", one.at),
-        (cycles, None) => format!(
-            "{:#x}: at most {} cycles",
-            one.at,
-            cycles.unwrap_or_default()
-        ),
-    };
-    Ok(regions.iter().map(line).collect::<Vec<_>>().join("\n"))
+    serde_json::to_string_pretty(&Report::of(bounds)).map_err(json)
 }
 
 fn spent(args: &Args) -> Spent {

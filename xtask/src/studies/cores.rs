@@ -1,12 +1,12 @@
 //! `cargo xtask cores`: the control loop of two scenes on every core that QEMU emulates. The torques must have the same
 //! bits on all of them and on the host; instructions, stack and code are reported.
 
-pub mod boards;
+mod boards;
 mod frame;
 mod list;
 mod page;
 mod run;
-pub mod walk;
+mod walk;
 
 use std::process::ExitCode;
 

@@ -34,7 +34,7 @@ const BINS: [Bin; 5] = [
 ];
 
 /// The stack that the hardware takes for an interrupt: a frame with the FPU's registers, aligned.
-pub const INTERRUPT: u64 = 108;
+const INTERRUPT: u64 = 108;
 
 /// The size of an image, bytes.
 #[derive(Debug, Serialize)]

@@ -88,14 +88,22 @@ impl Fetched {
     /// The targets of a table that the compiler wrote behind a jump: offsets, of which none leads into the table, or branches.
     pub fn table(&self, image: &Image) -> Vec<u32> {
         if self.insn.class == Class::TableBranch && self.code[0] & 15 == 15 {
-            let (mut targets, mut end) = (Vec::new(), u32::MAX);
+            let (mut targets, mut end) = (
+                Vec::new(),
+                image.code_after(self.next()).unwrap_or(u32::MAX),
+            );
             let bytes = if self.code[1] & 0x10 == 0 { 1 } else { 2 };
+            let function = image.function(self.at);
             for at in (self.next()..).step_by(bytes) {
                 let Some(entry) = image.half(at).filter(|_| at < end) else {
                     break;
                 };
                 let entry = if bytes == 1 { entry & 0xff } else { entry };
                 let target = self.next() + 2 * u32::from(entry);
+                // What leads out of the function is padding.
+                if function.is_some_and(|(start, size)| target.wrapping_sub(start) >= size) {
+                    break;
+                }
                 if target >= at {
                     end = end.min(target);
                     targets.push(target);

@@ -12,6 +12,8 @@ pub struct Image {
     sections: Vec<(u32, Vec<u8>)>,
     /// Name, address and size, sorted by address.
     symbols: Vec<(String, u32, u32)>,
+    /// Where code begins behind data, sorted: the symbols `$t` of the ARM ABI.
+    code: Vec<u32>,
 }
 
 impl Image {
@@ -36,9 +38,14 @@ impl Image {
         });
         let mut symbols: Vec<_> = symbols.collect();
         symbols.sort_by_key(|symbol| symbol.1);
+        let is_code = |name: &str| name == "$t" || name.starts_with("$t.");
+        let marks = file.symbols().filter(|one| one.name().is_ok_and(is_code));
+        let mut code: Vec<u32> = marks.map(|one| one.address() as u32).collect();
+        code.sort_unstable();
         Ok(Self {
             sections: sections.collect(),
             symbols,
+            code,
         })
     }
 
@@ -47,6 +54,7 @@ impl Image {
         Self {
             sections: vec![(address, bytes.to_vec())],
             symbols: Vec::new(),
+            code: Vec::new(),
         }
     }
 
@@ -79,6 +87,18 @@ impl Image {
         let symbols = self.symbols.iter().map(|(_, start, size)| (*start, *size));
         let mut holding = symbols.filter(|(start, size)| at.wrapping_sub(*start) < *size);
         holding.next()
+    }
+
+    /// All names of the function at an address.
+    pub fn names(&self, at: u32) -> impl Iterator<Item = &str> {
+        let here = self.symbols.iter().filter(move |symbol| symbol.1 == at);
+        here.map(|symbol| &*symbol.0)
+    }
+
+    /// Where the data at an address ends, if the program says it.
+    pub fn code_after(&self, data: u32) -> Option<u32> {
+        let after = self.code.partition_point(|at| *at <= data);
+        self.code.get(after).copied()
     }
 
     /// The name of the function that holds an address: the last parts of its path, without the hash.

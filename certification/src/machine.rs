@@ -133,6 +133,13 @@ impl Machine {
         }
     }
 
+    /// A function gets multiples of four in these registers.
+    pub fn align(&mut self, names: &mut Names, registers: &[usize]) {
+        for register in registers {
+            self.core[*register] = names.aligned(self.core[*register]);
+        }
+    }
+
     /// A call writes the address after it.
     pub fn link(&mut self, names: &mut Names) {
         self.core[usize::from(LR)] = names.fresh();
@@ -268,15 +275,17 @@ impl Machine {
         if a.has_name_of(b) {
             let (x, y) = (a.offset, b.offset);
             if sets {
-                // The stack does not reach around the end of memory.
-                let carry = a.is_on_stack().then_some(x as i32 >= y as i32);
+                // What lies in memory does not reach around its end.
+                let carry = a.aligned(3).map(|_| x as i32 >= y as i32);
                 self.flags = [None, Some(x == y), carry, None];
             }
             return number(x.wrapping_sub(y));
         }
         self.compare(sets, a, b, true);
-        let difference = a.number().and_then(|value| b.subtracted_from(value));
-        difference.unwrap_or_else(|| names.of(&[a, b]))
+        match a.number() {
+            Some(value) => names.difference(value, b),
+            None => names.of(&[a, b]),
+        }
     }
 
     fn add(&mut self, names: &mut Names, a: Word, b: Word, sets: bool) -> Word {

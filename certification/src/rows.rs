@@ -34,6 +34,7 @@ pub struct Preconditions {
     interrupts: &'static str,
     divider: &'static str,
     pointers: &'static str,
+    copies: &'static str,
 }
 
 /// What every bound of cycles and stack holds for.
@@ -44,6 +45,7 @@ pub const PRECONDITIONS: Preconditions = Preconditions {
     interrupts: "none within the cycles; one, with the state of the FPU, within the stack",
     divider: "no division is pending at the call",
     pointers: "a pointer that the caller gives reaches no word of the stack that the compiler keeps for itself",
+    copies: "what is copied and cleared at once, by `memcpy` and its kin, lies at multiples of four",
 };
 
 /// A row's bounds.

@@ -70,6 +70,10 @@ impl Walk<'_> {
             deepest = deepest.max(here);
             for way in self.ways(one)? {
                 match way {
+                    // What its condition leaves out, it does not do.
+                    Way::Next if one.condition.is_some() && one.insn.may_branch => {
+                        open.push((one.next(), state));
+                    }
                     Way::Next => open.push((one.next(), after)),
                     Way::To(to) if is_within(range, to) => open.push((to, after)),
                     Way::To(to) => deepest = deepest.max(here + self.depth(to)?),
@@ -158,7 +162,7 @@ fn step(one: &Fetched, before: Known) -> Known {
     if let Some(place) = after.get_mut(usize::from(register)) {
         *place = value;
     }
-    if one.condition.is_some() {
+    if one.condition.is_some() && !one.insn.may_branch {
         return both(&before, &after);
     }
     after

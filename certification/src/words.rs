@@ -10,6 +10,8 @@ pub struct Word {
 /// The bits of a name that say where it can point: to the stack from the start on, or elsewhere.
 const ON_STACK: u32 = 1 << 31;
 const ELSEWHERE: u32 = 1 << 30;
+/// The bit of a name of a multiple of four.
+const ALIGNED: u32 = 1 << 29;
 /// The stack pointer at the start, which is a multiple of eight, and its negative.
 pub const STACK: Word = Word {
     name: 1 | ON_STACK,
@@ -46,17 +48,14 @@ impl Word {
 
     /// The low bits of a mask, if alignment says them.
     pub fn aligned(self, mask: u32) -> Option<u32> {
-        let is_aligned = (self.is_on_stack() || self.name == NEGATED) && mask < 8;
-        is_aligned.then_some(self.offset & mask)
+        let multiple = match self.name {
+            name if name == STACK.name || name == NEGATED => 8,
+            name if name & ALIGNED != 0 => 4,
+            _ => return None,
+        };
+        (mask < multiple).then_some(self.offset & mask)
     }
 
-    /// A number minus this.
-    pub fn subtracted_from(self, value: u32) -> Option<Self> {
-        self.is_on_stack().then_some(Self {
-            name: NEGATED,
-            offset: value.wrapping_sub(self.offset),
-        })
-    }
 
     /// Where it can point.
     fn places(self) -> u32 {
@@ -97,6 +96,25 @@ impl Names {
     /// A word that can be any address.
     pub fn any(&mut self) -> Word {
         self.named(ELSEWHERE | ON_STACK)
+    }
+
+    /// A word for one that is a multiple of four.
+    pub fn aligned(&mut self, word: Word) -> Word {
+        if word.number().is_some() || word.aligned(3).is_some() {
+            return word;
+        }
+        self.named(word.places() | ALIGNED)
+    }
+
+    /// A number minus a word.
+    pub fn difference(&mut self, value: u32, word: Word) -> Word {
+        let offset = value.wrapping_sub(word.offset);
+        let name = match word.aligned(3) {
+            _ if word.is_on_stack() => NEGATED,
+            Some(_) => self.named(word.places() | ALIGNED).name,
+            None => self.of(&[word]).name,
+        };
+        Word { name, offset }
     }
 
     /// A word that was computed from these.

@@ -19,8 +19,9 @@ use crate::words::Names;
 
 /// The instructions before the mark whose pipeline the region finds.
 const LEAD: usize = 24;
-/// The turns of a loop on data after which nothing bounds it.
-const MOST_TURNS: usize = 256;
+/// The turns of a loop on data after which nothing bounds it, and the branches on data that can be open at once.
+const MOST_TURNS: usize = 64;
+const MOST_OPEN: usize = 300;
 /// More instructions than are followed in one region.
 const MOST: u64 = 2_000_000;
 
@@ -206,6 +207,8 @@ struct Run<'a> {
     calls: Vec<u32>,
     /// How often both ways of a branch are being followed, by its address and the depth of calls.
     turns: HashMap<(u32, usize), usize>,
+    /// The branches whose ways are being followed.
+    open: usize,
     executed: u64,
     branches: BTreeSet<u32>,
     /// What the region calls through a register.
@@ -221,6 +224,7 @@ impl<'a> Run<'a> {
             around,
             calls: Vec::new(),
             turns: HashMap::new(),
+            open: 0,
             executed: 0,
             branches: BTreeSet::new(),
             callee: None,
@@ -233,7 +237,6 @@ impl<'a> Run<'a> {
             return Err(Declined::Recursion { at });
         }
         let is_of = |parts: &[&str]| self.image.names(at).any(|name| parts.iter().any(|part| name.contains(part)));
-        if std::env::var_os("DBG").is_some() { eprintln!("call {at:#x} {:?} r0 {:x?} r1 {:x?} r2 {:x?} executed {}", self.image.name(at), machine.core(0), machine.core(1), machine.core(2), self.executed); }
         if is_of(&["memcpy", "memmove"]) {
             machine.align(&mut self.names, &[0, 1]);
         } else if is_of(&["memset", "memclr"]) {
@@ -318,7 +321,8 @@ impl<'a> Run<'a> {
         let place = (one.at, self.calls.len());
         let turns = self.turns.entry(place).or_default();
         *turns += 1;
-        if *turns > MOST_TURNS {
+        self.open += 1;
+        if *turns > MOST_TURNS || self.open > MOST_OPEN {
             return Err(Declined::Loop { at: one.at });
         }
         let mut joined: Option<Machine> = None;
@@ -333,6 +337,7 @@ impl<'a> Run<'a> {
             }
         }
         self.turns.entry(place).and_modify(|turns| *turns -= 1);
+        self.open -= 1;
         joined.ok_or(Declined::IndirectJump { at: one.at })
     }
 

@@ -46,7 +46,9 @@ pub enum Integer {
     Clear,
     /// n m
     Multiply,
-    /// n, shifted right by m
+    /// n, shifted left by the low byte of m
+    Left,
+    /// n, shifted right by the low byte of m
     Right,
 }
 
@@ -235,22 +237,32 @@ pub fn short(code: u16) -> Option<Instruction> {
             m: low(3),
             flags: true,
         },
-        0x40 | 0x43 if [0, 1, 12, 13, 14].contains(&field(6, 4)) => {
+        0x40 | 0x42 | 0x43 if [0, 1, 2, 3, 8, 12, 13, 14].contains(&field(6, 4)) => {
             let op = match field(6, 4) {
-                0 => Integer::And,
+                0 | 8 => Integer::And,
                 1 => Integer::Xor,
+                2 => Integer::Left,
+                3 => Integer::Right,
                 12 => Integer::Or,
                 13 => Integer::Multiply,
                 _ => Integer::Clear,
             };
             Instruction::Integer {
                 op,
-                d: low(0),
+                d: if field(6, 4) == 8 { NOWHERE } else { low(0) },
                 n: low(0),
                 by: Operand::Register(low(3), 0),
                 flags: true,
             }
         }
+        0x42 if field(6, 2) == 1 => integer(Integer::ReverseSub, by(0)),
+        0xb2 if code & 0x80 != 0 => Instruction::Integer {
+            op: Integer::And,
+            d: low(0),
+            n: low(3),
+            by: by(if code & 0x40 == 0 { 0xffff } else { 0xff }),
+            flags: false,
+        },
         0x50..=0x5f => {
             let (bytes, load) = match field(9, 3) {
                 0 => (4, false),
@@ -403,6 +415,7 @@ pub fn long(first: u16, second: u16) -> Option<Instruction> {
         0xe8..=0xeb => multiple_or_shifted(first, second),
         0xf8 => single(first, second),
         0xf9 => access(first, second),
+        0xfa => shifted_by_register(first, second),
         0xfb => multiply(first, second),
         0xf0..=0xf7 => immediate_or_branch(first, second),
         _ => None,
@@ -479,6 +492,22 @@ fn shifted(first: u16, second: u16) -> Option<Instruction> {
         (13, _) => integer(Integer::Sub, n, by),
         (14, _) => integer(Integer::ReverseSub, n, by),
         _ => return None,
+    })
+}
+
+/// LSL and LSR by a register: A7.7.69, A7.7.71.
+fn shifted_by_register(first: u16, second: u16) -> Option<Instruction> {
+    let op = match first & 0xffe0 {
+        0xfa00 => Integer::Left,
+        0xfa20 => Integer::Right,
+        _ => return None,
+    };
+    (second & 0xf0f0 == 0xf000).then_some(Instruction::Integer {
+        op,
+        d: (second >> 8 & 15) as u8,
+        n: (first & 15) as u8,
+        by: Operand::Register((second & 15) as u8, 0),
+        flags: first & 0x10 != 0,
     })
 }
 

@@ -203,9 +203,12 @@ impl Machine {
         if !known {
             self.havoc(names, insn);
         }
-        use Instruction::{Constant, Sub};
+        use Instruction::{Constant, Integer, Sub};
         // Short instructions set no flags in an IT block, comparisons apart; of one that is not followed nothing is known.
-        let is_comparison = matches!(decoded, None | Some(Sub { d: NOWHERE, .. }));
+        let is_comparison = matches!(
+            decoded,
+            None | Some(Sub { d: NOWHERE, .. } | Integer { d: NOWHERE, .. })
+        );
         if insn.size == 2 && under.is_some() && !is_comparison {
             self.flags = flags;
         } else if let Some(Constant { value, .. }) = decoded.filter(|_| insn.size == 2) {
@@ -310,7 +313,8 @@ impl Machine {
             Integer::Xor => a ^ b,
             Integer::Clear => a & !b,
             Integer::Multiply => a.wrapping_mul(b),
-            Integer::Right => a >> b,
+            Integer::Left => a.checked_shl(b & 0xff).unwrap_or(0),
+            Integer::Right => a.checked_shr(b & 0xff).unwrap_or(0),
             Integer::Sub | Integer::ReverseSub => unreachable!("they are differences"),
         };
         let result = match op {

@@ -236,7 +236,11 @@ impl<'a> Run<'a> {
         if self.calls.contains(&at) {
             return Err(Declined::Recursion { at });
         }
-        let is_of = |parts: &[&str]| self.image.names(at).any(|name| parts.iter().any(|part| name.contains(part)));
+        let is_of = |parts: &[&str]| {
+            self.image
+                .names(at)
+                .any(|name| parts.iter().any(|part| name.contains(part)))
+        };
         if is_of(&["memcpy", "memmove"]) {
             machine.align(&mut self.names, &[0, 1]);
         } else if is_of(&["memset", "memclr"]) {

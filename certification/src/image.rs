@@ -106,7 +106,10 @@ impl Image {
         let mut symbols = self.symbols.iter();
         let (name, ..) = symbols.find(|(_, start, size)| at.wrapping_sub(*start) < *size)?;
         let (mut parts, mut rest) = (Vec::new(), name.strip_prefix("_ZN").unwrap_or_default());
-        while let Some(end) = rest.find(|c: char| !c.is_ascii_digit()).filter(|end| *end > 0) {
+        while let Some(end) = rest
+            .find(|c: char| !c.is_ascii_digit())
+            .filter(|end| *end > 0)
+        {
             let length = rest[..end].parse().unwrap_or(usize::MAX);
             let Some((part, after)) = rest[end..].split_at_checked(length) else {
                 break;
@@ -116,7 +119,11 @@ impl Image {
         }
         parts.pop();
         let last = parts.split_off(parts.len().saturating_sub(2));
-        Some(if last.is_empty() { name.clone() } else { last.join("::") })
+        Some(if last.is_empty() {
+            name.clone()
+        } else {
+            last.join("::")
+        })
     }
 
     /// The address and the words of the variable of a name, whatever its path and hash.

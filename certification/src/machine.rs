@@ -9,6 +9,15 @@ use crate::flags;
 use crate::image::Image;
 use crate::words::{Names, STACK, Word, number};
 
+/// What is known to lie at an address.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Kept {
+    word: Word,
+    bytes: u32,
+    /// Whether it is a register that a prologue saves: no pointer reaches it.
+    is_saved: bool,
+}
+
 /// What is known of the processor, and the cycles so far for each state of the pipeline.
 #[derive(Clone, Debug)]
 pub struct Machine {
@@ -16,8 +25,7 @@ pub struct Machine {
     real: [Word; 32],
     /// Negative, zero, carry, overflow.
     flags: [Option<bool>; 4],
-    /// Words in memory, and whether they are registers that a prologue saves: no pointer reaches these.
-    memory: HashMap<Word, (Word, bool)>,
+    memory: HashMap<Word, Kept>,
     /// Whether an address of the stack was stored, so that a word from memory that is not known can be one.
     is_exposed: bool,
     pipes: Vec<(Pipe, u64)>,
@@ -77,7 +85,7 @@ impl Machine {
         for (mine, theirs) in self.flags.iter_mut().zip(other.flags) {
             *mine = mine.filter(|_| *mine == theirs);
         }
-        let is_same = |at: &Word, word: &mut (Word, bool)| other.memory.get(at) == Some(word);
+        let is_same = |at: &Word, kept: &mut Kept| other.memory.get(at) == Some(kept);
         self.memory.retain(is_same);
         self.is_exposed |= other.is_exposed;
         for (pipe, cycles) in &other.pipes {
@@ -113,15 +121,24 @@ impl Machine {
     }
 
     fn load(&mut self, (names, image): (&mut Names, &Image), at: Word) -> Word {
-        if let Some((word, _)) = self.memory.get(&at) {
-            return *word;
+        if let Some(kept) = self.memory.get(&at).filter(|kept| kept.bytes == 4) {
+            return kept.word;
         }
         if let Some(word) = at.number().and_then(|at| image.word(at)) {
             return number(word);
         }
         let word = self.unknown(names);
-        self.memory.insert(at, (word, false));
+        self.keep_word(at, word, 4, false);
         word
+    }
+
+    fn keep_word(&mut self, at: Word, word: Word, bytes: u32, is_saved: bool) {
+        let kept = Kept {
+            word,
+            bytes,
+            is_saved,
+        };
+        self.memory.insert(at, kept);
     }
 
     /// What lies in memory that is not known.
@@ -147,12 +164,12 @@ impl Machine {
 
     /// Forgets what a store of unknown bytes can change.
     fn spoil(&mut self, at: Word, bytes: u32) {
-        self.memory.retain(|place, (_, is_saved)| {
+        self.memory.retain(|place, kept| {
             let distance = place.offset.wrapping_sub(at.offset);
-            let is_apart = distance >= bytes && distance.wrapping_neg() >= 4;
+            let is_apart = distance >= bytes && distance.wrapping_neg() >= kept.bytes;
             match place.has_name_of(at) {
                 true => is_apart,
-                false => *is_saved || !place.may_meet(at),
+                false => kept.is_saved || !place.may_meet(at),
             }
         });
     }
@@ -160,7 +177,7 @@ impl Machine {
     fn store(&mut self, at: Word, word: Word, is_saved: bool) {
         self.spoil(at, 4);
         self.is_exposed |= !is_saved && word.may_be_on_stack();
-        self.memory.insert(at, (word, is_saved));
+        self.keep_word(at, word, 4, is_saved);
     }
 
     /// A store that may be left out.
@@ -460,7 +477,7 @@ impl Machine {
                 if n == SP && !load && down && is_sure {
                     (0..u32::from(count)).for_each(|k| {
                         let place = self.memory.entry(low.plus(4 * k));
-                        place.and_modify(|word| word.1 = true);
+                        place.and_modify(|kept| kept.is_saved = true);
                     });
                 }
                 if writes_back {
@@ -535,16 +552,25 @@ impl Machine {
             if one.second != NOWHERE {
                 self.word((names, image), (one.second, at.plus(4)), one.load, is_sure);
             }
-        } else if one.load {
-            let bits = at.number().and_then(|at| image.word(at));
-            let mask = (1 << (8 * u32::from(one.bytes))) - 1;
+            return;
+        }
+        let bytes = u32::from(one.bytes);
+        let mask = (1 << (8 * bytes)) - 1;
+        if one.load {
+            let kept = self.memory.get(&at).filter(|kept| kept.bytes == bytes);
+            let kept = kept.and_then(|kept| kept.word.number());
+            let bits = kept.or_else(|| image.word(at.number()?));
             let word = match bits.filter(|_| !one.is_signed) {
                 Some(bits) => number(bits & mask),
                 None => self.unknown(names),
             };
             self.set(one.t, word);
         } else {
-            self.spoil(at, one.bytes.into());
+            self.spoil(at, bytes);
+            let value = self.core(one.t).number().filter(|_| is_sure);
+            if let Some(value) = value {
+                self.keep_word(at, number(value & mask), bytes, false);
+            }
         }
     }
 }

@@ -110,7 +110,10 @@ impl Row {
     /// What is wrong with it: a bound below what was measured, or above it although nothing branches on data.
     fn complaint(&self) -> Option<String> {
         let (row, [_, most], written) = (&self.row, self.measured, self.stack_written);
-        if let Some(stack) = self.stack.filter(|bytes| *bytes < written + INTERRUPT_FRAME) {
+        if let Some(stack) = self
+            .stack
+            .filter(|bytes| *bytes < written + INTERRUPT_FRAME)
+        {
             return Some(format!(
                 "{row}: the bound of the stack, {stack} B, is below {written} B that were written and a frame"
             ));
@@ -146,7 +149,10 @@ fn summary(rows: &[Row]) -> String {
     let count = |is: &dyn Fn(&&Row) -> bool| rows.iter().filter(is).count();
     let bounded = count(&|one| one.cycles.is_some());
     let straight = count(&|one| one.cycles.is_some() && one.branches.is_empty());
-    let (equal, stacks) = (count(&|one| one.is_equal()), count(&|one| one.stack.is_some()));
+    let (equal, stacks) = (
+        count(&|one| one.is_equal()),
+        count(&|one| one.stack.is_some()),
+    );
     let mut reasons: BTreeMap<&str, usize> = BTreeMap::new();
     for one in rows.iter().filter_map(|one| one.declined) {
         *reasons.entry(one.name()).or_default() += 1;

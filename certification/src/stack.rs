@@ -99,9 +99,7 @@ impl Walk<'_> {
         match one.through() {
             Some((_, true)) => Err(Declined::IndirectCall { at: one.at }),
             // An instruction that traps has no way on.
-            _ if ways.is_empty() && one.insn.indirect => {
-                Err(Declined::IndirectJump { at: one.at })
-            }
+            _ if ways.is_empty() && one.insn.indirect => Err(Declined::IndirectJump { at: one.at }),
             _ => Ok(ways),
         }
     }

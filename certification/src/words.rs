@@ -56,7 +56,6 @@ impl Word {
         (mask < multiple).then_some(self.offset & mask)
     }
 
-
     /// Where it can point.
     fn places(self) -> u32 {
         match self.name {

@@ -80,7 +80,9 @@ fn the_short_way_counts_if_the_pipeline_makes_it_the_longer_one() {
 #[test]
 fn a_comparison_in_an_it_block_sets_flags() {
     // movs r2, #0; cmp r2, #0, which is equal; cmp r0, #1; it eq; tsteq r1, r1; beq over udiv: both ways are open.
-    let code = [0x2200, 0x2801, 0xbf08, 0x4209, 0xd001, 0xfbb0, 0xf0f1, 0x4770];
+    let code = [
+        0x2200, 0x2801, 0xbf08, 0x4209, 0xd001, 0xfbb0, 0xf0f1, 0x4770,
+    ];
     assert_eq!(bound(&code), Ok(5 + 12 + RETURN));
     assert_eq!(function(&image(&code), BASE).branches, [BASE + 8]);
 }
@@ -107,9 +109,10 @@ fn the_stack_is_the_deepest_chain_of_calls_and_an_interrupt() {
     let calls = [
         0xb510, 0xf000, 0xf801, 0xbd10, 0xed2d, 0x8a02, 0xecbd, 0x8a02, 0x4770,
     ];
-    let with_leaf = image(&calls)
-        .with_function("calls", BASE, 8)
-        .with_function("leaf", BASE + 8, 10);
+    let with_leaf =
+        image(&calls)
+            .with_function("calls", BASE, 8)
+            .with_function("leaf", BASE + 8, 10);
     assert_eq!(stack(&with_leaf, BASE), Ok(8 + 8 + INTERRUPT_FRAME));
     // subs r0, #1; bne; bx lr: a loop on data takes none.
     assert_eq!(of(&[0x3801, 0xd1fd, 0x4770]), Ok(INTERRUPT_FRAME));
@@ -123,7 +126,10 @@ fn the_stack_is_the_deepest_chain_of_calls_and_an_interrupt() {
         of(&[0xb401, 0x3801, 0xd1fc, 0x4770]),
         Err(Declined::StackPointer { at: BASE })
     );
-    assert_eq!(of(&[0x4798, 0x4770]), Err(Declined::IndirectCall { at: BASE }));
+    assert_eq!(
+        of(&[0x4798, 0x4770]),
+        Err(Declined::IndirectCall { at: BASE })
+    );
     assert_eq!(
         of(&[0xf7ff, 0xfffe, 0x4770]),
         Err(Declined::Recursion { at: BASE })
@@ -165,7 +171,11 @@ fn a_bound_that_is_wrong_by_one_is_rejected() {
     branches.insert(3, 0xb128);
     let report = report(&branches, [3, 3], 8);
     assert!(report.wrong.is_empty(), "{:?}", report.wrong);
-    assert!(report.text.contains("| 3 | 8 | 166.7 % | 1 |"), "{}", report.text);
+    assert!(
+        report.text.contains("| 3 | 8 | 166.7 % | 1 |"),
+        "{}",
+        report.text
+    );
 }
 
 #[test]
@@ -174,6 +184,12 @@ fn a_row_that_is_declined_is_listed_with_its_reason() {
     turns.splice(3..5, [0x3801, 0xd1fd]);
     let report = report(&turns, [100, 100], 8);
     assert!(report.wrong.is_empty());
-    assert!(report.summary.contains("Of 1 rows 0 are bounded") && report.summary.contains("1 `loop`"));
-    assert!(report.text.contains("| `loop` in `arm::rnea` | arm rnea engine full |"));
+    assert!(
+        report.summary.contains("Of 1 rows 0 are bounded") && report.summary.contains("1 `loop`")
+    );
+    assert!(
+        report
+            .text
+            .contains("| `loop` in `arm::rnea` | arm rnea engine full |")
+    );
 }

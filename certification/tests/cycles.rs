@@ -71,10 +71,12 @@ fn what_has_no_bound_is_declined_with_its_address() {
 }
 
 #[test]
-fn the_short_way_counts_if_the_pipeline_makes_it_the_longer_one() {
-    // cbz r0, +0; vdiv s0, s0, s1 on one way; vadd s2, s0, s0 waits for it: 1 + 1 + 14 of the longer way.
-    let code = [0xb108, 0xee80, 0x0a20, 0xee30, 0x1a00, 0x4770];
-    assert_eq!(bound(&code), Ok(1 + 1 + 14 + RETURN));
+fn the_way_that_is_shorter_to_where_both_meet_counts_if_it_is_longer_afterwards() {
+    // cbz over a vdiv and a branch, to three of nop; vadd. At vadd a quotient is pending for ten cycles after five, or nothing after six.
+    let code = [
+        0xb110, 0xee80, 0x0a20, 0xe002, 0xbf00, 0xbf00, 0xbf00, 0xee30, 0x1a00, 0x4770,
+    ];
+    assert_eq!(bound(&code), Ok(5 + 10 + 1 + RETURN));
 }
 
 #[test]

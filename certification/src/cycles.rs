@@ -9,7 +9,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
 use cycle_meter::{Class, Pipe, Reading};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::decode::Instruction;
 use crate::flow::{Fetched, Flow, Way};
@@ -26,7 +26,7 @@ const MOST_OPEN: usize = 300;
 const MOST: u64 = 2_000_000;
 
 /// Why there is no bound, and the address of what has none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 #[serde(tag = "reason", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Declined {

@@ -115,7 +115,9 @@ impl Image {
                 break;
             };
             // Of a type the name, without its path and parameters.
-            let part = part.trim_start_matches("_$LT$").trim_start_matches("impl$u20$");
+            let part = part
+                .trim_start_matches("_$LT$")
+                .trim_start_matches("impl$u20$");
             let part = part.split('$').next().unwrap_or_default();
             parts.push(part.rsplit("..").next().unwrap_or_default());
             rest = after;

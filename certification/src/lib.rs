@@ -12,6 +12,7 @@
 //! | [`gappa`], [`check`] | checks of it by others |
 //! | [`cycles`], `flow`, `machine`, `words` | the most cycles of a path, by the cycle meter's model |
 //! | [`stack`], [`rows`] | the most stack, and both beside what was measured |
+//! | [`emulation`], [`sheet`], [`narrow`] | the functions in QEMU, a page of all of this, and boxes of one's own |
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
@@ -21,6 +22,7 @@ pub mod certificate;
 pub mod check;
 pub mod cycles;
 mod decode;
+pub mod emulation;
 pub mod error;
 mod flags;
 mod flow;
@@ -30,11 +32,13 @@ pub mod graph;
 pub mod image;
 pub mod interval;
 mod machine;
+pub mod narrow;
 pub mod page;
 pub mod picture;
 pub mod program;
 pub mod rows;
 pub mod search;
+pub mod sheet;
 pub mod sines;
 pub mod stack;
 pub mod state_box;

@@ -235,7 +235,7 @@ fn function(entry: &Entry<'_>) -> String {
     let one = entry.certificate;
     let mut text = format!("\n## {}\n\n| | |\n|---|---|\n", one.function.name());
     let mut row = |what: &str, value: &str| {
-        let _ = writeln!(text, "| {what} | {value} |");
+        let _ = writeln!(text, "| {what} | {} |", value.replace('|', "\\|"));
     };
     row("effects", entry.effects);
     row("SHA-256 of the machine code", &format!("`{}`", one.hash));

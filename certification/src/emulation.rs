@@ -27,6 +27,19 @@ pub struct Emulation {
 }
 
 impl Emulation {
+    /// What a program printed, a line for each call, and what its calls cost; nothing if these are not as many.
+    pub fn read(states: Vec<Vec<f64>>, said: &str, samples: Vec<Sample>) -> Option<Self> {
+        let is_whole = !samples.is_empty() && samples.len() == said.lines().count();
+        let calls = said
+            .lines()
+            .zip(samples)
+            .map(|(line, sample)| call(line, sample));
+        is_whole.then(|| Self {
+            states,
+            calls: calls.collect(),
+        })
+    }
+
     /// The cost of each call of a function, and the bits of its results, in the order of the states.
     pub fn of<'a>(&'a self, function: &'a str) -> impl Iterator<Item = (Sample, &'a [u32])> {
         let mine = self.calls.iter().filter(move |call| call.0 == function);
@@ -83,17 +96,8 @@ pub fn run(program: &Program, robot: &Robot) -> Result<Emulation> {
     };
     let samples = std::fs::read_to_string(&regions).map_err(|e| failed(e.to_string()))?;
     let samples = cycle_meter::parse_samples(&samples).map_err(|e| failed(e.to_string()))?;
-    let calls: Vec<_> = said
-        .lines()
-        .zip(samples)
-        .map(|(line, sample)| call(line, sample))
-        .collect();
-    if calls.is_empty() || calls.len() != said.lines().count() {
-        return Err(failed(
-            "it printed another number of calls than it made".to_owned(),
-        ));
-    }
-    Ok(Emulation { states, calls })
+    let other = || failed("it printed another number of calls than it made".to_owned());
+    Emulation::read(states, &said, samples).ok_or_else(other)
 }
 
 /// A line of the program: a name and words in hexadecimal.

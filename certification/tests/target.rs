@@ -1,9 +1,18 @@
-//! The bounds of cycles of code that is written by hand, and what is declined.
+//! The bounds of cycles and stack of code that is written by hand, what is declined, and what contradicts a sheet.
 
+use certification::certificate::{Function, expression};
 use certification::cycles::{Declined, function};
+use certification::emulation::Emulation;
+use certification::error::Error;
 use certification::image::Image;
+use certification::interval::Interval;
+use certification::narrow::{Narrow, NarrowError};
 use certification::rows::{Measured, Report, bound as of_row};
+use certification::search::Evaluation;
+use certification::sheet::Target;
 use certification::stack::{INTERRUPT_FRAME, stack};
+use certification::state_box::{Joint, Robot};
+use cycle_meter::Sample;
 
 const BASE: u32 = 0x0800_0000;
 
@@ -194,4 +203,136 @@ fn a_row_that_is_declined_is_listed_with_its_reason() {
             .text
             .contains("| `loop` in `arm::rnea` | arm rnea engine full |")
     );
+}
+
+fn robot() -> Robot {
+    let joint = Joint {
+        turns: true,
+        position: Interval::new(-3.0, 3.0),
+        speed: 2.0,
+        acceleration: 10.0,
+    };
+    Robot {
+        joints: vec![joint; 6],
+        trig: [12, 4, 8, 0],
+    }
+}
+
+/// The program of a robot with `Engine::<Ur5e>::rnea` as it was compiled one day.
+fn program() -> Image {
+    let digits: Vec<u32> = include_str!("recorded/ur5e_rnea.hex")
+        .chars()
+        .filter_map(|c| c.to_digit(16))
+        .collect();
+    let mut bytes: Vec<u8> = digits
+        .chunks(2)
+        .map(|pair| (pair[0] << 4 | pair[1]) as u8)
+        .collect();
+    let code = bytes.len() as u32;
+    // The function's address, and the effects: gravity's direction and three markers.
+    bytes.extend((BASE | 1).to_le_bytes());
+    bytes.extend([
+        0x1f, 0x85, 0xeb, 0x51, 0xb8, 0x9e, 0x23, 0x40, 0xc3, 0xf5, 0x1c, 0x41, 0, 0, 0, 0,
+    ]);
+    Image::of(BASE, &bytes)
+        .with_function("rnea", BASE, code)
+        .with_function("CERTIFIED_RNEA", BASE + code, 4)
+        .with_function("CERTIFIED_EFFECTS", BASE + code + 4, 16)
+}
+
+#[test]
+fn a_sheet_takes_neither_other_bits_nor_other_cycles() {
+    let (image, robot) = (program(), robot());
+    let state: Vec<f64> = (0..18).map(|k| f64::from((k as f32).sin())).collect();
+    let graph = expression(&image, Function::Rnea)
+        .expect("straight-line")
+        .graph;
+    let bits: Vec<u32> = Evaluation::new(&graph, &robot)
+        .at(&state)
+        .map(|pair| pair.0.to_bits())
+        .collect();
+    let cycles = function(&image, BASE).cycles.expect("a bound");
+    let target = |bits: &[u32], cycles| {
+        let said = format!("rnea {bits:x?}");
+        let run = Emulation::read(
+            vec![state.clone()],
+            &said,
+            vec![Sample::of(0, [1, cycles, 0])],
+        );
+        Target::of(&image, Function::Rnea, &robot, &Ok(run.expect("a call")))
+    };
+    let sheet = target(&bits, cycles).expect("the bits of the expression");
+    assert_eq!(
+        (sheet.measured, sheet.bound),
+        (Ok([cycles, cycles]), Ok(cycles))
+    );
+    assert!(sheet.branches.is_empty() && sheet.stack.is_ok());
+    let mut other = bits.clone();
+    other[3] ^= 1;
+    assert!(matches!(
+        target(&other, cycles),
+        Err(Error::Bits {
+            state: 1,
+            result: 4,
+            ..
+        })
+    ));
+    assert!(matches!(target(&bits[..5], cycles), Err(Error::Missing(_))));
+    for wrong in [cycles - 1, cycles + 1] {
+        assert!(matches!(target(&bits, wrong), Err(Error::Cycles { .. })));
+    }
+    let without = Target::of(&image, Function::Rnea, &robot, &Err("no QEMU".to_owned()));
+    let said = without.expect("a bound alone").sentence();
+    assert!(
+        said.contains("not measured (no QEMU)") && said.contains("Bits: not compared"),
+        "{said}"
+    );
+    assert!(Emulation::read(Vec::new(), "rnea [0]", Vec::new()).is_none());
+}
+
+#[test]
+fn a_box_is_narrowed_joint_by_joint() {
+    let apply = |text: &str| {
+        let mut robot = robot();
+        text.parse::<Narrow>()?.apply(&mut robot)?;
+        Ok::<_, NarrowError>(robot.joints[1])
+    };
+    let joint = apply("2:-1.5..1.25").expect("it is within the range");
+    assert_eq!(joint.position, Interval::new(-1.5, 1.25));
+    assert_eq!(apply("2:v:0.5").map(|joint| joint.speed), Ok(0.5));
+    assert_eq!(apply("2:a:20").map(|joint| joint.acceleration), Ok(20.0));
+    for text in [
+        "", "2", "2:", "0:0..1", "2:1..0", "2:0..nan", "2:w:1", "2:v:-1", "-1:0..1", "2:v:x",
+    ] {
+        assert_eq!(
+            apply(text),
+            Err(NarrowError::Syntax(text.to_owned())),
+            "{text}"
+        );
+    }
+    assert!(matches!(
+        apply("7:0..1"),
+        Err(NarrowError::NoJoint {
+            joint: 7,
+            joints: 6,
+            ..
+        })
+    ));
+    assert!(matches!(
+        apply("2:-4..1"),
+        Err(NarrowError::Outside { joint: 2, .. })
+    ));
+    assert!(matches!(
+        apply("2:v:3"),
+        Err(NarrowError::Outside { joint: 2, .. })
+    ));
+    let said = apply("2:v:3").expect_err("too fast").to_string();
+    assert_eq!(said, "--box 2:v:3: joint 2 has the range -2 to 2");
+    let mut far = robot();
+    far.joints[1].position = Interval::new(-100.0, 100.0);
+    let narrow: Narrow = "2:-1..1".parse().expect("a range");
+    assert!(matches!(
+        narrow.apply(&mut far),
+        Err(NarrowError::Turns { joint: 2, .. })
+    ));
 }

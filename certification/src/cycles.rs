@@ -152,13 +152,12 @@ pub(crate) fn is_within((start, size): (u32, u32), at: u32) -> bool {
     (start..start.saturating_add(size)).contains(&at)
 }
 
+/// Instructions, and states of the pipeline with the cycles until there.
+type Before<'a> = (Vec<&'a Fetched>, Vec<(Pipe, u64)>);
+
 /// The instructions that are executed in a row right before a mark whatever was executed before them, and what the pipeline can hold
 /// at the mark: a branch to it leaves nothing pending.
-fn before<'a>(
-    image: &Image,
-    whole: &'a Flow,
-    mark: u32,
-) -> Option<(Vec<&'a Fetched>, Vec<(Pipe, u64)>)> {
+fn before<'a>(image: &Image, whole: &'a Flow, mark: u32) -> Option<Before<'a>> {
     whole.code.get(&mark)?;
     let ways = whole.code.values().flat_map(|one| one.ways(image));
     let targets: BTreeSet<u32> = ways
@@ -396,6 +395,11 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// Whether what is followed is a function, and not a region of one, which ends at its mark.
+    fn returns(&self) -> bool {
+        self.calls.len() > 1 || self.around.0 == self.calls[0]
+    }
+
     fn take(&mut self, mut machine: Machine, one: &Fetched, way: Way) -> Result<Led> {
         match way {
             Way::Next => Ok(Led::On(machine, one.next())),
@@ -406,7 +410,8 @@ impl<'a> Run<'a> {
                 }
                 match is_within(self.range(one.at), to) {
                     true => Ok(Led::On(machine, to)),
-                    false => Ok(Led::Out(self.call(machine, to)?)),
+                    false if self.returns() => Ok(Led::Out(self.call(machine, to)?)),
+                    false => Err(Declined::IndirectJump { at: one.at }),
                 }
             }
             Way::Call(to) => {
@@ -414,7 +419,7 @@ impl<'a> Run<'a> {
                 machine.link(&mut self.names);
                 Ok(Led::On(self.call(machine, to)?, one.next()))
             }
-            Way::Out if self.calls.len() > 1 || self.around.0 == self.calls[0] => {
+            Way::Out if self.returns() => {
                 self.execute(&mut machine, one, None);
                 machine.refill();
                 Ok(Led::Out(machine))

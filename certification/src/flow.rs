@@ -113,14 +113,14 @@ impl Fetched {
         }
         let padding = u32::from(image.half(self.next()) == Some(0xbf00));
         let start = self.next() + 2 * padding;
-        let before = (1..17).filter_map(|k| Self::of(image, self.at - 2 * k));
+        let mut before = (1..17).filter_map(|k| Self::of(image, self.at - 2 * k));
         let is_formed = |one: Self| match one.decoded {
             Some(Instruction::Address { offset, .. }) => {
                 ((one.at + 4) & !3).wrapping_add_signed(offset) == start
             }
             _ => false,
         };
-        let is_table = self.code[0] & 0xff87 == 0x4687 && before.map(is_formed).any(|is| is);
+        let is_table = self.code[0] & 0xff87 == 0x4687 && before.any(is_formed);
         let entries = (start..).step_by(4).take_while(|at| {
             let one = Self::of(image, *at);
             is_table && one.is_some_and(|one| one.is_entry())

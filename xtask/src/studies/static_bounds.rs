@@ -28,14 +28,16 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     }
     spinner.say("bounding".to_owned());
     let measured = workspace.target.join("static.json");
-    workspace::write(&measured, &json!(programs).to_string())?;
+    workspace::write(&measured, json!(programs).to_string())?;
     let certify = workspace.target.join("simulated/certify");
     let text = shell::capture(Command::new(certify).arg("--rows").arg(&measured))?;
     let report: Value = serde_json::from_str(&text).map_err(|error| check!("certify: {error}"))?;
     let of = |name: &str| report[name].as_str().unwrap_or_default().to_owned();
     let wrong = report["wrong"].as_array().into_iter().flatten();
     Ok(Found {
-        wrong: wrong.map(|one| one.as_str().unwrap_or_default().to_owned()).collect(),
+        wrong: wrong
+            .map(|one| one.as_str().unwrap_or_default().to_owned())
+            .collect(),
         summary: of("summary"),
         rustc: Some(bench.rustc()?),
         ..Found::new(of("text"), &report)?

@@ -6,7 +6,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::decode::{
-    self, ALWAYS, Arithmetic, Condition, Instruction, LR, NOWHERE, Operand, PC, SP,
+    self, ALWAYS, Access, Arithmetic, Condition, Instruction, LR, NOWHERE, Operand, PC, SP,
 };
 use crate::error::{Error, Result};
 use crate::flags;
@@ -360,6 +360,7 @@ impl Walk<'_> {
                 self.next = self.bits(m)? & !1;
                 Ok(())
             }
+            I::Access(one) if one.bytes == 4 => self.access(one),
             I::IfThen
             | I::Address { .. }
             | I::Integer { .. }
@@ -367,6 +368,30 @@ impl Walk<'_> {
             | I::MultiplyAdd { .. }
             | I::Access(_) => Err(self.declined("an instruction of which nothing is proven")),
         }
+    }
+
+    /// One word or two.
+    fn access(&mut self, one: Access) -> Result<()> {
+        let (base, by) = (self.bits(one.n)?, self.operand(one.offset)?);
+        if one.n == PC {
+            return Err(self.declined("two words beside the code"));
+        }
+        let moved = base.wrapping_add(by);
+        let at = if one.before { moved } else { base };
+        if one.writes_back {
+            self.set(one.n, Word::Bits(moved))?;
+        }
+        let registers = [one.t, one.second].into_iter().filter(|t| *t != NOWHERE);
+        for (t, at) in registers.zip([at, at.wrapping_add(4)]) {
+            if one.load {
+                let word = self.load(at)?;
+                self.set(t, word)?;
+            } else {
+                let word = self.core(t)?;
+                self.store(at, word)?;
+            }
+        }
+        Ok(())
     }
 
     fn operand(&self, operand: Operand) -> Result<u32> {

@@ -101,7 +101,7 @@ impl Target {
     /// In a sentence.
     pub fn sentence(&self) -> String {
         let [measured, bound, stack, bits] = self.figures();
-        format!("Cycles of a call: {measured}; {bound}. Stack: {stack}. Bits: {bits}.")
+        format!("Cycles: {measured}; static bound: {bound}. Stack: {stack}. Bits: {bits}.")
     }
 
     /// What was measured, the bounds of cycles and stack, and whether the bits are the host's.
@@ -111,17 +111,19 @@ impl Target {
             Ok([least, most]) => format!("{least} to {most} in QEMU at {states} states"),
             Err(why) => format!("not measured ({why})"),
         };
+        let of = match states {
+            0 => ", from its first instruction to its return",
+            _ => "",
+        };
         let bound = match self.bound {
             Ok(cycles) if self.branches.is_empty() => {
-                format!(
-                    "{cycles} by the machine code, which has no branch on data, so that each call takes them"
-                )
+                format!("{cycles} of every call{of}: the code has no branch on data")
             }
             Ok(cycles) => format!(
-                "at most {cycles} by the machine code, with {} branches on data",
+                "at most {cycles}{of}, with {} branches on data",
                 self.branches.len()
             ),
-            Err(declined) => format!("no bound: {declined}"),
+            Err(declined) => format!("none: {declined}"),
         };
         let stack = match self.stack {
             Ok(bytes) => format!("at most {bytes} B, of them {INTERRUPT_FRAME} B for an interrupt"),
@@ -129,9 +131,9 @@ impl Target {
         };
         let bits = match states {
             0 => "not compared".to_owned(),
-            _ => format!(
-                "at each of the {states} states QEMU's results are those of the proven expression on the host"
-            ),
+            _ => {
+                format!("QEMU's at {states} states are those of the proven expression on the host")
+            }
         };
         [measured, bound, stack, bits]
     }

@@ -1,7 +1,7 @@
 //! The bounds of cycles and stack of code that is written by hand, what is declined, and what contradicts a sheet.
 
 use certification::certificate::{Function, expression};
-use certification::cycles::{Declined, function};
+use certification::cycles::{Declined, function, region};
 use certification::emulation::Emulation;
 use certification::error::Error;
 use certification::image::Image;
@@ -57,6 +57,39 @@ fn the_longer_way_of_a_branch_on_data_counts() {
     // cmp r0, #0; beq over two of udiv; the short way is taken in 1 + 3 cycles.
     let code = [0x2800, 0xd003, 0xfbb0, 0xf0f1, 0xfbb0, 0xf0f1, 0x4770];
     assert_eq!(bound(&code), Ok(2 + 24 + RETURN));
+}
+
+#[test]
+fn what_stands_before_a_mark_counts_only_if_no_branch_leaves_it_out() {
+    // movs r4, #1; dbg #0; subs r4, #1; bne back to subs; dbg #1; and then back to the mark, or bx lr
+    let code = [0x2401, 0xf3af, 0x80f0, 0x3c01, 0xd1fd, 0xf3af, 0x80f1];
+    let of = |last: u16| {
+        let whole = [&code[..], &[last]].concat();
+        let image = image(&whole).with_function("f", BASE, 16);
+        region(&image, BASE + 2, None).map(|bound| bound.cycles)
+    };
+    assert_eq!(of(0x4770), Some(Ok(2)));
+    assert_eq!(of(0xe7f8), Some(Err(Declined::Loop { at: BASE + 8 })));
+}
+
+#[test]
+fn a_table_of_branches_ends_before_its_padding() {
+    // tbb [pc, r0]; two entries, to nop and behind it, and padding that is none; nop; bx lr
+    let code = [0xe8df, 0xf000, 0x0302, 0x007f, 0xbf00, 0x4770];
+    let image = image(&code).with_function("f", BASE, 12);
+    assert_eq!(function(&image, BASE).cycles, Ok(2 + 2 + 1 + RETURN));
+}
+
+#[test]
+fn a_byte_in_memory_is_known_until_something_may_reach_it() {
+    // push {r7, lr}; movs r2, #3; strb.w r2, [sp]; str r1, [r0] or [sp]; ldrb.w r2, [sp]; subs r2, #1; bne; pop {r7, pc}
+    let of = |store: u16| {
+        bound(&[
+            0xb580, 0x2203, 0xf88d, 0x2000, store, 0xf89d, 0x2000, 0x3a01, 0xd1fd, 0xbd80,
+        ])
+    };
+    assert!(of(0x6001).is_ok());
+    assert_eq!(of(0x9100), Err(Declined::Loop { at: BASE + 16 }));
 }
 
 #[test]

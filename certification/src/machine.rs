@@ -7,7 +7,7 @@ use cycle_meter::{Class, Insn, Pipe};
 use crate::decode::{Access, Condition, Instruction, Integer, LR, NOWHERE, Operand, PC, SP};
 use crate::flags;
 use crate::image::Image;
-use crate::words::{Names, STACK, Word, number};
+use crate::words::{Names, STACK, Word, number, span};
 
 /// What is known to lie at an address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -422,6 +422,32 @@ impl Machine {
                 self.word((names, image), (t, base.plus(offset as u32)), load, is_sure);
             }
             I::Access(access) => self.access((names, image), access, is_sure),
+            I::Words { .. } | I::Reals { .. } | I::RealsMoving { .. } => {
+                self.several((names, image), here, instruction, is_sure);
+            }
+            I::Copy { d, m } => self.real[usize::from(d)] = self.real[usize::from(m)],
+            I::Real { d, value } => self.real[usize::from(d)] = number(value.to_bits()),
+            I::Transfer {
+                core,
+                real,
+                to_core: true,
+            } => self.set(core, self.real[usize::from(real)]),
+            I::Transfer { core, real, .. } => self.real[usize::from(real)] = self.core(core),
+            _ => return false,
+        }
+        true
+    }
+
+    /// Loads and stores of several registers, and of those of the floating-point unit.
+    fn several(
+        &mut self,
+        (names, image): (&mut Names, &Image),
+        here: u32,
+        instruction: Instruction,
+        is_sure: bool,
+    ) {
+        use Instruction as I;
+        match instruction {
             I::Words {
                 n,
                 registers,
@@ -484,17 +510,8 @@ impl Machine {
                     self.set(n, end);
                 }
             }
-            I::Copy { d, m } => self.real[usize::from(d)] = self.real[usize::from(m)],
-            I::Real { d, value } => self.real[usize::from(d)] = number(value.to_bits()),
-            I::Transfer {
-                core,
-                real,
-                to_core: true,
-            } => self.set(core, self.real[usize::from(real)]),
-            I::Transfer { core, real, .. } => self.real[usize::from(real)] = self.core(core),
-            _ => return false,
+            _ => {}
         }
-        true
     }
 
     /// Moves a word between a register and memory.
@@ -572,17 +589,5 @@ impl Machine {
                 self.keep_word(at, number(value & mask), bytes, false);
             }
         }
-    }
-}
-
-/// The lowest address of so many words, and where the base goes.
-fn span(base: Word, words: u32, down: bool) -> (Word, Word) {
-    let bytes = 4 * words;
-    match down {
-        true => (
-            base.plus(bytes.wrapping_neg()),
-            base.plus(bytes.wrapping_neg()),
-        ),
-        false => (base, base.plus(bytes)),
     }
 }

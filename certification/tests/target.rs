@@ -296,7 +296,7 @@ fn a_sheet_takes_neither_other_bits_nor_other_cycles() {
     };
     let sheet = target(&bits, cycles).expect("the bits of the expression");
     assert_eq!(
-        (sheet.measured, sheet.bound),
+        (sheet.measured.clone(), sheet.bound),
         (Ok([cycles, cycles]), Ok(cycles))
     );
     assert!(sheet.branches.is_empty() && sheet.stack.is_ok());
@@ -314,6 +314,15 @@ fn a_sheet_takes_neither_other_bits_nor_other_cycles() {
     for wrong in [cycles - 1, cycles + 1] {
         assert!(matches!(target(&bits, wrong), Err(Error::Cycles { .. })));
     }
+    let json = serde_json::to_string(&sheet).expect("JSON");
+    let bound = format!("{{\"measured\":[{cycles},{cycles}],\"states\":1,\"bound\":{cycles},");
+    assert!(json.starts_with(&bound), "{json}");
+    assert_eq!(
+        serde_json::from_str::<Target>(&json)
+            .expect("a target")
+            .bound,
+        Ok(cycles)
+    );
     let without = Target::of(&image, Function::Rnea, &robot, &Err("no QEMU".to_owned()));
     let said = without.expect("a bound alone").sentence();
     assert!(

@@ -6,6 +6,7 @@
 //! | `decode`, [`walk`], [`graph`] | from instructions to the expression that they evaluate |
 //! | [`interval`], [`state_box`], [`forms`] | ranges of numbers, inputs and sums |
 //! | [`bound`], [`branch`] | the error over a part of the box, and over the whole |
+//! | [`grid`] | the error over all angles, by a grid of them |
 //! | [`sines`] | the error of sines, by trying every angle |
 //! | [`search`] | the worst error that is found |
 //! | [`certificate`], [`page`], [`picture`] | what was proven, as data, text and picture |
@@ -22,6 +23,7 @@ pub mod error;
 pub mod forms;
 pub mod gappa;
 pub mod graph;
+pub mod grid;
 pub mod image;
 pub mod interval;
 pub mod page;

@@ -40,6 +40,9 @@ struct Args {
     /// Into how many parts the box of each result is split: more time, tighter bounds
     #[arg(long, value_name = "N", default_value_t = 4000)]
     parts: usize,
+    /// Points of the grid of angles that bounds each result a second time
+    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
+    points: usize,
     /// States of the search for the worst error, for each result
     #[arg(long, value_name = "N", default_value_t = 240_000)]
     states: usize,
@@ -152,6 +155,7 @@ fn spent(args: &Args) -> Spent {
     let children = args.states / 3 * 2 / 96;
     Spent {
         parts: args.parts,
+        points: args.points,
         search: Effort {
             random: args.states / 3,
             generations: 96,

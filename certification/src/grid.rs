@@ -378,6 +378,20 @@ impl Program {
         shares.map(sizes).take_while(|sizes| fits(sizes)).last()
     }
 
+    /// Sets cosines and sines to those of a point of the grid, by its number.
+    fn set_angles(&self, x: &mut [[f64; LANES]], lane: usize, point: usize, sizes: &[usize]) {
+        let mut rest = point;
+        for (places, size) in self.angles.iter().zip(sizes) {
+            let (sine, cosine) = (TAU * (rest % size) as f64 / *size as f64).sin_cos();
+            rest /= size;
+            for (place, value) in places.iter().zip([cosine, sine]) {
+                if let Some(place) = place {
+                    x[*place as usize][lane] = value;
+                }
+            }
+        }
+    }
+
     /// Hands the coefficients at each point of the grid on, or at some of its points.
     fn at_points(
         &self,
@@ -392,18 +406,9 @@ impl Program {
             x[*place as usize] = [*value; LANES];
         }
         for first in points {
-            for lane in 0..LANES {
-                let mut rest = (first + lane).min(most - 1);
-                for (places, size) in self.angles.iter().zip(sizes) {
-                    let (sine, cosine) = (TAU * (rest % size) as f64 / *size as f64).sin_cos();
-                    rest /= size;
-                    for (place, value) in places.iter().zip([cosine, sine]) {
-                        if let Some(place) = place {
-                            x[*place as usize][lane] = value;
-                        }
-                    }
-                }
-            }
+            (0..LANES).for_each(|lane| {
+                self.set_angles(&mut x, lane, (first + lane).min(most - 1), sizes)
+            });
             evaluate(steps, &mut x);
             visit(&x);
         }

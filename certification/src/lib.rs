@@ -11,6 +11,7 @@
 //! | [`search`] | the worst error that is found |
 //! | [`certificate`], [`page`], [`picture`] | what was proven, as data, text and picture |
 //! | [`gappa`], [`check`] | checks of it by others |
+//! | [`fpcore`] | the expression for other tools |
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
@@ -21,6 +22,7 @@ pub mod check;
 mod decode;
 pub mod error;
 pub mod forms;
+pub mod fpcore;
 pub mod gappa;
 pub mod graph;
 pub mod grid;

@@ -1,5 +1,7 @@
 //! The checks of certificates, each with what it refuses.
 
+#[path = "certification/fpcore.rs"]
+mod fpcore;
 #[path = "certification/grid.rs"]
 mod grid;
 #[path = "certification/recorded.rs"]

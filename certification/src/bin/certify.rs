@@ -40,9 +40,9 @@ struct Args {
     /// Into how many parts the box of each result is split: more time, tighter bounds
     #[arg(long, value_name = "N", default_value_t = 4000)]
     parts: usize,
-    /// Points of the grid of angles that bounds each result a second time
-    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
-    points: usize,
+    /// Points of the grid of angles that bounds each result a second time; 1,000,000 if not given, 5,000,000 for the page
+    #[arg(long, value_name = "N")]
+    points: Option<usize>,
     /// States of the search for the worst error, for each result
     #[arg(long, value_name = "N", default_value_t = 240_000)]
     states: usize,
@@ -73,6 +73,9 @@ struct Args {
 
 /// The share of each range that the parts have which Gappa checks.
 const PART: f64 = 1.0 / 64.0;
+/// See [`Args::points`].
+const POINTS: usize = 1_000_000;
+const PAGE_POINTS: usize = 5_000_000;
 const PAGE: &str = "docs/certificates.md";
 const PICTURE: &str = "docs/certificates.svg";
 
@@ -185,7 +188,9 @@ fn spent(args: &Args) -> Spent {
     let children = args.states / 3 * 2 / 96;
     Spent {
         parts: args.parts,
-        points: args.points,
+        points: args
+            .points
+            .unwrap_or(if args.write_docs { PAGE_POINTS } else { POINTS }),
         search: Effort {
             random: args.states / 3,
             generations: 96,

@@ -43,7 +43,7 @@ pub const STUDIES: &[Study] = &[
         name: "claims", about: "Check the ledger of claims against README, guide and tests, rewrite docs/claims.md",
         files: &["docs/claims.md"],
         held: Step(Host, Everyday, "each claim of the ledger stands in its page, what shows it exists, and docs/claims.md has all"),
-        form: Whole(claims::measure),
+        form: Own(|command| command, claims::run, claims::check),
     },
     Study {
         name: "costs", about: "Measure what each algorithm costs on each robot, rewrite docs/costs.md",

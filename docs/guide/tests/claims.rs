@@ -195,7 +195,7 @@ impl Ledger {
             table
         });
         format!(
-            include_str!("../claims/page.md"),
+            include_str!("../claims/page.txt"),
             count = self.all().count(),
             counts = counts.join(", "),
             stated = stated.collect::<String>(),

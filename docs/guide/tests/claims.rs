@@ -173,9 +173,10 @@ impl Ledger {
             .all()
             .filter(|(_, claim)| claim.important && claim.shown == KINDS[4]);
         let stated = stated.map(|(page, claim)| format!("- \"{}\" ({page})\n", claim.claim));
-        let trusted = self.trusted.iter().map(|(key, words)| {
-            format!("- **{key}**, by {} claims: {words}\n", self.trusting(key))
-        });
+        let trusted = self
+            .trusted
+            .iter()
+            .map(|(key, words)| format!("- **{key}** ({}): {words}\n", self.trusting(key)));
         let pages = self.pages.iter().map(|(page, claims)| {
             let mut table =
                 format!("\n## {page}\n\n| claim | shown | by | trusts |\n|---|---|---|---|\n");

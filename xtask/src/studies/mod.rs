@@ -4,10 +4,12 @@
 
 pub mod accuracy;
 pub mod budgets;
+pub mod claims;
 pub mod cores;
 pub mod costs;
 pub mod drawn;
 pub mod effects;
+pub mod flags;
 pub mod flexible;
 pub mod growth;
 pub mod hard_cases;
@@ -38,10 +40,22 @@ const NO_STEP: fn(&study::Bench<'_>) -> Result<String> = |_| Ok(String::new());
 #[rustfmt::skip]
 pub const STUDIES: &[Study] = &[
     Study {
+        name: "claims", about: "Check the ledger of claims against README, guide and tests, rewrite docs/claims.md",
+        files: &["docs/claims.md"],
+        held: Step(Host, Everyday, "each claim of the ledger stands in its page, what shows it exists, and docs/claims.md has all"),
+        form: Own(|command| command, claims::run, claims::check),
+    },
+    Study {
         name: "costs", about: "Measure what each algorithm costs on each robot, rewrite docs/costs.md",
         files: &["docs/costs.md", "docs/costs.svg"],
         held: Step(Target, Everyday, "every function is within budgets.toml and its bar, and docs/costs.md says so"),
         form: Own(costs::Args::augment_args, |options, matches| costs::run(options, given(matches)?), costs::check),
+    },
+    Study {
+        name: "flags", about: "Measure what other flags of the compiler cost, rewrite docs/flags.md with the functions of core in a tick",
+        files: &["docs/flags.md"],
+        held: Step(Target, Full, "docs/flags.md has today's costs by other flags of the compiler and the functions of core in a tick"),
+        form: Part(flags::measure),
     },
     Study {
         name: "growth", about: "Measure how the core's algorithms grow with a chain's length, rewrite docs/growth.md",
@@ -58,7 +72,7 @@ pub const STUDIES: &[Study] = &[
     Study {
         name: "cores", about: "Run the control loop on every core that QEMU emulates: the same bits, instructions, stack",
         files: &["docs/boards.md", "docs/boards.svg"],
-        held: Step(Target, Full, "a Cortex-M33 and an RV32 compute the host's torques, and docs/boards.md has what they and the boards' images take"),
+        held: Step(Target, Full, "a plain Cortex-M4F, a Cortex-M33 and an RV32 compute the host's torques, and docs/boards.md has what they and the boards' images take"),
         form: Own(cores::Args::augment_args, |options, matches| cores::run(options, given(matches)?), cores::check),
     },
     Study {

@@ -9,10 +9,14 @@ use syn::visit::{self, Visit};
 use syn::{Attribute, BinOp, Expr, Lit, Stmt, UnOp};
 
 use crate::changes;
+use crate::rooms::is_whole;
 use crate::site::{Form, Site};
 
 /// Macros whose arguments are no code of the function, or that a test asserts with.
 const OPAQUE: &str = "assert assert_eq assert_ne debug_assert debug_assert_eq debug_assert_ne include_str matches unreachable";
+
+/// Without it a loop does not compile, and the compiler's error is at another place.
+const NEEDED: &str = "rest = later";
 
 /// All sites of a source, numbered from 0.
 pub fn sites(file: &str, source: &str) -> syn::Result<Vec<Site>> {
@@ -86,8 +90,49 @@ impl<'a> Finder<'a> {
             let open = body.brace_token.span.open();
             self.add("return", Form::Return, open, (*value).to_owned(), words);
         }
+        if matches!(of.output, syn::ReturnType::Default) {
+            self.last_without(body);
+        }
         self.visit_block(body);
         self.functions.pop();
+    }
+
+    /// Leaves a statement out.
+    fn without(&mut self, statement: &impl Spanned) {
+        let words = format!("without `{}`", changes::short(self.text(statement)));
+        let at = statement.span();
+        self.add("statement", Form::Delete, at, String::new(), words);
+    }
+
+    /// Leaves out the last expression of a block without a value, where every statement is changed.
+    fn last_without(&mut self, block: &syn::Block) {
+        if let Some(Stmt::Expr(last, None)) = block.stmts.last() {
+            self.expression_without(last);
+        }
+    }
+
+    /// Leaves out an expression without a value, and those in its branches.
+    fn expression_without(&mut self, expression: &Expr) {
+        if !is_whole(self.file) || self.text(expression) == "{}" {
+            return;
+        }
+        self.without(expression);
+        match expression {
+            Expr::If(of) => {
+                self.last_without(&of.then_branch);
+                if let Some((_, otherwise)) = &of.else_branch {
+                    self.expression_without(otherwise);
+                }
+            }
+            Expr::Match(of) => of
+                .arms
+                .iter()
+                .for_each(|arm| self.expression_without(&arm.body)),
+            Expr::Block(of) => self.last_without(&of.block),
+            Expr::ForLoop(syn::ExprForLoop { body, .. })
+            | Expr::While(syn::ExprWhile { body, .. }) => self.last_without(body),
+            _ => {}
+        }
     }
 }
 
@@ -170,15 +215,42 @@ impl<'ast> Visit<'ast> for Finder<'_> {
     }
 
     fn visit_stmt(&mut self, statement: &'ast Stmt) {
-        use Expr::{Assign, Binary, Call, MethodCall, Try};
-        if let Stmt::Expr(Assign(_) | Binary(_) | MethodCall(_) | Call(_) | Try(_), Some(_)) =
-            statement
-        {
-            let words = format!("without `{}`", changes::short(self.text(statement)));
-            let at = statement.span();
-            self.add("statement", Form::Delete, at, String::new(), words);
+        use Expr::{Assign, Binary, Call, MethodCall, Return, Try};
+        match statement {
+            Stmt::Expr(Assign(of), _) if self.text(of) == NEEDED => {}
+            Stmt::Expr(Assign(_) | Binary(_) | MethodCall(_) | Call(_) | Try(_), Some(_)) => {
+                self.without(statement);
+            }
+            Stmt::Expr(Return(_), Some(_)) if is_whole(self.file) => self.without(statement),
+            _ => {}
         }
         visit::visit_stmt(self, statement);
+    }
+
+    fn visit_block(&mut self, block: &'ast syn::Block) {
+        let before_the_last = block.stmts.iter().rev().skip(1);
+        for statement in before_the_last {
+            if let Stmt::Expr(expression, None) = statement {
+                self.expression_without(expression);
+            }
+        }
+        visit::visit_block(self, block);
+    }
+
+    fn visit_expr_assign(&mut self, assign: &'ast syn::ExprAssign) {
+        // An assignment of several values that forgets one.
+        if let Expr::Tuple(left) = &*assign.left
+            && is_whole(self.file)
+        {
+            let all = self.text(assign);
+            for one in &left.elems {
+                let one = self.text(one);
+                let words = format!("`{one}` keeps its value in `{}`", changes::short(all));
+                let text = format!("{{ let kept = {one}; {all}; {one} = kept; }}");
+                self.replace("statement", assign, text, words);
+            }
+        }
+        visit::visit_expr_assign(self, assign);
     }
 
     fn visit_expr_if(&mut self, expression: &'ast syn::ExprIf) {

@@ -24,12 +24,23 @@ impl Test<'_> {
     }
 }
 
+/// Tests that take less than this, s, share a process with others.
+pub const SHORT: f64 = 0.1;
 /// The shortest time after which a test is ended: the machine may have other work.
 const SHORTEST: f64 = 10.0;
 /// The build without optimisation.
 pub const UNOPTIMISED: &str = "unoptimised";
+/// The build of the own tests of the package whose every change is taken, which takes seconds.
+pub const OWN: &str = "own";
+/// The build of the tests on the host that reach it from elsewhere, for what those have not noticed.
+pub const OTHERS: &str = "others";
 /// The builds, and the longest time that a test may take in them without a change, s.
-pub const LONGEST: [(&str, f64); 2] = [("optimised", 600.0), (UNOPTIMISED, 40.0)];
+pub const LONGEST: [(&str, f64); 4] = [
+    (OWN, 40.0),
+    (OTHERS, 60.0),
+    ("optimised", 600.0),
+    (UNOPTIMISED, 40.0),
+];
 /// What a test may allocate, KiB: a loop that does not end could take all there is.
 const MEMORY: u64 = 4 << 20;
 
@@ -69,7 +80,7 @@ pub fn record<'a>(
                 ("MUTANT", "record".as_ref()),
                 ("MUTANT_LOG", log.as_os_str()),
             ];
-            let passed = run(program, &name, &variables, longest)?;
+            let (passed, _) = run(program, &[&name], &variables, longest)?;
             let reached = std::fs::read_to_string(log).unwrap_or_default();
             let test = Test {
                 program,
@@ -90,36 +101,46 @@ pub fn record<'a>(
     Ok((tests, failed))
 }
 
-/// Whether a test passes with a change.
-pub fn passes_with(test: &Test<'_>, number: u32) -> Result<bool> {
-    let limit = f64::max(10.0 * test.seconds, SHORTEST);
+/// The first of the tests of one program that fails with a change. They run in one process, which is what takes the time.
+pub fn failing<'t>(tests: &'t [&Test<'_>], number: u32) -> Result<Option<&'t str>> {
+    let Some(first) = tests.first() else {
+        return Ok(None);
+    };
+    let limit = f64::max(
+        10.0 * tests.iter().map(|test| test.seconds).sum::<f64>(),
+        SHORTEST,
+    );
+    let names: Vec<&str> = tests.iter().map(|test| &*test.name).collect();
     let number = number.to_string();
-    run(
-        test.program,
-        &test.name,
-        &[("MUTANT", number.as_ref())],
-        limit,
-    )
+    let variables = [("MUTANT", number.as_ref())];
+    let (passed, printed) = run(first.program, &names, &variables, limit)?;
+    let is_passed = |name: &&&str| printed.contains(&format!("test {name} ... ok"));
+    let failed = names.iter().find(|name| !is_passed(name));
+    Ok(failed.copied().filter(|_| !passed))
 }
 
-/// Whether a test passes within so many seconds.
-fn run(program: &Program, test: &str, variables: &[(&str, &OsStr)], limit: f64) -> Result<bool> {
+/// Whether tests pass within so many seconds, and what they print.
+fn run(
+    program: &Program,
+    tests: &[&str],
+    variables: &[(&str, &OsStr)],
+    limit: f64,
+) -> Result<(bool, String)> {
     // `timeout` ends the processes that the test has started as well.
     let limit = limit.ceil();
     let line = format!("ulimit -v {MEMORY}; exec nice -n 15 timeout -s KILL {limit} \"$@\"");
     let mut command = Command::new("sh");
     command.args(["-c", &line, "sh"]).arg(&program.path);
-    command.args(["--exact", test, "--test-threads", "1", "--quiet"]);
     command
+        .args(["--exact", "--test-threads", "1"])
+        .args(tests)
         .current_dir(&program.folder)
-        .envs(variables.iter().copied());
-    command
+        .envs(variables.iter().copied())
         .env("CARGO_MANIFEST_DIR", &program.folder)
-        .env("RUST_BACKTRACE", "0");
-    command
+        .env("RUST_BACKTRACE", "0")
         .stdin(Stdio::null())
-        .stdout(Stdio::null())
         .stderr(Stdio::null());
-    let status = command.status().map_err(Error::file(&program.path))?;
-    Ok(status.success())
+    let output = command.output().map_err(Error::file(&program.path))?;
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    Ok((output.status.success(), printed))
 }

@@ -201,6 +201,7 @@ fn a_small_workspace_has_killed_surviving_unreached_and_refused_changes() {
         dir: folder.path().join("mutants"),
         only: None,
         survivors: false,
+        rooms: false,
     };
     let results = crate::run(&args).expect("it runs");
     let of = |function: &str, change: &str| {

@@ -68,11 +68,7 @@ pub fn build(copy: &Path, target: &Path, places: &Places, kind: &str) -> Result<
         cargo.args(packages(&["motion-control"]));
     } else if kind == OTHERS {
         cargo
-            .args(packages(&[
-                "joint-drivers",
-                "host-tests",
-                "simulation-tests",
-            ]))
+            .args(packages(&["host-tests", "simulation-tests"]))
             .args(simulated);
     } else if copy.join(MEMBER).is_dir() {
         cargo

@@ -72,12 +72,12 @@ fn run(args: &Args) -> Result<Results> {
     let mut results = Results::default();
     let only = args.only.as_deref().unwrap_or_default();
     for (kind, longest) in suite::LONGEST {
-        let is_killed = |site: &Site| {
+        let is_unreached = |site: &Site| {
             let verdict = kept.get(&site.key()).map(|outcome| &outcome.verdict);
-            matches!(verdict, Some(Verdict::Killed(_)))
+            matches!(verdict, Some(Verdict::Unreached))
         };
         let is_of_build = |site: &&Site| match rooms::is_whole(&site.file) {
-            true => kind == OWN || kind == OTHERS && !is_killed(site),
+            true => kind == OWN || kind == OTHERS && is_unreached(site),
             false if rooms::is_unoptimised(&site.file) => kind == UNOPTIMISED,
             false => kind == "optimised",
         };

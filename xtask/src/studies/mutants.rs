@@ -20,6 +20,13 @@ const PAGE: Page<'_> = Page {
     name: "mutants",
     command: "cargo xtask mutants",
 };
+/// The rooms of which every change is taken.
+const WHOLE_PAGE: Page<'_> = Page {
+    file: "docs/mutants.md",
+    name: "mutants-rooms",
+    command: "cargo xtask mutants --rooms",
+};
+const WHOLE: [&str; 3] = ["safety", "motion", "estimate"];
 /// Why a change may survive, by file, function and change.
 const REASONS: &str = "lab/mutants/reasons.toml";
 /// The largest share of changes that may survive.
@@ -46,6 +53,9 @@ pub struct Args {
     /// Only changes that survived the last time; the others keep their verdicts
     #[arg(long)]
     survivors: bool,
+    /// Only the rooms of which every change is taken, and their part of the page
+    #[arg(long)]
+    rooms: bool,
 }
 
 /// The verdict on a change, in the words of `lab/mutants`.
@@ -102,11 +112,23 @@ pub fn run(_: Options, args: Args) -> Result<ExitCode> {
             "{REASONS} has a reason for a change that does not survive: {reason}"
         ));
     }
-    let text = results.text(&reasons, &docs::today_and_commit(&workspace));
+    let when = docs::today_and_commit(&workspace);
+    let (rooms, open) = results.of_rooms(true).whole_text(&reasons, &when);
+    let sample = results.of_rooms(false).text(&reasons, &when);
     if args.only.is_none() {
-        PAGE.write(&workspace, &text)?;
+        WHOLE_PAGE.write(&workspace, &rooms)?;
+        if !args.rooms {
+            PAGE.write(&workspace, &sample)?;
+        }
     }
-    docs::show(args.json, &results, &text)
+    docs::show(args.json, &results, &[&*rooms, "\n\n", &sample].concat())?;
+    match open {
+        0 => Ok(ExitCode::SUCCESS),
+        _ => Err(check!(
+            "{open} changes survive without a reason in {}",
+            WHOLE.join(", ")
+        )),
+    }
 }
 
 fn measure(workspace: &Workspace, args: &Args) -> Result<Results> {
@@ -117,6 +139,7 @@ fn measure(workspace: &Workspace, args: &Args) -> Result<Results> {
     command.arg("--dir").arg(workspace.target.join("mutants"));
     command.args(args.only.iter().flat_map(|only| ["--only", only]));
     command.args(args.survivors.then_some("--survivors"));
+    command.args(args.rooms.then_some("--rooms"));
     let mut printed = String::new();
     shell::each_line(&mut command, |line| {
         printed += line;
@@ -147,14 +170,43 @@ impl Results {
         idle.map(|reason| &*reason.change).collect()
     }
 
-    /// The text between the markers.
-    fn text(&self, reasons: &Reasons, when: &str) -> String {
-        let mut rooms: BTreeMap<&str, Vec<&Outcome>> = BTreeMap::new();
-        for outcome in &self.outcomes {
-            rooms.entry(&outcome.room).or_default().push(outcome);
+    /// Those of the rooms of which every change is taken, or of the others.
+    fn of_rooms(&self, whole: bool) -> Self {
+        let is_one = |outcome: &&Outcome| WHOLE.contains(&&*outcome.room) == whole;
+        Self {
+            tests: self.tests,
+            unusable: self.unusable.clone(),
+            outcomes: self.outcomes.iter().filter(is_one).cloned().collect(),
         }
+    }
+
+    fn by(&self, name: impl Fn(&Outcome) -> String) -> BTreeMap<String, Vec<&Outcome>> {
+        let mut by: BTreeMap<String, Vec<&Outcome>> = BTreeMap::new();
+        for outcome in &self.outcomes {
+            by.entry(name(outcome)).or_default().push(outcome);
+        }
+        by
+    }
+
+    /// The text of the rooms of which every change is taken, and how many survive without a reason.
+    fn whole_text(&self, reasons: &Reasons, when: &str) -> (String, usize) {
+        let has_none = |one: &&Outcome| !reasons.reason.iter().any(|reason| one.is_of(reason));
+        let survivors = self.outcomes.iter().filter(|one| !one.is_killed());
+        let open = survivors.filter(has_none).count();
+        let verdict = if open == 0 { "met" } else { "missed" };
+        let text = format!(
+            "{} changes, every statement among them, on {when}. None may survive without a reason: {verdict}.\n\n{}{}",
+            self.outcomes.len(),
+            self.table(|one| format!("{}: {}", one.room, one.operator))
+                .markdown(),
+            self.survivors(reasons)
+        );
+        (text.trim_end().to_owned(), open)
+    }
+
+    fn table(&self, name: impl Fn(&Outcome) -> String) -> Table {
         let all: Vec<&Outcome> = self.outcomes.iter().collect();
-        let counted = |(name, of): (&&str, &Vec<&Outcome>)| {
+        let counted = |(name, of): (&String, &Vec<&Outcome>)| {
             let count = |is: fn(&Outcome) -> bool| of.iter().filter(|one| is(one)).count();
             let killed = count(Outcome::is_killed);
             let unreached = count(|one| matches!(one.verdict, Verdict::Unreached));
@@ -164,16 +216,32 @@ impl Results {
             [&[name.to_string()], &counts[..], &[share]].concat()
         };
         let mut table = Table::new(&HEADS);
-        for row in rooms.iter().chain([(&"all", &all)]).map(counted) {
+        let last = ("all".to_owned(), all);
+        for row in self
+            .by(name)
+            .iter()
+            .chain([(&last.0, &last.1)])
+            .map(counted)
+        {
             table.row(row);
         }
-        let survived = all.iter().filter(|outcome| !outcome.is_killed()).count();
-        let is_met = share(survived, all.len()) <= MOST;
+        table
+    }
+
+    /// The text between the markers.
+    fn text(&self, reasons: &Reasons, when: &str) -> String {
+        let changes = self.outcomes.len();
+        let survived = self
+            .outcomes
+            .iter()
+            .filter(|outcome| !outcome.is_killed())
+            .count();
+        let is_met = share(survived, changes) <= MOST;
         let verdict = if is_met { "met" } else { "missed" };
-        let (changes, tests, most) = (all.len(), self.tests, 100.0 * MOST);
+        let (tests, most) = (self.tests, 100.0 * MOST);
         let mut text = format!(
             "{changes} changes against {tests} tests, on {when}. At most {most:.0} % may survive: {verdict}.\n\n{}",
-            table.markdown()
+            self.table(|one| one.room.clone()).markdown()
         );
         for name in &self.unusable {
             text += &format!(
@@ -181,7 +249,13 @@ impl Results {
             );
         }
         text += "\n## What survived\n";
-        for (room, of) in rooms {
+        text += &self.survivors(reasons);
+        text.trim_end().to_owned()
+    }
+
+    fn survivors(&self, reasons: &Reasons) -> String {
+        let mut text = String::new();
+        for (room, of) in self.by(|one| one.room.clone()) {
             let survivors = of.iter().filter(|outcome| !outcome.is_killed());
             let lines: BTreeSet<String> = survivors.map(|one| line(one, reasons)).collect();
             if !lines.is_empty() {
@@ -189,7 +263,7 @@ impl Results {
                 text.extend(lines);
             }
         }
-        text.trim_end().to_owned()
+        text
     }
 }
 

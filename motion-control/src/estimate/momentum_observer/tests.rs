@@ -97,6 +97,18 @@ fn a_measurement_that_is_not_finite_is_lost() {
 }
 
 #[test]
+fn a_torque_at_its_threshold_is_no_contact() {
+    let mut observer = observer::<1>();
+    observer.update(&[0.0; 2], &[0.0; 2]).expect("finite");
+    observer.drive(&[1.0, 2.0]);
+    observer.update(&[0.0; 2], &[0.0; 2]).expect("finite");
+    let threshold = observer.external_torque().map(f64::abs);
+    assert_eq!(observer.outermost(&threshold), None);
+    assert_eq!(observer.outermost(&threshold.map(|x| 0.9 * x)), Some(1));
+    assert_eq!(observer.outermost(&[0.0, 9.0]), Some(0));
+}
+
+#[test]
 fn a_torque_that_is_not_finite_counts_as_none() {
     for (tau, driven) in [
         ([f64::NAN, 2.0], [0.0, 2.0 * H]),
@@ -114,7 +126,8 @@ fn a_restart_leaves_an_observer_without_a_measurement() {
     let mut observer = observer::<1>();
     observer.update(&[1.0; 2], &[1.0; 2]).expect("finite");
     observer.drive(&[1.0; 2]);
-    observer.update(&[2.0; 2], &[1.0; 2]).expect("finite");
+    observer.update(&[3.0; 2], &[1.0; 2]).expect("finite");
+    assert!(observer.external_torque()[0] > 0.1);
     observer.drive(&[1.0; 2]);
     observer.restart();
     let new = self::observer::<1>();

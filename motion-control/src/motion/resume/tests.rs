@@ -78,7 +78,7 @@ fn a_return_that_begins_again_is_a_new_one() {
     let trajectory = trajectory();
     let start = Estimate {
         q: [0.5],
-        qd: [1.0],
+        qd: [2.0],
     };
     let mut new = ResumeTrajectory::new(H, DECAY, TICKS);
     let mut used = new;
@@ -90,7 +90,7 @@ fn a_return_that_begins_again_is_a_new_one() {
     used.start(&start, 400);
     assert_eq!(used, new);
     // It begins as the decay does.
-    assert_eq!(new.rest.qdd, [-DECAY]);
+    assert_eq!(new.rest.qdd, [-2.0 * DECAY]);
     assert_eq!(new.cancel(), 400);
 }
 

@@ -43,6 +43,25 @@ fn positions_at_their_bounds_are_within_them() {
 }
 
 #[test]
+fn replaced_bounds_are_restored_to_the_bit() {
+    let before = at([0.0, 0.7]);
+    assert_eq!(before.bounds(), [[-1.0, 0.5], [0.5, 1.0]]);
+    let mut supervisor = before;
+    let other = [[-0.1, 0.3], [0.6, 0.9]];
+    let ranges = supervisor.replace_bounds(&other);
+    for (bounds, other) in supervisor
+        .bounds()
+        .as_flattened()
+        .iter()
+        .zip(other.as_flattened())
+    {
+        assert!((bounds - other).abs() < 1e-6, "{bounds} {other}");
+    }
+    supervisor.restore_bounds(ranges);
+    assert_eq!(supervisor, before);
+}
+
+#[test]
 fn a_jump_is_named_though_another_joint_is_at_a_bound() {
     let joint = 1;
     let jump = Some(Fault::Jump { joint });

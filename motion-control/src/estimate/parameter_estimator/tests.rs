@@ -6,9 +6,9 @@ use crate::limits::ConfigParameter;
 mod config;
 mod freeze;
 
-/// Of all joints, then of the first, then of the second: more than four in a line, and a rest.
+/// Of all joints, then of the first, then of the second: more than four in a line, and a rest of those of the first.
 const COMMON: usize = 5;
-const OWN: [u16; 2] = [4, 2];
+const OWN: [u16; 2] = [5, 1];
 const P: usize = 11;
 const NOISE: [f64; 2] = [0.5, 2.0];
 
@@ -38,7 +38,7 @@ impl Numbers {
 
     /// A row of a joint: without the parameters of the other one.
     fn row(&mut self, joint: usize) -> [f64; P] {
-        let other = [9..P, COMMON..9][joint].clone();
+        let other = [10..P, COMMON..10][joint].clone();
         core::array::from_fn(|k| if other.contains(&k) { 0.0 } else { self.next() })
     }
 }

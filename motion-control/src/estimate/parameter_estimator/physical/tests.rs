@@ -124,3 +124,23 @@ fn a_set_follows_to_the_margin() {
     let stored = two.parameters()[20];
     assert!((0.025..0.0255).contains(&stored), "{stored}");
 }
+
+#[test]
+fn an_estimate_changes_the_nominal_set() {
+    let mut two = two();
+    let mut base = SelectedParameters {
+        columns: [20, 21],
+        prior: [1.0; 2],
+        spread: [[0.0; 2]; 22],
+    };
+    (base.spread[0], base.spread[20]) = ([0.5, 0.0], [-0.25, 1.0]);
+    // The same again: it is the change of the nominal parameters, not of those that are stored.
+    for _ in 0..2 {
+        assert_eq!(two.update(&base, &[0.5, 0.25]), 1.0);
+        let mut expected = NOMINAL;
+        (expected[0], expected[20]) = (2.25, 0.625);
+        assert_eq!(two.parameters(), &expected);
+    }
+    assert_eq!(two.update(&base, &[0.0; 2]), 1.0);
+    assert_eq!(two.parameters(), &NOMINAL);
+}

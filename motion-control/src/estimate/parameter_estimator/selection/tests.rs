@@ -9,12 +9,12 @@ fn the_prior_of_a_base_parameter_is_that_of_its_sum() {
     for (a, b) in [(1.0, 1.0), (1.0, -1.0), (-2.0, 0.5), (-2.0, -0.5)] {
         motion.add(&[a, 2.0 * a, b], 0.5);
     }
-    let nominal = [4.0, 1.0, 3.0];
+    let nominal = [4.0, 1.0, 30.0];
     let share = 0.5;
     let base: SelectedParameters<f64, 2, 3> = motion
         .select::<_, 0, 2>(&nominal, share)
         .expect("two columns");
-    // Of deviations 2 and 2 · 0.5 the first has the larger effect.
+    // Of deviations 2 and 2 · 0.5 the first has the larger effect; the last has the largest, and stays behind it.
     assert_eq!(base.columns, [0, 2]);
     let variances = nominal.map(|x: f64| share * share * x * x);
     let sum = variances[0] + 4.0 * variances[1];
@@ -44,8 +44,8 @@ fn columns_that_a_motion_does_not_tell_apart_are_counted() {
     // A part in 10¹² of the first is not rounding, one in 10¹⁴ is.
     for (size, rank) in [(1e-6, 2), (1e-7, 1)] {
         let mut motion: Excitation<2> = Excitation::new();
-        motion.add(&[1.0, 0.0], 1.0);
-        motion.add(&[0.0, size], 1.0);
+        motion.add(&[10.0, 0.0], 1.0);
+        motion.add(&[0.0, 10.0 * size], 1.0);
         let selected = motion.select::<f64, 0, 2>(&[1.0; 2], 1.0);
         let expected = if rank == 2 { None } else { Some(rank) };
         assert_eq!(selected.err(), expected);
@@ -60,12 +60,17 @@ fn columns_that_a_motion_does_not_tell_apart_are_counted() {
 fn the_weight_of_a_row_is_its_noise() {
     // With the noise the second column explains more, without it the first.
     let mut motion: Excitation<2> = Excitation::new();
-    motion.add(&[3.0, 0.0], 2.0);
+    motion.add(&[3.0, 0.0], 1.0);
     motion.add(&[0.0, 2.0], 0.5);
     let base = motion
         .select::<f64, 0, 1>(&[1.0; 2], 1.0)
         .expect("one column");
     assert_eq!(base.columns, [1]);
+    // Of two that explain the same it is the first.
+    let mut motion: Excitation<3> = Excitation::new();
+    motion.add(&[1.0, 2.0, 2.0], 1.0);
+    let base = motion.select::<f64, 0, 1>(&[1.0; 3], 1.0);
+    assert_eq!(base.map(|base| base.columns), Ok([1]));
 }
 
 /// The dual X of a parameter: ⟨X, J⟩ is the parameter.
@@ -158,4 +163,69 @@ fn a_row_has_the_selected_columns_of_its_joint() {
     };
     assert_eq!(friction.bodies::<BODIES>(), [false, true]);
     assert_eq!(friction.own::<3>(BODIES, 2), [2, 1, 1]);
+}
+
+/// x of A x = b, of symmetric positive definite A.
+fn solved<const M: usize>(mut a: [[f64; M]; M], mut b: [f64; M]) -> [f64; M] {
+    for k in 0..M {
+        for i in (0..M).filter(|i| *i != k) {
+            let share = a[i][k] / a[k][k];
+            for j in 0..M {
+                a[i][j] -= share * a[k][j];
+            }
+            b[i] -= share * b[k];
+        }
+    }
+    core::array::from_fn(|k| b[k] / a[k][k])
+}
+
+// Columns that are correlated: of the regression K of all columns on the selected ones and the covariance C, the prior is
+// K C Kᵀ and the spread C Kᵀ (K C Kᵀ)⁻¹.
+#[test]
+fn the_spread_is_that_of_the_regression_on_the_selection() {
+    const ROWS: [[f64; 5]; 6] = [
+        [1.0, 0.5, -0.3, 0.2, 0.9],
+        [0.4, -1.0, 0.8, 0.6, -0.2],
+        [-0.7, 0.3, 1.2, -0.5, 0.1],
+        [0.2, 0.9, 0.4, 1.1, -0.6],
+        [0.6, -0.2, -0.9, 0.7, 0.8],
+        [-0.1, 0.7, 0.5, -0.4, 1.3],
+    ];
+    let mut motion: Excitation<5> = Excitation::new();
+    ROWS.iter().for_each(|row| motion.add(row, 1.0));
+    let nominal = [1.0, 2.0, 0.5, 1.5, 3.0];
+    let base: SelectedParameters<f64, 3, 5> = motion
+        .select::<_, 0, 3>(&nominal, 1.0)
+        .expect("three columns");
+    let product = |a: usize, b: usize| ROWS.iter().map(|row| row[a] * row[b]).sum::<f64>();
+    let columns = base.columns;
+    assert!(columns.is_sorted());
+    let own = columns.map(|a| columns.map(|b| product(a, b)));
+    let regression: [[f64; 3]; 5] =
+        core::array::from_fn(|i| solved(own, columns.map(|a| product(a, i))));
+    let variance = nominal.map(|x| x * x);
+    let prior: [[f64; 3]; 3] = core::array::from_fn(|k| {
+        core::array::from_fn(|l| {
+            let of = |i: usize| regression[i][k] * variance[i] * regression[i][l];
+            (0..5).map(of).sum()
+        })
+    });
+    for k in 0..3 {
+        assert!((base.prior[k] - prior[k][k].sqrt()).abs() < 1e-12);
+    }
+    for (i, row) in base.spread.iter().enumerate() {
+        let expected = solved(prior, regression[i].map(|x| variance[i] * x));
+        for k in 0..3 {
+            assert!((row[k] - expected[k]).abs() < 1e-12, "{i}");
+        }
+    }
+    // The last column that was selected explains more of what the others leave than any that was not.
+    let left = |of: &[usize; 2], i: usize| {
+        let own = of.map(|a| of.map(|b| product(a, b)));
+        let with = of.map(|a| product(a, i));
+        let share = solved(own, with);
+        variance[i] * (product(i, i) - share[0] * with[0] - share[1] * with[1])
+    };
+    assert_eq!(columns, [1, 3, 4]);
+    assert!(left(&[1, 4], 3) > left(&[1, 4], 0).max(left(&[1, 4], 2)));
 }

@@ -74,7 +74,9 @@ fn a_row_at_the_limit_is_no_outlier() {
     // 4² of (1 + 10⁻¹²).
     let mut at = pair();
     assert_eq!(update(&mut at, 0, 4.0), Ok(()));
+    // Without a direction, exactly.
     let joint = 0;
+    assert_eq!(pair().update(joint, &[0.0; 2], 4.0), Ok(()));
     assert_eq!(
         update(&mut pair(), joint, 4.01),
         Err(RejectedRow::Outlier { joint })
@@ -131,4 +133,21 @@ fn many_consistent_rows_of_others_thaw_the_estimate() {
     assert_eq!(pair.frozen(), None);
     assert_eq!(update(&mut pair, 0, 0.0), Ok(()));
     assert_eq!(pair.others, 0);
+}
+
+#[test]
+fn a_level_at_a_bound_neither_freezes_nor_stays_frozen() {
+    // Of a limit of 5 the bounds are 2.5² and 2², and an innovation of that size keeps its level.
+    let config = ParameterEstimatorConfig {
+        limit: 5.0,
+        ..pair().config
+    };
+    let mut pair = Pair::try_new(config).expect("a good configuration");
+    pair.levels = [6.25; 2];
+    assert_eq!(pair.update(0, &[0.0; 2], 2.5), Ok(()));
+    assert_eq!((pair.frozen(), pair.levels), (None, [6.25; 2]));
+    pair.levels = [4.0; 2];
+    pair.frozen = Some(0);
+    assert_eq!(pair.update(0, &[0.0; 2], 2.0), Ok(()));
+    assert_eq!((pair.frozen(), pair.levels), (None, [4.0; 2]));
 }

@@ -1,6 +1,7 @@
 //! The estimator against least squares with a whole matrix of information, as the module has them.
 
 use super::*;
+use crate::estimate::tests::{Numbers, inverse};
 use crate::limits::ConfigParameter;
 
 mod config;
@@ -26,41 +27,12 @@ fn config(forgetting: f64) -> Config {
     }
 }
 
-/// Numbers from −1 to 1 that are the same each time.
-struct Numbers(u64);
-
 impl Numbers {
-    fn next(&mut self) -> f64 {
-        let next = self.0.wrapping_mul(6_364_136_223_846_793_005);
-        self.0 = next.wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) as f64 / f64::from(1_u32 << 30) - 1.0
-    }
-
     /// A row of a joint: without the parameters of the other one.
     fn row(&mut self, joint: usize) -> [f64; P] {
         let other = [10..P, COMMON..10][joint].clone();
         core::array::from_fn(|k| if other.contains(&k) { 0.0 } else { self.next() })
     }
-}
-
-fn inverse(mut a: Matrix) -> Matrix {
-    let mut b: Matrix =
-        core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j))));
-    for k in 0..P {
-        let per = 1.0 / a[k][k];
-        for j in 0..P {
-            a[k][j] *= per;
-            b[k][j] *= per;
-        }
-        for i in (0..P).filter(|i| *i != k) {
-            let share = a[i][k];
-            for j in 0..P {
-                a[i][j] -= share * a[k][j];
-                b[i][j] -= share * b[k][j];
-            }
-        }
-    }
-    b
 }
 
 /// The equations of the module with P⁻¹ as a matrix.

@@ -1,6 +1,7 @@
 //! The estimate against least squares with a whole matrix of information, and the decisions about a measurement.
 
 use super::*;
+use crate::estimate::tests::{Numbers, inverse, solved};
 
 mod decisions;
 
@@ -24,20 +25,9 @@ fn estimator(forgetting: f64) -> Estimator {
     Estimator::try_new(config(forgetting)).expect("a good configuration")
 }
 
-/// Numbers from −1 to 1 that are the same each time.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        let next = self.0.wrapping_mul(6_364_136_223_846_793_005);
-        self.0 = next.wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) as f64 / f64::from(1_u32 << 30) - 1.0
-    }
-
-    fn rows(&mut self) -> ([[f64; N]; V], [f64; V]) {
-        let y = core::array::from_fn(|_| core::array::from_fn(|_| self.next()));
-        (y, core::array::from_fn(|_| 3.0 * self.next()))
-    }
+fn rows(numbers: &mut Numbers) -> ([[f64; N]; V], [f64; V]) {
+    let y = core::array::from_fn(|_| core::array::from_fn(|_| numbers.next()));
+    (y, core::array::from_fn(|_| 3.0 * numbers.next()))
 }
 
 /// The unit upper triangle U and the diagonal D of Uᵀ D U.
@@ -47,10 +37,10 @@ fn factored(mut a: Matrix) -> (Matrix, [f64; N]) {
         for j in k..N {
             u[k][j] = a[k][j] / a[k][k];
         }
-        for i in k + 1..N {
-            for j in k + 1..N {
-                a[i][j] -= u[k][i] * a[k][j];
-            }
+        let pivot = a[k];
+        for (row, share) in a.iter_mut().zip(u[k]).skip(k + 1) {
+            let later = row.iter_mut().zip(pivot).skip(k + 1);
+            later.for_each(|(x, p)| *x -= share * p);
         }
     }
     (u, core::array::from_fn(|k| a[k][k]))
@@ -60,20 +50,6 @@ fn information(u: &Matrix, d: &[f64; N]) -> Matrix {
     core::array::from_fn(|i| {
         core::array::from_fn(|j| (0..N).map(|k| u[k][i] * d[k] * u[k][j]).sum())
     })
-}
-
-/// x of A x = b.
-fn solved(mut a: Matrix, mut b: [f64; N]) -> [f64; N] {
-    for k in 0..N {
-        for i in (0..N).filter(|i| *i != k) {
-            let share = a[i][k] / a[k][k];
-            for j in 0..N {
-                a[i][j] -= share * a[k][j];
-            }
-            b[i] -= share * b[k];
-        }
-    }
-    core::array::from_fn(|k| b[k] / a[k][k])
 }
 
 fn dot_of(a: &[f64; N], b: &[f64; N]) -> f64 {
@@ -104,11 +80,11 @@ impl Whole {
 
     fn update(&mut self, joints: &[usize], y: &[[f64; N]; V], residual: &[f64; V]) {
         let (u, before) = factored(self.information);
-        let rows = joints.iter().map(|&joint| {
+        let ticks = joints.iter().map(|&joint| {
             let row = y[joint].map(|y| y / NOISE[joint]);
             (row, residual[joint] / NOISE[joint])
         });
-        let rows: std::vec::Vec<_> = rows.collect();
+        let rows: std::vec::Vec<_> = ticks.collect();
         let with = |kept: &[f64; N]| {
             let mut all = information(&u, kept);
             for (row, _) in &rows {
@@ -144,10 +120,8 @@ impl Whole {
     }
 
     fn deviations(&self) -> [f64; N] {
-        core::array::from_fn(|k| {
-            let unit = core::array::from_fn(|i| f64::from(u8::from(i == k)));
-            solved(self.information, unit)[k].sqrt()
-        })
+        let covariance = inverse(self.information);
+        core::array::from_fn(|k| covariance[k][k].sqrt())
     }
 }
 
@@ -174,14 +148,14 @@ fn each_tick_gives_the_estimate_of_least_squares() {
         let mut whole = Whole::new(&config(forgetting));
         let mut numbers = Numbers(3);
         for _ in 0..25 {
-            let (y, residual) = numbers.rows();
+            let (y, residual) = rows(&mut numbers);
             assert_eq!(estimator.update(&y, &residual), Ok(()));
             whole.update(&[0, 1, 2], &y, &residual);
             agree(&estimator, &whole);
         }
         // Of two joints alone, and in another order.
         for joints in [[0, 2], [2, 1], [1, 0]] {
-            let (y, residual) = numbers.rows();
+            let (y, residual) = rows(&mut numbers);
             assert_eq!(estimator.update_joints(joints, &y, &residual), Ok(()));
             whole.update(&joints, &y, &residual);
             agree(&estimator, &whole);
@@ -192,7 +166,7 @@ fn each_tick_gives_the_estimate_of_least_squares() {
 #[test]
 fn a_tick_without_information_changes_no_bit() {
     let mut estimator = estimator(0.1);
-    let (y, residual) = Numbers(5).rows();
+    let (y, residual) = rows(&mut Numbers(5));
     assert_eq!(estimator.update(&y, &residual), Ok(()));
     let before = estimator;
     assert_eq!(estimator.update(&[[0.0; N]; V], &[0.0; V]), Ok(()));
@@ -205,10 +179,10 @@ fn a_restart_leaves_a_new_estimator() {
     let mut used = estimator(0.01);
     let mut numbers = Numbers(9);
     for _ in 0..7 {
-        let (y, residual) = numbers.rows();
+        let (y, residual) = rows(&mut numbers);
         assert_eq!(used.update(&y, &residual), Ok(()));
     }
-    let (y, _) = numbers.rows();
+    let (y, _) = rows(&mut numbers);
     for _ in 0..30 {
         assert!(used.update(&y, &[1e8; V]).is_err());
     }

@@ -1,6 +1,7 @@
 //! The estimate against normal equations that are solved by elimination, and what is refused.
 
 use super::*;
+use crate::estimate::tests::solved;
 use dynamics_core::glam::DVec3;
 
 const CONFIG: TipWrenchConfig<f64, 4> = TipWrenchConfig {
@@ -22,20 +23,6 @@ const JACOBIAN: [[f64; 6]; 4] = [
     [-0.5, 0.9, 0.2, 0.1, -0.7, 0.3],
     [0.2, 0.8, -0.3, 0.9, 0.25, -0.35],
 ];
-
-/// x of (A + shift) x = b by Gauss.
-fn solved(mut a: [[f64; 6]; 6], mut b: [f64; 6]) -> [f64; 6] {
-    for k in 0..6 {
-        for i in (0..6).filter(|i| *i != k) {
-            let share = a[i][k] / a[k][k];
-            for j in 0..6 {
-                a[i][j] -= share * a[k][j];
-            }
-            b[i] -= share * b[k];
-        }
-    }
-    core::array::from_fn(|k| b[k] / a[k][k])
-}
 
 /// The equations of the module, as they are written.
 fn expected(jacobian: &[[f64; 6]; 4], external: &[f64; 4]) -> [f64; 6] {

@@ -1,6 +1,7 @@
 //! The selection of base parameters in closed form.
 
 use super::*;
+use crate::estimate::tests::solved;
 
 #[test]
 fn the_prior_of_a_base_parameter_is_that_of_its_sum() {
@@ -114,14 +115,14 @@ fn the_covariance_of_a_body_is_that_of_its_pseudo_inertia() {
         share * share * (0..4).map(|i| all[i][i]).sum::<f64>()
     };
     let got = covariance::<2, 21>(&nominal, share);
-    for a in 0..21 {
-        for b in 0..21 {
+    for (a, row) in got.iter().enumerate() {
+        for (b, got) in row.iter().enumerate() {
             let expected = match (a, b) {
                 (10..20, 10..20) => of_bodies(a - 10, b - 10),
                 (20, 20) => share * share * friction * friction,
                 _ => 0.0,
             };
-            assert!((got[a][b] - expected).abs() < 1e-12, "{a} {b}");
+            assert!((got - expected).abs() < 1e-12, "{a} {b}");
         }
     }
 }
@@ -165,20 +166,6 @@ fn a_row_has_the_selected_columns_of_its_joint() {
     assert_eq!(friction.own::<3>(BODIES, 2), [2, 1, 1]);
 }
 
-/// x of A x = b, of symmetric positive definite A.
-fn solved<const M: usize>(mut a: [[f64; M]; M], mut b: [f64; M]) -> [f64; M] {
-    for k in 0..M {
-        for i in (0..M).filter(|i| *i != k) {
-            let share = a[i][k] / a[k][k];
-            for j in 0..M {
-                a[i][j] -= share * a[k][j];
-            }
-            b[i] -= share * b[k];
-        }
-    }
-    core::array::from_fn(|k| b[k] / a[k][k])
-}
-
 // Columns that are correlated: of the regression K of all columns on the selected ones and the covariance C, the prior is
 // K C Kᵀ and the spread C Kᵀ (K C Kᵀ)⁻¹.
 #[test]
@@ -210,8 +197,9 @@ fn the_spread_is_that_of_the_regression_on_the_selection() {
             (0..5).map(of).sum()
         })
     });
-    for k in 0..3 {
-        assert!((base.prior[k] - prior[k][k].sqrt()).abs() < 1e-12);
+    let variances: [f64; 3] = core::array::from_fn(|k| prior[k][k]);
+    for (got, variance) in base.prior.iter().zip(variances) {
+        assert!((got - variance.sqrt()).abs() < 1e-12);
     }
     for (i, row) in base.spread.iter().enumerate() {
         let expected = solved(prior, regression[i].map(|x| variance[i] * x));

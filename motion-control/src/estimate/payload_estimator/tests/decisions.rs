@@ -82,7 +82,7 @@ fn each_number_of_the_configuration_has_its_range() {
 #[test]
 fn numbers_that_cannot_be_used_change_nothing() {
     let mut estimator = estimator(0.0);
-    let (y, residual) = Numbers(5).rows();
+    let (y, residual) = rows(&mut Numbers(5));
     assert_eq!(estimator.update(&y, &residual), Ok(()));
     let before = estimator;
     let joint = 1;

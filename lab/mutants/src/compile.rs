@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use crate::copy::Places;
 use crate::error::{Error, Result};
-use crate::suite::{OTHERS, OWN, UNOPTIMISED};
+use crate::suite::{OWN, UNOPTIMISED};
 
 /// The packages whose tests are run. The full run of the tests adds robots and scalars to `specialised-tests`, which
 /// take longer to compile than all else.
@@ -58,24 +58,13 @@ pub fn build(copy: &Path, target: &Path, places: &Places, kind: &str) -> Result<
         cargo.envs(packages.map(|of| (format!("CARGO_PROFILE_DEV{of}_OPT_LEVEL"), "0")));
     }
     // Another workspace, such as that of a test, is built as a whole.
-    let simulated = ["--profile", "simulated"];
-    let packages = |of: &[&'static str]| {
-        of.iter()
-            .flat_map(|&package| ["--package", package])
-            .collect::<Vec<_>>()
-    };
     if kind == OWN {
-        cargo.args(packages(&["motion-control"]));
-    } else if kind == OTHERS {
-        cargo
-            .args(packages(&["host-tests", "simulation-tests"]))
-            .args(simulated);
+        cargo.args(["--package", "motion-control"]);
     } else if copy.join(MEMBER).is_dir() {
-        cargo
-            .args(packages(&PACKAGES))
-            .args(["--features", FEATURES]);
+        cargo.args(PACKAGES.iter().flat_map(|package| ["--package", package]));
+        cargo.args(["--features", FEATURES]);
         if kind != UNOPTIMISED {
-            cargo.args(simulated);
+            cargo.args(["--profile", "simulated"]);
         }
     } else {
         cargo.arg("--workspace");

@@ -26,7 +26,7 @@ use crate::compile::{Built, Program};
 use crate::error::{Error, Result};
 use crate::outcome::{Outcome, Results, Verdict};
 use crate::site::Site;
-use crate::suite::{OTHERS, OWN, Test, UNOPTIMISED};
+use crate::suite::Test;
 
 /// Small changes to the code, one at a time, each against the tests that reach it
 #[derive(Parser)]
@@ -72,15 +72,7 @@ fn run(args: &Args) -> Result<Results> {
     let mut results = Results::default();
     let only = args.only.as_deref().unwrap_or_default();
     for (kind, longest) in suite::LONGEST {
-        let is_unreached = |site: &Site| {
-            let verdict = kept.get(&site.key()).map(|outcome| &outcome.verdict);
-            matches!(verdict, Some(Verdict::Unreached))
-        };
-        let is_of_build = |site: &&Site| match rooms::is_whole(&site.file) {
-            true => kind == OWN || kind == OTHERS && is_unreached(site),
-            false if rooms::is_unoptimised(&site.file) => kind == UNOPTIMISED,
-            false => kind == "optimised",
-        };
+        let is_of_build = |site: &&Site| rooms::build_of(&site.file) == kind;
         let mut sites: Vec<Site> = sites.iter().filter(is_of_build).cloned().collect();
         let mut build = Build::read(args, kind)?;
         sites.retain(|site| !build.refused.contains(&site.key()));
@@ -179,9 +171,8 @@ fn verdict(site: &Site, tests: &[Test<'_>]) -> Result<Verdict> {
     let together =
         |a: &&Test<'_>, b: &&Test<'_>| b.seconds < suite::SHORT && a.program.path == b.program.path;
     for tests in reaching.chunk_by(together) {
-        if let Some(name) = suite::failing(tests, site.number)? {
-            let program = &tests[0].program.name;
-            return Ok(Verdict::Killed(format!("{program}: {name}")));
+        if let Some(test) = suite::failing(tests, site.number)? {
+            return Ok(Verdict::Killed(test.full_name()));
         }
     }
     Ok(match reaching.is_empty() {

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::site::Site;
+use crate::suite::{OPTIMISED, OWN, UNOPTIMISED};
 
 /// A part of the workspace.
 pub struct Room {
@@ -62,7 +63,7 @@ pub const ROOMS: [Room; 18] = [
 
 /// The room whose code the compiler specialises for each robot, in functions of many thousand operations: with switches
 /// at each of them, optimising takes hours, so that its changes have a build of their own that is not optimised.
-const UNOPTIMISED: &str = "engine";
+const NOT_OPTIMISED: &str = "engine";
 
 /// The largest share of a room that one operator may have, in per cent.
 const SHARE: usize = 30;
@@ -82,9 +83,13 @@ pub fn is_whole(file: &str) -> bool {
     room_of(file).is_some_and(|room| room.draws == ALL)
 }
 
-/// Whether the changes of a file are built without optimisation.
-pub fn is_unoptimised(file: &str) -> bool {
-    room_of(file).is_some_and(|room| room.name == UNOPTIMISED)
+/// The build of the changes of a file.
+pub fn build_of(file: &str) -> &'static str {
+    match room_of(file) {
+        Some(room) if room.draws == ALL => OWN,
+        Some(room) if room.name == NOT_OPTIMISED => UNOPTIMISED,
+        _ => OPTIMISED,
+    }
 }
 
 /// The sites that are drawn, numbered from 0 by file and place. The order of the draw depends on a site's key alone, so

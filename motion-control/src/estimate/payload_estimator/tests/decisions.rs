@@ -250,6 +250,48 @@ fn ticks_of_a_fault_begin_the_other_load_anew() {
     assert!((mass(&one) - 40.0).abs() < 0.01, "{}", mass(&one));
 }
 
+/// One of a limit of 5, whose bounds are 2² and 2.5², frozen at no load with these levels and ticks of the other load.
+fn frozen_with(level: f64, other: f64, ticks: u32) -> One {
+    let config = PayloadEstimatorConfig {
+        noise: [1.0],
+        prior: [2.0; N],
+        forgetting: 0.0,
+        limit: 5.0,
+    };
+    let mut one = One::try_new(config).expect("a good configuration");
+    one.freeze();
+    one.level = level;
+    if let Some(freeze) = &mut one.freeze {
+        (freeze.level, freeze.ticks) = (other, ticks);
+    }
+    one
+}
+
+// A torque without a direction keeps the level that is its square.
+#[test]
+fn levels_at_their_bounds_thaw_and_do_not_begin_anew() {
+    let none = [[0.0; N]];
+    let mut load = frozen_with(4.0, 25.0, 0);
+    assert!(load.update(&none, &[2.0]).is_err());
+    assert_eq!((load.level, load.frozen()), (4.0, false));
+    let mut other = frozen_with(20.0, 4.0, 1023);
+    assert!(other.update(&none, &[2.0]).is_err());
+    assert_eq!((other.level, other.frozen()), (4.0, false));
+    let mut fault = frozen_with(20.0, 6.25, 300);
+    assert!(fault.update(&none, &[2.5]).is_err());
+    assert_eq!(fault.freeze.map(|freeze| freeze.ticks), Some(301));
+}
+
+#[test]
+fn a_load_at_the_limit_of_its_prior_is_expected() {
+    // 5 deviations of 2.
+    for (x, expected) in [(10.0, true), (-10.0, true), (10.01, false)] {
+        let mut one = frozen_with(20.0, 4.0, 1023);
+        one.other().rows[9][10] = x;
+        assert_eq!(one.other_is_expected(), expected, "{x}");
+    }
+}
+
 #[test]
 fn reasons_are_told_apart_in_words() {
     let reasons = [

@@ -59,7 +59,7 @@ pub fn build(copy: &Path, target: &Path, places: &Places, kind: &str) -> Result<
     }
     // Another workspace, such as that of a test, is built as a whole.
     if kind == OWN {
-        cargo.args(["--package", "motion-control"]);
+        cargo.args(["--package", "motion-control", "--profile", "simulated"]);
     } else if copy.join(MEMBER).is_dir() {
         cargo.args(PACKAGES.iter().flat_map(|package| ["--package", package]));
         cargo.args(["--features", FEATURES]);

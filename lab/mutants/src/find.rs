@@ -83,11 +83,9 @@ impl<'a> Finder<'a> {
         let name = of.ident.to_string();
         self.functions.push(name.clone());
         let inside = self.text(body).trim_matches(['{', '}']).trim();
+        let values = changes::returned(&of.output).iter();
         // What has this body already does not change.
-        for value in changes::returned(&of.output)
-            .iter()
-            .filter(|one| **one != inside)
-        {
+        for value in values.filter(|value| **value != inside) {
             let words = match *value {
                 "" => format!("`{name}` does nothing"),
                 value => format!("`{name}` returns `{value}`"),
@@ -96,7 +94,7 @@ impl<'a> Finder<'a> {
             self.add("return", Form::Return, open, (*value).to_owned(), words);
         }
         if matches!(of.output, syn::ReturnType::Default) {
-            self.last_without(body);
+            self.without_last(body);
         }
         self.visit_block(body);
         self.functions.pop();
@@ -109,34 +107,28 @@ impl<'a> Finder<'a> {
         self.add("statement", Form::Delete, at, String::new(), words);
     }
 
-    /// Leaves out the last expression of a block without a value, where every statement is changed.
-    fn last_without(&mut self, block: &syn::Block) {
-        if let Some(Stmt::Expr(last, None)) = block.stmts.last() {
-            self.expression_without(last);
-        }
-    }
-
-    /// Leaves out an expression without a value, and those in its branches.
-    fn expression_without(&mut self, expression: &Expr) {
+    /// Leaves out an expression without a value, and those that end its branches, where every statement is changed.
+    fn without_value(&mut self, expression: &Expr) {
         if !is_whole(self.file) || self.text(expression) == "{}" {
             return;
         }
         self.without(expression);
         match expression {
             Expr::If(of) => {
-                self.last_without(&of.then_branch);
-                if let Some((_, otherwise)) = &of.else_branch {
-                    self.expression_without(otherwise);
-                }
+                self.without_last(&of.then_branch);
+                let otherwise = of.else_branch.iter();
+                otherwise.for_each(|(_, branch)| self.without_value(branch));
             }
-            Expr::Match(of) => of
-                .arms
-                .iter()
-                .for_each(|arm| self.expression_without(&arm.body)),
-            Expr::Block(of) => self.last_without(&of.block),
-            Expr::ForLoop(syn::ExprForLoop { body, .. })
-            | Expr::While(syn::ExprWhile { body, .. }) => self.last_without(body),
+            Expr::Match(of) => (of.arms.iter()).for_each(|arm| self.without_value(&arm.body)),
+            Expr::Block(of) => self.without_last(&of.block),
+            Expr::ForLoop(of) => self.without_last(&of.body),
             _ => {}
+        }
+    }
+
+    fn without_last(&mut self, block: &syn::Block) {
+        if let Some(Stmt::Expr(last, None)) = block.stmts.last() {
+            self.without_value(last);
         }
     }
 }
@@ -233,10 +225,9 @@ impl<'ast> Visit<'ast> for Finder<'_> {
     }
 
     fn visit_block(&mut self, block: &'ast syn::Block) {
-        let before_the_last = block.stmts.iter().rev().skip(1);
-        for statement in before_the_last {
+        for statement in block.stmts.iter().rev().skip(1) {
             if let Stmt::Expr(expression, None) = statement {
-                self.expression_without(expression);
+                self.without_value(expression);
             }
         }
         visit::visit_block(self, block);

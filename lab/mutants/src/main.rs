@@ -166,19 +166,17 @@ impl Build {
 
 /// Runs the tests that reach a change, the fastest first, until one of them fails.
 fn verdict(site: &Site, tests: &[Test<'_>]) -> Result<Verdict> {
-    let is_reached = |test: &&Test<'_>| test.sites.contains(&site.number);
-    let reaching: Vec<&Test<'_>> = tests.iter().filter(is_reached).collect();
-    let together =
-        |a: &&Test<'_>, b: &&Test<'_>| b.seconds < suite::SHORT && a.program.path == b.program.path;
-    for tests in reaching.chunk_by(together) {
-        if let Some(test) = suite::failing(tests, site.number)? {
+    let mut verdict = Verdict::Unreached;
+    for test in tests
+        .iter()
+        .filter(|test| test.sites.contains(&site.number))
+    {
+        if !suite::passes_with(test, site.number)? {
             return Ok(Verdict::Killed(test.full_name()));
         }
+        verdict = Verdict::Survived;
     }
-    Ok(match reaching.is_empty() {
-        true => Verdict::Unreached,
-        false => Verdict::Survived,
-    })
+    Ok(verdict)
 }
 
 /// What a file has in JSON; nothing if there is none.

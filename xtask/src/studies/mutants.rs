@@ -20,13 +20,13 @@ const PAGE: Page<'_> = Page {
     name: "mutants",
     command: "cargo xtask mutants",
 };
-/// The rooms of which every change is taken.
+/// The rooms of which every change is taken, and their part of the page.
+const WHOLE: [&str; 3] = ["safety", "motion", "estimate"];
 const WHOLE_PAGE: Page<'_> = Page {
-    file: "docs/mutants.md",
     name: "mutants-rooms",
     command: "cargo xtask mutants --rooms",
+    ..PAGE
 };
-const WHOLE: [&str; 3] = ["safety", "motion", "estimate"];
 /// Why a change may survive, by file, function and change.
 const REASONS: &str = "lab/mutants/reasons.toml";
 /// The largest share of changes that may survive.
@@ -113,21 +113,17 @@ pub fn run(_: Options, args: Args) -> Result<ExitCode> {
         ));
     }
     let when = docs::today_and_commit(&workspace);
-    let (rooms, open) = results.of_rooms(true).whole_text(&reasons, &when);
-    let sample = results.of_rooms(false).text(&reasons, &when);
+    let [rooms, sample] = [true, false].map(|whole| results.text(whole, &reasons, &when));
     if args.only.is_none() {
         WHOLE_PAGE.write(&workspace, &rooms)?;
-        if !args.rooms {
-            PAGE.write(&workspace, &sample)?;
-        }
     }
-    docs::show(args.json, &results, &[&*rooms, "\n\n", &sample].concat())?;
-    match open {
-        0 => Ok(ExitCode::SUCCESS),
-        _ => Err(check!(
-            "{open} changes survive without a reason in {}",
-            WHOLE.join(", ")
-        )),
+    if args.only.is_none() && !args.rooms {
+        PAGE.write(&workspace, &sample)?;
+    }
+    docs::show(args.json, &results, &format!("{rooms}\n\n{sample}"))?;
+    match rooms.contains(NO_REASON) {
+        true => Err(check!("a change of {WHOLE:?} survives without a reason")),
+        false => Ok(ExitCode::SUCCESS),
     }
 }
 
@@ -170,42 +166,21 @@ impl Results {
         idle.map(|reason| &*reason.change).collect()
     }
 
-    /// Those of the rooms of which every change is taken, or of the others.
-    fn of_rooms(&self, whole: bool) -> Self {
-        let is_one = |outcome: &&Outcome| WHOLE.contains(&&*outcome.room) == whole;
-        Self {
-            tests: self.tests,
-            unusable: self.unusable.clone(),
-            outcomes: self.outcomes.iter().filter(is_one).cloned().collect(),
+    /// The text between the markers, of the rooms of which every change is taken or of the sample.
+    fn text(&self, whole: bool, reasons: &Reasons, when: &str) -> String {
+        let outcomes = self.outcomes.iter();
+        let outcomes = outcomes.filter(|one| WHOLE.contains(&&*one.room) == whole);
+        let all: Vec<&Outcome> = outcomes.collect();
+        let mut rooms: BTreeMap<&str, Vec<&Outcome>> = BTreeMap::new();
+        let mut rows: BTreeMap<String, Vec<&Outcome>> = BTreeMap::new();
+        for &one in &all {
+            rooms.entry(&one.room).or_default().push(one);
+            let row = match whole {
+                true => format!("{}, {}", one.room, one.operator),
+                false => one.room.clone(),
+            };
+            rows.entry(row).or_default().push(one);
         }
-    }
-
-    fn by(&self, name: impl Fn(&Outcome) -> String) -> BTreeMap<String, Vec<&Outcome>> {
-        let mut by: BTreeMap<String, Vec<&Outcome>> = BTreeMap::new();
-        for outcome in &self.outcomes {
-            by.entry(name(outcome)).or_default().push(outcome);
-        }
-        by
-    }
-
-    /// The text of the rooms of which every change is taken, and how many survive without a reason.
-    fn whole_text(&self, reasons: &Reasons, when: &str) -> (String, usize) {
-        let has_none = |one: &&Outcome| !reasons.reason.iter().any(|reason| one.is_of(reason));
-        let survivors = self.outcomes.iter().filter(|one| !one.is_killed());
-        let open = survivors.filter(has_none).count();
-        let verdict = if open == 0 { "met" } else { "missed" };
-        let text = format!(
-            "{} changes, every statement among them, on {when}. None may survive without a reason: {verdict}.\n\n{}{}",
-            self.outcomes.len(),
-            self.table(|one| format!("{}: {}", one.room, one.operator))
-                .markdown(),
-            self.survivors(reasons)
-        );
-        (text.trim_end().to_owned(), open)
-    }
-
-    fn table(&self, name: impl Fn(&Outcome) -> String) -> Table {
-        let all: Vec<&Outcome> = self.outcomes.iter().collect();
         let counted = |(name, of): (&String, &Vec<&Outcome>)| {
             let count = |is: fn(&Outcome) -> bool| of.iter().filter(|one| is(one)).count();
             let killed = count(Outcome::is_killed);
@@ -213,49 +188,31 @@ impl Results {
             let survived = of.len() - killed;
             let counts = [of.len(), killed, survived, unreached].map(|count| count.to_string());
             let share = format!("{:.1}", 100.0 * share(survived, of.len()));
-            [&[name.to_string()], &counts[..], &[share]].concat()
+            [&[name.clone()], &counts[..], &[share]].concat()
         };
         let mut table = Table::new(&HEADS);
-        let last = ("all".to_owned(), all);
-        for row in self
-            .by(name)
-            .iter()
-            .chain([(&last.0, &last.1)])
-            .map(counted)
-        {
+        for row in rows.iter().chain([(&"all".to_owned(), &all)]).map(counted) {
             table.row(row);
         }
-        table
-    }
-
-    /// The text between the markers.
-    fn text(&self, reasons: &Reasons, when: &str) -> String {
-        let changes = self.outcomes.len();
-        let survived = self
-            .outcomes
-            .iter()
-            .filter(|outcome| !outcome.is_killed())
-            .count();
-        let is_met = share(survived, changes) <= MOST;
+        let survived = all.iter().filter(|outcome| !outcome.is_killed()).count();
+        let is_met = share(survived, all.len()) <= MOST;
         let verdict = if is_met { "met" } else { "missed" };
-        let (tests, most) = (self.tests, 100.0 * MOST);
+        let (changes, tests, most) = (all.len(), self.tests, 100.0 * MOST);
+        let bar = match whole {
+            true => "Each of them is noticed or has its reason below.".to_owned(),
+            false => format!("At most {most:.0} % may survive: {verdict}."),
+        };
         let mut text = format!(
-            "{changes} changes against {tests} tests, on {when}. At most {most:.0} % may survive: {verdict}.\n\n{}",
-            self.table(|one| one.room.clone()).markdown()
+            "{changes} changes against {tests} tests, on {when}. {bar}\n\n{}",
+            table.markdown()
         );
-        for name in &self.unusable {
+        for name in self.unusable.iter().filter(|_| !whole) {
             text += &format!(
                 "\nNot used, because it fails in the copy without a change, or is too slow there: `{name}`.\n"
             );
         }
-        text += "\n## What survived\n";
-        text += &self.survivors(reasons);
-        text.trim_end().to_owned()
-    }
-
-    fn survivors(&self, reasons: &Reasons) -> String {
-        let mut text = String::new();
-        for (room, of) in self.by(|one| one.room.clone()) {
+        text += if whole { "" } else { "\n## What survived\n" };
+        for (room, of) in rooms {
             let survivors = of.iter().filter(|outcome| !outcome.is_killed());
             let lines: BTreeSet<String> = survivors.map(|one| line(one, reasons)).collect();
             if !lines.is_empty() {
@@ -263,7 +220,7 @@ impl Results {
                 text.extend(lines);
             }
         }
-        text
+        text.trim_end().to_owned()
     }
 }
 

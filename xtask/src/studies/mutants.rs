@@ -120,7 +120,11 @@ pub fn run(_: Options, args: Args) -> Result<ExitCode> {
     if args.only.is_none() && !args.rooms {
         PAGE.write(&workspace, &sample)?;
     }
-    docs::show(args.json, &results, &format!("{rooms}\n\n{sample}"))?;
+    let shown = match args.rooms {
+        true => rooms.clone(),
+        false => format!("{rooms}\n\n{sample}"),
+    };
+    docs::show(args.json, &results, &shown)?;
     match rooms.contains(NO_REASON) {
         true => Err(check!("a change of {WHOLE:?} survives without a reason")),
         false => Ok(ExitCode::SUCCESS),
@@ -188,7 +192,7 @@ impl Results {
             let survived = of.len() - killed;
             let counts = [of.len(), killed, survived, unreached].map(|count| count.to_string());
             let share = format!("{:.1}", 100.0 * share(survived, of.len()));
-            [&[name.clone()], &counts[..], &[share]].concat()
+            [std::slice::from_ref(name), &counts[..], &[share]].concat()
         };
         let mut table = Table::new(&HEADS);
         for row in rows.iter().chain([(&"all".to_owned(), &all)]).map(counted) {

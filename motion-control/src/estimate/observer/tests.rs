@@ -76,7 +76,7 @@ fn before_the_first_position_nothing_moves() {
 }
 
 #[test]
-fn the_gap_of_a_tick_is_its_series_up_to_16() {
+fn the_gap_of_a_tick_is_its_series() {
     let x = 1.0_f64;
     let growth = x + 1.0 / 2.0 + 1.0 / 6.0 + 1.0 / 24.0 + 1.0 / 120.0;
     assert!((one_less_decay(x) - growth / (1.0 + growth)).abs() < 1e-15);

@@ -114,7 +114,7 @@ fn the_page_has_a_result_that_holds() {
 }
 
 #[test]
-fn every_change_of_three_rooms_is_noticed_or_has_a_reason() {
+fn every_survivor_of_three_rooms_has_a_reason() {
     let others = vec![
         outcome("motion", "z", Verdict::Survived),
         outcome("tools", "z", Verdict::Survived),

@@ -4,7 +4,7 @@ use super::*;
 use crate::estimate::tests::solved;
 
 #[test]
-fn the_prior_of_a_base_parameter_is_that_of_its_sum() {
+fn a_base_parameter_has_the_prior_of_its_sum() {
     // τ = a (θ₀ + 2 θ₁) + b θ₂: the second column explains most.
     let mut motion: Excitation<3> = Excitation::new();
     for (a, b) in [(1.0, 1.0), (1.0, -1.0), (-2.0, 0.5), (-2.0, -0.5)] {
@@ -100,7 +100,7 @@ fn product(a: [[f64; 4]; 4], b: [[f64; 4]; 4]) -> [[f64; 4]; 4] {
 
 // The covariance of two parameters ⟨X, J⟩ and ⟨Y, J⟩ is s² tr(X J Y J).
 #[test]
-fn the_covariance_of_a_body_is_that_of_its_pseudo_inertia() {
+fn the_covariance_of_a_body_follows_its_pseudo_inertia() {
     const BODY: [f64; 10] = [
         2.0, 0.5, -0.25, 0.125, 1.0, -0.25, 1.5, -0.125, -0.0625, 2.0,
     ];

@@ -46,7 +46,7 @@ fn the_parameters_of_each_joint_follow_those_of_all() {
 }
 
 #[test]
-fn a_row_that_cannot_be_used_is_named_and_changes_no_estimate() {
+fn an_unusable_row_is_named_and_changes_no_estimate() {
     let mut estimator = Estimator::try_new(config(0.0)).expect("a good configuration");
     compared(&mut estimator, &mut Whole::new(&config(0.0), [0.0; P]), 10);
     let before = estimator;
@@ -88,7 +88,7 @@ fn a_row_that_cannot_be_used_is_named_and_changes_no_estimate() {
 }
 
 #[test]
-fn the_largest_numbers_are_those_whose_square_is_10_to_the_18() {
+fn squares_up_to_10_to_the_18_are_usable() {
     // A covariance of one and a noise of one: 1 + y², and the error is the residual.
     let config = ParameterEstimatorConfig {
         noise: [1.0],

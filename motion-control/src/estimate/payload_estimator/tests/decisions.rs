@@ -164,7 +164,7 @@ fn mass(one: &One) -> f64 {
 }
 
 #[test]
-fn the_error_of_a_freeze_is_that_of_the_load_before() {
+fn a_freeze_keeps_the_error_of_the_load_before() {
     let mut one = frozen_at(7.0);
     let mass = mass(&one);
     for torque in [mass + 1.0, mass - 2.0, mass + 99.0] {

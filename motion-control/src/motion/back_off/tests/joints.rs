@@ -181,7 +181,7 @@ fn lead_back(mut arm: Arm, q: [f64; 3]) -> (u32, u32, Option<Fault>) {
 }
 
 #[test]
-fn a_return_is_over_with_its_path_and_names_its_joint() {
+fn a_return_ends_with_its_path_and_names_its_joint() {
     for (q, joint) in [(FROM, 0), ([0.0, 0.25, 0.0], 1), ([0.0, 1.0, 1.25], 2)] {
         let (planned, open, fault) = lead_back(arm(q), q);
         assert_eq!(open, planned + 1);

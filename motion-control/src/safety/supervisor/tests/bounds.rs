@@ -62,7 +62,7 @@ fn replaced_bounds_are_restored_to_the_bit() {
 }
 
 #[test]
-fn a_jump_is_named_though_another_joint_is_at_a_bound() {
+fn a_jump_beside_a_joint_at_its_bound_is_named() {
     let joint = 1;
     let jump = Some(Fault::Jump { joint });
     assert_eq!(fault_at(at([-1.0, 0.5]), [-1.0, 0.9]), jump);

@@ -146,7 +146,7 @@ pub const STUDIES: &[Study] = &[
         form: Own(peers::Args::augment_args, |options, matches| peers::run(options, given(matches)?), NO_STEP),
     },
     Study {
-        name: "mutants", about: "Change the code in a few hundred places, one at a time, and rewrite docs/mutants.md: takes an hour",
+        name: "mutants", about: "Change the code in a few thousand places, one at a time, and rewrite docs/mutants.md: takes an hour",
         files: &["docs/mutants.md", "docs/mutants.svg"],
         held: Bars("a run over the whole sample takes an hour"),
         form: Own(mutants::Args::augment_args, |options, matches| mutants::run(options, given(matches)?), NO_STEP),

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::bound::{Bound, Bounder, Enclosure, SineErrors};
 use crate::branch::{Proven, prove};
 use crate::error::{Error, Result};
+use crate::grid;
 use crate::image::Image;
 use crate::interval::Interval;
 use crate::program::Program;
@@ -56,6 +57,8 @@ impl Function {
 pub struct Spent {
     /// The parts that the box of each output is split into.
     pub parts: usize,
+    /// The most points of a grid of angles.
+    pub points: usize,
     /// The search of observed errors.
     pub search: Effort,
 }
@@ -77,6 +80,28 @@ pub struct Output {
     pub range: Interval,
     /// The parts of the box.
     pub parts: usize,
+    /// Which of the two proofs says the less.
+    pub proof: Proof,
+}
+
+/// How a bound was proven; both are tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Proof {
+    /// By intervals over parts of the box: [`crate::branch`]
+    Parts,
+    /// By a grid of angles: [`crate::grid`]
+    Grid,
+}
+
+impl Proof {
+    /// Its name on a page.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Parts => "parts",
+            Self::Grid => "grid",
+        }
+    }
 }
 
 impl Output {
@@ -159,8 +184,11 @@ pub fn certify(
     }
     let observed = search(&graph, robot, spent.search, 1);
     let proven = in_parallel(graph.outputs.len(), |output| {
-        Bounder::new(&graph, output, robot, sines, Enclosure::WrittenOut)
-            .map(|mut bounder| prove(&mut bounder, &robot.whole(), spent.parts))
+        let mut bounder = Bounder::new(&graph, output, robot, sines, Enclosure::WrittenOut)?;
+        let one = graph.of_output(output);
+        let by_grid = grid::Program::new(&one, robot)
+            .and_then(|program| program.prove(&one, robot, sines, spent.points));
+        Some((prove(&mut bounder, &robot.whole(), spent.parts), by_grid))
     });
     let mut outputs = Vec::new();
     for (output, ((offset, _), (observed, proven))) in graph
@@ -175,12 +203,18 @@ pub fn certify(
         } else {
             (place + 1).to_string()
         };
+        let (proven, by_grid) =
+            proven.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
         let Proven {
             bound,
             range,
             parts,
             ..
-        } = proven.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
+        } = proven;
+        let (bound, proof) = match by_grid {
+            Some(other) if other.total() < bound.total() => (other, Proof::Grid),
+            _ => (bound, Proof::Parts),
+        };
         let total = bound.total();
         if total < observed.error {
             return Err(Error::Contradicted {
@@ -197,6 +231,7 @@ pub fn certify(
             state: observed.state,
             range,
             parts: parts.len(),
+            proof,
         });
     }
     Ok(Certificate {

@@ -40,7 +40,7 @@ pub fn hashes(image: &Image, functions: &[Function], robot: &str, page: &str) ->
     Ok(())
 }
 
-/// Has Gappa check a part of the box around the worst state of each output: its bound must hold there, and be no less than what was
+/// Has Gappa, and Coq if wanted, check a part of the box around the worst state of each output: its bound must hold there, and be no less than what was
 /// observed.
 ///
 /// # Errors
@@ -52,6 +52,7 @@ pub fn by_gappa(
     sines: SineErrors,
     of: &Certificate,
     share: f64,
+    coq: bool,
 ) -> Result<()> {
     let graph = expression(image, function)?.graph;
     for (number, output) in of
@@ -73,22 +74,88 @@ pub fn by_gappa(
                 observed: output.observed,
             });
         }
-        if !gappa::script(&bounder)
-            .bounded(&bounder, bound)
-            .is_proven()?
-        {
+        let script = gappa::script(&bounder).bounded(&bounder, bound);
+        if !script.is_proven()? || coq && !script.is_checked_by_coq()? {
             let said = format!(
                 "a part around the worst state of joint {} of {} is not proven",
                 output.name, of.robot
             );
             return Err(Error::Program {
-                program: "gappa".to_owned(),
+                program: if coq { "gappa or coqc" } else { "gappa" }.to_owned(),
                 said,
             });
         }
     }
     Ok(())
 }
+
+/// Has Gappa and Coq check a part of the box of one result of a function, drawn at random, and refuse what is wrong: Gappa a smaller
+/// bound, Coq a smaller rounding error in Gappa's proof.
+///
+/// # Errors
+/// [`Error::Program`] if one of them decides otherwise.
+pub fn sampled(
+    image: &Image,
+    function: Function,
+    robot: &Robot,
+    rng: &mut fastrand::Rng,
+) -> Result<()> {
+    let graph = expression(image, function)?.graph;
+    let whole = robot.whole();
+    let state: Vec<f64> = whole
+        .iter()
+        .map(|x| x.low + rng.f64() * (x.high - x.low))
+        .collect();
+    let around = around(&state, &whole, 1.0 / 64.0);
+    let outputs = 0..graph.outputs.len();
+    let mut bounded = outputs.filter_map(|output| {
+        let mut bounder = Bounder::new(&graph, output, robot, NOMINAL, Enclosure::Plain)?;
+        let bound = bounder.bound(&around).total();
+        (bound > 0.0).then_some((bounder, bound))
+    });
+    let skipped = rng.usize(..graph.outputs.len().min(3));
+    let Some((bounder, bound)) = bounded.nth(skipped).or_else(|| bounded.next()) else {
+        return Err(Error::Missing(format!(
+            "rounded result of {}",
+            function.name()
+        )));
+    };
+    let said = |program: &str, said: &str| {
+        let said = format!("{}: {said}", function.name());
+        Err(Error::Program {
+            program: program.to_owned(),
+            said,
+        })
+    };
+    let script = gappa::script(&bounder);
+    if !script.clone().bounded(&bounder, bound).is_proven()? {
+        return said("gappa", "a part of the box is not proven");
+    }
+    if script.clone().bounded(&bounder, 0.99 * bound).is_proven()? {
+        return said("gappa", "accepts a bound that is too small");
+    }
+    let texts: Vec<String> = script.texts().collect();
+    let Some(proof) = gappa::proof(&texts[rng.usize(..texts.len().div_ceil(2))])? else {
+        return said("gappa", "has no proof for Coq");
+    };
+    if !gappa::is_checked_by_coq(&proof)? {
+        return said("coqc", "does not accept the proof of Gappa");
+    }
+    match gappa::corrupted(&proof) {
+        Some(wrong) if !gappa::is_checked_by_coq(&wrong)? => Ok(()),
+        Some(_) => said(
+            "coqc",
+            "accepts a proof in which a rounding error is too small",
+        ),
+        None => said("gappa", "a proof without a rounded operation"),
+    }
+}
+
+/// Nearly the errors of the library's sines; a part is proven of whatever they are.
+const NOMINAL: SineErrors = SineErrors {
+    sine: 1.2e-7,
+    cosine: 1.2e-7,
+};
 
 /// The part of a box around a state that has this share of each range.
 pub fn around(state: &[f64], whole: &[Interval], share: f64) -> Vec<Interval> {

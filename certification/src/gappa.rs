@@ -178,27 +178,95 @@ impl Script {
         }
         Ok(!self.proven.is_empty())
     }
+
+    /// Whether Coq accepts Gappa's proofs of all of them.
+    ///
+    /// # Errors
+    /// [`Error::Program`] if Gappa or Coq cannot be started, [`Error::File`].
+    pub fn is_checked_by_coq(&self) -> Result<bool> {
+        for text in self.texts() {
+            match proof(&text)? {
+                Some(proof) if is_checked_by_coq(&proof)? => {}
+                _ => return Ok(false),
+            }
+        }
+        Ok(!self.proven.is_empty())
+    }
 }
 
 /// Statements of a script.
 const BLOCK: usize = 40;
 
 fn is_accepted(text: &str) -> Result<bool> {
-    let failed = |e: std::io::Error| Error::Program {
-        program: "gappa".to_owned(),
-        said: e.to_string(),
-    };
+    Ok(run(&[], text)?.is_some())
+}
+
+/// Gappa's proof of a text's statements for Coq; `None` if it has none.
+///
+/// # Errors
+/// [`Error::Program`] if Gappa cannot be started.
+pub fn proof(text: &str) -> Result<Option<String>> {
+    run(&["-Bcoq"], text)
+}
+
+/// What Gappa prints of a text that it accepts.
+fn run(options: &[&str], text: &str) -> Result<Option<String>> {
     let mut gappa = Command::new("gappa")
+        .args(options)
         .stdin(Stdio::piped())
-        .stdout(Stdio::null())
+        .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn()
-        .map_err(failed)?;
+        .map_err(failed("gappa"))?;
     let written = gappa
         .stdin
         .take()
         .map_or(Ok(()), |mut stdin| stdin.write_all(text.as_bytes()));
-    let status = gappa.wait().map_err(failed)?;
+    let output = gappa.wait_with_output().map_err(failed("gappa"))?;
     // One that stops reading has refused what it read.
-    Ok(written.is_ok() && status.success())
+    let is_accepted = written.is_ok() && output.status.success();
+    Ok(is_accepted.then(|| String::from_utf8_lossy(&output.stdout).into_owned()))
+}
+
+fn failed(program: &'static str) -> impl Fn(std::io::Error) -> Error {
+    move |e| Error::Program {
+        program: program.to_owned(),
+        said: e.to_string(),
+    }
+}
+
+/// Whether Coq, with Flocq's theory of floating-point numbers, accepts a proof of Gappa's.
+///
+/// # Errors
+/// [`Error::Program`] if Coq cannot be started, [`Error::File`].
+pub fn is_checked_by_coq(proof: &str) -> Result<bool> {
+    let folder = tempfile::tempdir().map_err(failed("coqc"))?;
+    crate::program::write(&folder.path().join("part.v"), proof)?;
+    let mut coq = Command::new("coqc");
+    coq.arg("part.v").current_dir(folder.path());
+    let status = coq.stdout(Stdio::null()).stderr(Stdio::null()).status();
+    status
+        .map(|status| status.success())
+        .map_err(failed("coqc"))
+}
+
+/// A proof for Coq in which the greatest rounding error of one operation is said to be half of what it is.
+pub fn corrupted(proof: &str) -> Option<String> {
+    // Of a statement BND(round(a op b) - (a op b), interval), the interval's name and then its ends.
+    let statement = proof.lines().find(|line| {
+        line.starts_with("Notation") && line.contains("BND(float<") && line.contains(" - ")
+    })?;
+    let interval = statement.split(')').next()?.rsplit(' ').next()?;
+    let ends = proof
+        .lines()
+        .find_map(|line| line.strip_prefix(&format!("Definition {interval} := makepairF ")))?;
+    let mut wrong = proof.to_owned();
+    for end in ends.trim_end_matches('.').split(' ') {
+        let start = wrong.find(&format!("Definition {end} := Float2 ("))?;
+        let line = wrong.get(start..)?.lines().next()?.to_owned();
+        let (before, power) = line.rsplit_once('(')?;
+        let power: i32 = power.trim_end_matches(").").parse().ok()?;
+        wrong = wrong.replacen(&line, &format!("{before}({}).", power - 1), 1);
+    }
+    Some(wrong)
 }

@@ -6,6 +6,7 @@
 //! | `decode`, [`walk`], [`graph`] | from instructions to the expression that they evaluate |
 //! | [`interval`], [`state_box`], [`forms`] | ranges of numbers, inputs and sums |
 //! | [`bound`], [`branch`] | the error over a part of the box, and over the whole |
+//! | [`grid`] | the error over all angles, by a grid of them |
 //! | [`sines`] | the error of sines, by trying every angle |
 //! | [`search`] | the worst error that is found |
 //! | [`certificate`], [`page`], [`picture`] | what was proven, as data, text and picture |
@@ -13,6 +14,7 @@
 //! | [`cycles`], `flow`, `machine`, `words` | the most cycles of a path, by the cycle meter's model |
 //! | [`stack`], [`rows`] | the most stack, and both beside what was measured |
 //! | [`emulation`], [`sheet`], [`narrow`] | the functions in QEMU, a page of all of this, and boxes of one's own |
+//! | [`fpcore`] | the expression for other tools |
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
@@ -27,8 +29,10 @@ pub mod error;
 mod flags;
 mod flow;
 pub mod forms;
+pub mod fpcore;
 pub mod gappa;
 pub mod graph;
+pub mod grid;
 pub mod image;
 pub mod interval;
 mod machine;

@@ -55,7 +55,7 @@ fn table(one: &Certificate) -> String {
     }
     let _ = writeln!(
         text,
-        "| {what} | proven error, {unit} | worst observed | ratio | of it: operations | literals | sines | range of the result |\n|---|---|---|---|---|---|---|---|"
+        "| {what} | proven error, {unit} | worst observed | ratio | proof | of it: operations | literals | sines | range of the result |\n|---|---|---|---|---|---|---|---|---|"
     );
     for output in &one.outputs {
         let ratio = if output.observed > 0.0 {
@@ -65,10 +65,11 @@ fn table(one: &Certificate) -> String {
         };
         let _ = writeln!(
             text,
-            "| {} | {} | {} | {ratio} | {} | {} | {} | {:.3} to {:.3} |",
+            "| {} | {} | {} | {ratio} | {} | {} | {} | {} | {:.3} to {:.3} |",
             output.name,
             short(output.bound),
             short(output.observed),
+            output.proof.name(),
             short(output.of.operations),
             short(output.of.literals),
             short(output.of.sines),

@@ -1,6 +1,13 @@
 //! The checks of certificates, each with what it refuses.
 
-use certification::bound::{Bounder, Enclosure, SineErrors};
+#[path = "certification/fpcore.rs"]
+mod fpcore;
+#[path = "certification/grid.rs"]
+mod grid;
+#[path = "certification/recorded.rs"]
+mod recorded;
+
+use certification::bound::{Bounder, Enclosure};
 use certification::branch::prove;
 use certification::check::around;
 use certification::error::Error;
@@ -8,71 +15,22 @@ use certification::gappa::{self, Script};
 use certification::graph::{Graph, Input, Node};
 use certification::image::Image;
 use certification::interval::{Interval, half_ulp};
-use certification::search::{Effort, Evaluation, search};
-use certification::state_box::{Joint, Robot, Sector};
+use certification::search::{Evaluation, search};
+use certification::state_box::{Robot, Sector};
 use certification::walk::walk;
 use dynamics_core::Core;
 use dynamics_core::effects::{Gravity, RIGID_BODY};
 use dynamics_core::model::Robot as _;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
+use recorded::{BASE, GRAVITY, LITTLE, RNEA, SINES, bytes, graph, robot};
 
 /// Assembled by hand: `good` at 0, `loop` at 0x30, `branch` at 0x44, `spoil` at 0x4e.
 const CODE: &str = "80b591ed010ad1ed020a92ed011a60ee011a20ee812a71eee01af6ee082a22ee622ac0ed001a32ee212a80ed012a80bd032391ed010a30ee000a013b\
 fbd180ed000a704791ed010ab4ee400a704791ed010a82ed000a7047";
-/// `Engine::<Ur5e>::rnea` and the same of gravity alone as they were compiled one day.
-const RNEA: &str = include_str!("recorded/ur5e_rnea.hex");
-const GRAVITY: &str = include_str!("recorded/ur5e_gravity.hex");
-/// `RIGID_BODY` in memory.
-const EFFECTS: &str = "1f85eb51b89e2340c3f51c4100000000";
-const BASE: u32 = 0x0800_0000;
-
-fn bytes(hex: &str) -> Vec<u8> {
-    let digits: Vec<u32> = hex.chars().filter_map(|c| c.to_digit(16)).collect();
-    digits
-        .chunks(2)
-        .map(|pair| (pair[0] << 4 | pair[1]) as u8)
-        .collect()
-}
-
 fn function(at: u32) -> Result<Graph, Error> {
     walk(&Image::of(BASE, &bytes(CODE)), BASE + at, [None; 4]).map(|walked| walked.graph)
 }
-
-fn recorded(hex: &str) -> Graph {
-    let mut code = bytes(hex);
-    let effects = BASE + code.len() as u32;
-    code.extend(bytes(EFFECTS));
-    let walked = walk(
-        &Image::of(BASE, &code),
-        BASE,
-        [None, None, None, Some(effects)],
-    );
-    walked.expect("it is straight-line").graph
-}
-
-fn robot(joints: usize) -> Robot {
-    let joint = Joint {
-        turns: true,
-        position: Interval::new(-3.0, 3.0),
-        speed: 3.0,
-        acceleration: 10.0,
-    };
-    Robot {
-        joints: vec![joint; joints],
-        trig: [12, 4, 8, 0],
-    }
-}
-
-const SINES: SineErrors = SineErrors {
-    sine: 1e-7,
-    cosine: 1e-7,
-};
-const LITTLE: Effort = Effort {
-    random: 2000,
-    generations: 4,
-    children: 100,
-};
 
 fn bounder(graph: &Graph, output: usize, robot: &Robot) -> Bounder {
     Bounder::new(graph, output, robot, SINES, Enclosure::WrittenOut)
@@ -126,7 +84,7 @@ fn the_expression_is_inverse_dynamics() {
     let robot = robot(6);
     let mut rng = fastrand::Rng::with_seed(1);
     for (hex, gravity_alone) in [(RNEA, false), (GRAVITY, true)] {
-        let graph = recorded(hex);
+        let graph = graph(hex);
         let mut evaluation = Evaluation::new(&graph, &robot);
         let bounds: Vec<f64> = (0..6)
             .map(|output| {
@@ -167,7 +125,7 @@ fn the_expression_is_inverse_dynamics() {
 
 #[test]
 fn no_observed_error_is_above_the_bound_and_a_wrong_graph_has_one() {
-    let (graph, robot) = (recorded(GRAVITY), robot(6));
+    let (graph, robot) = (graph(GRAVITY), robot(6));
     let observed = search(&graph, &robot, LITTLE, 1);
     for (output, observed) in observed.iter().enumerate() {
         let proven = prove(&mut bounder(&graph, output, &robot), &robot.whole(), 100);
@@ -199,7 +157,7 @@ fn no_observed_error_is_above_the_bound_and_a_wrong_graph_has_one() {
 
 #[test]
 fn parts_lower_the_bound_and_cover_the_box() {
-    let (graph, robot) = (recorded(GRAVITY), robot(6));
+    let (graph, robot) = (graph(GRAVITY), robot(6));
     let whole = robot.whole();
     let mut one = bounder(&graph, 1, &robot);
     let (few, many) = (prove(&mut one, &whole, 1), prove(&mut one, &whole, 200));
@@ -254,7 +212,7 @@ fn gappa_accepts_a_part_and_rejects_corrupted_ones() {
         eprintln!("not tested: Gappa is not installed (Debian: gappa)");
         return;
     }
-    let (graph, robot) = (recorded(GRAVITY), robot(6));
+    let (graph, robot) = (graph(GRAVITY), robot(6));
     let mut plain = Bounder::new(&graph, 1, &robot, SINES, Enclosure::Plain)
         .expect("its inputs are the robot's");
     let states = around(&[0.7; 18], &robot.whole(), 1.0 / 64.0);

@@ -52,6 +52,9 @@ struct Args {
     /// Into how many parts the box of each result is split: more time, tighter bounds
     #[arg(long, value_name = "N", default_value_t = 4000)]
     parts: usize,
+    /// Points of the grid of angles that bounds each result a second time; 1,000,000 if not given, 5,000,000 for the page
+    #[arg(long, value_name = "N")]
+    points: Option<usize>,
     /// States of the search for the worst error, for each result
     #[arg(long, value_name = "N", default_value_t = 240_000)]
     states: usize,
@@ -64,6 +67,12 @@ struct Args {
     /// Let Gappa check a part of the box around the worst state of each result
     #[arg(long)]
     gappa: bool,
+    /// Let Coq check Gappa's proofs of them too: minutes for each result
+    #[arg(long, requires = "gappa")]
+    coq: bool,
+    /// Only let Gappa and Coq check a sample of parts of the box, and refuse wrong ones
+    #[arg(long, conflicts_with_all = ["write_docs", "hashes"])]
+    sampled: bool,
     /// Rewrite docs/certificates.md with its picture
     #[arg(long, conflicts_with_all = ["robot", "json"])]
     write_docs: bool,
@@ -79,6 +88,9 @@ struct Args {
 
 /// The share of each range that the parts have which Gappa checks.
 const PART: f64 = 1.0 / 64.0;
+/// See [`Args::points`].
+const POINTS: usize = 1_000_000;
+const PAGE_POINTS: usize = 5_000_000;
 const PAGE: &str = "docs/certificates.md";
 const PICTURE: &str = "docs/certificates.svg";
 
@@ -136,6 +148,9 @@ fn run(args: &Args) -> Result<String> {
         Ok(robot)
     };
     let robots: Vec<Robot> = programs.iter().map(boxed).collect::<Result<_>>()?;
+    if args.sampled {
+        return sampled(args, &programs, &robots);
+    }
     // Once for all robots: what holds over the widest ranges holds over each.
     let joints: Vec<_> = robots
         .iter()
@@ -152,7 +167,7 @@ fn run(args: &Args) -> Result<String> {
             let mut one = certificate::certify(program, *function, robot, sines, spent(args))?;
             one.target = Some(target);
             if args.gappa {
-                check::by_gappa(&image, *function, robot, sines, &one, PART)?;
+                check::by_gappa(&image, *function, robot, sines, &one, PART, args.coq)?;
             }
             eprintln!(
                 "{}: {}: {:.0} s",
@@ -187,11 +202,34 @@ fn rows(path: &Path) -> Result<String> {
     serde_json::to_string_pretty(&Report::of(bounds)).map_err(json)
 }
 
+fn sampled(args: &Args, programs: &[Program], robots: &[Robot]) -> Result<String> {
+    let mut rng = fastrand::Rng::with_seed(1);
+    let mut sampled = 0;
+    for (program, robot) in programs.iter().zip(robots) {
+        for function in &args.function {
+            check::sampled(&Image::read(&program.elf)?, *function, robot, &mut rng)?;
+            eprintln!(
+                "{}: {}: accepted by Gappa and Coq",
+                program.robot,
+                function.name()
+            );
+            sampled += 1;
+        }
+    }
+    Ok(format!(
+        "Gappa and Coq accept {sampled} parts of certificates, and refuse {} wrong ones",
+        2 * sampled
+    ))
+}
+
 fn spent(args: &Args) -> Spent {
     // A third of the states at random, the rest in generations.
     let children = args.states / 3 * 2 / 96;
     Spent {
         parts: args.parts,
+        points: args
+            .points
+            .unwrap_or(if args.write_docs { PAGE_POINTS } else { POINTS }),
         search: Effort {
             random: args.states / 3,
             generations: 96,

@@ -8,6 +8,7 @@ use serde_json::Value;
 
 use crate::copy::Places;
 use crate::error::{Error, Result};
+use crate::suite::{OWN, UNOPTIMISED};
 
 /// The packages whose tests are run. The full run of the tests adds robots and scalars to `specialised-tests`, which
 /// take longer to compile than all else.
@@ -45,22 +46,24 @@ pub enum Built {
 }
 
 /// Builds the tests of the packages that the copy has.
-pub fn build(copy: &Path, target: &Path, places: &Places, is_optimised: bool) -> Result<Built> {
+pub fn build(copy: &Path, target: &Path, places: &Places, kind: &str) -> Result<Built> {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(copy).env("CARGO_TARGET_DIR", target);
     cargo
         .env("CARGO_PROFILE_DEV_DEBUG", "0")
         .env("CARGO_INCREMENTAL", "0");
     cargo.args("build --lib --tests --keep-going --message-format=json".split(' '));
-    if !is_optimised {
+    if kind == UNOPTIMISED {
         let packages = ["", "_BUILD_OVERRIDE"];
         cargo.envs(packages.map(|of| (format!("CARGO_PROFILE_DEV{of}_OPT_LEVEL"), "0")));
     }
     // Another workspace, such as that of a test, is built as a whole.
-    if copy.join(MEMBER).is_dir() {
+    if kind == OWN {
+        cargo.args(["--package", "motion-control", "--profile", "simulated"]);
+    } else if copy.join(MEMBER).is_dir() {
         cargo.args(PACKAGES.iter().flat_map(|package| ["--package", package]));
         cargo.args(["--features", FEATURES]);
-        if is_optimised {
+        if kind != UNOPTIMISED {
             cargo.args(["--profile", "simulated"]);
         }
     } else {

@@ -9,10 +9,14 @@ use syn::visit::{self, Visit};
 use syn::{Attribute, BinOp, Expr, Lit, Stmt, UnOp};
 
 use crate::changes;
+use crate::rooms::is_whole;
 use crate::site::{Form, Site};
 
 /// Macros whose arguments are no code of the function, or that a test asserts with.
 const OPAQUE: &str = "assert assert_eq assert_ne debug_assert debug_assert_eq debug_assert_ne include_str matches unreachable";
+
+/// Without it a loop does not compile, and the compiler's error is at another place.
+const NEEDED: &str = "rest = later";
 
 /// All sites of a source, numbered from 0.
 pub fn sites(file: &str, source: &str) -> syn::Result<Vec<Site>> {
@@ -78,7 +82,10 @@ impl<'a> Finder<'a> {
         }
         let name = of.ident.to_string();
         self.functions.push(name.clone());
-        for value in changes::returned(&of.output) {
+        let inside = self.text(body).trim_matches(['{', '}']).trim();
+        let values = changes::returned(&of.output).iter();
+        // What has this body already does not change.
+        for value in values.filter(|value| **value != inside) {
             let words = match *value {
                 "" => format!("`{name}` does nothing"),
                 value => format!("`{name}` returns `{value}`"),
@@ -86,8 +93,43 @@ impl<'a> Finder<'a> {
             let open = body.brace_token.span.open();
             self.add("return", Form::Return, open, (*value).to_owned(), words);
         }
+        if matches!(of.output, syn::ReturnType::Default) {
+            self.without_last(body);
+        }
         self.visit_block(body);
         self.functions.pop();
+    }
+
+    /// Leaves a statement out.
+    fn without(&mut self, statement: &impl Spanned) {
+        let words = format!("without `{}`", changes::short(self.text(statement)));
+        let at = statement.span();
+        self.add("statement", Form::Delete, at, String::new(), words);
+    }
+
+    /// Leaves out an expression without a value, and those that end its branches, where every statement is changed.
+    fn without_value(&mut self, expression: &Expr) {
+        if !is_whole(self.file) || self.text(expression) == "{}" {
+            return;
+        }
+        self.without(expression);
+        match expression {
+            Expr::If(of) => {
+                self.without_last(&of.then_branch);
+                let otherwise = of.else_branch.iter();
+                otherwise.for_each(|(_, branch)| self.without_value(branch));
+            }
+            Expr::Match(of) => (of.arms.iter()).for_each(|arm| self.without_value(&arm.body)),
+            Expr::Block(of) => self.without_last(&of.block),
+            Expr::ForLoop(of) => self.without_last(&of.body),
+            _ => {}
+        }
+    }
+
+    fn without_last(&mut self, block: &syn::Block) {
+        if let Some(Stmt::Expr(last, None)) = block.stmts.last() {
+            self.without_value(last);
+        }
     }
 }
 
@@ -170,15 +212,41 @@ impl<'ast> Visit<'ast> for Finder<'_> {
     }
 
     fn visit_stmt(&mut self, statement: &'ast Stmt) {
-        use Expr::{Assign, Binary, Call, MethodCall, Try};
-        if let Stmt::Expr(Assign(_) | Binary(_) | MethodCall(_) | Call(_) | Try(_), Some(_)) =
-            statement
-        {
-            let words = format!("without `{}`", changes::short(self.text(statement)));
-            let at = statement.span();
-            self.add("statement", Form::Delete, at, String::new(), words);
+        use Expr::{Assign, Binary, Call, MethodCall, Return, Try};
+        match statement {
+            Stmt::Expr(Assign(of), _) if self.text(of) == NEEDED => {}
+            Stmt::Expr(Assign(_) | Binary(_) | MethodCall(_) | Call(_) | Try(_), Some(_)) => {
+                self.without(statement);
+            }
+            Stmt::Expr(Return(_), Some(_)) if is_whole(self.file) => self.without(statement),
+            _ => {}
         }
         visit::visit_stmt(self, statement);
+    }
+
+    fn visit_block(&mut self, block: &'ast syn::Block) {
+        for statement in block.stmts.iter().rev().skip(1) {
+            if let Stmt::Expr(expression, None) = statement {
+                self.without_value(expression);
+            }
+        }
+        visit::visit_block(self, block);
+    }
+
+    fn visit_expr_assign(&mut self, assign: &'ast syn::ExprAssign) {
+        // An assignment of several values that forgets one.
+        if let Expr::Tuple(left) = &*assign.left
+            && is_whole(self.file)
+        {
+            let all = self.text(assign);
+            for one in &left.elems {
+                let one = self.text(one);
+                let words = format!("`{one}` keeps its value in `{}`", changes::short(all));
+                let text = format!("{{ let kept = {one}; {all}; {one} = kept; }}");
+                self.replace("statement", assign, text, words);
+            }
+        }
+        visit::visit_expr_assign(self, assign);
     }
 
     fn visit_expr_if(&mut self, expression: &'ast syn::ExprIf) {

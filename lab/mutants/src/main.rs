@@ -26,7 +26,7 @@ use crate::compile::{Built, Program};
 use crate::error::{Error, Result};
 use crate::outcome::{Outcome, Results, Verdict};
 use crate::site::Site;
-use crate::suite::{Test, UNOPTIMISED};
+use crate::suite::Test;
 
 /// Small changes to the code, one at a time, each against the tests that reach it
 #[derive(Parser)]
@@ -43,6 +43,9 @@ struct Args {
     /// Only changes that survived the last time, or that it did not have
     #[arg(long)]
     survivors: bool,
+    /// Only the rooms of which every change is taken
+    #[arg(long)]
+    rooms: bool,
 }
 
 fn main() -> ExitCode {
@@ -61,14 +64,15 @@ fn main() -> ExitCode {
 
 fn run(args: &Args) -> Result<Results> {
     let files = copy::files(&args.root)?;
-    let sites = rooms::drawn(copy::sites(&args.root, &files)?);
+    let mut sites = rooms::drawn(copy::sites(&args.root, &files)?);
     let kept_file = args.dir.join("verdicts.json");
     let mut kept: BTreeMap<String, Outcome> = read(&kept_file)?;
     kept.retain(|key, _| sites.iter().any(|site| site.key() == *key));
+    sites.retain(|site| !args.rooms || rooms::is_whole(&site.file));
     let mut results = Results::default();
     let only = args.only.as_deref().unwrap_or_default();
     for (kind, longest) in suite::LONGEST {
-        let is_of_build = |site: &&Site| rooms::is_unoptimised(&site.file) == (kind == UNOPTIMISED);
+        let is_of_build = |site: &&Site| rooms::build_of(&site.file) == kind;
         let mut sites: Vec<Site> = sites.iter().filter(is_of_build).cloned().collect();
         let mut build = Build::read(args, kind)?;
         sites.retain(|site| !build.refused.contains(&site.key()));
@@ -103,11 +107,11 @@ fn run(args: &Args) -> Result<Results> {
                 }
             }
         }
-        let wanted = sites.iter().filter(|site| site.file.starts_with(only));
-        results
-            .outcomes
-            .extend(wanted.filter_map(|site| kept.get(&site.key()).cloned()));
     }
+    let wanted = sites.iter().filter(|site| site.file.starts_with(only));
+    results.outcomes = wanted
+        .filter_map(|site| kept.get(&site.key()).cloned())
+        .collect();
     Ok(results)
 }
 
@@ -145,7 +149,7 @@ impl Build {
                 self.kind
             );
             let places = copy::update(&args.root, &copy, files, sites)?;
-            match compile::build(&copy, &target, &places, self.kind != UNOPTIMISED)? {
+            match compile::build(&copy, &target, &places, self.kind)? {
                 Built::Programs(programs) => return Ok(programs),
                 Built::Refused(numbers) => {
                     eprintln!("{} changes do not compile", numbers.len());

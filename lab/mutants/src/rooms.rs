@@ -3,11 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::site::Site;
+use crate::suite::{OPTIMISED, OWN, UNOPTIMISED};
 
 /// A part of the workspace.
 pub struct Room {
     pub name: &'static str,
-    /// Changes that are drawn; those that do not compile are left out afterwards.
+    /// Changes that are drawn, or [`ALL`]; those that do not compile are left out afterwards.
     draws: usize,
     /// The beginnings of its paths; a file belongs to the first room that has one.
     places: &'static [&'static str],
@@ -21,10 +22,16 @@ const fn room(name: &'static str, draws: usize, places: &'static [&'static str])
     }
 }
 
+/// Every change, and every statement among them.
+const ALL: usize = usize::MAX;
+
 /// The rooms. What is missing is data (robots, trajectories), what only the target or an emulator runs (`target.rs`,
 /// the meter's plugin), and what measures for a report.
 #[rustfmt::skip]
-pub const ROOMS: [Room; 15] = [
+pub const ROOMS: [Room; 18] = [
+    room("safety", ALL, &["motion-control/src/safety/"]),
+    room("motion", ALL, &["motion-control/src/motion/"]),
+    room("estimate", ALL, &["motion-control/src/estimate/"]),
     room("control", 90, &["motion-control/src/"]),
     room("control loop and plant", 35, &[
         "drivers/src/control_loop.rs", "firmware-demo/src/plant", "firmware-demo/src/sim_io.rs",
@@ -56,7 +63,7 @@ pub const ROOMS: [Room; 15] = [
 
 /// The room whose code the compiler specialises for each robot, in functions of many thousand operations: with switches
 /// at each of them, optimising takes hours, so that its changes have a build of their own that is not optimised.
-const UNOPTIMISED: &str = "engine";
+const NOT_OPTIMISED: &str = "engine";
 
 /// The largest share of a room that one operator may have, in per cent.
 const SHARE: usize = 30;
@@ -71,9 +78,18 @@ pub fn room_of(file: &str) -> Option<&'static Room> {
         .filter(|_| !is_test && file.ends_with(".rs"))
 }
 
-/// Whether the changes of a file are built without optimisation.
-pub fn is_unoptimised(file: &str) -> bool {
-    room_of(file).is_some_and(|room| room.name == UNOPTIMISED)
+/// Whether every change of a file is taken.
+pub fn is_whole(file: &str) -> bool {
+    room_of(file).is_some_and(|room| room.draws == ALL)
+}
+
+/// The build of the changes of a file.
+pub fn build_of(file: &str) -> &'static str {
+    match room_of(file) {
+        Some(room) if room.draws == ALL => OWN,
+        Some(room) if room.name == NOT_OPTIMISED => UNOPTIMISED,
+        _ => OPTIMISED,
+    }
 }
 
 /// The sites that are drawn, numbered from 0 by file and place. The order of the draw depends on a site's key alone, so
@@ -81,16 +97,27 @@ pub fn is_unoptimised(file: &str) -> bool {
 pub fn drawn(mut sites: Vec<Site>) -> Vec<Site> {
     let mut drawn = Vec::new();
     sites.sort_by_cached_key(|site| (hash(&site.key()), site.line));
-    // One reason is for one change: of several with the same words in a function, the first is drawn.
+    // One reason is for one change: of several with the same words in a function, the first is drawn, or they are numbered.
     let mut keys = BTreeSet::new();
-    sites.retain(|site| keys.insert(site.key()));
+    sites.retain_mut(|site| {
+        let words = site.change.clone();
+        let mut number = 1;
+        while !keys.insert(site.key()) {
+            if !is_whole(&site.file) {
+                return false;
+            }
+            number += 1;
+            site.change = format!("{words}, place {number}");
+        }
+        true
+    });
     for room in &ROOMS {
         let mut of_operator: BTreeMap<&str, usize> = BTreeMap::new();
         let mut is_drawn = |site: &&Site| {
             let is_here = room_of(&site.file).is_some_and(|of| of.name == room.name);
             let count = of_operator.entry(site.operator).or_default();
             *count += usize::from(is_here);
-            is_here && *count <= (room.draws * SHARE).div_ceil(100)
+            is_here && (room.draws == ALL || *count <= (room.draws * SHARE).div_ceil(100))
         };
         let of_room = sites.iter().filter(|site| is_drawn(site));
         drawn.extend(of_room.take(room.draws).cloned());

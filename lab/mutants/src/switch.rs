@@ -12,7 +12,7 @@ const LOG: &str = "MUTANT_LOG";
 /// The value for a run without a change that records the sites.
 const RECORD: &str = "record";
 /// More than there are sites.
-const SITES: usize = 1 << 12;
+const SITES: usize = 1 << 13;
 
 /// The sites that may be active: all until they are reached. Specialised code contains each site very often, where
 /// one byte that is read is short enough.

@@ -70,6 +70,28 @@ fn each_change_is_another_one_of_the_same_type() {
     assert_eq!(switched("fn f() { g }"), returned);
 }
 
+/// A room of which every change is taken.
+const WHOLE: &str = "motion-control/src/safety/a.rs";
+
+#[test]
+fn every_statement_of_a_whole_room_is_left_out() {
+    let body = "if a { return; } match b { C => g(x), D => {} } (x.y, z) = w; h(x)";
+    let source = format!("fn f() {{ {body} }}");
+    let all = sites(WHOLE, &source).expect("valid Rust");
+    let of_kind = all.iter().filter(|site| site.operator == "statement");
+    let changes: Vec<&str> = of_kind.map(|site| &*site.change).collect();
+    let without = "without `h(x)`, without `match b { C => g(x), D => {} }`, without `g(x)`, \
+                   without `if a { return; }`, without `return;`, without `(x.y, z) = w;`";
+    let kept = ["x.y", "z"].map(|one| format!("`{one}` keeps its value in `(x.y, z) = w`"));
+    assert_eq!(changes.join(", "), [without, &kept[0], &kept[1]].join(", "));
+    // The same words at two places are two changes, which a sample has once.
+    let twice = "fn f() { g(x); g(x); }";
+    let drawn = |file| drawn(sites(file, twice).expect("valid Rust")).len();
+    assert_eq!((drawn(WHOLE), drawn("motion-control/src/law/a.rs")), (3, 2));
+    // What has the body of the change already is none.
+    assert_eq!(self::changes("fn f() -> Result<(), E> { Ok(()) }"), [""; 0]);
+}
+
 #[test]
 fn literals_become_other_literals() {
     for (literal, other) in [
@@ -201,6 +223,7 @@ fn a_small_workspace_has_killed_surviving_unreached_and_refused_changes() {
         dir: folder.path().join("mutants"),
         only: None,
         survivors: false,
+        rooms: false,
     };
     let results = crate::run(&args).expect("it runs");
     let of = |function: &str, change: &str| {

@@ -13,6 +13,9 @@ use crate::estimate::{MomentumObserver, ObserverConfig};
 use crate::limits::{ConfigError, ConfigParameter, Fault};
 use dynamics_core::scalar::Real;
 
+#[cfg(test)]
+mod tests;
+
 /// The joint and the torque of a contact that a [`ContactDetector`] has found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

@@ -5,6 +5,8 @@ pub(crate) mod momentum_observer;
 pub(crate) mod observer;
 pub(crate) mod parameter_estimator;
 pub(crate) mod payload_estimator;
+#[cfg(test)]
+mod tests;
 pub(crate) mod tip_wrench;
 
 pub use contact_detector::{ContactDetector, DetectedContact};

@@ -17,6 +17,9 @@ use crate::estimate::observer::one_less_decay;
 use crate::limits::{ConfigError, Fault};
 use dynamics_core::scalar::Real;
 
+#[cfg(test)]
+mod tests;
+
 /// The external torques of V joints, by an observer of the generalised momentum; ORDER poles lie at the bandwidth.
 ///
 /// A first-order observer is the usual one; a second-order one passes less of the noise of the velocities.

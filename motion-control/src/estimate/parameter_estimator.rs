@@ -17,6 +17,8 @@ mod factors;
 mod physical;
 mod record;
 mod selection;
+#[cfg(test)]
+mod tests;
 
 pub use config::{ParameterEstimatorConfig, RejectedRow};
 pub use physical::{ImpossibleParameters, PhysicalParameters};

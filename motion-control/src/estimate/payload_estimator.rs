@@ -25,6 +25,9 @@ use crate::limits::{ConfigError, ConfigParameter};
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::SpatialInertia;
 
+#[cfg(test)]
+mod tests;
+
 /// The inertial parameters of a body.
 const PARAMETERS: usize = 10;
 

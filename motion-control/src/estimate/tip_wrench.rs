@@ -14,6 +14,9 @@ use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::all_finite;
 
+#[cfg(test)]
+mod tests;
+
 /// The roundings of the trace that the matrix is shifted by.
 const ROUNDINGS: f64 = 2.0;
 

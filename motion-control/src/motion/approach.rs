@@ -252,7 +252,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         }
         let from = self.estimate().q;
         let path = Approach::plan(&from, motion, self.observer.tick(), limits, bounds)?;
-        self.clock = 0;
+        self.begin_anew();
         Ok(path)
     }
 }

@@ -569,6 +569,13 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         Ok(())
     }
 
+    /// Sets the clock of a stopped arm to the begin of another trajectory. Further ticks without a reset keep it.
+    pub(crate) fn begin_anew(&mut self) {
+        self.clock = 0;
+        // The clock of a stop is that of the return, which begins again in each of its ticks.
+        self.resume.start(self.observer.estimate(), self.clock);
+    }
+
     /// Clears a stop; the reference begins at the estimated position.
     pub(crate) fn restart(&mut self) {
         self.supervisor.reset();

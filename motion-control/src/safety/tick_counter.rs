@@ -115,4 +115,16 @@ mod tests {
         let missed = [u32::MAX - 1, u32::MAX, 0, 3, 3].map(|now| counter.begin(now).missed());
         assert_eq!(missed, [0, 0, 0, 2, 0]);
     }
+
+    #[test]
+    fn a_tick_that_outlasts_its_period_feeds_no_watchdog() {
+        let status = Status {
+            mode: crate::Mode::Full,
+            fault: None,
+            limited: false,
+        };
+        let end = |begin, end| TickCounter::new().begin(begin).end(end, &status);
+        assert_eq!(end(7, 7), Ok(CompletedTick(())));
+        assert_eq!(end(7, 8), Err(Fault::Overrun));
+    }
 }

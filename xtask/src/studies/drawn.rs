@@ -141,7 +141,7 @@ fn cores(page: &str) -> Result<String> {
             ("ur5e, six joints, all effects", BLUE),
         ],
         x: Axis::decades("instructions", [500.0, 2e5], 0),
-        names: 100,
+        names: 125,
         mark: None,
     }
     .svg(&halves(page, "How it is measured", &columns))

@@ -4,10 +4,12 @@
 
 pub mod accuracy;
 pub mod budgets;
+pub mod claims;
 pub mod cores;
 pub mod costs;
 pub mod drawn;
 pub mod effects;
+pub mod flags;
 pub mod flexible;
 pub mod growth;
 pub mod hard_cases;
@@ -25,7 +27,7 @@ pub mod trial;
 use clap::{ArgMatches, Args, Command};
 
 use crate::kit::error::Result;
-use crate::kit::shell;
+use crate::kit::{setup, shell};
 use study::Form::{Demo, Own, Part, Whole};
 use study::Held::{Bars, Step};
 use study::Lane::{Host, Target};
@@ -39,10 +41,22 @@ const NO_STEP: fn(&study::Bench<'_>) -> Result<String> = |_| Ok(String::new());
 #[rustfmt::skip]
 pub const STUDIES: &[Study] = &[
     Study {
+        name: "claims", about: "Check the ledger of claims against README, guide and tests, rewrite docs/claims.md",
+        files: &["docs/claims.md"],
+        held: Step(Host, Everyday, "each claim of the ledger stands in its page, what shows it exists, and docs/claims.md has all"),
+        form: Own(|command| command, claims::run, claims::check),
+    },
+    Study {
         name: "costs", about: "Measure what each algorithm costs on each robot, rewrite docs/costs.md",
         files: &["docs/costs.md", "docs/costs.svg"],
         held: Step(Target, Everyday, "every function is within budgets.toml and its bar, and docs/costs.md says so"),
         form: Own(costs::Args::augment_args, |options, matches| costs::run(options, given(matches)?), costs::check),
+    },
+    Study {
+        name: "flags", about: "Measure what other flags of the compiler cost, rewrite docs/flags.md with the functions of core in a tick",
+        files: &["docs/flags.md"],
+        held: Step(Target, Full, "docs/flags.md has today's costs by other flags of the compiler and the functions of core in a tick"),
+        form: Part(flags::measure),
     },
     Study {
         name: "growth", about: "Measure how the core's algorithms grow with a chain's length, rewrite docs/growth.md",
@@ -59,7 +73,7 @@ pub const STUDIES: &[Study] = &[
     Study {
         name: "cores", about: "Run the control loop on every core that QEMU emulates: the same bits, instructions, stack",
         files: &["docs/boards.md", "docs/boards.svg"],
-        held: Step(Target, Full, "a Cortex-M33 and an RV32 compute the host's torques, and docs/boards.md has what they and the boards' images take"),
+        held: Step(Target, Full, "a plain Cortex-M4F, a Cortex-M33 and an RV32 compute the host's torques, and docs/boards.md has what they and the boards' images take"),
         form: Own(cores::Args::augment_args, |options, matches| cores::run(options, given(matches)?), cores::check),
     },
     Study {
@@ -71,10 +85,14 @@ pub const STUDIES: &[Study] = &[
     Study {
         name: "certificates", about: "",
         files: &["docs/certificates.md", "docs/certificates.svg"],
-        held: Step(Target, Full, "docs/certificates.md has the hashes of today's machine code"),
+        held: Step(Target, Full, "docs/certificates.md has the hashes of today's machine code; Gappa and Coq accept parts of the proofs, and refuse wrong ones"),
         form: Demo(|bench| {
-            let words = "--quiet --profile simulated --package certification -- --hashes".split(' ');
-            shell::cargo(bench.workspace.cargo("run").args(words)).map(|_| String::new())
+            setup::provers(bench.options.without_questions())?;
+            let words = "--quiet --profile simulated --package certification --".split(' ');
+            for check in ["--hashes", "--sampled"] {
+                shell::cargo(bench.workspace.cargo("run").args(words.clone()).arg(check))?;
+            }
+            Ok(String::new())
         }),
     },
     Study {
@@ -135,7 +153,7 @@ pub const STUDIES: &[Study] = &[
         form: Own(peers::Args::augment_args, |options, matches| peers::run(options, given(matches)?), NO_STEP),
     },
     Study {
-        name: "mutants", about: "Change the code in a few hundred places, one at a time, and rewrite docs/mutants.md: takes an hour",
+        name: "mutants", about: "Change the code in a few thousand places, one at a time, and rewrite docs/mutants.md: takes an hour",
         files: &["docs/mutants.md", "docs/mutants.svg"],
         held: Bars("a run over the whole sample takes an hour"),
         form: Own(mutants::Args::augment_args, |options, matches| mutants::run(options, given(matches)?), NO_STEP),

@@ -20,6 +20,13 @@ const PAGE: Page<'_> = Page {
     name: "mutants",
     command: "cargo xtask mutants",
 };
+/// The rooms of which every change is taken, and their part of the page.
+const WHOLE: [&str; 3] = ["safety", "motion", "estimate"];
+const WHOLE_PAGE: Page<'_> = Page {
+    name: "mutants-rooms",
+    command: "cargo xtask mutants --rooms",
+    ..PAGE
+};
 /// Why a change may survive, by file, function and change.
 const REASONS: &str = "lab/mutants/reasons.toml";
 /// The largest share of changes that may survive.
@@ -46,6 +53,9 @@ pub struct Args {
     /// Only changes that survived the last time; the others keep their verdicts
     #[arg(long)]
     survivors: bool,
+    /// Only the rooms of which every change is taken, and their part of the page
+    #[arg(long)]
+    rooms: bool,
 }
 
 /// The verdict on a change, in the words of `lab/mutants`.
@@ -102,11 +112,23 @@ pub fn run(_: Options, args: Args) -> Result<ExitCode> {
             "{REASONS} has a reason for a change that does not survive: {reason}"
         ));
     }
-    let text = results.text(&reasons, &docs::today_and_commit(&workspace));
+    let when = docs::today_and_commit(&workspace);
+    let [rooms, sample] = [true, false].map(|whole| results.text(whole, &reasons, &when));
     if args.only.is_none() {
-        PAGE.write(&workspace, &text)?;
+        WHOLE_PAGE.write(&workspace, &rooms)?;
     }
-    docs::show(args.json, &results, &text)
+    if args.only.is_none() && !args.rooms {
+        PAGE.write(&workspace, &sample)?;
+    }
+    let shown = match args.rooms {
+        true => rooms.clone(),
+        false => format!("{rooms}\n\n{sample}"),
+    };
+    docs::show(args.json, &results, &shown)?;
+    match rooms.contains(NO_REASON) {
+        true => Err(check!("a change of {WHOLE:?} survives without a reason")),
+        false => Ok(ExitCode::SUCCESS),
+    }
 }
 
 fn measure(workspace: &Workspace, args: &Args) -> Result<Results> {
@@ -117,6 +139,7 @@ fn measure(workspace: &Workspace, args: &Args) -> Result<Results> {
     command.arg("--dir").arg(workspace.target.join("mutants"));
     command.args(args.only.iter().flat_map(|only| ["--only", only]));
     command.args(args.survivors.then_some("--survivors"));
+    command.args(args.rooms.then_some("--rooms"));
     let mut printed = String::new();
     shell::each_line(&mut command, |line| {
         printed += line;
@@ -147,40 +170,52 @@ impl Results {
         idle.map(|reason| &*reason.change).collect()
     }
 
-    /// The text between the markers.
-    fn text(&self, reasons: &Reasons, when: &str) -> String {
+    /// The text between the markers, of the rooms of which every change is taken or of the sample.
+    fn text(&self, whole: bool, reasons: &Reasons, when: &str) -> String {
+        let outcomes = self.outcomes.iter();
+        let outcomes = outcomes.filter(|one| WHOLE.contains(&&*one.room) == whole);
+        let all: Vec<&Outcome> = outcomes.collect();
         let mut rooms: BTreeMap<&str, Vec<&Outcome>> = BTreeMap::new();
-        for outcome in &self.outcomes {
-            rooms.entry(&outcome.room).or_default().push(outcome);
+        let mut rows: BTreeMap<String, Vec<&Outcome>> = BTreeMap::new();
+        for &one in &all {
+            rooms.entry(&one.room).or_default().push(one);
+            let row = match whole {
+                true => format!("{}, {}", one.room, one.operator),
+                false => one.room.clone(),
+            };
+            rows.entry(row).or_default().push(one);
         }
-        let all: Vec<&Outcome> = self.outcomes.iter().collect();
-        let counted = |(name, of): (&&str, &Vec<&Outcome>)| {
+        let counted = |(name, of): (&String, &Vec<&Outcome>)| {
             let count = |is: fn(&Outcome) -> bool| of.iter().filter(|one| is(one)).count();
             let killed = count(Outcome::is_killed);
             let unreached = count(|one| matches!(one.verdict, Verdict::Unreached));
             let survived = of.len() - killed;
             let counts = [of.len(), killed, survived, unreached].map(|count| count.to_string());
             let share = format!("{:.1}", 100.0 * share(survived, of.len()));
-            [&[name.to_string()], &counts[..], &[share]].concat()
+            [std::slice::from_ref(name), &counts[..], &[share]].concat()
         };
         let mut table = Table::new(&HEADS);
-        for row in rooms.iter().chain([(&"all", &all)]).map(counted) {
+        for row in rows.iter().chain([(&"all".to_owned(), &all)]).map(counted) {
             table.row(row);
         }
         let survived = all.iter().filter(|outcome| !outcome.is_killed()).count();
         let is_met = share(survived, all.len()) <= MOST;
         let verdict = if is_met { "met" } else { "missed" };
         let (changes, tests, most) = (all.len(), self.tests, 100.0 * MOST);
+        let bar = match whole {
+            true => "Each of them is noticed or has its reason below.".to_owned(),
+            false => format!("At most {most:.0} % may survive: {verdict}."),
+        };
         let mut text = format!(
-            "{changes} changes against {tests} tests, on {when}. At most {most:.0} % may survive: {verdict}.\n\n{}",
+            "{changes} changes against {tests} tests, on {when}. {bar}\n\n{}",
             table.markdown()
         );
-        for name in &self.unusable {
+        for name in self.unusable.iter().filter(|_| !whole) {
             text += &format!(
                 "\nNot used, because it fails in the copy without a change, or is too slow there: `{name}`.\n"
             );
         }
-        text += "\n## What survived\n";
+        text += if whole { "" } else { "\n## What survived\n" };
         for (room, of) in rooms {
             let survivors = of.iter().filter(|outcome| !outcome.is_killed());
             let lines: BTreeSet<String> = survivors.map(|one| line(one, reasons)).collect();

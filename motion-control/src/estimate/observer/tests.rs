@@ -74,3 +74,60 @@ fn before_the_first_position_nothing_moves() {
     let first = observer.update(&[2.5], &[3.0]);
     assert_eq!((first.q, first.qd), ([2.5], [0.0]));
 }
+
+#[test]
+fn the_gap_of_a_tick_is_its_series() {
+    let x = 1.0_f64;
+    let growth = x + 1.0 / 2.0 + 1.0 / 6.0 + 1.0 / 24.0 + 1.0 / 120.0;
+    assert!((one_less_decay(x) - growth / (1.0 + growth)).abs() < 1e-15);
+    assert_eq!(one_less_decay(17.0), one_less_decay(16.0));
+    assert!(one_less_decay(15.9) < one_less_decay(16.0));
+}
+
+#[test]
+fn useless_parameters_leave_no_gain_and_no_tick() {
+    let still = single(f32::NAN, f32::NAN);
+    for bad in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+        assert_eq!(single(200.0, bad), still, "tick {bad}");
+        let config = ObserverConfig {
+            bandwidth: 200.0,
+            tick: bad,
+        };
+        assert!(Observer::<f32, 1>::try_new(config).is_err());
+    }
+    for bad in [0.0, -1.0, f32::NAN] {
+        assert_eq!(single(bad, 1e-3), still, "bandwidth {bad}");
+    }
+}
+
+#[test]
+fn a_late_first_position_is_no_motion() {
+    let mut observer = observer(250.0);
+    let first = *observer.update_delayed(&[2.5], &[3.0]);
+    assert_eq!((first.q, first.qd), ([2.5], [0.0]));
+}
+
+#[test]
+fn what_is_not_finite_changes_no_estimate() {
+    let config = ObserverConfig {
+        bandwidth: 200.0_f32,
+        tick: 1e-3,
+    };
+    let mut observer: Observer<f32, 2> = Observer::new(config);
+    observer.reset(&[0.5, 1.0]);
+    let before = observer;
+    // The last position is near the end of the range: its velocity alone is infinite.
+    for bad in [f32::NAN, f32::INFINITY, f32::MAX] {
+        for q in [[bad, 1.0], [0.5, bad]] {
+            observer.update(&q, &[0.0; 2]);
+            observer.update_delayed(&q, &[0.0; 2]);
+            observer.follow(&q);
+            if !bad.is_finite() {
+                observer.reset(&q);
+                observer.correct_position(&q);
+                observer.correct_position_delayed(&q);
+            }
+            assert_eq!(observer, before, "{q:?}");
+        }
+    }
+}

@@ -11,6 +11,9 @@ use core::fmt;
 use super::selection::{SelectedParameters, bodies, pseudo_inertia};
 use dynamics_core::scalar::Real;
 
+#[cfg(test)]
+mod tests;
+
 /// The share of the nominal pseudo-inertias, frictions and armatures that a stored set keeps in all directions.
 const MARGIN: f64 = 0.05;
 

@@ -6,6 +6,9 @@
 
 use dynamics_core::scalar::Real;
 
+#[cfg(test)]
+mod tests;
+
 /// A pivot below this share of the first one is rounding.
 const RANK: f64 = 1e-13;
 

@@ -133,3 +133,51 @@ fn an_unknown_position_gets_no_approach_and_no_torque() {
     controller.tick(Ok(&[1.0; 2]), &Rest, |_, _| [0.0; 2]);
     assert!(controller.approach(&Rest, &LIMITS, &BOUNDS).is_ok());
 }
+
+/// From a place on, at a constant speed.
+#[derive(Debug)]
+struct Leave {
+    q: [f64; 2],
+    qd: [f64; 2],
+}
+
+impl Reference<f64, 2> for Leave {
+    fn at(&self, tick: u32) -> State<f64, 2, 2> {
+        let [a, b] = self.q;
+        let gone = if tick == 0 { 0.0 } else { 0.5 };
+        State {
+            qd: self.qd,
+            ..State::at([a + gone, b])
+        }
+    }
+    fn ticks(&self) -> u32 {
+        700
+    }
+}
+
+#[test]
+fn a_way_ends_at_the_begin_of_its_motion() {
+    let q = [1.0, -1.0];
+    let motion = Leave { q, qd: [0.0; 2] };
+    let way = Approach::plan(&q, &motion, TICK, &LIMITS, &BOUNDS).expect("within the limits");
+    // It is there already.
+    assert_eq!((way.last_point(), way.path_ticks()), (&q, 1));
+    let way = Approach::plan(&[-0.6, -1.0], &motion, TICK, &LIMITS, &BOUNDS);
+    let way = way.expect("within the limits");
+    // 15/8 · 1.6 rad at 1 rad/s, and a tick for rounding.
+    assert_eq!((way.last_point(), way.path_ticks()), (&q, 3001));
+    assert_eq!(way.ticks(), 3001 + 700);
+    assert_eq!(way.path_seconds(TICK), 3001.0 * TICK);
+}
+
+#[test]
+fn a_motion_that_begins_in_motion_is_refused() {
+    for bad in [0.5, f64::NAN, f64::INFINITY] {
+        let motion = Leave {
+            q: [0.0; 2],
+            qd: [0.0, bad],
+        };
+        let refused = Approach::plan(&[0.0; 2], &motion, TICK, &LIMITS, &BOUNDS).unwrap_err();
+        assert_eq!(refused, ApproachError::Moving { joint: 1 });
+    }
+}

@@ -3,6 +3,8 @@ use crate::limits::SafetyLimits;
 use crate::motion::{CurrentTick, MotionControllerConfig};
 use crate::safety::SupervisorConfig;
 
+mod joints;
+
 const TICK: f64 = 1e-3;
 const INERTIA: f64 = 2.0;
 const CONFIG: MotionControllerConfig<f64, 1> = MotionControllerConfig {

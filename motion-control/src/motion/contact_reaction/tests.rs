@@ -7,6 +7,7 @@ use crate::motion::MotionControllerConfig;
 use crate::reference::{Trajectory, WayPoint};
 use crate::safety::SupervisorConfig;
 
+mod ends;
 mod motion;
 mod stops;
 

@@ -1,6 +1,8 @@
 use super::*;
 use crate::*;
 
+mod clock;
+mod restart;
 mod stops;
 
 const TICK: f64 = 1e-3;

@@ -72,3 +72,119 @@ fn the_trajectory_waits_where_a_decaying_speed_ends() {
         (132, u32::MAX)
     );
 }
+
+#[test]
+fn a_return_that_begins_again_is_a_new_one() {
+    let trajectory = trajectory();
+    let start = Estimate {
+        q: [0.5],
+        qd: [2.0],
+    };
+    let mut new = ResumeTrajectory::new(H, DECAY, TICKS);
+    let mut used = new;
+    used.start(&start, 300);
+    for tick in 0..TICKS / 2 {
+        used.at(&trajectory, f64::from(tick) / f64::from(TICKS));
+    }
+    new.start(&start, 400);
+    used.start(&start, 400);
+    assert_eq!(used, new);
+    // It begins as the decay does.
+    assert_eq!(new.rest.qdd, [-2.0 * DECAY]);
+    assert_eq!(new.cancel(), 400);
+}
+
+#[test]
+fn a_return_of_no_ticks_advances_by_one() {
+    let mut resume = ResumeTrajectory::<f64, 1>::new(H, DECAY, 0);
+    resume.start(
+        &Estimate {
+            q: [0.0],
+            qd: [0.0],
+        },
+        400,
+    );
+    assert_eq!(resume.finish(), 401);
+}
+
+#[test]
+fn a_whole_tick_that_has_passed_is_counted() {
+    let mut resume = ResumeTrajectory::new(H, DECAY, TICKS);
+    resume.start(
+        &Estimate {
+            q: [0.0],
+            qd: [0.0],
+        },
+        400,
+    );
+    // The rate is one at the end.
+    resume.at(&trajectory(), 2.0);
+    assert_eq!(resume.cancel(), 401);
+}
+
+/// A constant acceleration, of which a step between two ticks is exact.
+struct Parabola;
+
+const A: f64 = 8.0;
+
+impl Parabola {
+    fn after(seconds: f64) -> State<f64, 1, 1> {
+        State {
+            q: [0.5 * A * seconds * seconds],
+            qd: [A * seconds],
+            qdd: [A],
+        }
+    }
+}
+
+impl Reference<f64, 1> for Parabola {
+    fn at(&self, tick: u32) -> State<f64, 1, 1> {
+        Self::after(H * f64::from(tick))
+    }
+    fn ticks(&self) -> u32 {
+        u32::MAX
+    }
+}
+
+#[test]
+fn between_two_ticks_the_trajectory_is_extrapolated() {
+    let mut resume = ResumeTrajectory::new(H, DECAY, TICKS);
+    let (start, clock) = (
+        Estimate {
+            q: [0.0],
+            qd: [0.0],
+        },
+        100,
+    );
+    resume.start(&start, clock);
+    for tick in 0..TICKS {
+        let share = f64::from(tick) / f64::from(TICKS);
+        let [w, slope, _] = resume.weights(share);
+        let goal = resume.goal(&Parabola, share, w, slope);
+        let ticks = f64::from(clock + resume.advanced) + resume.fraction;
+        let exact = Parabola::after(H * ticks);
+        let rates = [w * exact.qd[0], w * w * A + slope * exact.qd[0]];
+        assert!((goal.q[0] - exact.q[0]).abs() < 1e-12, "{tick}");
+        assert!((goal.qd[0] - rates[0]).abs() < 1e-12, "{tick}");
+        assert!((goal.qdd[0] - rates[1]).abs() < 1e-9, "{tick}");
+    }
+}
+
+// A decay that is slow, so that it still acts where the trajectory counts.
+#[test]
+fn the_acceleration_of_a_return_is_that_of_its_velocity() {
+    let mut resume = ResumeTrajectory::new(H, 2.0, TICKS);
+    let start = Estimate {
+        q: [0.0],
+        qd: [1.0],
+    };
+    resume.start(&start, 100);
+    let way: Vec<_> = (0..TICKS)
+        .map(|tick| resume.at(&Parabola, f64::from(tick) / f64::from(TICKS)))
+        .collect();
+    for pair in way.windows(2) {
+        let mean = 0.5 * (pair[0].qdd[0] + pair[1].qdd[0]);
+        let change = pair[1].qd[0] - pair[0].qd[0] - H * mean;
+        assert!(change.abs() < 2e-4, "{change}");
+    }
+}

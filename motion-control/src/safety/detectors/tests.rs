@@ -140,3 +140,123 @@ fn a_reference_to_detectors_detects_as_they_do() {
     let fault = Err(Fault::Saturated { joint: 0 });
     assert_eq!(Detect::commanded(&mut borrowed, &command), fault);
 }
+
+/// The ticks with a fault of a joint that is measured at these positions while its reference moves 0.5 in each tick.
+fn frozen_ticks(frozen: &mut FrozenEncoder<f64, 1>, positions: &[f64]) -> Vec<usize> {
+    let ticks = positions.iter().enumerate();
+    let faults = ticks.filter(|&(tick, &q)| frozen.check(&[q], &[0.5 * tick as f64]).is_err());
+    faults.map(|(tick, _)| tick).collect()
+}
+
+#[test]
+fn a_frozen_position_is_a_fault_after_its_ticks() {
+    for ticks in 1..5 {
+        let mut frozen = FrozenEncoder::new([0.1], ticks);
+        let found = frozen_ticks(&mut frozen, &[0.0; 8]);
+        assert_eq!(found, (ticks as usize + 1..8).collect::<Vec<_>>());
+        // A position that changes begins anew, whatever was counted.
+        let mut frozen = FrozenEncoder::new([0.1], ticks);
+        let moves = [0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0];
+        let from = ticks as usize + 2;
+        assert_eq!(
+            frozen_ticks(&mut frozen, &moves),
+            (from..8).collect::<Vec<_>>()
+        );
+    }
+}
+
+#[test]
+fn a_reference_at_the_distance_does_not_move_yet() {
+    let mut frozen = FrozenEncoder::new([0.25_f64], 1);
+    for (reference, is_frozen) in [(0.0, false), (0.5, false), (0.75, false), (0.8, true)] {
+        assert_eq!(frozen.check(&[0.0], &[reference]).is_err(), is_frozen);
+    }
+}
+
+#[test]
+fn a_restart_forgets_what_was_measured() {
+    let mut frozen = FrozenEncoder::new([0.1], 4);
+    let new = frozen_ticks(&mut frozen.clone(), &[0.0; 8]);
+    assert_eq!(frozen_ticks(&mut frozen, &[0.0; 4]), [0; 0]);
+    frozen.restart();
+    assert_eq!(frozen_ticks(&mut frozen, &[0.0; 8]), new);
+    // One that is found, too; it is a new count when the position changes.
+    frozen.restart();
+    assert_eq!(frozen_ticks(&mut frozen, &[0.0; 8]), new);
+    assert_eq!(frozen_ticks(&mut frozen, &[1.0; 8]), [6, 7]);
+}
+
+#[test]
+fn a_tick_below_the_limit_ends_the_count() {
+    let new = Saturation::new([10.0_f64, 10.0], 2);
+    let mut saturation = new;
+    for torque in [10.0, 10.0, 9.0, 10.0, 10.0, 9.0] {
+        assert_eq!(saturation.check(&[0.0, torque]), Ok(()));
+    }
+    assert_eq!(saturation, new);
+}
+
+#[test]
+fn steps_are_compared_with_the_reference_before() {
+    let found = |positions: &[f64]| -> Vec<bool> {
+        let mut steps = ReferenceStep::new([0.5, 0.5]);
+        let check = |&q: &f64| steps.check(&State::at([q, 0.0])).is_err();
+        positions.iter().map(check).collect()
+    };
+    // Each within a step of the one before, as far as the whole motion goes; the last is as large as a step may be.
+    assert_eq!(found(&[0.0, 0.4, 0.8, 1.2, 1.7]), [false; 5]);
+    // From one side to the other, and there it stays.
+    assert_eq!(found(&[0.5, -0.5, -0.5, -0.9]), [false, true, false, false]);
+    assert_eq!(found(&[-2.0, 2.0, 1.75]), [false, true, false]);
+    // After a step at its limit the next is compared with it.
+    assert_eq!(found(&[0.0, 0.5, 1.0, 1.6]), [false, false, false, true]);
+}
+
+#[test]
+fn detectors_restart_where_their_quantity_leaps() {
+    let mut detectors = Detectors {
+        frozen: FrozenEncoder::new([0.01_f64], 1),
+        steps: ReferenceStep::new([0.1]),
+        saturation: Saturation::new([10.0], 0),
+    };
+    let mut follow = |q: f64, mode| detectors.referenced(&State::at([q]), mode).is_err();
+    let ticks = [
+        (0.0, Mode::Full),
+        (0.9, Mode::Hold),
+        (1.8, Mode::Full),
+        (2.7, Mode::Full),
+    ];
+    assert_eq!(
+        ticks.map(|(q, mode)| follow(q, mode)),
+        [false, false, false, true]
+    );
+
+    let status = Status {
+        mode: Mode::Full,
+        fault: None,
+        limited: false,
+    };
+    for brake in [false, true] {
+        let command = Command {
+            torque: [0.0],
+            brake,
+            status,
+        };
+        detectors.frozen.restart();
+        let found = [0.0, 0.5, 1.0, 1.5].map(|reference| {
+            let fault = detectors.measured(&[0.5], &[reference]).is_err();
+            assert_eq!(detectors.commanded(&command), Ok(()));
+            fault
+        });
+        assert_eq!(found, [false, false, !brake, !brake]);
+    }
+}
+
+#[test]
+fn no_detector_finds_no_fault() {
+    let mut none = ();
+    let state = State::at([f64::NAN]);
+    assert_eq!(Detect::measured(&mut none, &[f64::NAN], &[0.0]), Ok(()));
+    assert_eq!(Detect::referenced(&mut none, &state, Mode::Full), Ok(()));
+    Detect::<f64, 1>::restart(&mut none);
+}

@@ -1,5 +1,7 @@
 use super::*;
 
+mod bounds;
+mod forgetting;
 mod protocol;
 mod states;
 mod stops;

@@ -37,7 +37,7 @@ pub struct Core {
     /// The machine of QEMU, which names the memory map in `cores/machines/` too.
     pub machine: &'static str,
     pub target: &'static str,
-    /// The flags of the compiler; none of the Cortex-M4F, whose flags are those of `.cargo/config.toml`.
+    /// The flags of the compiler; none of the first Cortex-M4F, whose flags are those of `.cargo/config.toml`.
     flags: &'static [&'static str],
     pub isa: Isa,
     /// Whether CI runs it.
@@ -50,8 +50,10 @@ const NO_TABLES: &[&str] = &["-Cjump-tables=no"];
 
 /// The core of the cycle model first, then those with a floating-point unit.
 #[rustfmt::skip]
-pub const CORES: [Core; 7] = [
+pub const CORES: [Core; 8] = [
     Core { name: "Cortex-M4F", machine: "netduinoplus2", target: toolchain::TARGET, flags: NO_FLAGS, isa: Isa::CortexM4F, in_tests: false },
+    // The line "qualifiable" of docs/flags.md.
+    Core { name: "plain Cortex-M4F", machine: "netduinoplus2", target: toolchain::TARGET, flags: &["-Ctarget-cpu=cortex-m4"], isa: Isa::CortexM4F, in_tests: true },
     Core { name: "Cortex-M7", machine: "mps2-an500", target: toolchain::TARGET, flags: &["-Ctarget-cpu=cortex-m7"], isa: Isa::Thumb2, in_tests: false },
     Core { name: "Cortex-M33", machine: "mps2-an505", target: "thumbv8m.main-none-eabihf", flags: &["-Ctarget-cpu=cortex-m33"], isa: Isa::Thumb2, in_tests: true },
     Core { name: "Cortex-M55", machine: "mps3-an547", target: "thumbv8m.main-none-eabihf", flags: &["-Ctarget-cpu=cortex-m55", "-Ctarget-feature=-mve.fp"], isa: Isa::Thumb2, in_tests: false },
@@ -100,7 +102,7 @@ impl Core {
     /// # Errors
     /// `.cargo/config.toml` has no flags of the Cortex-M4F.
     pub fn flags(&self, workspace: &Workspace) -> Result<Vec<String>> {
-        if self.isa == Isa::CortexM4F {
+        if self.isa == Isa::CortexM4F && self.flags.is_empty() {
             return flags_of_config(&workspace.root);
         }
         Ok(self.flags.iter().map(ToString::to_string).collect())
@@ -109,7 +111,7 @@ impl Core {
     /// The flags as a page shows them.
     pub fn shown_flags(&self) -> String {
         match (self.isa, self.flags) {
-            (Isa::CortexM4F, _) => "[decision 1](decisions/0001-cpu-flags.md)".into(),
+            (Isa::CortexM4F, []) => "[decision 1](decisions/0001-cpu-flags.md)".into(),
             (_, []) => "none".into(),
             (_, flags) => format!("`{}`", flags.join(" ")),
         }

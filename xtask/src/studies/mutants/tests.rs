@@ -1,4 +1,6 @@
-use super::{MOST, NO_REASON, Outcome, PAGE, REASONS, Reason, Reasons, Results, Verdict};
+use super::{
+    MOST, NO_REASON, Outcome, PAGE, REASONS, Reason, Reasons, Results, Verdict, WHOLE_PAGE,
+};
 use crate::kit::docs::repository::{read, rows_of};
 
 fn outcome(room: &str, change: &str, verdict: Verdict) -> Outcome {
@@ -33,7 +35,7 @@ fn results(killed: usize, others: Vec<Outcome>) -> (Results, Reasons) {
 
 fn text(killed: usize, others: Vec<Outcome>) -> String {
     let (results, reasons) = results(killed, others);
-    results.text(&reasons, "2026-01-02")
+    results.text(false, &reasons, "2026-01-02")
 }
 
 fn survivors(count: usize, change: &str) -> Vec<Outcome> {
@@ -109,6 +111,25 @@ fn a_result_that_does_not_hold_is_refused() {
 fn the_page_has_a_result_that_holds() {
     let page = read(PAGE.file);
     assert_eq!(complaint(PAGE.written(&page).expect("markers")), None);
+}
+
+#[test]
+fn every_survivor_of_three_rooms_has_a_reason() {
+    let (results, reasons) = results(2, vec![outcome("motion", "z", Verdict::Survived)]);
+    let text = results.text(true, &reasons, "2026-01-02");
+    let expected = ["motion, logic", "1", "0", "1", "0", "100.0"];
+    assert_eq!(rows_of(&text)[0], expected);
+    assert!(text.contains(NO_REASON));
+    let page = read(PAGE.file);
+    let written = WHOLE_PAGE.written(&page).expect("markers");
+    let all = rows_of(written).pop().expect("a table");
+    let listed = written
+        .lines()
+        .filter(|line| line.starts_with("- "))
+        .count();
+    assert_eq!(all[3].parse(), Ok(listed));
+    assert!(all[1].parse().is_ok_and(|count: usize| count > 2000));
+    assert!(!written.contains(NO_REASON));
 }
 
 #[test]

@@ -181,3 +181,20 @@ fn without_a_path_there_is_no_retraction() {
     path.clear();
     assert!(!path.plan(&from, TICK, &SLOW));
 }
+
+#[test]
+fn a_straight_retraction_takes_the_least_time() {
+    let mut path: TravelledPath<f64, 1, 3> = TravelledPath::new(1.0);
+    // Points that are apart by the spacing are kept.
+    for q in [0.0, 0.5, 1.0] {
+        path.record(&[q]);
+    }
+    assert_eq!(path.count, 3);
+    let limits = MotionLimits {
+        velocity: 0.625,
+        acceleration: f64::INFINITY,
+    };
+    assert!(path.plan(&[1.0], TICK, &limits));
+    // 15/8 · 1 rad at 0.625 rad/s, and a tick for rounding.
+    assert_eq!(path.ticks(), 3001);
+}

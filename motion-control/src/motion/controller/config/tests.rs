@@ -108,3 +108,73 @@ fn the_advice_on_a_configuration_says_number_reason_and_remedy() {
         None
     );
 }
+
+/// In f64, whose numbers are at the thresholds exactly.
+#[test]
+fn a_number_at_its_threshold_gets_no_advice() {
+    let kinds = |change: fn(&mut MotionControllerConfig<f64, 1>)| {
+        let mut config = MotionControllerConfig {
+            supervisor: SupervisorConfig {
+                limits: SafetyLimits {
+                    torque: [10.0],
+                    rate: [5.0],
+                    speed: [3.0],
+                    lower: [-2.0],
+                    upper: [2.0],
+                },
+                tick: 1e-3,
+                resolution: 0.0,
+                ride_through_ticks: 5,
+                hold_ticks: 100,
+                reentry_ticks: 200,
+            },
+            observer_bandwidth: 50.0,
+            decay_rate: 25.0,
+            restart_distance: 0.15,
+        };
+        change(&mut config);
+        config.advice().map(|one| kind(&one)).collect::<Vec<_>>()
+    };
+    let none: [&str; 0] = [];
+    assert_eq!(kinds(|c| c.supervisor.tick = 0.05), none);
+    assert_eq!(kinds(|c| c.restart_distance = 1.0), none);
+    // A joint without a torque has no rate; one with little has.
+    assert_eq!(
+        kinds(|c| (c.supervisor.limits.rate, c.supervisor.limits.torque) = ([0.0], [0.0])),
+        none
+    );
+    assert_eq!(
+        kinds(|c| (c.supervisor.limits.rate, c.supervisor.limits.torque) = ([0.0], [0.5])),
+        ["ZeroRate"]
+    );
+    // A step of 0.2 rad/s of 1 rad/s, and the highest frequency that a tick can have.
+    let second = |c: &mut MotionControllerConfig<f64, 1>| {
+        c.supervisor.tick = 1.0;
+        c.supervisor.resolution = 0.2;
+        c.supervisor.limits.speed = [1.0];
+        (c.observer_bandwidth, c.decay_rate) = (1.0, 0.5);
+    };
+    assert_eq!(kinds(second), ["LongTick"]);
+    let nyquist = |c: &mut MotionControllerConfig<f64, 1>| {
+        c.supervisor.tick = 1.0;
+        c.observer_bandwidth = core::f64::consts::PI;
+        c.decay_rate = 1.0;
+    };
+    assert_eq!(kinds(nyquist), ["LongTick"]);
+}
+
+#[test]
+fn a_drive_as_fast_as_the_feedback_is_too_slow() {
+    let advice = config().advice_on_feedback(25.0, 25.0);
+    let kinds: Vec<String> = advice.map(|advice| kind(&advice)).collect();
+    assert_eq!(kinds, ["BeyondDrive"]);
+}
+
+#[test]
+fn a_restart_distance_of_zero_is_a_configuration() {
+    let config = MotionControllerConfig {
+        restart_distance: 0.0,
+        ..config()
+    };
+    assert_eq!(config.check(), Ok(()));
+}

@@ -12,6 +12,7 @@ use crate::image::Image;
 use crate::interval::Interval;
 use crate::program::Program;
 use crate::search::{Effort, search};
+use crate::sheet::Target;
 use crate::state_box::{Joint, Robot};
 use crate::walk::{Walked, walk};
 
@@ -133,6 +134,17 @@ pub struct Certificate {
     pub states: usize,
     /// What holds of each output.
     pub outputs: Vec<Output>,
+    /// What a call takes on the target.
+    #[serde(default)]
+    pub target: Option<Target>,
+}
+
+/// The address of a function of a program.
+///
+/// # Errors
+/// [`Error::Missing`].
+pub fn address(image: &Image, function: Function) -> Result<u32> {
+    Ok(image.variable(function.variable())?.1[0])
 }
 
 /// The expression of a function of a program.
@@ -140,7 +152,7 @@ pub struct Certificate {
 /// # Errors
 /// [`Error::Declined`], [`Error::Missing`].
 pub fn expression(image: &Image, function: Function) -> Result<Walked> {
-    let address = image.variable(function.variable())?.1[0];
+    let address = address(image, function)?;
     let (effects, _) = image.variable("CERTIFIED_EFFECTS")?;
     let arguments = match function {
         Function::Crba => [None, None, Some(effects), None],
@@ -233,6 +245,7 @@ pub fn certify(
         sines,
         states: spent.search.states(outputs.len()),
         outputs,
+        target: None,
     })
 }
 

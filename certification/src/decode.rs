@@ -2,6 +2,13 @@
 //!
 //! What is not here is declined by the walk, with its address: no instruction is guessed at.
 
+mod long;
+mod real;
+mod short;
+
+pub use long::long;
+pub use short::short;
+
 /// A condition of a branch: the four bits of the instruction set.
 pub type Condition = u8;
 
@@ -12,6 +19,8 @@ pub enum Operand {
     Constant(u32),
     /// A register, shifted left.
     Register(u8, u8),
+    /// A register, shifted right.
+    Right(u8, u8),
 }
 
 /// The arithmetic of the floating-point unit in single precision.
@@ -25,6 +34,29 @@ pub enum Arithmetic {
     Mul,
     /// −(n m)
     NegatedMul,
+}
+
+/// The other operations on integers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Integer {
+    /// n − m
+    Sub,
+    /// m − n
+    ReverseSub,
+    /// n ∧ m
+    And,
+    /// n ∨ m
+    Or,
+    /// n xor m
+    Xor,
+    /// n ∧ ¬m
+    Clear,
+    /// n m
+    Multiply,
+    /// n, shifted left by the low byte of m
+    Left,
+    /// n, shifted right by the low byte of m
+    Right,
 }
 
 /// One decoded instruction.
@@ -99,6 +131,47 @@ pub enum Instruction {
     BranchIfZero { n: u8, offset: i32, if_not: bool },
     /// Goes on at a register's address.
     BranchTo { m: u8 },
+    /// d = the word's address of the instruction plus an offset
+    Address { d: u8, offset: i32 },
+    /// d = n op operand, and whether flags are set.
+    Integer {
+        op: Integer,
+        d: u8,
+        n: u8,
+        by: Operand,
+        flags: bool,
+    },
+    /// d = ¬m
+    Not { d: u8, m: u8, flags: bool },
+    /// Makes the next instructions conditional.
+    IfThen,
+    /// d = n m + a
+    MultiplyAdd { d: u8, n: u8, m: u8, a: u8 },
+    /// Memory of any size at n + offset.
+    Access(Access),
+}
+
+/// A load or store.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Access {
+    /// The register.
+    pub t: u8,
+    /// The one of the next word, [`NOWHERE`] if there is none.
+    pub second: u8,
+    /// The base.
+    pub n: u8,
+    /// What is added to it.
+    pub offset: Operand,
+    /// 1, 2 or 4.
+    pub bytes: u8,
+    /// Whether a narrow number has a sign.
+    pub is_signed: bool,
+    /// From memory.
+    pub load: bool,
+    /// Whether the offset counts for the address.
+    pub before: bool,
+    /// Whether n moves.
+    pub writes_back: bool,
 }
 
 /// A branch that is always taken.
@@ -120,386 +193,4 @@ pub fn is_long(first: u16) -> bool {
 /// The value of the low `bits` bits as a signed number.
 fn signed(value: u32, bits: u32) -> i32 {
     ((value << (32 - bits)) as i32) >> (32 - bits)
-}
-
-/// An instruction of one halfword: A5.2.
-pub fn short(code: u16) -> Option<Instruction> {
-    use Instruction::{Add, Branch, BranchIfZero, BranchTo, Constant, Move, Nop, Sub, Word, Words};
-    let field = |low: u32, bits: u32| (u32::from(code) >> low) & ((1 << bits) - 1);
-    let low = |at: u32| field(at, 3) as u8;
-    let by = Operand::Constant;
-    let (third, byte) = (field(8, 3) as u8, field(0, 8));
-    let high = (field(7, 1) << 3 | field(0, 3)) as u8;
-    let m = field(3, 4) as u8;
-    let word = |t, n, words: u32, load| Word {
-        t,
-        n,
-        offset: 4 * words as i32,
-        load,
-    };
-    Some(match code >> 8 {
-        0x18 | 0x19 => Add {
-            d: low(0),
-            n: low(3),
-            by: Operand::Register(low(6), 0),
-            flags: true,
-        },
-        0x1a | 0x1b => Sub {
-            d: low(0),
-            n: low(3),
-            by: Operand::Register(low(6), 0),
-        },
-        0x1c | 0x1d => Add {
-            d: low(0),
-            n: low(3),
-            by: by(field(6, 3)),
-            flags: true,
-        },
-        0x1e | 0x1f => Sub {
-            d: low(0),
-            n: low(3),
-            by: by(field(6, 3)),
-        },
-        0x20..=0x27 => Constant {
-            d: third,
-            value: byte,
-        },
-        0x28..=0x2f => Sub {
-            d: NOWHERE,
-            n: third,
-            by: by(byte),
-        },
-        0x30..=0x37 => Add {
-            d: third,
-            n: third,
-            by: by(byte),
-            flags: true,
-        },
-        0x38..=0x3f => Sub {
-            d: third,
-            n: third,
-            by: by(byte),
-        },
-        0x42 if field(6, 2) == 2 => Sub {
-            d: NOWHERE,
-            n: low(0),
-            by: Operand::Register(low(3), 0),
-        },
-        0x44 if high != PC && m != PC => Add {
-            d: high,
-            n: high,
-            by: Operand::Register(m, 0),
-            flags: false,
-        },
-        0x45 => Sub {
-            d: NOWHERE,
-            n: high,
-            by: Operand::Register(m, 0),
-        },
-        0x46 if high != PC && m != PC => Move { d: high, m },
-        0x47 if code & 0x87 == 0 => BranchTo { m },
-        0x48..=0x4f => word(third, PC, byte, true),
-        0x60..=0x6f => word(low(0), low(3), field(6, 5), code & 0x800 != 0),
-        0x90..=0x9f => word(third, SP, byte, code & 0x800 != 0),
-        0xa8..=0xaf => Add {
-            d: third,
-            n: SP,
-            by: by(4 * byte),
-            flags: false,
-        },
-        0xb0 => {
-            let bytes = 4 * field(0, 7);
-            let by = by(if code & 0x80 == 0 {
-                bytes
-            } else {
-                bytes.wrapping_neg()
-            });
-            Add {
-                d: SP,
-                n: SP,
-                by,
-                flags: false,
-            }
-        }
-        0xb1 | 0xb3 | 0xb9 | 0xbb => BranchIfZero {
-            n: low(0),
-            offset: (field(9, 1) << 6 | field(3, 5) << 1) as i32,
-            if_not: code & 0x800 != 0,
-        },
-        0xb4 | 0xb5 => Words {
-            n: SP,
-            registers: (byte | field(8, 1) << LR) as u16,
-            load: false,
-            down: true,
-            writes_back: true,
-        },
-        0xbc | 0xbd => Words {
-            n: SP,
-            registers: (byte | field(8, 1) << PC) as u16,
-            load: true,
-            down: false,
-            writes_back: true,
-        },
-        0xbf if code == 0xbf00 => Nop,
-        0xc0..=0xcf => Words {
-            n: third,
-            registers: byte as u16,
-            load: code & 0x800 != 0,
-            down: false,
-            writes_back: code & 0x800 == 0 || byte & 1 << third == 0,
-        },
-        0xd0..=0xdd => Branch {
-            offset: signed(byte << 1, 9),
-            condition: field(8, 4) as u8,
-            link: false,
-        },
-        0xe0..=0xe7 => Branch {
-            offset: signed(field(0, 11) << 1, 12),
-            condition: ALWAYS,
-            link: false,
-        },
-        _ => return None,
-    })
-}
-
-/// An instruction of two halfwords: A5.3 and A6.
-pub fn long(first: u16, second: u16) -> Option<Instruction> {
-    match first >> 8 {
-        0xec | 0xed => real_memory(first, second),
-        0xee => real_data(first, second),
-        0xe8..=0xeb => multiple_or_shifted(first, second),
-        0xf8 => single(first, second),
-        0xf0..=0xf7 => immediate_or_branch(first, second),
-        _ => None,
-    }
-}
-
-fn multiple_or_shifted(first: u16, second: u16) -> Option<Instruction> {
-    let n = (first & 15) as u8;
-    let shift = ((second >> 12 & 7) << 2 | second >> 6 & 3) as u8;
-    let (d, m) = ((second >> 8 & 15) as u8, (second & 15) as u8);
-    Some(match first & 0xfff0 {
-        // LDM, STM and their forms that count down, which only stores have here.
-        0xe880 | 0xe8a0 | 0xe890 | 0xe8b0 | 0xe900 | 0xe920 => Instruction::Words {
-            n,
-            registers: second,
-            load: first & 0x10 != 0,
-            down: first & 0x100 != 0,
-            writes_back: first & 0x20 != 0,
-        },
-        0xeb00 if second & 0x8030 == 0 && n != PC => Instruction::Add {
-            d,
-            n,
-            by: Operand::Register(m, shift),
-            flags: false,
-        },
-        _ => return None,
-    })
-}
-
-fn single(first: u16, second: u16) -> Option<Instruction> {
-    let (n, t) = ((first & 15) as u8, (second >> 12) as u8);
-    let offset = i32::from(second & 0xfff);
-    let word = |offset, load| Instruction::Word { t, n, offset, load };
-    Some(match first & 0xfff0 {
-        0xf8d0 => word(offset, true),
-        0xf8c0 => word(offset, false),
-        0xf850 if n == PC => word(-offset, true),
-        // Offsets downwards, without a change of the base.
-        0xf850 | 0xf840 if second & 0xf00 == 0xc00 => word(-(offset & 0xff), first & 0x10 != 0),
-        // PUSH and POP of one register: A7.7.99, A7.7.101.
-        0xf840 | 0xf850
-            if n == SP && [0xd04, 0xb04][usize::from(first >> 4 & 1)] == second & 0xfff =>
-        {
-            let load = first & 0x10 != 0;
-            Instruction::Words {
-                n,
-                registers: 1 << t,
-                load,
-                down: !load,
-                writes_back: true,
-            }
-        }
-        _ => return None,
-    })
-}
-
-/// The constant that twelve bits encode: A5.3.2.
-fn expanded(code: u32) -> u32 {
-    let byte = code & 0xff;
-    match code >> 8 {
-        0 => byte,
-        1 => byte << 16 | byte,
-        2 => byte << 24 | byte << 8,
-        3 => byte * 0x0101_0101,
-        _ => (0x80 | code & 0x7f).rotate_right(code >> 7),
-    }
-}
-
-fn immediate_or_branch(first: u16, second: u16) -> Option<Instruction> {
-    use Instruction::{Add, Constant, Sub, Upper};
-    let (one, two) = (u32::from(first), u32::from(second));
-    if second & 0x8000 != 0 {
-        return branch(one, two);
-    }
-    let (n, d) = ((one & 15) as u8, (two >> 8 & 15) as u8);
-    let code = (one >> 10 & 1) << 11 | (two >> 12 & 7) << 8 | two & 0xff;
-    let half = (one & 15) << 12 | code;
-    let by = Operand::Constant;
-    let to = if d == PC { NOWHERE } else { d };
-    Some(match first & 0xfbf0 {
-        0xf040 | 0xf050 if n == PC => Constant {
-            d,
-            value: expanded(code),
-        },
-        0xf100 => Add {
-            d,
-            n,
-            by: by(expanded(code)),
-            flags: false,
-        },
-        0xf110 => Add {
-            d: to,
-            n,
-            by: by(expanded(code)),
-            flags: true,
-        },
-        0xf1a0 => Add {
-            d,
-            n,
-            by: by(expanded(code).wrapping_neg()),
-            flags: false,
-        },
-        0xf1b0 => Sub {
-            d: to,
-            n,
-            by: by(expanded(code)),
-        },
-        0xf200 if n != PC => Add {
-            d,
-            n,
-            by: by(code),
-            flags: false,
-        },
-        0xf2a0 if n != PC => Add {
-            d,
-            n,
-            by: by(code.wrapping_neg()),
-            flags: false,
-        },
-        0xf240 => Constant { d, value: half },
-        0xf2c0 => Upper { d, value: half },
-        _ => return None,
-    })
-}
-
-fn branch(one: u32, two: u32) -> Option<Instruction> {
-    let s = one >> 10 & 1;
-    let (j1, j2) = (two >> 13 & 1, two >> 11 & 1);
-    let i = |j: u32| 1 ^ j ^ s;
-    let far = s << 24 | i(j1) << 23 | i(j2) << 22 | (one & 0x3ff) << 12 | (two & 0x7ff) << 1;
-    let near = s << 20 | j2 << 19 | j1 << 18 | (one & 0x3f) << 12 | (two & 0x7ff) << 1;
-    let condition = (one >> 6 & 15) as u8;
-    Some(match two >> 12 & 5 {
-        0 if condition < ALWAYS => Instruction::Branch {
-            offset: signed(near, 21),
-            condition,
-            link: false,
-        },
-        1 => Instruction::Branch {
-            offset: signed(far, 25),
-            condition: ALWAYS,
-            link: false,
-        },
-        5 => Instruction::Branch {
-            offset: signed(far, 25),
-            condition: ALWAYS,
-            link: true,
-        },
-        _ => return None,
-    })
-}
-
-/// The number of a single-precision register of four bits and one: A6.3.
-fn real(four: u16, one: u16) -> u8 {
-    ((four & 15) << 1 | one & 1) as u8
-}
-
-fn real_memory(first: u16, second: u16) -> Option<Instruction> {
-    let n = (first & 15) as u8;
-    let (up, load, writes_back) = (first & 0x80 != 0, first & 0x10 != 0, first & 0x20 != 0);
-    let before = first & 0x100 != 0;
-    let words = (second & 0xff) as u8;
-    let is_double = match second >> 8 & 15 {
-        10 => false,
-        11 => true,
-        _ => return None,
-    };
-    let d = first >> 6;
-    let first = if is_double {
-        ((d & 1) << 4 | second >> 12) as u8 * 2
-    } else {
-        real(second >> 12, d)
-    };
-    if before && !writes_back {
-        let offset = 4 * i32::from(words) * if up { 1 } else { -1 };
-        let count = 1 + u8::from(is_double);
-        return Some(Instruction::Reals {
-            first,
-            count,
-            n,
-            offset,
-            load,
-        });
-    }
-    // Upwards after, or downwards before.
-    (before != up && words > 0 && words % 2 <= u8::from(!is_double)).then_some(
-        Instruction::RealsMoving {
-            first,
-            count: words,
-            n,
-            load,
-            down: before,
-            writes_back,
-        },
-    )
-}
-
-fn real_data(first: u16, second: u16) -> Option<Instruction> {
-    use Instruction::{Copy, Negate, Real, Transfer};
-    if second >> 8 & 15 != 10 {
-        return None;
-    }
-    let d = real(second >> 12, first >> 6);
-    let (n, m) = (real(first, second >> 7), real(second, second >> 5));
-    if second & 0x10 != 0 {
-        let core = (second >> 12) as u8;
-        let is_move = first & 0xe0 == 0 && second & 0x7f == 0x10 && core < SP;
-        return is_move.then_some(Transfer {
-            core,
-            real: n,
-            to_core: first & 0x10 != 0,
-        });
-    }
-    let op = |op| Some(Instruction::Arithmetic { op, d, n, m });
-    match (first & 0xb0, second & 0x40 != 0) {
-        (0x20, false) => op(Arithmetic::Mul),
-        (0x20, true) => op(Arithmetic::NegatedMul),
-        (0x30, false) => op(Arithmetic::Add),
-        (0x30, true) => op(Arithmetic::Sub),
-        (0xb0, false) if second & 0xa0 == 0 => {
-            let byte = u32::from((first & 15) << 4 | second & 15);
-            let exponent = if byte & 0x40 != 0 { 0x7c } else { 0x80 } | byte >> 4 & 3;
-            Some(Real {
-                d,
-                value: f32::from_bits((byte & 0x80) << 24 | exponent << 23 | (byte & 15) << 19),
-            })
-        }
-        (0xb0, true) => match (first & 15, second >> 7 & 1) {
-            (0, 0) => Some(Copy { d, m }),
-            (1, 0) => Some(Negate { d, m }),
-            _ => None,
-        },
-        _ => None,
-    }
 }

@@ -42,6 +42,37 @@ pub enum Error {
         /// The error of a state that was found.
         observed: f64,
     },
+    /// A call took more cycles than its machine code says, or not as many although nothing branches on data.
+    #[error("{function}: the bound is {bound} cycles, and {least} to {most} were measured")]
+    Cycles {
+        /// The function.
+        function: &'static str,
+        /// By the machine code.
+        bound: u64,
+        /// The fewest of a call.
+        least: u64,
+        /// The most of a call.
+        most: u64,
+    },
+    /// The target computed other bits than the host.
+    #[error(
+        "{function}: result {result} of state {state} has the bits {target:#010x} on the target and {host:#010x} on the host"
+    )]
+    Bits {
+        /// The function.
+        function: &'static str,
+        /// The number of the state, from 1.
+        state: usize,
+        /// The number of the result, from 1.
+        result: usize,
+        /// In QEMU.
+        target: u32,
+        /// Of the expression.
+        host: u32,
+    },
+    /// A range of `--box` is not taken.
+    #[error(transparent)]
+    Narrow(#[from] crate::narrow::NarrowError),
     /// A program failed.
     #[error("{program}: {said}")]
     Program {

@@ -12,6 +12,8 @@ pub struct Image {
     sections: Vec<(u32, Vec<u8>)>,
     /// Name, address and size, sorted by address.
     symbols: Vec<(String, u32, u32)>,
+    /// Where code begins behind data, sorted: the symbols `$t` of the ARM ABI.
+    code: Vec<u32>,
 }
 
 impl Image {
@@ -36,9 +38,14 @@ impl Image {
         });
         let mut symbols: Vec<_> = symbols.collect();
         symbols.sort_by_key(|symbol| symbol.1);
+        let is_code = |name: &str| name == "$t" || name.starts_with("$t.");
+        let marks = file.symbols().filter(|one| one.name().is_ok_and(is_code));
+        let mut code: Vec<u32> = marks.map(|one| one.address() as u32).collect();
+        code.sort_unstable();
         Ok(Self {
             sections: sections.collect(),
             symbols,
+            code,
         })
     }
 
@@ -47,7 +54,14 @@ impl Image {
         Self {
             sections: vec![(address, bytes.to_vec())],
             symbols: Vec::new(),
+            code: Vec::new(),
         }
+    }
+
+    /// The same with a function that has a name.
+    pub fn with_function(mut self, name: &str, address: u32, size: u32) -> Self {
+        self.symbols.push((name.to_owned(), address, size));
+        self
     }
 
     /// The bytes from an address on.
@@ -66,6 +80,55 @@ impl Image {
     /// The word at an address.
     pub fn word(&self, address: u32) -> Option<u32> {
         Some(u32::from_le_bytes(*self.from(address)?.first_chunk()?))
+    }
+
+    /// First address and size of the function that holds an address.
+    pub fn function(&self, at: u32) -> Option<(u32, u32)> {
+        let symbols = self.symbols.iter().map(|(_, start, size)| (*start, *size));
+        let mut holding = symbols.filter(|(start, size)| at.wrapping_sub(*start) < *size);
+        holding.next()
+    }
+
+    /// All names of the function at an address.
+    pub fn names(&self, at: u32) -> impl Iterator<Item = &str> {
+        let here = self.symbols.iter().filter(move |symbol| symbol.1 == at);
+        here.map(|symbol| &*symbol.0)
+    }
+
+    /// Where the data at an address ends, if the program says it.
+    pub fn code_after(&self, data: u32) -> Option<u32> {
+        let after = self.code.partition_point(|at| *at <= data);
+        self.code.get(after).copied()
+    }
+
+    /// The name of the function that holds an address: the last parts of its path, without the hash.
+    pub fn name(&self, at: u32) -> Option<String> {
+        let mut symbols = self.symbols.iter();
+        let (name, ..) = symbols.find(|(_, start, size)| at.wrapping_sub(*start) < *size)?;
+        let (mut parts, mut rest) = (Vec::new(), name.strip_prefix("_ZN").unwrap_or_default());
+        while let Some(end) = rest
+            .find(|c: char| !c.is_ascii_digit())
+            .filter(|end| *end > 0)
+        {
+            let length = rest[..end].parse().unwrap_or(usize::MAX);
+            let Some((part, after)) = rest[end..].split_at_checked(length) else {
+                break;
+            };
+            // Of a type the name, without its path and parameters.
+            let part = part
+                .trim_start_matches("_$LT$")
+                .trim_start_matches("impl$u20$");
+            let part = part.split('$').next().unwrap_or_default();
+            parts.push(part.rsplit("..").next().unwrap_or_default());
+            rest = after;
+        }
+        parts.pop();
+        let last = parts.split_off(parts.len().saturating_sub(2));
+        Some(if last.is_empty() {
+            name.clone()
+        } else {
+            last.join("::")
+        })
     }
 
     /// The address and the words of the variable of a name, whatever its path and hash.

@@ -11,6 +11,9 @@
 //! | [`search`] | the worst error that is found |
 //! | [`certificate`], [`page`], [`picture`] | what was proven, as data, text and picture |
 //! | [`gappa`], [`check`] | checks of it by others |
+//! | [`cycles`], `flow`, `machine`, `words` | the most cycles of a path, by the cycle meter's model |
+//! | [`stack`], [`rows`] | the most stack, and both beside what was measured |
+//! | [`emulation`], [`sheet`], [`narrow`] | the functions in QEMU, a page of all of this, and boxes of one's own |
 //! | [`fpcore`] | the expression for other tools |
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -19,8 +22,12 @@ pub mod bound;
 pub mod branch;
 pub mod certificate;
 pub mod check;
+pub mod cycles;
 mod decode;
+pub mod emulation;
 pub mod error;
+mod flags;
+mod flow;
 pub mod forms;
 pub mod fpcore;
 pub mod gappa;
@@ -28,10 +35,16 @@ pub mod graph;
 pub mod grid;
 pub mod image;
 pub mod interval;
+mod machine;
+pub mod narrow;
 pub mod page;
 pub mod picture;
 pub mod program;
+pub mod rows;
 pub mod search;
+pub mod sheet;
 pub mod sines;
+pub mod stack;
 pub mod state_box;
 pub mod walk;
+mod words;

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::certificate::{Certificate, Function};
 
 /// A number in three digits, its power of ten written out.
-fn short(x: f64) -> String {
+pub(crate) fn short(x: f64) -> String {
     if x == 0.0 {
         return "0".to_owned();
     }
@@ -50,6 +50,9 @@ fn table(one: &Certificate) -> String {
         one.rustc,
         ranges(one),
     );
+    if let Some(target) = &one.target {
+        let _ = write!(text, "{}\n\n", target.sentence());
+    }
     let _ = writeln!(
         text,
         "| {what} | proven error, {unit} | worst observed | ratio | proof | of it: operations | literals | sines | range of the result |\n|---|---|---|---|---|---|---|---|---|"
@@ -78,7 +81,7 @@ fn table(one: &Certificate) -> String {
 }
 
 /// The box in words, joints of the same ranges together.
-fn ranges(one: &Certificate) -> String {
+pub(crate) fn ranges(one: &Certificate) -> String {
     let of = |i: usize| {
         let joint = one.joints[i];
         let (q, unit) = (joint.position, if joint.turns { "rad" } else { "m" });

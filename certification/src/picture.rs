@@ -14,15 +14,21 @@ const LEFT: f64 = 110.0;
 const WIDE: f64 = 340.0;
 const GAP: f64 = 40.0;
 
-/// The certificates of inverse dynamics and of gravity side by side, a group of rows for each robot.
+/// The certificates of the first two functions side by side, a group of rows for each robot.
 pub fn svg(certificates: &[Certificate]) -> String {
     let of = |function| {
         certificates
             .iter()
             .filter(move |one| one.function == function)
     };
-    let panels = [Function::Rnea, Function::Gravity];
-    let rows: usize = of(Function::Rnea).map(|one| one.outputs.len() + 1).sum();
+    let mut panels: Vec<Function> = Vec::new();
+    for one in certificates {
+        if !panels.contains(&one.function) && panels.len() < 2 {
+            panels.push(one.function);
+        }
+    }
+    let rows_of = |function: &Function| of(*function).map(|one| one.outputs.len() + 1).sum();
+    let rows: usize = panels.iter().map(rows_of).max().unwrap_or(0);
     let (width, height) = (
         LEFT + 2.0 * WIDE + GAP + 20.0,
         TOP + ROW * rows as f64 + 46.0,
@@ -45,10 +51,11 @@ pub fn svg(certificates: &[Certificate]) -> String {
     );
     for (panel, function) in panels.into_iter().enumerate() {
         let left = LEFT + (WIDE + GAP) * panel as f64;
-        let title = if function == Function::Rnea {
-            "Inverse dynamics"
-        } else {
-            "Gravity alone"
+        let (title, unit, part) = match function {
+            Function::Rnea => ("Inverse dynamics", "N·m", "joint"),
+            Function::Gravity => ("Gravity alone", "N·m", "joint"),
+            Function::Crba => ("Inertia matrix", "kg·m²", "entry"),
+            Function::Core => ("Inverse dynamics of the core", "N·m", "joint"),
         };
         let _ = writeln!(
             svg,
@@ -69,7 +76,7 @@ pub fn svg(certificates: &[Certificate]) -> String {
         }
         let _ = writeln!(
             svg,
-            "<text font-size=\"12\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">N·m</text>",
+            "<text font-size=\"12\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{unit}</text>",
             left + WIDE / 2.0,
             bottom + 36.0
         );
@@ -88,7 +95,7 @@ pub fn svg(certificates: &[Certificate]) -> String {
                 if panel == 0 {
                     let _ = writeln!(
                         svg,
-                        "<text font-size=\"12\" x=\"{}\" y=\"{}\" text-anchor=\"end\">joint {}</text>",
+                        "<text font-size=\"12\" x=\"{}\" y=\"{}\" text-anchor=\"end\">{part} {}</text>",
                         LEFT - 12.0,
                         y + 4.0,
                         output.name

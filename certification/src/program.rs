@@ -45,8 +45,6 @@ pub fn build(robot: &str, options: &import::Options) -> Result<Program> {
         None => of_description(Path::new(robot), options, &folder.path().join("robot.rs"))?,
     };
     write(&included, &text)?;
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let cargo = || Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     let words = [
         "build",
         "--quiet",
@@ -58,15 +56,8 @@ pub fn build(robot: &str, options: &import::Options) -> Result<Program> {
         "--target",
         TARGET,
     ];
-    capture(
-        cargo()
-            .args(words)
-            .current_dir(&root)
-            .env("CERTIFIED_ROBOT", &included),
-    )?;
-    let target =
-        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
-    let path = target.join(TARGET).join("release").join(PACKAGE);
+    capture(cargo().args(words).env("CERTIFIED_ROBOT", &included))?;
+    let path = target().join(TARGET).join("release").join(PACKAGE);
     let elf = std::fs::read(&path).map_err(|source| Error::File { path, source })?;
     let rustc = capture(
         Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into())).arg("--version"),
@@ -76,6 +67,30 @@ pub fn build(robot: &str, options: &import::Options) -> Result<Program> {
         elf,
         rustc: rustc.trim().to_owned(),
     })
+}
+
+/// The cycle meter as a plugin of QEMU, built.
+///
+/// # Errors
+/// [`Error::Program`] if cargo fails.
+pub fn meter() -> Result<PathBuf> {
+    use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+    capture(cargo().args(["build", "--quiet", "--release", "--package", "cycle-meter"]))?;
+    Ok(target().join(format!("release/{DLL_PREFIX}cycle_meter{DLL_SUFFIX}")))
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn target() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
+}
+
+fn cargo() -> Command {
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.current_dir(root());
+    cargo
 }
 
 /// The name of a description's robot and what the firmware includes; the robot's own file is written beside.
@@ -116,7 +131,7 @@ pub fn write(path: &Path, text: &str) -> Result<()> {
 }
 
 /// What a command prints.
-fn capture(command: &mut Command) -> Result<String> {
+pub(crate) fn capture(command: &mut Command) -> Result<String> {
     let program = command.get_program().to_string_lossy().into_owned();
     let failed = |said: String| Error::Program {
         program: program.clone(),

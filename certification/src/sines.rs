@@ -27,7 +27,8 @@ pub fn pair(joint: &Joint, q: f32) -> (f32, f32) {
     }
 }
 
-fn is_near(joint: &Joint) -> bool {
+/// Whether the engine computes the sines of a joint by the kernel for two turns.
+pub(crate) fn is_near(joint: &Joint) -> bool {
     let most = joint.position.magnitude();
     most <= 2.0 * std::f64::consts::TAU
 }

@@ -6,9 +6,10 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::decode::{
-    self, ALWAYS, Arithmetic, Condition, Instruction, LR, NOWHERE, Operand, PC, SP,
+    self, ALWAYS, Access, Arithmetic, Condition, Instruction, LR, NOWHERE, Operand, PC, SP,
 };
 use crate::error::{Error, Result};
+use crate::flags;
 use crate::graph::{Graph, Input, Node};
 use crate::image::Image;
 
@@ -359,44 +360,57 @@ impl Walk<'_> {
                 self.next = self.bits(m)? & !1;
                 Ok(())
             }
+            I::Access(one) if one.bytes == 4 => self.access(one),
+            _ => Err(self.declined("an instruction of which nothing is proven")),
         }
+    }
+
+    /// One word or two.
+    fn access(&mut self, one: Access) -> Result<()> {
+        let (base, by) = (self.bits(one.n)?, self.operand(one.offset)?);
+        if one.n == PC {
+            return Err(self.declined("two words beside the code"));
+        }
+        let moved = base.wrapping_add(by);
+        let at = if one.before { moved } else { base };
+        if one.writes_back {
+            self.set(one.n, Word::Bits(moved))?;
+        }
+        let registers = [one.t, one.second].into_iter().filter(|t| *t != NOWHERE);
+        for (t, at) in registers.zip([at, at.wrapping_add(4)]) {
+            if one.load {
+                let word = self.load(at)?;
+                self.set(t, word)?;
+            } else {
+                let word = self.core(t)?;
+                self.store(at, word)?;
+            }
+        }
+        Ok(())
     }
 
     fn operand(&self, operand: Operand) -> Result<u32> {
         match operand {
             Operand::Constant(value) => Ok(value),
             Operand::Register(m, shift) => Ok(self.bits(m)? << shift),
+            Operand::Right(m, shift) => Ok(self.bits(m)? >> shift),
         }
     }
 
-    /// Keeps the flags of a + b + carry: A2.2.1.
+    /// Keeps the flags of a + b + carry.
     fn note(&mut self, sets: bool, a: u32, b: u32, carry: bool) {
         if sets {
-            let wide = u64::from(a) + u64::from(b) + u64::from(carry);
-            let sum = wide as u32;
-            let overflow = (a ^ sum) & (b ^ sum) & 0x8000_0000 != 0;
-            self.flags = Some([sum >> 31 != 0, sum == 0, wide >> 32 != 0, overflow]);
+            self.flags = Some(flags::of_sum(a, b, carry));
         }
     }
 
-    /// Whether a condition holds: A7.3.
     fn holds(&self, condition: Condition) -> Result<bool> {
         if condition == ALWAYS {
             return Ok(true);
         }
-        let [n, z, c, v] = self
-            .flags
-            .ok_or_else(|| self.declined("a branch by flags that are not followed"))?;
-        let holds = match condition >> 1 {
-            0 => z,
-            1 => c,
-            2 => n,
-            3 => v,
-            4 => c && !z,
-            5 => n == v,
-            _ => n == v && !z,
-        };
-        Ok(holds != (condition & 1 != 0))
+        let of = |flags: [bool; 4]| flags::holds(condition, flags.map(Some));
+        let unknown = || self.declined("a branch by flags that are not followed");
+        self.flags.and_then(of).ok_or_else(unknown)
     }
 
     fn words(

@@ -47,7 +47,7 @@ enum Command {
     Watch(watch::Args),
     /// Find masses, inertias and frictions of a robot from a record of `watch`, for its file
     Identify(identify::Args),
-    /// Prove from machine code how far off a robot's torques can be over the whole box of its joints, rewrite docs/certificates.md
+    /// Prove from machine code how far off a robot's torques can be and what they take, print a sheet, or rewrite docs/certificates.md
     Certify(identify::Certify),
     /// Compare the scene ur5e with its robot in f64 on the host, processor in the loop, and with its robot inside
     Pil(pil::Args),

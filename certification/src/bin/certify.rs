@@ -7,10 +7,13 @@ use std::time::Instant;
 use certification::certificate::{self, Certificate, Function, Spent};
 use certification::error::{Error, Result};
 use certification::image::Image;
+use certification::narrow::Narrow;
 use certification::program::{self, LIBRARY, Program};
+use certification::rows::{self, Measured, Report};
 use certification::search::Effort;
+use certification::sheet::{Sheet, Target};
 use certification::state_box::Robot;
-use certification::{check, page, picture, sines};
+use certification::{check, emulation, page, picture, sines};
 use clap::Parser;
 
 /// Proven rounding errors of a robot's functions over the whole box of its joints
@@ -37,6 +40,15 @@ struct Args {
     /// The greatest |q| of joints that slide and whose description has no limits, m
     #[arg(long, value_name = "Q")]
     range: Option<f64>,
+    /// A narrower range of a joint's position, JOINT:LOW..HIGH, speed, JOINT:v:MOST, or acceleration, JOINT:a:MOST, in rad or m and s; joints
+    /// count from 1, and --box 2:-1.5..1.5,2:v:0.5 has two
+    #[arg(
+        long = "box",
+        value_name = "RANGE",
+        value_delimiter = ',',
+        requires = "robot"
+    )]
+    narrow: Vec<Narrow>,
     /// Into how many parts the box of each result is split: more time, tighter bounds
     #[arg(long, value_name = "N", default_value_t = 4000)]
     parts: usize,
@@ -67,6 +79,9 @@ struct Args {
     /// Only compare the hashes in docs/certificates.md with today's machine code
     #[arg(long, conflicts_with_all = ["robot", "write_docs"])]
     hashes: bool,
+    /// Bound the cycles and the stack of the measured rows of programs, as `cargo xtask static` passes them
+    #[arg(long, value_name = "JSON", conflicts_with_all = ["robot", "write_docs", "hashes"])]
+    rows: Option<PathBuf>,
     #[command(flatten)]
     options: robot_import::import::Options,
 }
@@ -98,6 +113,9 @@ fn run(args: &Args) -> Result<String> {
         let path = docs.join(PAGE);
         std::fs::read_to_string(&path).map_err(|source| Error::File { path, source })
     };
+    if let Some(path) = &args.rows {
+        return rows(path);
+    }
     let robots: Vec<&str> = match &args.robot {
         Some(robot) => vec![robot],
         None => LIBRARY.map(|(name, _)| name).to_vec(),
@@ -118,14 +136,18 @@ fn run(args: &Args) -> Result<String> {
         return Ok(format!("{PAGE} has the hashes of today's machine code"));
     }
     let boxed = |program: &Program| {
-        Robot::read(
+        let mut robot = Robot::read(
             &Image::read(&program.elf)?,
             args.acceleration,
             args.speed,
             args.range,
-        )
+        )?;
+        for range in &args.narrow {
+            range.apply(&mut robot)?;
+        }
+        Ok(robot)
     };
-    let robots = programs.iter().map(boxed).collect::<Result<Vec<_>>>()?;
+    let robots: Vec<Robot> = programs.iter().map(boxed).collect::<Result<_>>()?;
     if args.sampled {
         return sampled(args, &programs, &robots);
     }
@@ -137,19 +159,15 @@ fn run(args: &Args) -> Result<String> {
     let sines = sines::enumerate(&joints);
     let mut certificates = Vec::new();
     for (program, robot) in programs.iter().zip(&robots) {
+        let image = Image::read(&program.elf)?;
+        let emulation = emulation::run(program, robot).map_err(|error| error.to_string());
         for function in &args.function {
             let start = Instant::now();
-            let one = certificate::certify(program, *function, robot, sines, spent(args))?;
+            let target = Target::of(&image, *function, robot, &emulation)?;
+            let mut one = certificate::certify(program, *function, robot, sines, spent(args))?;
+            one.target = Some(target);
             if args.gappa {
-                check::by_gappa(
-                    &Image::read(&program.elf)?,
-                    *function,
-                    robot,
-                    sines,
-                    &one,
-                    PART,
-                    args.coq,
-                )?;
+                check::by_gappa(&image, *function, robot, sines, &one, PART, args.coq)?;
             }
             eprintln!(
                 "{}: {}: {:.0} s",
@@ -161,6 +179,27 @@ fn run(args: &Args) -> Result<String> {
         }
     }
     finish(args, &docs, &certificates, written)
+}
+
+/// The bounds of measured rows of programs, by the paths of these.
+fn rows(path: &Path) -> Result<String> {
+    let read = |path: &Path| {
+        std::fs::read(path).map_err(|source| Error::File {
+            path: path.to_owned(),
+            source,
+        })
+    };
+    let json = |e: serde_json::Error| Error::Robot(format!("{}: {e}", path.display()));
+    let programs: Vec<(PathBuf, Vec<Measured>)> =
+        serde_json::from_slice(&read(path)?).map_err(json)?;
+    let mut bounds = Vec::new();
+    for (elf, rows) in programs {
+        let image = Image::read(&read(&elf)?)?;
+        for row in rows {
+            bounds.push(rows::bound(&image, row)?);
+        }
+    }
+    serde_json::to_string_pretty(&Report::of(bounds)).map_err(json)
 }
 
 fn sampled(args: &Args, programs: &[Program], robots: &[Robot]) -> Result<String> {
@@ -216,8 +255,11 @@ fn finish(
         )?;
         return Ok(format!("written: {PAGE}"));
     }
-    if args.json {
-        return serde_json::to_string_pretty(certificates).map_err(|e| Error::Robot(e.to_string()));
+    let json = |e: serde_json::Error| Error::Robot(e.to_string());
+    match Sheet::of(certificates).filter(|_| args.robot.is_some()) {
+        Some(sheet) if args.json => serde_json::to_string_pretty(&sheet).map_err(json),
+        Some(sheet) => Ok(sheet.markdown()),
+        None if args.json => serde_json::to_string_pretty(certificates).map_err(json),
+        None => Ok(page::tables(certificates)),
     }
-    Ok(page::tables(certificates))
 }

@@ -92,6 +92,12 @@ impl Block {
         self.end
     }
 
+    /// The address of the instruction of this index.
+    pub fn address(&self, index: usize) -> u32 {
+        let sizes = self.insns[..index].iter().map(|insn| u32::from(insn.size));
+        self.start.wrapping_add(sizes.sum())
+    }
+
     pub fn insns(&self) -> &[Insn] {
         &self.insns
     }

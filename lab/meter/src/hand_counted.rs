@@ -13,7 +13,7 @@ fn by_hand() -> impl Iterator<Item = (&'static str, Sample)> {
     let rows = HAND_COUNTED
         .lines()
         .filter_map(|line| line.split_once(": "));
-    rows.filter_map(|(name, figures)| Some((name, sample(figures, 0).ok()?)))
+    rows.filter_map(|(name, figures)| Some((name, sample(&format!("{figures} 0"), 0).ok()?)))
 }
 
 /// Compares the samples of a run of `meter_check` with those counted by hand and returns how many agree.
@@ -22,9 +22,9 @@ fn by_hand() -> impl Iterator<Item = (&'static str, Sample)> {
 ///
 /// A line for each that differs, or the two numbers of samples if those differ.
 pub fn check_hand_counted(samples: &[Sample]) -> Result<usize, String> {
-    let pairs = by_hand().zip(samples);
+    let pairs = by_hand().zip(samples.iter().map(|sample| sample.anywhere()));
     let differences: Vec<String> = pairs
-        .filter(|((_, hand), meter)| hand != *meter)
+        .filter(|((_, hand), meter)| hand != meter)
         .map(|((name, hand), meter)| format!("{name}: by hand {hand:?}, by the meter {meter:?}"))
         .collect();
     if !differences.is_empty() {
@@ -53,8 +53,8 @@ mod tests {
         assert!(check_hand_counted(&samples[..samples.len() - 1]).is_err());
         assert!(check_hand_counted(&[&*samples, &samples[..1]].concat()).is_err());
         samples[1].cycles += 1;
-        let said = "divide: by hand Sample { region: 0, instructions: 2, cycles: 13, flops: 0 }, \
-                    by the meter Sample { region: 0, instructions: 2, cycles: 14, flops: 0 }";
+        let said = "divide: by hand Sample { region: 0, instructions: 2, cycles: 13, flops: 0, at: 0 }, \
+                    by the meter Sample { region: 0, instructions: 2, cycles: 14, flops: 0, at: 0 }";
         assert_eq!(check_hand_counted(&samples), Err(said.into()));
     }
 }

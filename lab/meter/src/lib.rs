@@ -110,6 +110,7 @@ mod samples;
 pub use decode::{Relative, decode, relative, size};
 pub use hand_counted::check_hand_counted;
 pub use insn::{Class, Insn, Marker};
+pub use model::{Pipe, Reading};
 /// The newest version of QEMU's plugin interface that the plugin knows.
 pub const NEWEST_INTERFACE: i32 = 7;
 /// The environment variable that sets the version of the interface which the plugin asks QEMU for.

@@ -16,7 +16,8 @@ pub struct Meter<'b> {
     /// The pipe as the current block found it.
     entry: Pipe,
     current: Option<&'b Block>,
-    open: [Option<Tally>; 8],
+    /// The count at the marks that opened them, and their addresses.
+    open: [Option<(Tally, u32)>; 8],
     samples: Vec<Sample>,
     unmatched: u64,
 }
@@ -45,13 +46,14 @@ impl<'b> Meter<'b> {
         let Marker { region, opens } = mark.marker;
         let slot = &mut self.open[usize::from(region)];
         if opens {
-            self.unmatched += u64::from(slot.replace(now).is_some());
-        } else if let Some(then) = slot.take() {
+            self.unmatched += u64::from(slot.replace((now, block.address(mark.index))).is_some());
+        } else if let Some((then, at)) = slot.take() {
             self.samples.push(Sample {
                 region,
                 instructions: now.instructions - then.instructions,
                 cycles: now.cycles - then.cycles,
                 flops: now.flops - then.flops,
+                at,
             });
         } else {
             self.unmatched += 1;
@@ -117,7 +119,7 @@ mod tests {
             block.marks().iter().for_each(|mark| meter.mark(mark));
         }
         assert_eq!(meter.unmatched(), 0);
-        meter.samples().to_vec()
+        meter.samples().iter().map(|one| one.anywhere()).collect()
     }
 
     fn sample(region: u8, instructions: u64, cycles: u64) -> Sample {
@@ -186,7 +188,7 @@ mod tests {
             meter.enter(block, passed);
             block.marks().iter().for_each(|mark| meter.mark(mark));
         }
-        assert_eq!(meter.samples(), [sample(0, 4, 5)]);
+        assert_eq!(meter.samples()[0].anywhere(), sample(0, 4, 5));
     }
 
     #[test]

@@ -1,14 +1,14 @@
 //! The plugin's output file.
 //!
 //! ```text
-//! cycle-meter 2 cortex-m4f zero-wait
-//! 1 390 508 308
-//! 0 1204 1657 402
+//! cycle-meter 3 cortex-m4f zero-wait
+//! 1 390 508 308 134218012
+//! 0 1204 1657 402 134217994
 //! ```
 //!
 //! After the header, which names the version of the format and the model, one line
 //! for each region that was closed, in the order of closing: region, instructions,
-//! cycles, floating-point operations. A last line `unmatched n` says that n markers opened an open region or
+//! cycles, floating-point operations, and the address of the mark that opened it. A last line `unmatched n` says that n markers opened an open region or
 //! closed a closed one; such a file is refused. A region still open at the exit is not in it.
 
 use std::fmt::Write as _;
@@ -16,10 +16,10 @@ use std::fmt::Write as _;
 use crate::isa::Isa;
 
 /// First line of a file.
-pub const HEADER: &str = "cycle-meter 2 cortex-m4f zero-wait";
+pub const HEADER: &str = "cycle-meter 3 cortex-m4f zero-wait";
 
 /// First line of a file of a core whose cycles are not modelled: cycles and floating-point operations are zero.
-pub const INSTRUCTIONS_ALONE: &str = "cycle-meter 2 instructions alone";
+pub const INSTRUCTIONS_ALONE: &str = "cycle-meter 3 instructions alone";
 
 /// One passage through a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +32,8 @@ pub struct Sample {
     pub cycles: u64,
     /// Floating-point operations executed, exact; a multiply-accumulate is two.
     pub flops: u64,
+    /// The address of the mark that opened it; 0 of one that was counted by hand.
+    pub at: u32,
 }
 
 impl Sample {
@@ -42,7 +44,13 @@ impl Sample {
             instructions,
             cycles,
             flops,
+            at: 0,
         }
+    }
+
+    /// The same passage, wherever it was.
+    pub const fn anywhere(self) -> Self {
+        Self { at: 0, ..self }
     }
 }
 
@@ -67,7 +75,7 @@ pub enum Error {
 /// If the text is not such a file, or says that markers had no partner.
 ///
 /// ```
-/// let file = "cycle-meter 2 cortex-m4f zero-wait\n0 70 103 48\n";
+/// let file = "cycle-meter 3 cortex-m4f zero-wait\n0 70 103 48 134217994\n";
 /// let samples = cycle_meter::parse_samples(file)?;
 /// assert_eq!(samples[0].cycles, 103);
 /// # Ok::<(), cycle_meter::Error>(())
@@ -89,10 +97,10 @@ pub(crate) fn sample(line: &str, number: usize) -> Result<Sample, Error> {
     }
     let words = line.split(' ').map(|word| word.parse().ok());
     match words.collect::<Option<Vec<u64>>>().as_deref() {
-        Some(&[region @ 0..8, ref costs @ ..]) => {
-            let costs = costs.try_into().map_err(|_| malformed())?;
-            Ok(Sample::of(region as u8, costs))
-        }
+        Some(&[region @ 0..8, a, b, c, at]) => Ok(Sample {
+            at: at.try_into().map_err(|_| malformed())?,
+            ..Sample::of(region as u8, [a, b, c])
+        }),
         _ => Err(malformed()),
     }
 }
@@ -111,7 +119,7 @@ pub fn format_samples(isa: Isa, samples: &[Sample], unmatched: u64) -> String {
             false => (0, 0),
         };
         // Writing to a string does not fail.
-        let _ = writeln!(text, "{region} {instructions} {cycles} {flops}");
+        let _ = writeln!(text, "{region} {instructions} {cycles} {flops} {}", one.at);
     }
     if unmatched > 0 {
         let _ = writeln!(text, "unmatched {unmatched}");
@@ -172,7 +180,7 @@ mod tests {
     #[test]
     fn an_unmodelled_core_is_written_with_instructions_only() {
         let text = format_samples(Isa::RiscV, &SAMPLES, 0);
-        let expected = format!("{INSTRUCTIONS_ALONE}\n1 390 0 0\n0 1204 0 0\n");
+        let expected = format!("{INSTRUCTIONS_ALONE}\n1 390 0 0 0\n0 1204 0 0 0\n");
         assert_eq!(text, expected);
         assert_eq!(parse_samples(&text).expect("a file")[0].cycles, 0);
     }
@@ -180,7 +188,7 @@ mod tests {
     #[test]
     fn invalid_samples_are_refused_by_line() {
         assert_eq!(parse_samples(""), Err(Error::Header(String::new())));
-        for line in "/0 1 2/0 1 2 3 4/8 1 2 3/0 1 x 3/0 -1 2 3/unmatched x".split('/') {
+        for line in "/0 1 2 3/0 1 2 3 4 5/8 1 2 3 4/0 1 x 3 4/0 -1 2 3 4/unmatched x".split('/') {
             let read = parse_samples(&format!("{HEADER}\n{line}\n"));
             assert_eq!(read, Err(Error::Line(2, line.into())));
         }

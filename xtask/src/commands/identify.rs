@@ -19,8 +19,8 @@ pub struct Args {
 /// Options of the package `certification`.
 #[derive(clap::Args)]
 pub struct Certify {
-    /// --robot NAME|FILE, and other options: --function, --acceleration, --speed, --range, --parts, --states, --json, --picture, --gappa,
-    /// --write-docs, --hashes, and those of `import` that select joints
+    /// --robot NAME|FILE, and other options: --function, --box, --acceleration, --speed, --range, --parts, --states, --json, --picture,
+    /// --gappa, --write-docs, --hashes, and those of `import` that select joints
     #[arg(
         value_name = "OPTION",
         trailing_var_arg = true,

@@ -45,6 +45,9 @@ pub struct Row {
     pub stack_bytes: u64,
     #[serde(skip)]
     pub address: u64,
+    /// The address of the mark that opens its region.
+    #[serde(skip)]
+    pub region: u32,
 }
 
 #[cfg(test)]
@@ -70,6 +73,7 @@ impl Row {
             code_bytes: 0,
             stack_bytes: 0,
             address: 0,
+            region: 0,
         }
     }
 }
@@ -204,6 +208,7 @@ fn cut(
             code_bytes: code_bytes(address)?,
             stack_bytes,
             address,
+            region: mine[0].at,
         });
     }
     if rows.is_empty() || !samples.is_empty() {

@@ -1,0 +1,61 @@
+//! Calls the functions in QEMU, between the meter's marks, at states that the host writes into the program, and prints the bits of their
+//! results.
+
+use core::hint::black_box;
+
+use cortex_m_semihosting::hprintln;
+use dynamics_core::model::JointCoordinate;
+use dynamics_core::state::{State, StateWithTrig};
+use firmware_demo::marker::measured;
+
+use crate::{
+    CERTIFIED_CORE, CERTIFIED_CRBA, CERTIFIED_EFFECTS, CERTIFIED_GRAVITY, CERTIFIED_RNEA, N, Trig,
+};
+
+const STATES: usize = 32;
+
+#[used]
+static CERTIFIED_STATES: [State<f32, N, N>; STATES] = [const {
+    State {
+        q: [0.0; N],
+        qd: [0.0; N],
+        qdd: [0.0; N],
+    }
+}; STATES];
+
+#[used]
+static CERTIFIED_TRIGS: [Trig; STATES] = [const {
+    Trig {
+        coordinates: [JointCoordinate {
+            q: 0.0,
+            sin: 0.0,
+            cos: 1.0,
+        }; N],
+    }
+}; STATES];
+
+/// Nothing is known of the function to the compiler, so that its code is that which is proven.
+pub fn run() {
+    let (rnea, gravity, core) = black_box((CERTIFIED_RNEA, CERTIFIED_GRAVITY, CERTIFIED_CORE));
+    let crba = black_box(CERTIFIED_CRBA);
+    each("rnea", |state| rnea(state, &CERTIFIED_EFFECTS));
+    each("gravity", |state| gravity(state, &(CERTIFIED_EFFECTS.0,)));
+    each("core", |state| core(state, &CERTIFIED_EFFECTS));
+    for trig in black_box(&CERTIFIED_TRIGS) {
+        let m = measured::<0, _>(|| crba(trig, &CERTIFIED_EFFECTS));
+        let rows: [[u32; N]; N] =
+            core::array::from_fn(|i| core::array::from_fn(|j| m.get(i, j).to_bits()));
+        hprintln!("crba {:x?}", rows);
+    }
+}
+
+fn each(name: &str, function: impl Fn(StateWithTrig<'static, f32, N, N>) -> [f32; N]) {
+    for (state, trig) in black_box(&CERTIFIED_STATES)
+        .iter()
+        .zip(black_box(&CERTIFIED_TRIGS))
+    {
+        let state = trig.with(state);
+        let result = measured::<0, _>(|| function(state));
+        hprintln!("{} {:x?}", name, result.map(f32::to_bits));
+    }
+}

@@ -13,7 +13,7 @@ use certification::rows::{self, Measured, Report};
 use certification::search::Effort;
 use certification::sheet::{Sheet, Target};
 use certification::state_box::Robot;
-use certification::{check, emulation, page, picture, sines};
+use certification::{check, emulation, fpcore, page, picture, sines};
 use clap::Parser;
 
 /// Proven rounding errors of a robot's functions over the whole box of its joints
@@ -70,6 +70,9 @@ struct Args {
     /// Let Coq check Gappa's proofs of them too: minutes for each result
     #[arg(long, requires = "gappa")]
     coq: bool,
+    /// Only write each result as a benchmark in the form of FPBench into this directory: FUNCTION_ROBOT.fpcore
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["json", "gappa", "sampled", "write_docs", "hashes"])]
+    fpcore: Option<PathBuf>,
     /// Only let Gappa and Coq check a sample of parts of the box, and refuse wrong ones
     #[arg(long, conflicts_with_all = ["write_docs", "hashes"])]
     sampled: bool,
@@ -148,6 +151,9 @@ fn run(args: &Args) -> Result<String> {
         Ok(robot)
     };
     let robots: Vec<Robot> = programs.iter().map(boxed).collect::<Result<_>>()?;
+    if let Some(folder) = &args.fpcore {
+        return benchmarks(args, folder, &programs, &robots);
+    }
     if args.sampled {
         return sampled(args, &programs, &robots);
     }
@@ -200,6 +206,33 @@ fn rows(path: &Path) -> Result<String> {
         }
     }
     serde_json::to_string_pretty(&Report::of(bounds)).map_err(json)
+}
+
+/// Writes what each function of each robot computes.
+fn benchmarks(
+    args: &Args,
+    folder: &Path,
+    programs: &[Program],
+    robots: &[Robot],
+) -> Result<String> {
+    let mut written = Vec::new();
+    for (program, robot) in programs.iter().zip(robots) {
+        let image = Image::read(&program.elf)?;
+        for function in &args.function {
+            let graph = certificate::expression(&image, *function)?.graph;
+            let name = format!("{}: {}", program.robot, function.name().replace('`', ""));
+            let results = 0..graph.outputs.len();
+            let cores = results.map(|output| fpcore::fpcore(&graph, output, robot, &name));
+            let cores: Option<Vec<String>> = cores.collect();
+            let cores =
+                cores.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
+            let function = format!("{function:?}").to_lowercase();
+            let file = folder.join(format!("{function}_{}.fpcore", program.robot));
+            program::write(&file, &cores.join("\n"))?;
+            written.push(file.display().to_string());
+        }
+    }
+    Ok(format!("written: {}", written.join(", ")))
 }
 
 fn sampled(args: &Args, programs: &[Program], robots: &[Robot]) -> Result<String> {

@@ -6,6 +6,8 @@ mod fpcore;
 mod grid;
 #[path = "certification/recorded.rs"]
 mod recorded;
+#[path = "certification/target.rs"]
+mod target;
 
 use certification::bound::{Bounder, Enclosure};
 use certification::branch::prove;

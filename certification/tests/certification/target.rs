@@ -253,7 +253,7 @@ fn robot() -> Robot {
 
 /// The program of a robot with `Engine::<Ur5e>::rnea` as it was compiled one day.
 fn program() -> Image {
-    let digits: Vec<u32> = include_str!("certification/ur5e_rnea.hex")
+    let digits: Vec<u32> = include_str!("ur5e_rnea.hex")
         .chars()
         .filter_map(|c| c.to_digit(16))
         .collect();

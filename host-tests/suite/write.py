@@ -1,0 +1,108 @@
+"""Writes the suite as data: cases/NUMBER-NAME.json, one robot each, with answers of 50 digits.
+
+    python host-tests/suite/write.py            # writes all cases
+    python host-tests/suite/write.py --check    # says whether the files are those of the scripts
+"""
+
+import json
+import sys
+from pathlib import Path
+
+from cases import existing
+from dynamics import DIGITS, Tree, cholesky, inverse, solve
+from mpmath import mp, mpf
+from proofs import found
+from robots import single
+
+OUT = Path(__file__).parent / "cases"
+MATRICES = 8  # Up to this many joints M is written; that of 64 rods is 4096 numbers a state.
+# The error of sums of rounded terms grows as √n (Higham and Mary, 2019); the factor is for sines and placements.
+FACTOR = 2
+UNIT = {"f32": 2.0**-24, "f64": 2.0**-53}
+SCALE = "an error of tau or qdd over the scale of the state and joint; of M over √(M_ii M_jj), or over the largest entry where that is 0"
+
+
+def digits(x):
+    return mp.nstr(x, DIGITS, strip_zeros=False) if x else "0"
+
+
+def three(x):
+    return float(mp.nstr(x, 3))
+
+
+def answer(robot, state):
+    """The answers and scales of one state."""
+    q, qd, qdd = ([mpf(x) for x in row] for row in state)
+    tree = Tree(robot, q)
+    tau, sizes = tree.torques(qd, qdd)
+    m = tree.mass_matrix()
+    given = [single(float(x)) if abs(x) > 1e-300 or not x else float(x) for x in tau]
+    answers = {"tau": [digits(x) for x in tau], "qdd": None}
+    if len(q) <= MATRICES:
+        answers["M"] = [[digits(x) for x in row] for row in m]
+    scale = {"tau": sizes, "qdd": None}
+    l = cholesky(m)
+    if l:
+        bias, _ = tree.torques(qd, [mpf(0)] * len(q))
+        accel = solve(l, [mpf(t) - b for t, b in zip(given, bias)])
+        answers["qdd"] = [digits(x) for x in accel]
+        # What an error of one unit in every contribution to a torque may do to the accelerations.
+        scale["qdd"] = [sum(abs(x) * s for x, s in zip(row, sizes)) for row in inverse(l)]
+    return given, answers, scale
+
+
+def written(case):
+    robot = {"gravity": case.gravity, "links": case.links}
+    states, answers, scales = [], [], []
+    for q, qd, qdd in case.states:
+        given, told, scale = answer(robot, (q, qd, qdd))
+        states.append({"q": q, "qd": qd, "qdd": qdd, "tau": given})
+        answers.append(told)
+        scales.append(scale)
+    shown = [{name: row and [three(x) for x in row] for name, row in scale.items()} for scale in scales]
+    bound = {name: float(f"{FACTOR * len(case.links) ** 0.5 * unit:.2g}") for name, unit in UNIT.items()}
+    if not case.in_f32:
+        bound["f32"] = None
+    underflow = dict(zip(UNIT, case.underflow))
+    parts = [
+        ("case", case.number),
+        ("name", case.name),
+        ("title", case.title),
+        ("reason", case.reason),
+        ("robot", robot),
+        ("states", states),
+        ("answers", answers),
+        ("bound", {**bound, "underflow": underflow, "relative_to": SCALE, "scales": shown}),
+    ]
+    return "{\n" + ",\n".join(f'"{name}": {lines(value)}' for name, value in parts) + "\n}\n"
+
+
+def lines(value):
+    """JSON with a line for each item of the lists that matter: links, states, answers, scales."""
+    text = lambda x: json.dumps(x, ensure_ascii=False)
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{text(k)}: {lines(v)}" for k, v in value.items()) + "}"
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        return "[\n" + ",\n".join(text(x) for x in value) + "\n]"
+    return text(value)
+
+
+def main():
+    wanted, stale = {}, []
+    for case in [*existing(), *found()]:
+        path = OUT / f"{case.number:02}-{case.name}.json"
+        assert path not in wanted, path
+        wanted[path] = written(case)
+        print(path.name, file=sys.stderr, flush=True)
+    if "--check" in sys.argv:
+        stale = [path.name for path, text in wanted.items() if not path.exists() or path.read_text() != text]
+        stale += [path.name for path in OUT.glob("*.json") if path not in wanted]
+        sys.exit(f"not current: {', '.join(stale)}" if stale else 0)
+    OUT.mkdir(exist_ok=True)
+    for path in OUT.glob("*.json"):
+        path.unlink()
+    for path, text in wanted.items():
+        path.write_text(text)
+
+
+main()

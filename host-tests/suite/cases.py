@@ -4,10 +4,7 @@ import math
 import random
 from dataclasses import dataclass, field
 
-from robots import (
-    DOWN, Z, chain, changed, general, gantry, gyroscope, link, neighbour, panda, points, quarters, rod, scaled,
-    seesaw, single, sized, star, tree, ur5e,
-)  # fmt: skip
+from robots import DOWN, X, chain, changed, general, link, neighbour, points, quarters, rod, scaled, single, sized, tree, ur5e
 
 
 @dataclass
@@ -21,6 +18,8 @@ class Case:
     gravity: list = field(default_factory=lambda: DOWN)
     # Of what underflow may take beside the bound; f32 and f64.
     underflow: tuple = (0.0, 0.0)
+    # The scalars in which forward dynamics may be refused.
+    refusal: list = field(default_factory=list)
     # Whether f32 has the numbers of the states, and can be asked at all.
     in_f32: bool = True
 
@@ -90,6 +89,10 @@ def existing():
     yield plain(11, "zigzag", "six rods folded at ±75°", "A folded chain has a condition of 725.", [rod(i, 1.0, 1.0) for i in range(6)], at([[turn * (-1) ** i for i in range(6)], [-turn * (-1) ** i for i in range(6)]]))
     yield plain(12, "light-links", "1 kg on ten links of 1 g", "The pivots of the light links are what remains after the share of the heavy one is subtracted.", chain([1e-3] * 10 + [1.0], 0.1, True), drawn(11, 12))
     yield plain(13, "far-base", "UR5e, its base 10⁴ m off", "In coordinates of the world every inertia is dominated by m r².", changed(ur5e(), 0, translation=[1e4, -1e4, 1e4]))
+    slide = link(-1, X, (1e4, 0, 0), None, 50.0, (0, 0, 0.1), (1, 0, 0, 1, 0, 1), joint="prismatic")
+    on_slide = [slide] + [dict(one, parent=one["parent"] + 1) for one in ur5e()]
+    strokes = [([single(q[0] * 1e-3)] + q[1:], qd, qdd) for q, qd, qdd in drawn(7, 14)]
+    yield plain(14, "far-slide", "UR5e on a slide 10⁴ m out, stroke of mm", "If the offset is added to the coordinate, f32 keeps no mm of it.", on_slide, strokes)
     yield plain(15, "fast", "UR5e at 1000 rad/s", "Products of speeds exceed all else by 10⁵.", ur5e(), moved(None, lambda k, i, x: math.copysign(1e3, x), lambda k, i, x: x * 1e5))
     yield plain(16, "remainders", "UR5e, what is left of a million rad", "Angles counted in integers leave small remainders.", ur5e(), moved(lambda k, i, x: remainder(k, i)))
     turns = [[1, -1, 2, -3, 0, 5], [-2, 3, 1, 4, -1, -4]]

@@ -59,6 +59,15 @@ def about(axis, angle):
     return [[(1 - c) * axis[i] * axis[j] + s * skew[i][j] + (c if i == j else 0) for j in range(3)] for i in range(3)]
 
 
+def gyroscopic(inertia, w):
+    """|ω × I ω| without cancellation in the link's own axes."""
+    spin = [abs(x) for x in w]
+    momentum = apply([[abs(x) for x in row] for row in inertia], spin)
+    x, y, z = [(spin[i], momentum[i]) for i in range(3)]
+    pairs = [(y, z), (z, x), (x, y)]
+    return length([a[0] * b[1] + b[0] * a[1] for a, b in pairs])
+
+
 class Link:
     def __init__(self, link):
         exact = lambda row: [mpf(x) for x in row]
@@ -70,6 +79,7 @@ class Link:
         self.mass, self.armature = mpf(link["mass"]), mpf(link["armature"])
         xx, xy, xz, yy, yz, zz = exact(link["inertia"])
         self.inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+        self.norm = mp.sqrt(sum(dot(row, row) for row in self.inertia))
 
 
 class Tree:
@@ -92,28 +102,34 @@ class Tree:
             self.world.append((product(up, e), add(at, apply(up, p))) if up else (e, p))
 
     def torques(self, qd, qdd, gravity=True):
-        """Inverse dynamics, and for each joint the sum of the sizes of what the bodies contribute to its torque."""
-        zero, motion, loads, own = [mpf(0)] * 3, [], [], []
+        """Inverse dynamics, and the size of what adds up to each torque: the same sums of norms, so that no term cancels."""
+        zero, motion, loads, norms, own = [mpf(0)] * 3, [], [], [], []
         for i, link in enumerate(self.links):
             down = transposed(self.attitude[i])
             if link.parent >= 0:
-                w, dw, a = motion[link.parent]
+                (w, dw, a), (dw_size, a_size) = motion[link.parent], norms[link.parent]
             else:
                 w, dw, a = zero, zero, times(-1, self.gravity) if gravity else zero
+                dw_size, a_size = mpf(0), length(a)
             r = self.place[i]
+            a_size += (dw_size + dot(w, w)) * length(r)
             a = apply(down, add(a, add(cross(dw, r), cross(w, cross(w, r)))))
             w, dw = apply(down, w), apply(down, dw)
             rate, accel = times(qd[i], link.axis), times(qdd[i], link.axis)
             if link.slides:
                 a = add(a, add(accel, times(2, cross(w, rate))))
+                a_size += abs(qdd[i]) + 2 * length(w) * abs(qd[i])
             else:
                 dw = add(dw, add(accel, cross(w, rate)))
+                dw_size += abs(qdd[i]) + length(w) * abs(qd[i])
                 w = add(w, rate)
             motion.append((w, dw, a))
             c = link.com
             force = times(link.mass, add(a, add(cross(dw, c), cross(w, cross(w, c)))))
             couple = add(apply(link.inertia, dw), cross(w, apply(link.inertia, w)))
-            own.append((length(force), length(couple)))
+            norms.append((dw_size, a_size))
+            turning = dw_size + dot(w, w)
+            own.append((link.mass * (a_size + turning * length(c)), dw_size * link.norm + gyroscopic(link.inertia, w)))
             loads.append([force, add(couple, cross(c, force))])
         tau = [None] * self.n
         for i in reversed(range(self.n)):
@@ -138,8 +154,10 @@ class Tree:
         return sums
 
     def mass_matrix(self):
-        still = [mpf(0)] * self.n
-        return [self.torques(still, [mpf(i == j) for i in range(self.n)], gravity=False)[0] for j in range(self.n)]
+        """M and the sizes of what adds up to its entries: columns of torques of unit accelerations."""
+        still, one = [mpf(0)] * self.n, lambda j: [mpf(i == j) for i in range(self.n)]
+        columns, sizes = zip(*[self.torques(still, one(j), gravity=False) for j in range(self.n)])
+        return columns, [[max(sizes[i][j], sizes[j][i]) for i in range(self.n)] for j in range(self.n)]
 
 
 def cholesky(m):

@@ -16,18 +16,20 @@ from robots import single
 
 OUT = Path(__file__).parent / "cases"
 MATRICES = 8  # Up to this many joints M is written; that of 64 rods is 4096 numbers a state.
-# The error of sums of rounded terms grows as √n (Higham and Mary, 2019); the factor is for sines and placements.
-FACTOR = 2
+# The error of a sum of n rounded terms grows as √n (Higham and Mary, 2019). The factor is for what is rounded before
+# the sum: placements, inertias about the origin of a frame, and sines, which in f32 have errors of two units.
+FACTOR = 3
 UNIT = {"f32": 2.0**-24, "f64": 2.0**-53}
-SCALE = "an error of tau or qdd over the scale of the state and joint; of M over √(M_ii M_jj), or over the largest entry where that is 0"
+SCALE = "the scale of the same state and joint, or entry of M"
 
 
 def digits(x):
     return mp.nstr(x, DIGITS, strip_zeros=False) if x else "0"
 
 
-def three(x):
-    return float(mp.nstr(x, 3))
+def rounded(x):
+    """Three digits of a number, or of each in a list of lists."""
+    return x and [rounded(y) for y in x] if isinstance(x, (list, type(None))) else float(mp.nstr(x, 3))
 
 
 def answer(robot, state):
@@ -35,35 +37,41 @@ def answer(robot, state):
     q, qd, qdd = ([mpf(x) for x in row] for row in state)
     tree = Tree(robot, q)
     tau, sizes = tree.torques(qd, qdd)
-    m = tree.mass_matrix()
+    m, m_sizes = tree.mass_matrix()
     given = [single(float(x)) if abs(x) > 1e-300 or not x else float(x) for x in tau]
     answers = {"tau": [digits(x) for x in tau], "qdd": None}
     if len(q) <= MATRICES:
         answers["M"] = [[digits(x) for x in row] for row in m]
     scale = {"tau": sizes, "qdd": None}
-    l = cholesky(m)
+    if len(q) <= MATRICES:
+        scale["M"] = m_sizes
+    l, reach = cholesky(m), mpf(0)
     if l:
         bias, _ = tree.torques(qd, [mpf(0)] * len(q))
         accel = solve(l, [mpf(t) - b for t, b in zip(given, bias)])
         answers["qdd"] = [digits(x) for x in accel]
+        rows = inverse(l)
         # What an error of one unit in every contribution to a torque may do to the accelerations.
-        scale["qdd"] = [sum(abs(x) * s for x, s in zip(row, sizes)) for row in inverse(l)]
-    return given, answers, scale
+        scale["qdd"] = [sum(abs(x) * s for x, s in zip(row, sizes)) for row in rows]
+        reach = max(sum(abs(x) for x in row) for row in rows)
+    return given, answers, scale, reach
 
 
 def written(case):
     robot = {"gravity": case.gravity, "links": case.links}
-    states, answers, scales = [], [], []
+    states, answers, scales, reach = [], [], [], mpf(0)
     for q, qd, qdd in case.states:
-        given, told, scale = answer(robot, (q, qd, qdd))
+        given, told, scale, one = answer(robot, (q, qd, qdd))
+        reach = max(reach, one)
         states.append({"q": q, "qd": qd, "qdd": qdd, "tau": given})
         answers.append(told)
         scales.append(scale)
-    shown = [{name: row and [three(x) for x in row] for name, row in scale.items()} for scale in scales]
+    shown = [{name: rounded(x) for name, x in scale.items()} for scale in scales]
     bound = {name: float(f"{FACTOR * len(case.links) ** 0.5 * unit:.2g}") for name, unit in UNIT.items()}
     if not case.in_f32:
         bound["f32"] = None
-    underflow = dict(zip(UNIT, case.underflow))
+    # Of a torque, of M, and through M⁻¹ of an acceleration.
+    underflow = {name: {"tau": x, "M": x, "qdd": float(mp.nstr(x * reach, 3))} for name, x in zip(UNIT, case.underflow)}
     parts = [
         ("case", case.number),
         ("name", case.name),
@@ -72,7 +80,7 @@ def written(case):
         ("robot", robot),
         ("states", states),
         ("answers", answers),
-        ("bound", {**bound, "underflow": underflow, "relative_to": SCALE, "scales": shown}),
+        ("bound", {**bound, "underflow": underflow, "refusal": case.refusal, "relative_to": SCALE, "scales": shown}),
     ]
     return "{\n" + ",\n".join(f'"{name}": {lines(value)}' for name, value in parts) + "\n}\n"
 

@@ -1,0 +1,112 @@
+"""The suite's robots in other libraries: each class gives tau, M and qdd of a state, or None where it refuses.
+
+A robot's links are in depth-first order here, as both libraries number joints.
+"""
+
+import numpy as np
+
+
+class Pinocchio:
+    """Featherstone's algorithms in link coordinates: rnea, crba and aba."""
+
+    def __init__(self, links, gravity):
+        import pinocchio as pin
+
+        self.pin, self.model = pin, pin.Model()
+        self.model.gravity.linear = np.array(gravity)
+        ids = {-1: 0}
+        for i, link in enumerate(links):
+            place = pin.SE3(np.array(link["rotation"]), np.array(link["translation"]))
+            ids[i] = self.model.addJoint(ids[link["parent"]], self.joint(link), place, f"joint{i}")
+            xx, xy, xz, yy, yz, zz = link["inertia"]
+            about = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+            load = pin.Inertia(link["mass"], np.array(link["com"]), about)
+            self.model.appendBodyToJoint(ids[i], load, pin.SE3.Identity())
+        self.model.armature = np.array([link["armature"] for link in links])
+        self.data = self.model.createData()
+
+    def joint(self, link):
+        slides = link["joint"] == "prismatic"
+        for letter, along in zip("XYZ", np.eye(3)):
+            if np.array_equal(link["axis"], along):
+                return getattr(self.pin, f"JointModel{'P' if slides else 'R'}{letter}")()
+        name = "JointModelPrismaticUnaligned" if slides else "JointModelRevoluteUnaligned"
+        return getattr(self.pin, name)(np.array(link["axis"]))
+
+    def tau(self, q, qd, qdd):
+        return self.pin.rnea(self.model, self.data, q, qd, qdd).copy()
+
+    def matrix(self, q):
+        upper = np.triu(self.pin.crba(self.model, self.data, q))
+        return upper + np.triu(upper, 1).T
+
+    def qdd(self, q, qd, tau):
+        return self.pin.aba(self.model, self.data, q, qd, tau).copy()
+
+    @staticmethod
+    def version():
+        import pinocchio
+
+        return f"Pinocchio {pinocchio.__version__}"
+
+
+class MuJoCo:
+    """Composite bodies in world-aligned axes about the centre of mass of each tree, and LᵀDL: mj_inverse and mj_forward."""
+
+    def __init__(self, links, gravity):
+        import mujoco
+
+        self.mujoco = mujoco
+        children = {i: [] for i in range(-1, len(links))}
+        for i, link in enumerate(links):
+            children[link["parent"]].append(i)
+        body = lambda i: self.body(links[i], "".join(body(k) for k in children[i]))
+        text = f"""<mujoco><option gravity="{numbers(gravity)}"><flag contact="disable" constraint="disable"/></option>
+            <worldbody>{"".join(body(k) for k in children[-1])}</worldbody></mujoco>"""
+        self.model = mujoco.MjModel.from_xml_string(text)
+        self.data = mujoco.MjData(self.model)
+
+    def body(self, link, inside):
+        quaternion = np.zeros(4)
+        self.mujoco.mju_mat2Quat(quaternion, np.array(link["rotation"]).flatten())
+        xx, xy, xz, yy, yz, zz = link["inertia"]
+        kind = "slide" if link["joint"] == "prismatic" else "hinge"
+        return f"""<body pos="{numbers(link["translation"])}" quat="{numbers(quaternion)}">
+            <joint type="{kind}" axis="{numbers(link["axis"])}" armature="{link["armature"]!r}"/>
+            <inertial pos="{numbers(link["com"])}" mass="{link["mass"]!r}" fullinertia="{numbers([xx, yy, zz, xy, xz, yz])}"/>
+            {inside}</body>"""
+
+    def set(self, q, qd):
+        self.data.qpos[:], self.data.qvel[:], self.data.qfrc_applied[:] = q, qd, 0
+
+    def tau(self, q, qd, qdd):
+        self.set(q, qd)
+        self.data.qacc[:] = qdd
+        self.mujoco.mj_inverse(self.model, self.data)
+        return self.data.qfrc_inverse.copy()
+
+    def matrix(self, q):
+        self.set(q, 0)
+        self.mujoco.mj_forward(self.model, self.data)
+        m = np.zeros((len(q), len(q)))
+        self.mujoco.mj_fullM(self.model, self.data, m)
+        return m
+
+    def qdd(self, q, qd, tau):
+        self.set(q, qd)
+        self.data.qfrc_applied[:] = tau
+        self.mujoco.mj_forward(self.model, self.data)
+        return self.data.qacc.copy()
+
+    @staticmethod
+    def version():
+        import mujoco
+
+        return f"MuJoCo {mujoco.__version__}"
+
+
+def numbers(row):
+    return " ".join(repr(float(x)) for x in row)
+
+
+LIBRARIES = {"pinocchio": Pinocchio, "mujoco": MuJoCo}

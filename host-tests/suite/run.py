@@ -9,6 +9,7 @@ README. Every other library needs a class as in libraries.py.
 import argparse
 import json
 import math
+import os
 import re
 import subprocess
 from decimal import Decimal
@@ -33,7 +34,9 @@ def depth_first(links):
                 visit(i)
 
     visit(-1)
-    return [dict(links[i], parent=order.index(links[i]["parent"]) if links[i]["parent"] >= 0 else -1) for i in order], order
+    return [
+        dict(links[i], parent=order.index(links[i]["parent"]) if links[i]["parent"] >= 0 else -1) for i in order
+    ], order
 
 
 def share(found, truth, scale, bound, underflow):
@@ -81,9 +84,9 @@ def run(library, case):
 def own(cases):
     """This library's shares in f64, from its test."""
     command = ["cargo", "test", "-p", "hard-cases", "--", "suite::every_case", "--nocapture"]
-    import os
-
-    printed = subprocess.run(command, cwd=HERE, env=os.environ | {"SUITE_SHOW": "1"}, capture_output=True, text=True, check=True).stdout
+    printed = subprocess.run(
+        command, cwd=HERE, env=os.environ | {"SUITE_SHOW": "1"}, capture_output=True, text=True, check=True
+    ).stdout
     number = r"([\d.]+|inf)"
     pattern = rf"case (\d+), (\S+): .*f64 Shares {{ rnea: {number}, crba: {number}, forward: {number}, aba: {number} }}"
     found = {(int(m[1]), m[2]): [float(x) for x in m.groups()[2:]] for m in re.finditer(pattern, printed)}
@@ -91,7 +94,13 @@ def own(cases):
     for case in cases:
         rnea, crba, forward, aba = found[case["case"], case["name"]]
         singular = all(answer["qdd"] is None for answer in case["answers"])
-        results.append({"tau": rnea, "M": crba if "M" in case["answers"][0] else "", "qdd": "refused" if singular else max(forward, aba)})
+        results.append(
+            {
+                "tau": rnea,
+                "M": crba if "M" in case["answers"][0] else "",
+                "qdd": "refused" if singular else max(forward, aba),
+            }
+        )
     return results
 
 
@@ -113,7 +122,11 @@ def table(cases, columns):
     for k, case in enumerate(cases):
         numbers = [shown(results[k][name]) for results in columns.values() for name in QUANTITIES]
         rows.append(" | ".join([f"{case['case']}. {case['title']}", *numbers]))
-    counts = [f"{sum(passes(r[name]) for r in results)} of {len(cases)}" for results in columns.values() for name in QUANTITIES]
+    counts = [
+        f"{sum(passes(r[name]) for r in results)} of {len(cases)}"
+        for results in columns.values()
+        for name in QUANTITIES
+    ]
     rows.append(" | ".join(["passed", *counts]))
     return "".join(f"| {row} |\n" for row in rows)
 

@@ -5,7 +5,7 @@ import math
 from cases import COMMON, Case, at, beside, drawn, moved, still
 from dynamics import Tree, cholesky, solve
 from mpmath import mpf
-from robots import DOWN, chain, changed, gantry, gyroscope, panda, rpy, scaled, seesaw, single, star, ur5e
+from robots import DOWN, chain, changed, gantry, gyroscope, panda, rpy, scaled, seesaw, single, so101, star, ur5e
 
 NO_GRAVITY = [0.0, 0.0, 0.0]
 # Subnormal results carry this error for each number that is rounded to one: 2⁻¹⁴⁹ and 2⁻¹⁰⁷⁴.
@@ -43,6 +43,15 @@ PANDA = [
     (-2.8973, 2.8973, 2.61),
     (-0.0175, 3.7525, 2.61),
     (-2.8973, 2.8973, 2.61),
+]
+
+SO101 = [
+    (-1.91986, 1.91986, 10.0),
+    (-1.74533, 1.74533, 10.0),
+    (-1.69, 1.69, 10.0),
+    (-1.65806, 1.65806, 10.0),
+    (-2.74385, 2.84121, 10.0),
+    (-0.174533, 1.74533, 10.0),
 ]
 
 
@@ -240,4 +249,21 @@ def found():
         "Gravity's torques nearly vanish about all joints together, and the arm is singular.",
         ur5e(),
         [(q, still(6), still(6)) for q, _, _ in upright],
+    )
+    so101_rest = [(q, still(6), still(6)) for q, _, _ in corners(SO101)]
+    yield Case(
+        91,
+        "so101-rest",
+        "SO-101 at rest at corners of the box of its certificate",
+        "Gravity's torque about the first axis is of two offsets alone: its proven error is 49 times the worst observed one, the largest ratio of all certificates.",
+        so101(),
+        so101_rest,
+    )
+    yield Case(
+        92,
+        "so101-corners",
+        "SO-101 at corners of its box",
+        "Links of 12 g to 104 g at 10 rad/s, and inertias of 10⁻⁶ kg·m².",
+        so101(),
+        corners(SO101),
     )

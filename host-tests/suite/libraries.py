@@ -69,12 +69,19 @@ class MuJoCo:
     def body(self, link, inside):
         quaternion = np.zeros(4)
         self.mujoco.mju_mat2Quat(quaternion, np.array(link["rotation"]).flatten())
-        xx, xy, xz, yy, yz, zz = link["inertia"]
         kind = "slide" if link["joint"] == "prismatic" else "hinge"
         return f"""<body pos="{numbers(link["translation"])}" quat="{numbers(quaternion)}">
             <joint type="{kind}" axis="{numbers(link["axis"])}" armature="{link["armature"]!r}"/>
-            <inertial pos="{numbers(link["com"])}" mass="{link["mass"]!r}" fullinertia="{numbers([xx, yy, zz, xy, xz, yz])}"/>
-            {inside}</body>"""
+            {self.inertial(link)}{inside}</body>"""
+
+    def inertial(self, link):
+        """By the moments alone where there are no products: MuJoCo then has no axes to find."""
+        xx, xy, xz, yy, yz, zz = link["inertia"]
+        moments, products = [xx, yy, zz], [xy, xz, yz]
+        name, inertia = ("fullinertia", moments + products) if any(products) else ("diaginertia", moments)
+        if link["mass"] == 0 and not any(inertia):
+            return ""
+        return f'<inertial pos="{numbers(link["com"])}" mass="{link["mass"]!r}" {name}="{numbers(inertia)}"/>'
 
     def set(self, q, qd):
         self.data.qpos[:], self.data.qvel[:], self.data.qfrc_applied[:] = q, qd, 0

@@ -149,4 +149,5 @@ def main():
         (HERE / "README.md").write_text(f"{before}{BEGIN}{text}{END}{after}")
 
 
-main()
+if __name__ == "__main__":
+    main()

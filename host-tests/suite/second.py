@@ -80,4 +80,5 @@ def main():
     sys.exit(f"not the same: {', '.join(far)}" if far else 0)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -3,7 +3,15 @@
 A robot's links are in depth-first order here, as both libraries number joints.
 """
 
+import importlib.metadata
+import math
+import tempfile
+
 import numpy as np
+
+
+class NotAsked(Exception):
+    """The library has no way to state the case."""
 
 
 class Pinocchio:
@@ -112,8 +120,81 @@ class MuJoCo:
         return f"MuJoCo {mujoco.__version__}"
 
 
+class Dynibo:
+    """A robot read from a URDF; its gravity is fixed, and the difference to that of the suite is added to the torques."""
+
+    GRAVITY = 9.80665
+
+    def __init__(self, links, gravity):
+        import dynibo
+
+        if any(link["armature"] for link in links):
+            raise NotAsked("a URDF has no rotors")
+        if gravity[2] == 0:
+            raise NotAsked("its gravity is fixed")
+        self.more = -gravity[2] / self.GRAVITY - 1
+        depth = []
+        for link in links:
+            depth.append(depth[link["parent"]] + 1 if link["parent"] >= 0 else 0)
+        self.order = np.argsort(depth, kind="stable")  # It numbers joints breadth-first.
+        self.back = np.argsort(self.order)
+        with tempfile.NamedTemporaryFile("w", suffix=".urdf") as file:
+            file.write(urdf(links))
+            file.flush()
+            try:
+                self.robot = dynibo.Robot.from_urdf(file.name)
+            except dynibo.DyniboError as error:
+                raise ValueError(str(error)) from error
+
+    def gravity(self, q):
+        return self.more * np.array(self.robot.gravity(q[self.order]))[self.back]
+
+    def tau(self, q, qd, qdd):
+        found = self.robot.inverse_dynamics(*[x[self.order] for x in (q, qd, qdd)])
+        return np.array(found)[self.back] + self.gravity(q)
+
+    def matrix(self, q):
+        found = np.array(self.robot.mass_matrix(q[self.order])).reshape(len(q), len(q))
+        return found[np.ix_(self.back, self.back)]
+
+    def qdd(self, q, qd, tau):
+        import dynibo
+
+        tau = tau - self.gravity(q)
+        try:
+            found = self.robot.forward_dynamics(*[x[self.order] for x in (q, qd, tau)])
+        except dynibo.DyniboError:
+            return np.full(len(q), np.nan)
+        return np.array(found)[self.back]
+
+    @staticmethod
+    def version():
+        return f"dynibo {importlib.metadata.version('dynibo')}"
+
+
+def urdf(links):
+    parts = ['<robot name="suite"><link name="base"/>']
+    for i, link in enumerate(links):
+        m = link["rotation"]
+        across = math.hypot(m[2][1], m[2][2])
+        pitch = math.atan2(-m[2][0], across)
+        regular = across > 1e-6
+        roll = math.atan2(m[2][1], m[2][2]) if regular else 0.0
+        yaw = math.atan2(m[1][0], m[0][0]) if regular else math.atan2(-m[0][1], m[1][1])
+        parent = f"link{link['parent']}" if link["parent"] >= 0 else "base"
+        kind = "prismatic" if link["joint"] == "prismatic" else "revolute"
+        moments = zip(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), link["inertia"])
+        inertia = " ".join(f'{name}="{x!r}"' for name, x in moments)
+        parts.append(f"""<link name="link{i}"><inertial><origin xyz="{numbers(link["com"])}" rpy="0 0 0"/>
+            <mass value="{link["mass"]!r}"/><inertia {inertia}/></inertial></link>
+            <joint name="joint{i:02}" type="{kind}"><parent link="{parent}"/><child link="link{i}"/>
+            <origin xyz="{numbers(link["translation"])}" rpy="{numbers([roll, pitch, yaw])}"/>
+            <axis xyz="{numbers(link["axis"])}"/><limit lower="-1e9" upper="1e9" effort="1e9" velocity="1e9"/></joint>""")
+    return "".join(parts) + "</robot>"
+
+
 def numbers(row):
     return " ".join(repr(float(x)) for x in row)
 
 
-LIBRARIES = {"pinocchio": Pinocchio, "mujoco": MuJoCo}
+LIBRARIES = {"pinocchio": Pinocchio, "mujoco": MuJoCo, "dynibo": Dynibo}

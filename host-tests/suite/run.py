@@ -1,8 +1,8 @@
 """Runs the suite in f64 through another library, and prints who passes what.
 
-    python host-tests/suite/run.py --library pinocchio mujoco [--write]
+    python host-tests/suite/run.py --library pinocchio dynibo mujoco [--write]
 
-needs `pip install pin mujoco`. The columns of this library are from its test, by cargo. --write replaces the table of the
+needs `pip install pin mujoco dynibo`. The columns of this library are from its test, by cargo. --write replaces the table of the
 README. Every other library needs a class as in libraries.py.
 """
 
@@ -16,7 +16,7 @@ from decimal import Decimal
 from pathlib import Path
 
 import numpy as np
-from libraries import LIBRARIES
+from libraries import LIBRARIES, NotAsked
 
 HERE = Path(__file__).parent
 BEGIN, END = "<!-- suite:begin -->\n", "<!-- suite:end -->\n"
@@ -57,6 +57,8 @@ def run(library, case):
     underflow = case["bound"]["underflow"]["f64"]
     try:
         robot = library(links, case["robot"]["gravity"])
+    except NotAsked:
+        return {name: "not asked" for name in QUANTITIES}
     except ValueError:
         return {name: "model refused" for name in QUANTITIES}
     results = {name: 0.0 for name in QUANTITIES}
@@ -110,7 +112,7 @@ def passes(x):
 
 def shown(x):
     if isinstance(x, str):
-        return x if passes(x) else f"**{x}**"
+        return x if passes(x) or x == "not asked" else f"**{x}**"
     text = "not finite" if math.isinf(x) else f"{x:.2f}" if x < 100 else f"{x:.1e}"
     return text if passes(x) else f"**{text}**"
 
@@ -122,11 +124,11 @@ def table(cases, columns):
     for k, case in enumerate(cases):
         numbers = [shown(results[k][name]) for results in columns.values() for name in QUANTITIES]
         rows.append(" | ".join([f"{case['case']}. {case['title']}", *numbers]))
-    counts = [
-        f"{sum(passes(r[name]) for r in results)} of {len(cases)}"
-        for results in columns.values()
-        for name in QUANTITIES
-    ]
+    counts = []
+    for results in columns.values():
+        for name in QUANTITIES:
+            asked = [r[name] for r in results if r[name] not in ("", "not asked")]
+            counts.append(f"{sum(map(passes, asked))} of {len(asked)}")
     rows.append(" | ".join(["passed", *counts]))
     return "".join(f"| {row} |\n" for row in rows)
 

@@ -255,7 +255,7 @@ def found():
         91,
         "so101-rest",
         "SO-101 at rest at corners of the box of its certificate",
-        "Gravity's torque about the first axis is of two offsets alone: its proven error is 49 times the worst observed one, the largest ratio of all certificates.",
+        "The first axis is vertical, and the proven error of its torque of gravity is 49 times the worst observed one, the largest ratio of all certificates.",
         so101(),
         so101_rest,
     )

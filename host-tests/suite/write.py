@@ -23,8 +23,11 @@ UNIT = {"f32": 2.0**-24, "f64": 2.0**-53}
 SCALE = "the scale of the same state and joint, or entry of M"
 
 
-def digits(x):
-    return mp.nstr(x, DIGITS, strip_zeros=False) if x else "0"
+def digits(row, sizes):
+    """Fifty digits of each number; what is left where terms cancel to zero, of 90 digits, is zero."""
+    return [
+        mp.nstr(x, DIGITS, strip_zeros=False) if abs(x) > size * mpf(10) ** -75 else "0" for x, size in zip(row, sizes)
+    ]
 
 
 def rounded(x):
@@ -39,9 +42,9 @@ def answer(robot, state):
     tau, sizes = tree.torques(qd, qdd)
     m, m_sizes = tree.mass_matrix()
     given = [single(float(x)) if abs(x) > 1e-300 or not x else float(x) for x in tau]
-    answers = {"tau": [digits(x) for x in tau], "qdd": None}
+    answers = {"tau": digits(tau, sizes), "qdd": None}
     if len(q) <= MATRICES:
-        answers["M"] = [[digits(x) for x in row] for row in m]
+        answers["M"] = [digits(*rows) for rows in zip(m, m_sizes)]
     scale = {"tau": sizes, "qdd": None}
     if len(q) <= MATRICES:
         scale["M"] = m_sizes
@@ -49,10 +52,10 @@ def answer(robot, state):
     if l:
         bias, _ = tree.torques(qd, [mpf(0)] * len(q))
         accel = solve(l, [mpf(t) - b for t, b in zip(given, bias)])
-        answers["qdd"] = [digits(x) for x in accel]
         rows = inverse(l)
         # What an error of one unit in every contribution to a torque may do to the accelerations.
         scale["qdd"] = [sum(abs(x) * s for x, s in zip(row, sizes)) for row in rows]
+        answers["qdd"] = digits(accel, scale["qdd"])
         reach = max(sum(abs(x) for x in row) for row in rows)
     return given, answers, scale, reach
 

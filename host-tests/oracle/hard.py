@@ -225,4 +225,5 @@ def main():
         path.write_text(json.dumps([record(p) for p in problems], ensure_ascii=False, indent=0) + "\n")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -16,6 +16,7 @@ mod parallel;
 mod placements;
 mod speeds;
 mod stiff;
+mod suite;
 
 use hard_cases::NUMBERS;
 use host_tests::hard::{Row, demand_rows};

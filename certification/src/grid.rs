@@ -32,7 +32,7 @@ type Monomial = (u8, u8);
 type Place = (u32, bool);
 type Polynomial = BTreeMap<Monomial, Place>;
 
-/// One step: x_to ← [x_to] ± x_a x_b, for some points of the grid at once.
+/// One step: the number at `to`, or nothing at first, plus or minus the product of those at `a` and `b`, for some points of the grid at once.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     to: u32,

@@ -95,6 +95,9 @@ const PART: f64 = 1.0 / 64.0;
 const POINTS: usize = 1_000_000;
 const PAGE_POINTS: usize = 5_000_000;
 const PAGE: &str = "docs/certificates.md";
+/// The results that are kept as benchmarks for FPBench.
+const KEPT: [(&str, Function); 2] = [("ur5e", Function::Rnea), ("so101", Function::Gravity)];
+const FOLDER: &str = "docs/fpbench";
 const PICTURE: &str = "docs/certificates.svg";
 
 fn main() -> ExitCode {
@@ -127,17 +130,6 @@ fn run(args: &Args) -> Result<String> {
         .iter()
         .map(|robot| program::build(robot, &args.options))
         .collect::<Result<Vec<_>>>()?;
-    if args.hashes {
-        for program in &programs {
-            check::hashes(
-                &Image::read(&program.elf)?,
-                &args.function,
-                &program.robot,
-                &written()?,
-            )?;
-        }
-        return Ok(format!("{PAGE} has the hashes of today's machine code"));
-    }
     let boxed = |program: &Program| {
         let mut robot = Robot::read(
             &Image::read(&program.elf)?,
@@ -151,6 +143,27 @@ fn run(args: &Args) -> Result<String> {
         Ok(robot)
     };
     let robots: Vec<Robot> = programs.iter().map(boxed).collect::<Result<_>>()?;
+    if args.hashes {
+        for program in &programs {
+            let image = Image::read(&program.elf)?;
+            check::hashes(&image, &args.function, &program.robot, &written()?)?;
+        }
+        for (path, text) in kept(&docs, &programs, &robots)? {
+            if std::fs::read_to_string(&path).ok().as_ref() != Some(&text) {
+                let what = format!(
+                    "{} of today's machine code: run `cargo xtask certify --write-docs`",
+                    path.display()
+                );
+                return Err(Error::Missing(what));
+            }
+        }
+        return Ok(format!("{PAGE} and {FOLDER} are of today's machine code"));
+    }
+    if args.write_docs {
+        for (path, text) in kept(&docs, &programs, &robots)? {
+            program::write(&path, &text)?;
+        }
+    }
     if let Some(folder) = &args.fpcore {
         return benchmarks(args, folder, &programs, &robots);
     }
@@ -208,6 +221,22 @@ fn rows(path: &Path) -> Result<String> {
     serde_json::to_string_pretty(&Report::of(bounds)).map_err(json)
 }
 
+/// What a function of a robot computes.
+fn benchmark(program: &Program, robot: &Robot, function: Function) -> Result<String> {
+    let graph = certificate::expression(&Image::read(&program.elf)?, function)?.graph;
+    let name = format!("{}: {}", program.robot, function.name().replace('`', ""));
+    let results = 0..graph.outputs.len();
+    let cores = results.map(|output| fpcore::fpcore(&graph, output, robot, &name));
+    let cores: Option<Vec<String>> = cores.collect();
+    let cores = cores.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
+    Ok(cores.join("\n"))
+}
+
+fn file_name(robot: &str, function: Function) -> String {
+    let function = format!("{function:?}").to_lowercase();
+    format!("{function}_{robot}.fpcore")
+}
+
 /// Writes what each function of each robot computes.
 fn benchmarks(
     args: &Args,
@@ -217,22 +246,29 @@ fn benchmarks(
 ) -> Result<String> {
     let mut written = Vec::new();
     for (program, robot) in programs.iter().zip(robots) {
-        let image = Image::read(&program.elf)?;
         for function in &args.function {
-            let graph = certificate::expression(&image, *function)?.graph;
-            let name = format!("{}: {}", program.robot, function.name().replace('`', ""));
-            let results = 0..graph.outputs.len();
-            let cores = results.map(|output| fpcore::fpcore(&graph, output, robot, &name));
-            let cores: Option<Vec<String>> = cores.collect();
-            let cores =
-                cores.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
-            let function = format!("{function:?}").to_lowercase();
-            let file = folder.join(format!("{function}_{}.fpcore", program.robot));
-            program::write(&file, &cores.join("\n"))?;
+            let file = folder.join(file_name(&program.robot, *function));
+            program::write(&file, &benchmark(program, robot, *function)?)?;
             written.push(file.display().to_string());
         }
     }
     Ok(format!("written: {}", written.join(", ")))
+}
+
+/// The files of benchmarks that are kept, and their texts.
+fn kept(docs: &Path, programs: &[Program], robots: &[Robot]) -> Result<Vec<(PathBuf, String)>> {
+    let mut files = Vec::new();
+    for (name, function) in KEPT {
+        for (program, robot) in programs
+            .iter()
+            .zip(robots)
+            .filter(|one| one.0.robot == name)
+        {
+            let path = docs.join(FOLDER).join(file_name(name, function));
+            files.push((path, benchmark(program, robot, function)?));
+        }
+    }
+    Ok(files)
 }
 
 fn sampled(args: &Args, programs: &[Program], robots: &[Robot]) -> Result<String> {

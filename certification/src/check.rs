@@ -25,16 +25,13 @@ pub fn page(written: &str, tables: &str) -> Result<String> {
 /// Fails unless the page has the hashes of these functions of a program.
 ///
 /// # Errors
-/// [`Error::Missing`].
+/// [`Error::Stale`], [`Error::Missing`] of a function that the program does not have.
 pub fn hashes(image: &Image, functions: &[Function], robot: &str, page: &str) -> Result<()> {
     for function in functions {
         let hash = image.hash(&expression(image, *function)?.visited);
         if !page.contains(&hash) {
-            let what = format!(
-                "certificate of today's {} of {robot}: run `cargo xtask certify --write-docs`",
-                function.name()
-            );
-            return Err(Error::Missing(what));
+            let what = format!("the certificate of {robot}, {},", function.name());
+            return Err(Error::Stale(what));
         }
     }
     Ok(())

@@ -14,6 +14,9 @@ pub enum Error {
     /// The program has no such variable.
     #[error("the program has no {0}")]
     Missing(String),
+    /// A page or file is of other machine code.
+    #[error("{0} is not of today's machine code: run `cargo xtask certify --write-docs`")]
+    Stale(String),
     /// The code does what is not proven.
     #[error("declined at {address:#010x}, instruction {instruction:#010x}: {reason}")]
     Declined {

@@ -151,8 +151,8 @@ impl Builder<'_> {
         Polynomial::from([((0, 0), (place, false))])
     }
 
-    /// Hands a node's adjoint to its operands. `uses` counts those of each node: the only use hands on its own places.
-    fn hand_down(&mut self, k: usize, uses: &[usize]) -> Option<()> {
+    /// Adds a node's adjoint to those of its operands. `uses` counts the uses of each node: an operand with one use shares its places.
+    fn propagate(&mut self, k: usize, uses: &[usize]) -> Option<()> {
         let one = Polynomial::from([((0, 0), (ONE, false))]);
         let adjoint = self.adjoints[k].clone();
         let plain: &[(usize, bool)] = match self.graph.nodes[k] {
@@ -254,7 +254,7 @@ impl Program {
         }
         *builder.adjoints.last_mut()? = Polynomial::from([((0, 0), (ONE, false))]);
         for k in (0..graph.nodes.len()).rev() {
-            builder.hand_down(k, &uses)?;
+            builder.propagate(k, &uses)?;
         }
         let all = builder.values.iter().chain(&builder.adjoints);
         let sums = all.map(|of| builder.sum(of)).collect();
@@ -294,7 +294,7 @@ impl Program {
         absolute[2 * nodes - 1] = 1.0;
         for k in (0..nodes).rev() {
             let (degree, size) = (degrees[nodes + k].clone(), absolute[nodes + k]);
-            let handed = match graph.nodes[k] {
+            let propagated = match graph.nodes[k] {
                 Node::Input(_) | Node::Literal(_) => continue,
                 Node::Neg(a) => vec![(a, degree, size)],
                 Node::Add(a, b) | Node::Sub(a, b) => {
@@ -305,7 +305,7 @@ impl Program {
                     (b, both(&degree, &degrees[a]), size * absolute[a]),
                 ],
             };
-            for (to, degree, size) in handed {
+            for (to, degree, size) in propagated {
                 degrees[nodes + to] = larger(&degrees[nodes + to], &degree);
                 absolute[nodes + to] += size;
             }
@@ -392,7 +392,7 @@ impl Program {
         }
     }
 
-    /// Hands the coefficients at each point of the grid on, or at some of its points.
+    /// Evaluates the steps at points of the grid, `LANES` from each given number on, and passes all coefficients to `visit`.
     fn at_points(
         &self,
         steps: &[Step],
@@ -494,15 +494,18 @@ impl Program {
         // More than the relative error of an evaluation in f64, of so many operations after each other.
         let rounding = 4.0 * f64::EPSILON * nodes as f64;
         let values = self.values(&sizes, rounding);
-        let (mut far, mut weights) = (vec![0.0; nodes], vec![0.0; nodes]);
+        let (mut errors, mut weights) = (vec![0.0; nodes], vec![0.0; nodes]);
         for (k, node) in graph.nodes.iter().enumerate() {
-            let (handed, second) = match *node {
+            let (propagated, second_order) = match *node {
                 Node::Input(_) | Node::Literal(_) => (0.0, 0.0),
-                Node::Neg(a) => (far[a], 0.0),
-                Node::Add(a, b) | Node::Sub(a, b) => (far[a] + far[b], 0.0),
-                Node::Mul(a, b) => (values[a] * far[b] + values[b] * far[a], far[a] * far[b]),
+                Node::Neg(a) => (errors[a], 0.0),
+                Node::Add(a, b) | Node::Sub(a, b) => (errors[a] + errors[b], 0.0),
+                Node::Mul(a, b) => (
+                    values[a] * errors[b] + values[b] * errors[a],
+                    errors[a] * errors[b],
+                ),
             };
-            let most = (values[k] + handed + second) * (1.0 + 1e-12);
+            let most = (values[k] + propagated + second_order) * (1.0 + 1e-12);
             let own = match *node {
                 Node::Input(input) => match robot.leaf(input) {
                     Some(Leaf::Sine(_)) => sines.sine,
@@ -514,8 +517,8 @@ impl Program {
                 _ if most == 0.0 => 0.0,
                 _ => half_ulp(most),
             };
-            far[k] = (handed + second + own) * (1.0 + 1e-12);
-            weights[k] = (own + second) * (1.0 + 1e-12);
+            errors[k] = (propagated + second_order + own) * (1.0 + 1e-12);
+            weights[k] = (own + second_order) * (1.0 + 1e-12);
         }
         let classes = self.classes(&weights, &sizes, rounding);
         let sums: Vec<Weighted> = classes.iter().map(|class| joined(&class.sum)).collect();

@@ -150,11 +150,8 @@ fn run(args: &Args) -> Result<String> {
         }
         for (path, text) in kept(&docs, &programs, &robots)? {
             if std::fs::read_to_string(&path).ok().as_ref() != Some(&text) {
-                let what = format!(
-                    "{} of today's machine code: run `cargo xtask certify --write-docs`",
-                    path.display()
-                );
-                return Err(Error::Missing(what));
+                let name = path.file_name().unwrap_or_default().to_string_lossy();
+                return Err(Error::Stale(format!("{FOLDER}/{name}")));
             }
         }
         return Ok(format!("{PAGE} and {FOLDER} are of today's machine code"));

@@ -8,6 +8,7 @@ use firmware_demo::plant::{Plant, Rig};
 use firmware_demo::scene::{Full, Noise, STEPS, Scene, SimLoop, TICK, simulated_loop};
 use firmware_demo::scenes::ur5e::{Effects, PickAndPlace};
 use firmware_demo::sim_io::Wires;
+use host_tests::everyday_or_full;
 use joint_drivers::Law;
 use motion_control::{
     Command, Detect, Detectors, Fault, Mode, Reference, Status, StopCategory, Trajectory,
@@ -83,7 +84,9 @@ impl Law<6> for Excessive {
 #[test]
 fn the_scene_has_no_false_alarm() {
     let path = PickAndPlace::reference().unwrap();
-    for noise in [None, Some(&mut Noise::seeded())] {
+    let seeded = &mut Noise::seeded();
+    let noises = [Some(seeded), None];
+    for noise in noises.into_iter().take(everyday_or_full(1, 2)) {
         let mut arm = Arm::new(&path, noise);
         for tick in 0..path.ticks() + 500 {
             let status = arm.run::<FullModel>(&path);

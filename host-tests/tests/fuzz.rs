@@ -16,17 +16,17 @@ fn run(target: fn(&[u8]), inputs: usize) {
 
 #[test]
 fn no_description_breaks_what_is_accepted() {
-    run(description, 20_000);
+    run(description, everyday_or_full(4_000, 20_000));
 }
 
 #[test]
 fn no_state_breaks_the_dynamics() {
-    run(dynamics, 10_000);
+    run(dynamics, everyday_or_full(2_000, 10_000));
 }
 
 #[test]
 fn no_inputs_drive_the_controller_beyond_its_limits() {
-    run(controller, everyday_or_full(100, 300));
+    run(controller, everyday_or_full(40, 300));
 }
 
 #[test]

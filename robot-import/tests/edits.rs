@@ -51,7 +51,7 @@ fn edited(file: usize, edits: &[(u16, u8, usize)]) -> String {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(3_000))]
+    #![proptest_config(ProptestConfig::with_cases(if cfg!(feature = "full") { 3_000 } else { 600 }))]
 
     #[test]
     fn an_edited_file_is_read_or_refused(

@@ -5,4 +5,5 @@ mod equations;
 mod links;
 mod pages;
 mod pictures;
+mod reference;
 mod reports;

@@ -7,9 +7,11 @@ use std::process::ExitCode;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
+use cycle_meter::Sample;
+
 use crate::kit::bracket::{Bracket, READINGS};
 use crate::kit::elf::Image;
-use crate::kit::error::{Error, Result, check};
+use crate::kit::error::{Error, Result, check, refuse_if};
 use crate::kit::progress::Spinner;
 use crate::kit::protocol::{FEEDFORWARD, PD, Recording};
 use crate::kit::qemu::Run;
@@ -230,6 +232,9 @@ pub fn measure(
 }
 
 /// The brackets of the longest tick with feed-forward and of its phases, by two more runs side by side.
+///
+/// # Errors
+/// A run logs other bytes, or executes other instructions, than the measured one.
 pub fn brackets(
     workspace: &Workspace,
     tools: &Tools,
@@ -244,8 +249,10 @@ pub fn brackets(
         let regions = workspace.output(&format!("{name}.{reading}.regions"))?;
         let mut run = Run::logging(name, &measured.elf, Some((plugin, &regions)));
         run.reading = reading;
-        tools.qemu.run(&run, |_| Ok(()))?;
-        let costs = feedforward_costs(&measured.recording, &meter::read(&regions)?)?;
+        let log = tools.qemu.run(&run, |_| Ok(()))?;
+        let samples = meter::read(&regions)?;
+        same_run(&measured.raw, &log, &samples)?;
+        let costs = feedforward_costs(&measured.recording, &samples)?;
         Ok(costs.iter().map(|cost| cost.cycles.max).collect())
     };
     let [least, most] = std::thread::scope(|scope| {
@@ -284,9 +291,29 @@ fn record(
     Ok((recording, raw))
 }
 
+/// Refuses a run that is not a repetition of the first: whose log has other bytes, or whose regions have other instructions.
+fn same_run(first: &(Vec<u8>, String), log: &[u8], samples: &[Sample]) -> Result<()> {
+    refuse_if!(
+        first.0 != log,
+        "two runs of the same ELF logged different bytes"
+    );
+    let of_first =
+        cycle_meter::parse_samples(&first.1).map_err(|e| check!("the first run: {e}"))?;
+    let executed = |sample: &Sample| (sample.region, sample.instructions);
+    let same = of_first
+        .iter()
+        .map(executed)
+        .eq(samples.iter().map(executed));
+    refuse_if!(
+        !same,
+        "two runs of the same ELF executed different instructions"
+    );
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::run_in_words;
+    use super::{run_in_words, same_run};
 
     #[test]
     fn a_run_is_said_in_words() {
@@ -296,5 +323,19 @@ mod tests {
         let without = words("run mismatched without-Coulomb 0x1").expect("a run");
         assert_eq!(without, "without Coulomb, with the mismatched model");
         assert_eq!(words("tick 7"), None);
+    }
+
+    #[test]
+    fn a_run_that_differs_is_found() {
+        let file = |instructions: u64| {
+            format!("cycle-meter 3 cortex-m4f zero-wait\n0 {instructions} 9 2 8\n")
+        };
+        let samples =
+            |instructions| cycle_meter::parse_samples(&file(instructions)).expect("samples");
+        let first = (b"log".to_vec(), file(7));
+        assert!(same_run(&first, b"log", &samples(7)).is_ok());
+        assert!(same_run(&first, b"lag", &samples(7)).is_err());
+        assert!(same_run(&first, b"log", &samples(8)).is_err());
+        assert!(same_run(&first, b"log", &[]).is_err());
     }
 }

@@ -14,7 +14,7 @@ use crate::kit::workspace;
 /// The tests that take the compiler or a simulation long: further robots, scalars and hours of claims that are tested without, of
 /// the packages that simulate and of the others.
 const FULL_SIMULATED: &str = "--features simulation-tests/full,trial-tests/full";
-const FULL: &str = "--features host-tests/full,robot-import/full,specialised-tests/full";
+const FULL: &str = "--features guide/full,host-tests/full,robot-import/full,specialised-tests/full";
 /// All packages but the firmware and its listeners, which the steps `telemetry` and `pil` build and test.
 const HOST: &str = "--workspace --exclude firmware-demo --exclude lab-target --exclude telemetry-watch --exclude telemetry-pil";
 /// The part of the firmware that runs anywhere.
@@ -44,11 +44,13 @@ fn unnamed(root: &Path) -> Result<Vec<PathBuf>> {
 }
 
 /// The tests, by cargo's command line.
-fn lines() -> [String; 3] {
-    // Neither `--lib` nor `--bins`: they compile what has `test = false`, too.
-    let [shared, simulated] =
-        [SHARED, SIMULATED].map(|packages| format!("test {packages} --tests"));
-    [shared, simulated, "test --package xtask".into()]
+fn lines() -> [String; 2] {
+    [tests_of(SHARED), "test --package xtask".into()]
+}
+
+/// The tests of packages: neither `--lib` nor `--bins`, which compile what has `test = false`, too.
+fn tests_of(packages: &str) -> String {
+    format!("test {packages} --tests")
 }
 
 pub fn tests(context: &Context) -> Result<String> {
@@ -57,17 +59,20 @@ pub fn tests(context: &Context) -> Result<String> {
         !unnamed.is_empty(),
         "no `mod` in the `main.rs` beside them: {unnamed:?}"
     );
-    let [more, more_simulated] = match context.full {
-        true => [FULL, FULL_SIMULATED],
-        false => [""; 2],
+    let more = match context.full {
+        true => FULL,
+        false => "",
     };
-    let [all, simulated, xtask] = lines();
+    let [all, xtask] = lines();
     // All failures in one run, which takes long.
-    let printed = context.cargo(&[
-        &format!("{all} --no-fail-fast {more}"),
-        &format!("{simulated} --no-fail-fast {more_simulated}"),
-        &xtask,
-    ])?;
+    let printed = context.cargo(&[&format!("{all} --no-fail-fast {more}"), &xtask])?;
+    Ok(format!("{} tests", count(&printed)))
+}
+
+/// The tests that simulate, which another profile compiles.
+pub fn simulations(context: &Context) -> Result<String> {
+    let tests = tests_of(SIMULATED);
+    let printed = context.cargo(&[format!("{tests} --no-fail-fast {FULL_SIMULATED}")])?;
     Ok(format!("{} tests", count(&printed)))
 }
 
@@ -82,9 +87,8 @@ pub fn weight(context: &Context) -> Result<String> {
 
 /// The programs of the tests, built.
 fn programs(context: &Context) -> Result<Vec<PathBuf>> {
-    let [all, simulated, xtask] =
-        lines().map(|line| format!("{line} --no-run --message-format json"));
-    let printed = context.cargo(&[&all, &simulated, &xtask])?;
+    let lines = lines().map(|line| format!("{line} --no-run --message-format json"));
+    let printed = context.cargo(&lines)?;
     Ok(printed.lines().filter_map(executable).collect())
 }
 
@@ -96,8 +100,15 @@ fn executable(message: &str) -> Option<PathBuf> {
 }
 
 pub fn doctests(context: &Context) -> Result<String> {
-    let printed =
-        context.cargo(&[SHARED, SIMULATED].map(|packages| format!("test {packages} --doc")))?;
+    let packages = match context.full {
+        true => &[SHARED, SIMULATED][..],
+        false => &[SHARED],
+    };
+    let lines: Vec<_> = packages
+        .iter()
+        .map(|packages| format!("test {packages} --doc"))
+        .collect();
+    let printed = context.cargo(&lines)?;
     Ok(format!("{} examples", count(&printed)))
 }
 

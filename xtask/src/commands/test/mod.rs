@@ -59,6 +59,7 @@ const STEPS: &[Step] = &[
     ("clippy", Host, Full, "clippy has nothing to say of the host crates", host::clippy),
     ("clippy-firmware", Target, Full, "clippy has nothing to say of the firmware", functions::clippy),
     ("host", Host, Everyday, "the host tests pass", host::tests),
+    ("simulations", Host, Full, "arms that are simulated for seconds to hours behave as claimed", host::simulations),
     ("doctests", Host, Everyday, "the examples in the documentation run", host::doctests),
     ("doc", Host, Full, "the documentation builds without a warning, that of private items too", host::doc),
     ("layers", Host, Full, "each module of the libraries uses those above it alone, and nothing that ships the laboratory", |c| layers::check(&c.workspace)),
@@ -73,7 +74,7 @@ const STEPS: &[Step] = &[
     ("meter", Target, Everyday, "the cycle meter agrees with sequences counted by hand", functions::meter),
     ("bits", Host, Everyday, "the host and QEMU compute the same bits", functions::bits),
     ("scene", Target, Everyday, "every scene runs to its end", scenes::runs),
-    ("determinism", Target, Everyday, "two runs of a scene give the same bytes", scenes::determinism),
+    ("determinism", Target, Full, "two runs of a scene give the same bytes", scenes::determinism),
     ("tracking", Target, Everyday, "every scene tracks within its bound, the default one better than PD as promised", scenes::tracking),
     ("cycles", Target, Everyday, "the longest tick is short enough", scenes::cycles),
     ("no-f64", Target, Everyday, "the tick reaches no f64 arithmetic, no sine of libm and no panic", functions::no_f64),
@@ -86,7 +87,7 @@ const STEPS: &[Step] = &[
     ("pil", Target, Named, "with its robot in f64 on the host the scene ur5e moves as with its robot inside", |c| pil::check(&c.workspace, &c.tools)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
     ("projects", Host, Full, "new projects in Rust and in C build, run in QEMU and compute the host's torques", others::projects),
-    ("readme", Target, Everyday, "the tables of README.md and docs/scenes.md are those of this run", scenes::readme),
+    ("readme", Target, Everyday, "the tables of README.md and docs/scenes.md are those of this run, which repeats itself", scenes::readme),
     ("debian", Target, Full, "Debian's own compiler builds a scene that runs", others::debian),
     ("qemu-10", Target, Full, "QEMU 10 logs and measures what this machine's QEMU does, byte for byte", others::qemu_10),
     // By name only until the code of the tests is within its bound (decision 2).
@@ -195,13 +196,13 @@ pub fn list() -> Result<ExitCode> {
     let mut text = format!(
         "every run:\n{}\nonly with --full, or by name:\n{}\nonly by name:\n{}\n\
          pages that no step measures anew:\n{}\n\
-         tests that only --full adds to the step `host`; every other step then takes all robots and scenes:\n",
+         tests that only --full adds to the steps `host` and `simulations`; every other step then takes all robots and scenes:\n",
         steps(Everyday),
         steps(Full),
         steps(Named),
         unheld.collect::<String>()
     );
-    for folder in "host-tests/hard/tests host-tests/tests host-tests/simulations/tests host-tests/specialised/tests robot-import/tests lab/trials/tests".split(' ') {
+    for folder in "docs/guide/tests host-tests/hard/tests host-tests/tests host-tests/simulations/tests host-tests/specialised/tests robot-import/tests lab/trials/tests".split(' ') {
         for (program, test) in claims::full_only(&workspace.root.join(folder))? {
             text += &format!("  {program:16} {}\n", test.replace('_', " "));
         }

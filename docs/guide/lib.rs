@@ -22,6 +22,7 @@ pages! {
     board "board.md",
     second_sensor "second-sensor.md",
     c "c.md",
+    python "python.md",
     telemetry "telemetry.md",
     tuning "tuning.md",
     faults "faults.md",

@@ -234,6 +234,18 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
         })
     }
 
+    /// The same tree with its links in another scalar, which the host's tools bring.
+    #[doc(hidden)]
+    pub fn in_scalar<R: Real>(&self, links: [Link<R>; B]) -> Model<R, B, Q, V> {
+        Model {
+            name: self.name,
+            links,
+            lambda: self.lambda,
+            kinds: self.kinds,
+            chain: self.chain,
+        }
+    }
+
     /// The kinds of its joints.
     pub(crate) const fn kinds(&self) -> JointKinds {
         self.kinds

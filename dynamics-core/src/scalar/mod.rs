@@ -17,7 +17,10 @@ mod native;
 mod positive_part;
 mod vector;
 
-mod sealed {
+/// Public for scalars of the host's tools, such as several f32 side by side, whose every lane is compared with f32.
+#[doc(hidden)]
+pub mod sealed {
+    #[allow(missing_docs, reason = "not part of the public API")]
     pub trait Sealed {}
     impl Sealed for f32 {}
     impl Sealed for f64 {}

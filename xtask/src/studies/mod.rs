@@ -98,6 +98,15 @@ pub const STUDIES: &[Study] = &[
         }),
     },
     Study {
+        name: "python", about: "",
+        files: &["docs/python.md", "docs/python.svg"],
+        held: Step(Host, Full, "the Python wheel builds, runs its notebook in a bare environment, agrees with Pinocchio and has the bits of Core; docs/python.md is of today's code"),
+        form: Demo(|bench| {
+            let mut python = std::process::Command::new("python3");
+            shell::capture(python.current_dir(&bench.workspace.root).arg("python/test.py"))
+        }),
+    },
+    Study {
         name: "static", about: "Bound the cycles and the stack of each algorithm by its machine code, rewrite a part of docs/certificates.md",
         files: &["docs/certificates.md"],
         held: Step(Target, Full, "no call takes more cycles or stack than its machine code says, a constant one exactly as many"),

@@ -1,0 +1,93 @@
+//! Reads rows of f32 (q, q̇, q̈, τ of a state) and writes what `Core` and `Engine` compute for a robot that is known at
+//! compile time, as firmware does: the referee of the wheel's bits.
+//!
+//! ```console
+//! robot-dynamics-bits ur5e "core rnea" < states > results
+//! ```
+
+use std::io::{Read as _, Write as _};
+
+use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
+use dynamics_core::model::Robot;
+use dynamics_core::robots::{
+    A1, A1Free, A1Leg, G1, G1Free, Gen3, Iiwa14, Panda, So101, Ur5e, XArm7, Z1,
+};
+use dynamics_core::state::State;
+use dynamics_core::{Core, Engine};
+
+const BIAS: (Gravity, Coriolis) = (Gravity::EARTH, Coriolis);
+
+fn rows<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
+    quantity: &str,
+    numbers: &[f32],
+) -> Option<Vec<f32>> {
+    let mut found = Vec::new();
+    for row in numbers.chunks_exact(Q + 3 * V) {
+        let part = |at: usize| std::array::from_fn(|i| row[at + i]);
+        let q: [f32; Q] = std::array::from_fn(|i| row[i]);
+        let (qd, qdd, tau) = (part(Q), part(Q + V), part(Q + 2 * V));
+        let state = State { q, qd, qdd };
+        match quantity {
+            "core rnea" => found.extend(Core::<T>::rnea(&state, &RIGID_BODY)),
+            "core bias" => found.extend(Core::<T>::rnea(&state, &BIAS)),
+            "core gravity" => found.extend(Core::<T>::rnea(&state, &Gravity::EARTH)),
+            "core crba" => {
+                let m = Core::<T>::crba(&q, &RIGID_BODY);
+                (0..V).for_each(|i| found.extend((0..V).map(|j| m.get(i, j))));
+            }
+            "core aba" => found.extend(Core::<T>::aba(&state, &tau, &RIGID_BODY).ok()?),
+            "core forward_dynamics" => {
+                found.extend(Core::<T>::forward_dynamics(&state, &tau, &RIGID_BODY).ok()?);
+            }
+            _ => found.extend(engine::<T, B, Q, V>(quantity, &state)?),
+        }
+    }
+    Some(found)
+}
+
+/// What the engine computes; of a humanoid the compiler would take minutes for it.
+fn engine<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
+    quantity: &str,
+    state: &State<f32, Q, V>,
+) -> Option<[f32; V]> {
+    if const { V >= 29 } {
+        return None;
+    }
+    Some(match quantity {
+        "engine rnea" => Engine::<T>::rnea(state, &RIGID_BODY),
+        "engine bias" => Engine::<T>::rnea(state, &BIAS),
+        "engine gravity" => Engine::<T>::rnea(state, &Gravity::EARTH),
+        _ => return None,
+    })
+}
+
+fn main() -> std::io::Result<()> {
+    let arguments: Vec<String> = std::env::args().collect();
+    let [_, robot, quantity] = arguments.as_slice() else {
+        return Err(std::io::Error::other("expected ROBOT QUANTITY"));
+    };
+    let mut bytes = Vec::new();
+    std::io::stdin().read_to_end(&mut bytes)?;
+    let numbers: Vec<f32> = bytes
+        .chunks_exact(4)
+        .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+        .collect();
+    let found = match robot.as_str() {
+        "ur5e" => rows::<Ur5e, 6, 6, 6>(quantity, &numbers),
+        "panda" => rows::<Panda, 7, 7, 7>(quantity, &numbers),
+        "iiwa14" => rows::<Iiwa14, 7, 7, 7>(quantity, &numbers),
+        "a1" => rows::<A1, 16, 12, 12>(quantity, &numbers),
+        "a1_leg" => rows::<A1Leg, 4, 3, 3>(quantity, &numbers),
+        "a1_free" => rows::<A1Free, 17, 19, 18>(quantity, &numbers),
+        "gen3" => rows::<Gen3, 7, 7, 7>(quantity, &numbers),
+        "so101" => rows::<So101, 6, 6, 6>(quantity, &numbers),
+        "xarm7" => rows::<XArm7, 7, 7, 7>(quantity, &numbers),
+        "z1" => rows::<Z1, 7, 7, 7>(quantity, &numbers),
+        "g1" => rows::<G1, 29, 29, 29>(quantity, &numbers),
+        "g1_free" => rows::<G1Free, 30, 36, 35>(quantity, &numbers),
+        _ => None,
+    };
+    let found = found.ok_or_else(|| std::io::Error::other("no such robot or quantity"))?;
+    let bytes: Vec<u8> = found.iter().flat_map(|x| x.to_le_bytes()).collect();
+    std::io::stdout().write_all(&bytes)
+}

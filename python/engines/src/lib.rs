@@ -1,0 +1,88 @@
+//! Inverse dynamics by `Engine`, the form that is specialised to a robot at compile time, over rows of numbers.
+//!
+//! A scene of the engine is known to the compiler: the wheel has those of rigid bodies, of bias and of gravity.
+
+use dynamics_core::Engine;
+use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
+use dynamics_core::model::Robot;
+use dynamics_core::robots::{A1, A1Free, A1Leg, Gen3, Iiwa14, Panda, So101, Ur5e, XArm7, Z1};
+use dynamics_core::scalar::Real;
+use dynamics_core::state::State;
+use robot_dynamics_kernels::job::{Job, One, Row};
+
+/// The scenes of the earth's gravity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scene {
+    /// Gravity, inertia and velocity products.
+    RigidBody,
+    /// Gravity and velocity products.
+    Bias,
+    /// Gravity.
+    Gravity,
+}
+
+/// A scalar in which the engines are compiled.
+pub trait InEngine: Real {
+    /// What computes the rows of a robot, if it is one of the wheel's engines.
+    fn engine(robot: &str) -> Option<fn(Scene, &mut Job<'_, Self>)>;
+}
+
+fn rows<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, const V: usize>(
+    scene: Scene,
+    job: &mut Job<'_, R>,
+) {
+    let given = job.inputs.len();
+    for row in 0..job.rows {
+        let mut one = One { job, row };
+        let part = |input| match input < given {
+            true => std::array::from_fn(|i| one.get(input, i)),
+            false => [R::ZERO; V],
+        };
+        let state = State {
+            q: std::array::from_fn::<R, Q, _>(|i| one.get(0, i)),
+            qd: part(1),
+            qdd: part(2),
+        };
+        let tau = match scene {
+            Scene::RigidBody => Engine::<T>::rnea(&state, &RIGID_BODY),
+            Scene::Bias => Engine::<T>::rnea(&state, &(Gravity::EARTH, Coriolis)),
+            Scene::Gravity => Engine::<T>::rnea(&state, &Gravity::EARTH),
+        };
+        for (i, tau) in tau.into_iter().enumerate() {
+            one.put(0, i, tau);
+        }
+    }
+}
+
+macro_rules! engines {
+    ($r:ty: $($name:literal $robot:ident $b:literal $q:literal $v:literal),* $(,)?) => {
+        impl InEngine for $r {
+            fn engine(robot: &str) -> Option<fn(Scene, &mut Job<'_, Self>)> {
+                match robot {
+                    $($name => Some(rows::<$robot, $r, $b, $q, $v>),)*
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+macro_rules! all {
+    ($($r:ty),*) => {$(
+        engines! {
+            $r:
+            "ur5e" Ur5e 6 6 6,
+            "panda" Panda 7 7 7,
+            "iiwa14" Iiwa14 7 7 7,
+            "a1" A1 16 12 12,
+            "a1_leg" A1Leg 4 3 3,
+            "a1_free" A1Free 17 19 18,
+            "gen3" Gen3 7 7 7,
+            "so101" So101 6 6 6,
+            "xarm7" XArm7 7 7 7,
+            "z1" Z1 7 7 7,
+        }
+    )*};
+}
+
+all!(f32, f64);

@@ -1,0 +1,182 @@
+//! From what is known at run time to the types of the library: the scene's terms become parameters of a type.
+
+use dynamics_core::model::RobotModel;
+use dynamics_core::scalar::Real;
+
+use crate::algorithms::Algorithm;
+use crate::job::{Job, One, Row, Singular};
+use crate::model::Counts;
+use crate::scene::Parts;
+use crate::spec::Spec;
+
+/// Nothing, or where it cannot be computed.
+pub type Done = Result<(), Singular>;
+
+/// Rows that are computed one after the other.
+pub trait Rows<R> {
+    /// How many there are.
+    fn count(&self) -> usize;
+    /// One of them.
+    fn at(&mut self, row: usize) -> impl Row<R>;
+}
+
+impl<R: Copy> Rows<R> for Job<'_, R> {
+    fn count(&self) -> usize {
+        self.rows
+    }
+
+    #[inline(always)]
+    fn at(&mut self, row: usize) -> impl Row<R> {
+        One { job: self, row }
+    }
+}
+
+/// The terms of a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Terms {
+    /// Products of accelerations.
+    pub inertia: bool,
+    /// Products of velocities.
+    pub coriolis: bool,
+    /// Effects at bodies, at the base or in gears.
+    pub extra: bool,
+}
+
+/// Those of the effects.
+pub fn terms_of(effects: &[Spec]) -> Terms {
+    let mut terms = Terms::default();
+    for effect in effects {
+        match effect {
+            Spec::Inertia => terms.inertia = true,
+            Spec::Coriolis => terms.coriolis = true,
+            effect => terms.extra |= effect.is_extra(),
+        }
+    }
+    terms
+}
+
+/// A call of an algorithm for a robot of a type.
+pub struct Call<'a, D, P, R: Real, const V: usize> {
+    /// The robot.
+    pub robot: &'a D,
+    /// Its sizes.
+    pub counts: Counts,
+    /// The scene.
+    pub terms: Terms,
+    /// The scene's effects.
+    pub parts: &'a Parts<R, V>,
+    /// The rows.
+    pub rows: &'a mut P,
+}
+
+/// Computes the rows one after the other.
+fn go<
+    O: Algorithm,
+    R: Real,
+    D: RobotModel<R, B, Q, V>,
+    P: Rows<R>,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const A: bool,
+    const C: bool,
+    const X: bool,
+>(
+    algorithm: &O,
+    call: Call<'_, D, P, R, V>,
+) -> Done {
+    for row in 0..call.rows.count() {
+        algorithm
+            .row::<R, D, B, Q, V, A, C, X>(
+                call.robot,
+                call.counts,
+                call.parts,
+                &mut call.rows.at(row),
+            )
+            .map_err(|coordinate| Singular { row, coordinate })?;
+    }
+    Ok(())
+}
+
+/// Which scenes an algorithm distinguishes.
+pub mod terms {
+    use super::*;
+
+    macro_rules! scenes {
+        ($(#[$doc:meta])* $name:ident, $terms:ident => $($pattern:pat => [$a:literal, $c:literal, $x:literal]),*) => {
+            $(#[$doc])*
+            pub fn $name<O: Algorithm, R: Real, D, P, const B: usize, const Q: usize, const V: usize>(
+                algorithm: &O,
+                call: Call<'_, D, P, R, V>,
+            ) -> Done
+            where
+                D: RobotModel<R, B, Q, V>,
+                P: Rows<R>,
+            {
+                let Terms { inertia, coriolis, extra } = call.terms;
+                let _ = (inertia, coriolis, extra);
+                match (inertia, coriolis, extra) {
+                    $($pattern => go::<O, R, D, P, B, Q, V, $a, $c, $x>(algorithm, call)),*
+                }
+            }
+        };
+    }
+
+    scenes! {
+        /// All.
+        all, terms =>
+        (true, true, false) => [true, true, false],
+        (true, false, false) => [true, false, false],
+        (false, true, false) => [false, true, false],
+        (false, false, false) => [false, false, false],
+        (true, true, true) => [true, true, true],
+        (true, false, true) => [true, false, true],
+        (false, true, true) => [false, true, true],
+        (false, false, true) => [false, false, true]
+    }
+    scenes! {
+        /// Those with the products of accelerations, which the algorithm needs.
+        moving, terms =>
+        (_, true, false) => [true, true, false],
+        (_, false, false) => [true, false, false],
+        (_, true, true) => [true, true, true],
+        (_, false, true) => [true, false, true]
+    }
+    scenes! {
+        /// Whether there are effects at bodies.
+        rigid, terms =>
+        (_, _, false) => [true, true, false],
+        (_, _, true) => [true, true, true]
+    }
+    /// As [`all`], of an algorithm without.
+    pub use all as all_slow;
+    /// As [`moving`], of an algorithm without.
+    pub use moving as moved;
+    scenes! {
+        /// All without effects at bodies.
+        rigid_all, terms =>
+        (true, true, _) => [true, true, false],
+        (true, false, _) => [true, false, false],
+        (false, true, _) => [false, true, false],
+        (false, false, _) => [false, false, false]
+    }
+    scenes! {
+        /// Those with the products of accelerations and without effects at bodies.
+        rigid_moving, terms =>
+        (_, true, _) => [true, true, false],
+        (_, false, _) => [true, false, false]
+    }
+    scenes! {
+        /// The terms do not matter, and there are no effects at bodies.
+        rigid_one, terms =>
+        _ => [true, true, false]
+    }
+    /// As [`rigid`], of an algorithm with forms for some kinds of robots.
+    pub use rigid as matrix;
+
+    scenes! {
+        /// None.
+        none, terms =>
+        _ => [true, true, false]
+    }
+}

@@ -1,0 +1,171 @@
+//! The rows of a call: what an algorithm reads and writes, and the threads that compute them.
+
+use std::num::NonZero;
+use std::sync::LazyLock;
+use std::thread;
+
+/// A row-major array.
+#[derive(Clone, Copy)]
+pub struct Input<'a, R> {
+    /// Its numbers.
+    pub data: &'a [R],
+    /// The numbers of a row.
+    pub width: usize,
+}
+
+/// A row-major array to be written.
+pub struct Output<'a, R> {
+    /// Its numbers.
+    pub data: &'a mut [R],
+    /// The numbers of a row.
+    pub width: usize,
+}
+
+/// What an algorithm computes for many states.
+pub struct Job<'a, R> {
+    /// The arguments.
+    pub inputs: Vec<Input<'a, R>>,
+    /// The results.
+    pub outputs: Vec<Output<'a, R>>,
+    /// How many states.
+    pub rows: usize,
+}
+
+/// Where M of a state is not positive definite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Singular {
+    /// The state.
+    pub row: usize,
+    /// The velocity coordinate.
+    pub coordinate: usize,
+}
+
+impl Singular {
+    /// The same row of a job that begins so many rows later.
+    pub(crate) fn after(self, rows: usize) -> Self {
+        Self {
+            row: self.row + rows,
+            ..self
+        }
+    }
+}
+
+/// Fewer states than this per thread are computed sooner by one.
+const ROWS_PER_THREAD: usize = 512;
+
+/// One state's numbers, as an algorithm sees them.
+pub trait Row<R> {
+    /// Number `column` of argument `input`.
+    fn get(&self, input: usize, column: usize) -> R;
+    /// Writes number `column` of result `output`.
+    fn put(&mut self, output: usize, column: usize, value: R);
+}
+
+/// One row of a job.
+pub struct One<'j, 'a, R> {
+    /// The job.
+    pub job: &'j mut Job<'a, R>,
+    /// The row.
+    pub row: usize,
+}
+
+impl<R: Copy> Row<R> for One<'_, '_, R> {
+    #[inline(always)]
+    fn get(&self, input: usize, column: usize) -> R {
+        let Input { data, width } = self.job.inputs[input];
+        data[self.row * width + column]
+    }
+
+    #[inline(always)]
+    fn put(&mut self, output: usize, column: usize, value: R) {
+        let Output { data, width } = &mut self.job.outputs[output];
+        data[self.row * *width + column] = value;
+    }
+}
+
+impl<R: Copy + Send + Sync> Job<'_, R> {
+    /// Computes all rows, on all cores if there are many. `part` computes the rows of a part of the job.
+    ///
+    /// # Errors
+    /// The first row that cannot be computed, with its coordinate.
+    pub fn compute(
+        mut self,
+        part: impl Fn(&mut Job<'_, R>) -> Result<(), Singular> + Sync,
+    ) -> Result<(), Singular> {
+        let most = self.rows / ROWS_PER_THREAD;
+        let threads = if most > 1 { most.min(cores()) } else { 1 };
+        if threads == 1 {
+            return part(&mut self);
+        }
+        // A multiple of the rows that are computed at once.
+        let length = self.rows.div_ceil(threads).next_multiple_of(16);
+        let part = &part;
+        thread::scope(|scope| {
+            let parts: Vec<_> = self.parts(length).collect();
+            let running: Vec<_> = parts
+                .into_iter()
+                .map(|(first, mut job)| {
+                    scope.spawn(move || part(&mut job).map_err(|error| error.after(first)))
+                })
+                .collect();
+            let finished = running.into_iter().map(|thread| match thread.join() {
+                Ok(result) => result,
+                Err(panic) => std::panic::resume_unwind(panic),
+            });
+            let results: Vec<_> = finished.collect();
+            results.into_iter().collect()
+        })
+    }
+
+    /// The rows from `first` to `end`.
+    pub(crate) fn part(&mut self, first: usize, end: usize) -> Job<'_, R> {
+        let inputs = self.inputs.iter().map(|&Input { data, width }| Input {
+            data: &data[first * width..end * width],
+            width,
+        });
+        let outputs = self.outputs.iter_mut().map(|output| Output {
+            data: &mut output.data[first * output.width..end * output.width],
+            width: output.width,
+        });
+        Job {
+            inputs: inputs.collect(),
+            outputs: outputs.collect(),
+            rows: end - first,
+        }
+    }
+
+    /// Parts of so many rows, with their first rows.
+    fn parts(&mut self, length: usize) -> impl Iterator<Item = (usize, Job<'_, R>)> {
+        let (inputs, rows) = (self.inputs.clone(), self.rows);
+        let mut outputs: Vec<_> = self
+            .outputs
+            .iter_mut()
+            .map(|output| (output.data.chunks_mut(length * output.width), output.width))
+            .collect();
+        (0..rows).step_by(length).map(move |first| {
+            let count = length.min(rows - first);
+            let inputs = inputs.iter().map(|&Input { data, width }| Input {
+                data: &data[first * width..(first + count) * width],
+                width,
+            });
+            let outputs = outputs.iter_mut().map(|(chunks, width)| Output {
+                data: chunks.next().unwrap_or_default(),
+                width: *width,
+            });
+            let job = Job {
+                inputs: inputs.collect(),
+                outputs: outputs.collect(),
+                rows: count,
+            };
+            (first, job)
+        })
+    }
+}
+
+/// How many threads a batch uses.
+pub fn cores() -> usize {
+    // To ask the operating system takes longer than a state.
+    static CORES: LazyLock<usize> =
+        LazyLock::new(|| thread::available_parallelism().map_or(1, NonZero::get));
+    *CORES
+}

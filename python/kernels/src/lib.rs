@@ -1,0 +1,253 @@
+//! The library's algorithms over rows of numbers, for robots and scenes that are known at run time.
+//!
+//! All machine code of the algorithms is in this crate, which compiles in minutes; the extension module beside it, which
+//! knows Python, compiles in seconds.
+
+mod algorithms;
+mod dispatch;
+pub mod job;
+mod lanes;
+pub mod model;
+mod scene;
+pub mod spec;
+
+use dynamics_core::model::RobotModel;
+use dynamics_core::scalar::Real;
+
+pub use algorithms::AnyFrame;
+
+use algorithms::Algorithm;
+use dispatch::{Call, Terms};
+use job::{Job, Singular};
+use lanes::{Blocks, LANES, Lanes};
+use model::{Counts, Cut, Fast, General, Models};
+use spec::{BodyRef, Spec};
+
+/// A call, of which the algorithm and the rows are known elsewhere.
+#[derive(Clone, Copy)]
+pub struct Setting<'a> {
+    /// The robot's sizes.
+    pub counts: Counts,
+    /// The effects, which fit the robot.
+    pub effects: &'a [Spec],
+    /// The number of a body.
+    pub body: &'a (dyn Fn(&BodyRef) -> usize + Sync),
+}
+
+/// A scalar of arrays.
+pub trait Scalar: Real {
+    /// Computes the rows of a job by an algorithm, one after the other.
+    ///
+    /// # Errors
+    /// The row and the coordinate where M is not positive definite.
+    fn compute(
+        which: &Which,
+        models: &Models<Self>,
+        setting: Setting<'_>,
+        rows: &mut Job<'_, Self>,
+    ) -> Result<(), Singular>;
+}
+
+macro_rules! which {
+    ($($name:ident $({ $($field:ident: $type:ty),* })?),* $(,)?) => {
+        /// An algorithm.
+        #[derive(Clone, Copy, Debug)]
+        #[allow(missing_docs, reason = "their documentation is that of `algorithms`")]
+        pub enum Which {
+            $($name $({ $($field: $type),* })?),*
+        }
+
+        macro_rules! scalar {
+            ($r:ty) => {
+                impl Scalar for $r {
+                    fn compute(
+                        which: &Which,
+                        models: &Models<Self>,
+                        setting: Setting<'_>,
+                        rows: &mut Job<'_, Self>,
+                    ) -> Result<(), Singular> {
+                        match *which {
+                            $(Which::$name $({ $($field),* })? => {
+                                let algorithm = algorithms::$name { $($($field),*)? };
+                                <$r as WithLanes>::rows(&algorithm, models, setting, rows)
+                            })*
+                        }
+                    }
+                }
+            };
+        }
+    };
+}
+
+which! {
+    Rnea { given: usize },
+    RneaTwoVelocities,
+    Crba,
+    InverseMass,
+    Aba,
+    ForwardDynamics,
+    Hybrid,
+    Transmitted,
+    Jacobian { body: usize, frame: AnyFrame },
+    BiasAcceleration { body: usize, frame: AnyFrame },
+    Poses,
+    Kinematics { frame: AnyFrame },
+    KineticEnergy,
+    PotentialEnergy,
+    Momentum,
+    CentroidalMomentum,
+    CentroidalMatrix,
+    CenterOfMass,
+    MomentumAndCoriolis,
+    MomentumAndDrift,
+    CoriolisMatrix,
+    BaseVelocity,
+    OsimInverse { body: usize, frame: AnyFrame },
+    OperationalSpaceOf { body: usize, frame: AnyFrame, damping: f64 },
+    Regressor,
+    Integrate,
+    Difference,
+    Neutral,
+}
+
+scalar!(f32);
+scalar!(f64);
+
+/// How the rows of a job are computed in a scalar.
+trait WithLanes: Real {
+    fn rows<O: Algorithm>(
+        algorithm: &O,
+        models: &Models<Self>,
+        setting: Setting<'_>,
+        rows: &mut Job<'_, Self>,
+    ) -> Result<(), Singular>;
+}
+
+impl WithLanes for f64 {
+    fn rows<O: Algorithm>(
+        algorithm: &O,
+        models: &Models<Self>,
+        setting: Setting<'_>,
+        rows: &mut Job<'_, Self>,
+    ) -> Result<(), Singular> {
+        over(algorithm, models, setting, rows)
+    }
+}
+
+impl WithLanes for f32 {
+    fn rows<O: Algorithm>(
+        algorithm: &O,
+        models: &Models<Self>,
+        setting: Setting<'_>,
+        rows: &mut Job<'_, Self>,
+    ) -> Result<(), Singular> {
+        let count = rows.rows / LANES;
+        if !O::LANES || count == 0 || dispatch::terms_of(setting.effects).extra {
+            return over(algorithm, models, setting, rows);
+        }
+        let Some(lanes) = &models.lanes else {
+            return over(algorithm, models, setting, rows);
+        };
+        let mut first = 0;
+        // Each turn ends all rows, or the block in which a state is singular, whose states are then found one by one.
+        while first < count {
+            let mut rest = rows.part(first * LANES, rows.rows);
+            let mut blocks = Blocks {
+                job: &mut rest,
+                count: count - first,
+            };
+            let done = in_lanes(algorithm, lanes, setting, &mut blocks);
+            let Err(Singular { row: block, .. }) = done else {
+                break;
+            };
+            let at = (first + block) * LANES;
+            over(algorithm, models, setting, &mut rows.part(at, at + LANES))
+                .map_err(|error| error.after(at))?;
+            first += block + 1;
+        }
+        let at = count * LANES;
+        let end = rows.rows;
+        over(algorithm, models, setting, &mut rows.part(at, end)).map_err(|error| error.after(at))
+    }
+}
+
+/// Computes blocks of rows.
+fn in_lanes<O: Algorithm>(
+    algorithm: &O,
+    model: &Fast<Lanes>,
+    setting: Setting<'_>,
+    rows: &mut Blocks<'_, '_>,
+) -> Result<(), Singular> {
+    let Setting {
+        counts,
+        effects,
+        body,
+    } = setting;
+    macro_rules! run {
+        ($robot:expr) => {
+            algorithm.blocks(Call {
+                robot: &Cut($robot, counts.bodies),
+                counts,
+                terms: dispatch::terms_of(effects),
+                parts: &spec::parts(effects, &body),
+                rows,
+            })
+        };
+    }
+    match model {
+        Fast::Chain(model) => match model.as_revolute_chain() {
+            Some(chain) => run!(&chain),
+            None => unreachable!("the model was built as a chain"),
+        },
+        Fast::Revolute(model) => match model.as_all_revolute() {
+            Some(revolute) => run!(&revolute),
+            None => unreachable!("the model was built of revolute joints"),
+        },
+        Fast::None => unreachable!("other models are not built"),
+    }
+}
+
+/// Computes the rows over a model of any size.
+fn over<O: Algorithm, R: Real>(
+    algorithm: &O,
+    models: &Models<R>,
+    setting: Setting<'_>,
+    rows: &mut Job<'_, R>,
+) -> Result<(), Singular> {
+    let Setting {
+        counts,
+        effects,
+        body,
+    } = setting;
+    let terms: Terms = dispatch::terms_of(effects);
+    macro_rules! run {
+        ($robot:expr) => {
+            algorithm.all(Call {
+                robot: &Cut($robot, counts.bodies),
+                counts,
+                terms,
+                parts: &spec::parts(effects, &body),
+                rows,
+            })
+        };
+    }
+    if O::FAST {
+        match &models.fast {
+            Fast::Chain(model) => {
+                if let Some(chain) = model.as_revolute_chain() {
+                    return run!(&chain);
+                }
+            }
+            Fast::Revolute(model) => {
+                if let Some(revolute) = model.as_all_revolute() {
+                    return run!(&revolute);
+                }
+            }
+            Fast::None => {}
+        }
+    }
+    match &models.general {
+        General::Small(model) => run!(&**model),
+        General::Large(model) => run!(&**model),
+    }
+}

@@ -1,0 +1,190 @@
+//! A scene that is composed at run time: which of the library's effects act.
+//!
+//! The terms of the equations of motion are parameters of the type, as in a scene of the library, so that a term that
+//! is not named costs nothing; the other effects are lists, in the order in which the user named them.
+
+use dynamics_core::effects::{
+    AsymmetricCoulomb, BodyState, BodyWrench, Cogging, Contact, Coulomb, Effect, EndStops,
+    JointState, LoadFactors, LoadFriction, Lugre, Spring, Stribeck, TorqueDerivatives, Viscous,
+    WorldWrench, hook,
+};
+use dynamics_core::scalar::Real;
+use dynamics_core::spatial::{Force, Motion, SpatialInertia};
+
+/// The most harmonics of cogging.
+pub const HARMONICS: usize = 8;
+
+/// An effect at joints.
+pub enum AtJoint<R: Real, const V: usize> {
+    Viscous(Viscous<R, V>),
+    Coulomb(Coulomb<R, V>),
+    Asymmetric(AsymmetricCoulomb<R, V>),
+    Stribeck(Stribeck<R, V>),
+    Lugre(Lugre<R, V>),
+    Spring(Spring<R, V>),
+    EndStops(EndStops<R, V>),
+    Cogging(Box<Cogging<R, HARMONICS, V>>),
+}
+
+/// An effect at bodies.
+pub enum AtBody<R: Real> {
+    Body(BodyWrench<R>),
+    World(WorldWrench<R>),
+    Contact(Contact<R, 1>),
+}
+
+/// The effects besides the terms of the equations of motion.
+pub struct Parts<R: Real, const V: usize> {
+    /// g, m/s²; zero where gravity is not named.
+    pub gravity: R::Vec3,
+    /// At joints.
+    pub joints: Vec<AtJoint<R, V>>,
+    /// Inertia of the motors.
+    pub armature: Option<[R; V]>,
+    /// Velocity and acceleration of the base.
+    pub base: Option<(Motion<R>, Motion<R>)>,
+    /// Loads, with the numbers of their bodies.
+    pub payloads: Vec<(usize, SpatialInertia<R>)>,
+    /// Wrenches and contacts.
+    pub wrenches: Vec<AtBody<R>>,
+    /// Friction of gears.
+    pub gears: Option<LoadFriction<R, V>>,
+}
+
+/// A scene: whether it has the products of accelerations (A), of velocities (C), and effects at bodies or gears (X).
+pub struct Scene<'a, R: Real, const V: usize, const A: bool, const C: bool, const X: bool>(
+    pub &'a Parts<R, V>,
+);
+
+impl<R: Real, const B: usize, const V: usize, const A: bool, const C: bool, const X: bool>
+    Effect<R, B, V> for Scene<'_, R, V, A, C, X>
+{
+    const GRAVITY_FIELD: hook::Field<Self, R> =
+        hook::Field::gravity(|scene, g| *g += scene.0.gravity);
+    const BASE: hook::Base<Self, R> = match X {
+        true => hook::Base::moving(Self::move_base),
+        false => hook::Base::NONE,
+    };
+    const EXTERNAL_WRENCH: hook::Wrench<Self, R> = match X {
+        true => hook::Wrench::of_state(Self::add_wrenches::<B>),
+        false => hook::Wrench::NONE,
+    };
+    const ADDED_INERTIA: hook::Inertia<Self, R, B> = match X {
+        true => hook::Inertia::on([true; B], Self::add_payloads),
+        false => hook::Inertia::NONE,
+    };
+    const LOAD_FRICTION: hook::LoadFriction<Self, R> = match X {
+        true => hook::LoadFriction::new(Self::load_factors::<B>, Self::load_slopes::<B>),
+        false => hook::LoadFriction::NONE,
+    };
+    const ACCELERATIONS: bool = A;
+    const VELOCITY_PRODUCTS: bool = C;
+
+    #[inline(always)]
+    fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
+        for effect in &self.0.joints {
+            effect.torque::<B>(joint, at, tau);
+        }
+    }
+
+    fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
+        for effect in &self.0.joints {
+            effect.derivatives::<B>(joint, at, derivatives);
+        }
+    }
+
+    #[inline(always)]
+    fn inertia(&self, joint: usize) -> Option<R> {
+        self.0.armature.as_ref()?.get(joint).copied()
+    }
+}
+
+impl<R: Real, const V: usize, const A: bool, const C: bool, const X: bool>
+    Scene<'_, R, V, A, C, X>
+{
+    fn move_base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
+        if let Some((v, a)) = self.0.base {
+            *velocity += v;
+            *acceleration += a;
+        }
+    }
+
+    fn add_wrenches<const B: usize>(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
+        for wrench in &self.0.wrenches {
+            match wrench {
+                AtBody::Body(w) => hook::add_wrench::<R, _, B, V>(w, body, at, fx),
+                AtBody::World(w) => hook::add_wrench::<R, _, B, V>(w, body, at, fx),
+                AtBody::Contact(w) => hook::add_wrench::<R, _, B, V>(w, body, at, fx),
+            }
+        }
+    }
+
+    fn add_payloads(&self, body: usize, inertia: &mut SpatialInertia<R>) {
+        for (on, payload) in &self.0.payloads {
+            if *on == body {
+                *inertia = *inertia + *payload;
+            }
+        }
+    }
+
+    fn load_factors<const B: usize>(
+        &self,
+        joint: usize,
+        at: JointState<R>,
+        factors: &mut LoadFactors<R>,
+    ) {
+        let add = const { <LoadFriction<R, V> as Effect<R, B, V>>::LOAD_FRICTION.factors };
+        if let (Some(gears), Some(add)) = (&self.0.gears, add) {
+            add(gears, joint, at, factors);
+        }
+    }
+
+    fn load_slopes<const B: usize>(
+        &self,
+        joint: usize,
+        at: JointState<R>,
+        slopes: &mut LoadFactors<R>,
+    ) {
+        let add = const { <LoadFriction<R, V> as Effect<R, B, V>>::LOAD_FRICTION.slopes };
+        if let (Some(gears), Some(add)) = (&self.0.gears, add) {
+            add(gears, joint, at, slopes);
+        }
+    }
+}
+
+/// Calls a function of the effect that it is.
+macro_rules! each {
+    ($self:ident, $effect:ident => $call:expr) => {
+        match $self {
+            AtJoint::Viscous($effect) => $call,
+            AtJoint::Coulomb($effect) => $call,
+            AtJoint::Asymmetric($effect) => $call,
+            AtJoint::Stribeck($effect) => $call,
+            AtJoint::Lugre($effect) => $call,
+            AtJoint::Spring($effect) => $call,
+            AtJoint::EndStops($effect) => $call,
+            AtJoint::Cogging(boxed) => {
+                let $effect = &**boxed;
+                $call
+            }
+        }
+    };
+}
+
+impl<R: Real, const V: usize> AtJoint<R, V> {
+    // One function for all algorithms: the machine code has few copies of what few scenes need.
+    #[inline(never)]
+    fn torque<const B: usize>(&self, joint: usize, at: JointState<R>, tau: &mut R) {
+        each!(self, effect => Effect::<R, B, V>::torque(effect, joint, at, tau));
+    }
+
+    #[inline(never)]
+    fn derivatives<const B: usize>(
+        &self,
+        joint: usize,
+        at: JointState<R>,
+        derivatives: &mut TorqueDerivatives<R>,
+    ) {
+        each!(self, effect => Effect::<R, B, V>::derivatives(effect, joint, at, derivatives));
+    }
+}

@@ -1,0 +1,126 @@
+"""The errors of this package: each names the file, line, joint, body, argument or effect concerned."""
+
+from __future__ import annotations
+
+from typing import Any
+
+__all__ = [
+    "DescriptionError",
+    "DtypeError",
+    "EffectError",
+    "ModelError",
+    "NoEngine",
+    "NotPositiveDefinite",
+    "NotRecorded",
+    "RobotDynamicsError",
+    "ShapeError",
+    "UnknownBody",
+    "UnknownFrame",
+    "UnknownRobot",
+    "UnreadableFile",
+]
+
+
+class RobotDynamicsError(Exception):
+    """The base of all errors of this package."""
+
+    def __init__(self, message: str, **fields: Any) -> None:
+        super().__init__(message)
+        for name, value in fields.items():
+            setattr(self, name, value)
+
+    def __str__(self) -> str:
+        return str(self.args[0]) if self.args else ""
+
+
+class DescriptionError(RobotDynamicsError, ValueError):
+    """A URDF or MJCF that cannot be used."""
+
+    line: int | None
+    """The line of the file, from 1; none if no line is concerned."""
+    element: str
+    """The element and its name, such as ``joint `elbow` ``; empty if none is concerned."""
+    problem: str
+    """The problem without its place."""
+
+
+class UnreadableFile(DescriptionError, OSError):
+    """A file that the operating system does not give."""
+
+
+class ModelError(RobotDynamicsError, ValueError):
+    """A robot that the library refuses: too large, or with impossible numbers."""
+
+    body: str | None
+    """The body concerned."""
+
+
+class NoEngine(RobotDynamicsError, LookupError):
+    """The wheel has no engine of this robot, or no form of this name."""
+
+    robot: str
+    """The robot's name."""
+
+
+class UnknownRobot(RobotDynamicsError, LookupError):
+    """No robot of the library has this name."""
+
+    name: str
+    """The name."""
+
+
+class UnknownBody(RobotDynamicsError, LookupError):
+    """The robot has no body of this name or number."""
+
+    body: str | int
+    """The name or number."""
+
+
+class UnknownFrame(RobotDynamicsError, ValueError):
+    """No frame has this name."""
+
+    frame: str
+    """The name."""
+
+
+class ShapeError(RobotDynamicsError, ValueError):
+    """An array of the wrong shape."""
+
+    argument: str
+    """The argument concerned."""
+    shape: tuple[int, ...]
+    """Its shape."""
+    expected: str
+    """What is expected."""
+
+
+class DtypeError(RobotDynamicsError, TypeError):
+    """An array that is neither all float32 nor all float64, or no array of numbers."""
+
+    argument: str
+    """The argument concerned."""
+
+
+class EffectError(RobotDynamicsError, ValueError):
+    """An effect that a scene or a robot cannot have."""
+
+    effect: str
+    """The effect's name."""
+
+
+class NotPositiveDefinite(RobotDynamicsError, ArithmeticError):
+    """M is not positive definite: a joint moves no inertia, or a number of the state is not finite."""
+
+    joint: str
+    """The joint's name."""
+    coordinate: int
+    """The velocity coordinate."""
+    state: int
+    """The state's index in the batch; 0 of a single state."""
+
+
+class NotRecorded(RobotDynamicsError, LookupError):
+    """No figure of this robot and algorithm is recorded."""
+
+    robot: str
+    """The robot's name."""

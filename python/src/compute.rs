@@ -1,0 +1,166 @@
+//! From a call in Python to an algorithm over its rows.
+
+use numpy::{Element, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use robot_dynamics_engines::{InEngine, Scene};
+use robot_dynamics_kernels::job::{Input, Job, Output};
+use robot_dynamics_kernels::model::Models;
+use robot_dynamics_kernels::spec::{BodyRef, Spec, fit};
+use robot_dynamics_kernels::{Scalar, Setting, Which};
+
+use crate::arrays::{Argument, Dtype, array, dtype, leading};
+use crate::error::Exception;
+use crate::robot::Robot;
+
+/// A scalar with numpy's arrays.
+pub trait Numbers: Scalar + InEngine + Element {
+    /// The robot's models in this scalar.
+    fn of(robot: &Robot) -> &Models<Self>;
+}
+
+impl Numbers for f32 {
+    fn of(robot: &Robot) -> &Models<Self> {
+        &robot.single
+    }
+}
+
+impl Numbers for f64 {
+    fn of(robot: &Robot) -> &Models<Self> {
+        &robot.double
+    }
+}
+
+/// What computes the rows.
+#[derive(Clone, Copy)]
+pub enum By {
+    /// An algorithm over the robot's model.
+    Model(Which),
+    /// The engine of a robot of the library.
+    Engine(Scene),
+}
+
+impl From<Which> for By {
+    fn from(which: Which) -> Self {
+        Self::Model(which)
+    }
+}
+
+/// A call: the effects, the arguments, and the shape of a row of each result.
+pub struct Request<'a, 'py> {
+    pub effects: &'a [Spec],
+    pub arguments: &'a [Argument<'a, 'py>],
+    pub results: &'a [&'a [usize]],
+}
+
+/// Batches of fewer states are computed with Python's lock, which takes longer to release.
+const ROWS_WITH_LOCK: usize = 64;
+
+impl Robot {
+    /// The results of an algorithm.
+    pub fn compute<'py>(
+        &self,
+        py: Python<'py>,
+        by: impl Into<By>,
+        request: &Request<'_, 'py>,
+    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let by = by.into();
+        match dtype(request.arguments)? {
+            Dtype::Single => self.compute_in::<f32>(py, by, request),
+            Dtype::Double => self.compute_in::<f64>(py, by, request),
+        }
+    }
+
+    fn compute_in<'py, R: Numbers>(
+        &self,
+        py: Python<'py>,
+        by: By,
+        request: &Request<'_, 'py>,
+    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let number = |body: &BodyRef| self.body_number(body);
+        fit(request.effects, self.counts.v, |body| {
+            number(body).ok_or_else(|| format!("the robot has no body {body:?}"))
+        })
+        .map_err(|error| {
+            let text = format!("{}: {}", error.effect, error.problem);
+            Exception::new(py, "EffectError", text)
+                .with("effect", error.effect)
+                .build()
+        })?;
+        let arrays: Vec<_> = request
+            .arguments
+            .iter()
+            .map(array::<R>)
+            .collect::<PyResult<_>>()?;
+        let shapes = arrays.iter().map(|array| array.shape());
+        let leading = leading(request.arguments, shapes)?;
+        let rows = leading.iter().product();
+        let results: Vec<_> = request
+            .results
+            .iter()
+            .map(|shape| {
+                let all: Vec<usize> = leading.iter().chain(*shape).copied().collect();
+                PyArrayDyn::<R>::zeros(py, all, false)
+            })
+            .collect();
+        let done = {
+            let mut guards: Vec<_> = results.iter().map(|result| result.readwrite()).collect();
+            let inputs = arrays.iter().zip(request.arguments);
+            let inputs: PyResult<Vec<_>> = inputs
+                .map(|(array, argument)| {
+                    let (data, width) = (array.as_slice()?, argument.width);
+                    Ok(Input { data, width })
+                })
+                .collect();
+            let outputs = guards.iter_mut().zip(request.results);
+            let outputs: PyResult<Vec<_>> = outputs
+                .map(|(guard, shape)| {
+                    let (data, width) = (guard.as_slice_mut()?, shape.iter().product());
+                    Ok(Output { data, width })
+                })
+                .collect();
+            let job = Job {
+                inputs: inputs?,
+                outputs: outputs?,
+                rows,
+            };
+            let body = |body: &BodyRef| number(body).unwrap_or(usize::MAX);
+            let setting = Setting {
+                counts: self.counts,
+                effects: request.effects,
+                body: &body,
+            };
+            let models = R::of(self);
+            let engine = match by {
+                By::Model(_) => None,
+                By::Engine(_) => self.library_name().and_then(R::engine),
+            };
+            let rows_by = |job: &mut Job<'_, R>| match (by, engine) {
+                (By::Model(which), _) => R::compute(&which, models, setting, job),
+                (By::Engine(scene), Some(engine)) => {
+                    engine(scene, job);
+                    Ok(())
+                }
+                (By::Engine(_), None) => unreachable!("the robot was asked for its engine"),
+            };
+            let work = || job.compute(rows_by);
+            if rows < ROWS_WITH_LOCK {
+                work()
+            } else {
+                py.detach(work)
+            }
+        };
+        done.map_err(|singular| {
+            let joint = self.joint_of(singular.coordinate);
+            let text = format!(
+                "joint `{joint}` moves no inertia, or a coordinate or an inertia is not a number (state {})",
+                singular.row
+            );
+            Exception::new(py, "NotPositiveDefinite", text)
+                .with("joint", joint)
+                .with("coordinate", singular.coordinate)
+                .with("state", singular.row)
+                .build()
+        })?;
+        Ok(results.into_iter().map(Bound::into_any).collect())
+    }
+}

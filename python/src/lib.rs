@@ -1,0 +1,32 @@
+//! The extension module `robot_dynamics._native`: the algorithms of `dynamics-core` over numpy's arrays.
+
+mod arrays;
+mod compute;
+mod costs;
+mod effects;
+mod error;
+mod library;
+mod robot;
+
+use pyo3::prelude::*;
+
+/// The names of the library's robots.
+#[pyfunction]
+fn robots() -> Vec<&'static str> {
+    library::ROBOTS.iter().map(|(name, _)| *name).collect()
+}
+
+/// How many threads a batch uses.
+#[pyfunction]
+fn threads() -> usize {
+    robot_dynamics_kernels::job::cores()
+}
+
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<robot::Robot>()?;
+    module.add_class::<costs::Cost>()?;
+    module.add_function(wrap_pyfunction!(robots, module)?)?;
+    module.add_function(wrap_pyfunction!(threads, module)?)?;
+    effects::register(module)
+}

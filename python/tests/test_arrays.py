@@ -1,0 +1,172 @@
+"""Arrays of one state and of many, their types, and what is refused."""
+
+import pickle
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import robot_dynamics as rd
+from trees import states
+
+METHODS = [
+    ("rnea", "q v a"), ("bias", "q v"), ("gravity", "q"), ("rnea_two_velocities", "q v a v"), ("crba", "q"),
+    ("inverse_mass", "q"), ("aba", "q v t"), ("forward_dynamics", "q v t"), ("hybrid_dynamics", "q v t m"),
+    ("transmitted_torque", "q v t"), ("jacobian", "q b"), ("bias_acceleration", "q v b"), ("poses", "q"),
+    ("kinematics", "q v a"), ("kinetic_energy", "q v"), ("potential_energy", "q"), ("momentum", "q v"),
+    ("centroidal_momentum", "q v"), ("centroidal_matrix", "q"), ("center_of_mass", "q v"),
+    ("momentum_and_coriolis", "q v"), ("momentum_and_drift", "q v"), ("coriolis_matrix", "q v"),
+    ("base_velocity_from_momentum", "q v h"), ("osim_inverse", "q b"), ("operational_space", "q b"),
+    ("regressor", "q v a"), ("integrate", "q v"), ("difference", "q q"),
+]  # fmt: skip
+
+
+def arguments(robot, names, count, dtype):
+    q, v, a, t = (x.astype(dtype) for x in states(robot, count))
+    mask = np.broadcast_to(np.arange(robot.nv) % 2, v.shape).astype(dtype)
+    momentum = np.ones((count, 6), dtype)
+    table = {"q": q, "v": v, "a": a, "t": t, "m": mask, "h": momentum, "b": robot.bodies[-1]}
+    return [table[name] for name in names.split()]
+
+
+def row(argument, i):
+    return argument if isinstance(argument, str) else argument[i]
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("name", ["ur5e", "a1", "a1_free"])
+@pytest.mark.parametrize(("method", "names"), METHODS)
+def test_batches_are_their_states_to_the_bit(method, names, name, dtype):
+    if method == "base_velocity_from_momentum" and name != "a1_free":
+        pytest.skip("of a free base")
+    robot = rd.Robot(name)
+    count = 37
+    given = arguments(robot, names, count, dtype)
+    call = getattr(robot, method)
+    together = call(*given)
+    together = together if isinstance(together, tuple) else (together,)
+    for i in range(0, count, 5):
+        alone = call(*[row(argument, i) for argument in given])
+        alone = alone if isinstance(alone, tuple) else (alone,)
+        for batch, single in zip(together, alone, strict=True):
+            assert batch.dtype == dtype and single.dtype == dtype
+            assert batch[i].tobytes() == single.tobytes()
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_threads_compute_what_one_computes(dtype):
+    robot = rd.Robot("ur5e")
+    q, v, a, t = (x.astype(dtype) for x in states(robot, 5003))
+    parts = np.array([robot.rnea(*rows) for rows in zip(q, v, a)])
+    assert robot.rnea(q, v, a).tobytes() == parts.tobytes()
+    parts = np.array([robot.aba(*rows) for rows in zip(q, v, t)])
+    assert robot.aba(q, v, t).tobytes() == parts.tobytes()
+
+
+def test_any_leading_axes_and_any_strides():
+    robot = rd.Robot("panda")
+    q, v, a, _ = states(robot, 24)
+    flat = robot.rnea(q, v, a)
+    shaped = robot.rnea(*(x.reshape(2, 3, 4, 7) for x in (q, v, a)))
+    assert shaped.shape == (2, 3, 4, 7) and np.array_equal(shaped.reshape(24, 7), flat)
+    assert np.array_equal(robot.rnea(np.asfortranarray(q), v, a), flat)
+    assert np.array_equal(robot.rnea(q[::2], v[::2], a[::2]), flat[::2])
+    assert robot.rnea(q[:0], v[:0], a[:0]).shape == (0, 7)
+    assert np.array_equal(robot.rnea(list(q[0]), v[0], a[0]), flat[0])
+    frozen = q.copy()
+    frozen.flags.writeable = False
+    assert np.array_equal(robot.rnea(frozen, v, a), flat)
+    assert robot.rnea(q, q, q).shape == (24, 7)
+
+
+def test_batches_release_the_lock():
+    robot = rd.Robot("g1_free")
+    q, v, _, tau = states(robot, 4000)
+    ticks, done = [], threading.Event()
+
+    def tick():
+        while not done.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(0.0005)
+
+    beside = threading.Thread(target=tick)
+    beside.start()
+    start = time.perf_counter()
+    robot.aba(q, v, tau)
+    end = time.perf_counter()
+    done.set()
+    beside.join()
+    during = [t for t in ticks if start < t < end]
+    # With the lock held none would fall between, whatever the machine's load.
+    assert len(during) >= 3, (len(during), end - start)
+
+
+def test_mixed_and_foreign_types_are_refused():
+    robot = rd.Robot("ur5e")
+    single, double = np.zeros(6, np.float32), np.zeros(6)
+    with pytest.raises(rd.DtypeError, match="qd") as error:
+        robot.rnea(single, double, single)
+    assert error.value.argument == "qd"
+    for other in (np.zeros(6, np.int64), np.zeros(6, complex), np.zeros(6, np.float16), np.array(["a"] * 6)):
+        with pytest.raises(rd.DtypeError) as error:
+            robot.gravity(other)
+        assert error.value.argument == "q"
+    for other in (None, "text", object(), [[1.0], [1.0, 2.0]]):
+        with pytest.raises(rd.DtypeError):
+            robot.gravity(other)
+
+
+def test_wrong_shapes_are_named():
+    robot = rd.Robot("ur5e")
+    with pytest.raises(rd.ShapeError, match="`qd` has the shape") as error:
+        robot.rnea(np.zeros(6), np.zeros(5), np.zeros(6))
+    assert error.value.argument == "qd" and error.value.shape == (5,) and "6" in error.value.expected
+    with pytest.raises(rd.ShapeError, match="leading axes"):
+        robot.rnea(np.zeros((3, 6)), np.zeros((4, 6)), np.zeros((3, 6)))
+    with pytest.raises(rd.ShapeError):
+        robot.gravity(np.ones(()))
+
+
+def test_unknown_names_are_named():
+    with pytest.raises(rd.UnknownRobot, match="ur5e") as error:
+        rd.Robot("ur6")
+    assert error.value.name == "ur6" and isinstance(error.value, LookupError)
+    robot = rd.Robot("ur5e")
+    for body in ("hand", 6, -1, None, 1.5):
+        with pytest.raises(rd.UnknownBody) as error:
+            robot.jacobian(np.zeros(6), body)
+        assert error.value.body == body
+    with pytest.raises(rd.UnknownFrame) as error:
+        robot.jacobian(np.zeros(6), 0, "tool")
+    assert error.value.frame == "tool"
+
+
+def test_all_errors_have_one_base_and_their_text():
+    for name in rd.errors.__all__:
+        error = getattr(rd, name)
+        assert issubclass(error, rd.RobotDynamicsError)
+        assert str(error("why", joint="elbow")) == "why"
+    assert pickle.loads(pickle.dumps(rd.ShapeError("why"))).args == ("why",)
+
+
+def test_singular_inertia_names_joint_and_state():
+    text = (
+        '<robot name="r"><link name="a"/><link name="b"><inertial><mass value="1"/><origin xyz="0 0 -0.5"/>'
+        '<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link><link name="c"/>'
+        '<joint name="shoulder" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 1 0"/>'
+        '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
+        '<joint name="elbow" type="revolute"><parent link="b"/><child link="c"/><axis xyz="0 1 0"/>'
+        '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>'
+    )
+    robot = rd.Robot.from_text(text)
+    for method in (robot.aba, robot.forward_dynamics):
+        with pytest.raises(rd.NotPositiveDefinite, match="elbow") as error:
+            method(np.zeros(2), np.zeros(2), np.zeros(2))
+        assert (error.value.joint, error.value.coordinate, error.value.state) == ("elbow", 1, 0)
+    good = rd.Robot("ur5e")
+    q, v, _, tau = states(good, 3000)
+    q[2071, 3] = np.nan
+    with pytest.raises(rd.NotPositiveDefinite) as error:
+        good.aba(q, v, tau)
+    assert error.value.state == 2071

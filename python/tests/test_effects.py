@@ -1,0 +1,104 @@
+"""Scenes are composed as in the library, and refused as its compiler would."""
+
+import numpy as np
+import pytest
+
+import robot_dynamics as rd
+from trees import states
+
+ONES = [1.0] * 6
+
+
+def arm():
+    robot = rd.Robot("ur5e")
+    return robot, *states(robot, 1)
+
+
+def test_terms_add_up_to_the_whole():
+    robot, q, v, a, _ = arm()
+    parts = [rd.Gravity(), rd.Inertia(), rd.Coriolis(), rd.Viscous([0.5] * 6)]
+    whole = robot.rnea(q, v, a, parts[0] + parts[1] + parts[2] + parts[3])
+    assert np.allclose(whole, sum(robot.rnea(q, v, a, part) for part in parts), rtol=0, atol=1e-12)
+    assert np.array_equal(whole, robot.rnea(q, v, a, tuple(parts)))
+    assert np.array_equal(robot.rnea(q, v, a), robot.rnea(q, v, a, rd.RIGID_BODY))
+    assert np.array_equal(robot.rnea(q, v, a, ()), np.zeros((1, 6)))
+    assert np.allclose(robot.rnea(q, v, a, rd.Inertia())[0], robot.crba(q)[0] @ a[0], rtol=0, atol=1e-12)
+
+
+def test_friction_and_springs_have_their_closed_forms():
+    robot, q, v, a, _ = arm()
+    alone = lambda effect: robot.rnea(q, v, a, effect)[0]  # noqa: E731
+    k = np.arange(1.0, 7.0)
+    assert np.allclose(alone(rd.Viscous(k)), k * v[0])
+    assert np.allclose(alone(rd.Coulomb(k, 1e-3)), k * np.sign(v[0]))
+    expected = np.where(v[0] > 0, 2 * k, -k)
+    assert np.allclose(alone(rd.AsymmetricCoulomb(2 * k, k, 1e-3)), expected)
+    assert np.allclose(alone(rd.Stribeck(k, 0.5, 1e-3)), k * np.exp(-((v[0] / 0.5) ** 2)) * np.sign(v[0]))
+    assert np.allclose(alone(rd.Spring(k, [0.1] * 6)), k * (q[0] - 0.1))
+    assert np.allclose(alone(rd.Cogging([3.0] * 6, [[1.0]] * 6, [[2.0]] * 6)), np.cos(3 * q[0]) + 2 * np.sin(3 * q[0]))
+    bristles = rd.Lugre(100 * k, k, k, 2 * k, k, 0.1, [0.001] * 6)
+    g = (2 * k + k * np.exp(-((v[0] / 0.1) ** 2))) / (100 * k)
+    rate = v[0] - np.abs(v[0]) / g * 0.001
+    assert np.allclose(alone(bristles), 100 * k * 0.001 + k * rate + k * v[0])
+    stops = rd.EndStops([-1.0] * 6, ONES, 1000.0, 0.0, 0.01)
+    assert np.allclose(alone(stops), 1000 * (np.maximum(q[0] - 1, 0) - np.maximum(-1 - q[0], 0)))
+    assert np.allclose(robot.crba(q, rd.Inertia() + rd.Armature(k)) - robot.crba(q), np.diag(k))
+
+
+def test_loads_wrenches_and_bases_act():
+    robot, q, v, a, tau = arm()
+    wrench = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
+    body = robot.bodies[-1]
+    local = robot.rnea(q, v, a, rd.RIGID_BODY + rd.BodyWrench(body, wrench)) - robot.rnea(q, v, a)
+    assert np.allclose(local[0], -robot.jacobian(q, body)[0].T @ wrench)
+    world = robot.rnea(q, v, a, rd.RIGID_BODY + rd.WorldWrench(5, wrench)) - robot.rnea(q, v, a)
+    assert np.allclose(world[0], -robot.jacobian(q, body, "local_world_aligned")[0].T @ wrench)
+    load = rd.RIGID_BODY + rd.Payload(body, 2.0, [0.0, 0.0, 0.1], [0.01, 0.0, 0.0, 0.01, 0.0, 0.01])
+    assert robot.crba(q, load)[0, 0, 0] > robot.crba(q)[0, 0, 0]
+    assert np.allclose(robot.aba(q, v, robot.rnea(q, v, a, load), load), a, atol=1e-9)
+    assert np.allclose(robot.forward_dynamics(q, v, robot.rnea(q, v, a, load), load), a, atol=1e-9)
+    lift = rd.Inertia() + rd.Coriolis() + rd.MovingBase([0.0] * 6, [0.0, 0.0, 0.0, 0.0, 0.0, 9.81])
+    assert np.allclose(robot.rnea(q, v, a, lift), robot.rnea(q, v, a))
+    gears = rd.RIGID_BODY + rd.LoadFriction([0.2] * 6, [0.1] * 6, 0.01)
+    motor = robot.rnea(q, v, a, gears)
+    assert np.allclose(robot.transmitted_torque(q, v, motor, gears), robot.rnea(q, v, a), atol=1e-9)
+    ground = rd.Contact([(body, [0.0, 0.0, 0.0])], [0.0, 0.0, 1.0], 10.0, 100.0, 1.0, 0.01, 0.5, 0.01)
+    assert not np.allclose(robot.rnea(q, v, a, rd.RIGID_BODY + ground), robot.rnea(q, v, a))
+
+
+def test_two_of_a_kind_are_refused():
+    for effect in (rd.Gravity(), rd.Inertia(), rd.Coriolis(), rd.Viscous(ONES), rd.Coulomb(ONES, 0.1)):
+        with pytest.raises(rd.EffectError) as error:
+            effect + effect
+        assert error.value.effect == effect.names[0]
+        with pytest.raises(rd.EffectError):
+            rd.Robot("ur5e").gravity(np.zeros(6), (effect, effect))
+    springs = rd.Spring(ONES, ONES) + rd.Spring(ONES, ONES)
+    assert springs.names == ["Spring", "Spring"] and len(springs) == 2 and "Spring" in springs
+
+
+def test_impossible_effects_are_refused():
+    robot, q, v, a, tau = arm()
+    with pytest.raises(rd.EffectError, match="5 numbers for 6") as error:
+        robot.rnea(q, v, a, rd.RIGID_BODY + rd.Viscous([1.0] * 5))
+    assert error.value.effect == "Viscous"
+    with pytest.raises(rd.EffectError, match="no body"):
+        robot.rnea(q, v, a, rd.RIGID_BODY + rd.BodyWrench("hand", ONES))
+    with pytest.raises(rd.EffectError, match="mass"):
+        robot.rnea(q, v, a, rd.RIGID_BODY + rd.Payload(0, -1.0))
+    for effect in (rd.Gravity() + rd.Coriolis(), ()):
+        with pytest.raises(rd.EffectError, match="needs Inertia"):
+            robot.aba(q, v, tau, effect)
+    for wrong in (1.0, "Gravity", [1.0]):
+        with pytest.raises(rd.EffectError):
+            robot.rnea(q, v, a, wrong)
+    with pytest.raises(rd.EffectError, match="length 1"):
+        rd.Gravity(direction=[0.0, 0.0, -2.0])
+    with pytest.raises(rd.EffectError, match="not finite"):
+        rd.Viscous([float("nan")])
+    with pytest.raises(rd.EffectError, match="width"):
+        rd.Coulomb([1.0], 0.0)
+    with pytest.raises(rd.UnknownBody):
+        rd.Payload(None, 1.0)
+    with pytest.raises(rd.EffectError, match="harmonics"):
+        robot.rnea(q, v, a, rd.Cogging(ONES, [[1.0] * 9] * 6, [[]] * 6))

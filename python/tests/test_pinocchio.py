@@ -1,0 +1,178 @@
+"""float64 against Pinocchio, on robots of random shape: fixed and floating base, chains and trees."""
+
+import numpy as np
+import pytest
+
+import robot_dynamics as rd
+from trees import Peer, states, urdf
+
+pin = pytest.importorskip("pinocchio")
+
+# Within this share of the largest entry.
+FULL_SCALE = 1e-12
+ROBOTS = {
+    "arm": (dict(seed=1, joints=6, chain=True, kinds=("revolute",)), False),
+    "turning": (dict(seed=2, joints=7, chain=True, kinds=("revolute", "continuous")), False),
+    "tree": (dict(seed=3, joints=12, kinds=("revolute",)), False),
+    "mixed": (dict(seed=4, joints=10), False),
+    "large": (dict(seed=5, joints=40), False),
+    "floating": (dict(seed=6, joints=8, kinds=("revolute", "prismatic")), True),
+    "walker": (dict(seed=7, joints=29, kinds=("revolute",)), True),
+}
+
+
+@pytest.fixture(params=ROBOTS, scope="module")
+def pair(request):
+    shape, free = ROBOTS[request.param]
+    text = urdf(**shape)
+    robot = rd.Robot.from_text(text, free_base=free, exact=False)
+    return robot, Peer(text, free), states(robot, 20)
+
+
+def near(found, expected, share=FULL_SCALE):
+    scale = np.abs(expected).max()
+    assert np.abs(found - expected).max() <= share * scale
+
+
+def matrix(peer, robot, m):
+    """A matrix of Pinocchio's velocity coordinates in ours."""
+    columns = np.array([peer.back(robot, row) for row in m])
+    return np.array([peer.back(robot, column) for column in columns.T]).T
+
+
+def test_inverse_dynamics_is_pinocchios(pair):
+    robot, peer, (q, v, a, _) = pair
+    expected = [
+        peer.back(robot, pin.rnea(peer.model, peer.data, peer.q(robot, x), peer.v(robot, y), peer.v(robot, z)))
+        for x, y, z in zip(q, v, a)
+    ]
+    near(robot.rnea(q, v, a), np.array(expected))
+    bias = [
+        peer.back(robot, pin.nonLinearEffects(peer.model, peer.data, peer.q(robot, x), peer.v(robot, y)))
+        for x, y in zip(q, v)
+    ]
+    near(robot.bias(q, v), np.array(bias))
+    gravity = [
+        peer.back(robot, pin.computeGeneralizedGravity(peer.model, peer.data, peer.q(robot, x))) for x in q
+    ]
+    near(robot.gravity(q), np.array(gravity))
+
+
+def test_inertia_matrix_is_pinocchios(pair):
+    robot, peer, (q, *_) = pair
+    for x, m in zip(q, robot.crba(q)):
+        found = pin.crba(peer.model, peer.data, peer.q(robot, x))
+        found = np.triu(found) + np.triu(found, 1).T
+        near(m, matrix(peer, robot, found))
+        near(robot.inverse_mass(x) @ m, np.eye(robot.nv), 1e-9)
+
+
+def test_forward_dynamics_is_pinocchios(pair):
+    robot, peer, (q, v, _, tau) = pair
+    for x, y, t in zip(q, v, tau):
+        expected = peer.back(
+            robot, pin.aba(peer.model, peer.data, peer.q(robot, x), peer.v(robot, y), peer.v(robot, t))
+        )
+        # Accelerations are off by the condition of M times the rounding of torques.
+        condition = np.linalg.cond(robot.crba(x))
+        share = max(FULL_SCALE, condition * 2.0**-50)
+        near(robot.aba(x, y, t), expected, share)
+        near(robot.forward_dynamics(x, y, t), expected, share)
+
+
+def test_kinematics_are_pinocchios(pair):
+    robot, peer, (q, v, a, _) = pair
+    body = robot.bodies[-1]
+    joint = robot.joints[-1]
+    index = peer.model.getJointId(joint)
+    for x, y, z in zip(q, v, a):
+        pq, pv, pa = peer.q(robot, x), peer.v(robot, y), peer.v(robot, z)
+        pin.forwardKinematics(peer.model, peer.data, pq, pv, pa)
+        pose = peer.data.oMi[index]
+        rotations, positions = robot.poses(x)
+        near(rotations[-1], pose.rotation)
+        near(positions[-1], pose.translation)
+        velocities, accelerations = robot.kinematics(x, y, z)
+        motion = peer.data.v[index]
+        near(velocities[-1], np.concatenate([motion.angular, motion.linear]))
+        motion = peer.data.a[index]
+        near(accelerations[-1], np.concatenate([motion.angular, motion.linear]))
+        pin.computeJointJacobians(peer.model, peer.data, pq)
+        for frame, reference in [("local", pin.LOCAL), ("world", pin.WORLD), ("local_world_aligned", pin.LOCAL_WORLD_ALIGNED)]:
+            theirs = pin.getJointJacobian(peer.model, peer.data, index, reference)
+            rows = np.array([peer.back(robot, row) for row in theirs])
+            near(robot.jacobian(x, body, frame), np.vstack([rows[3:], rows[:3]]))
+
+
+def test_energy_and_momentum_are_pinocchios(pair):
+    robot, peer, (q, v, _, _) = pair
+    loose = robot.parents[0] is None and robot.joint_kinds[0] == "free"
+    for x, y in zip(q, v):
+        pq, pv = peer.q(robot, x), peer.v(robot, y)
+        near(robot.kinetic_energy(x, y), pin.computeKineticEnergy(peer.model, peer.data, pq, pv))
+        pin.computeCentroidalMomentum(peer.model, peer.data, pq, pv)
+        found = peer.data.hg
+        if loose:
+            near(robot.centroidal_momentum(x, y), np.concatenate([found.angular, found.linear]))
+            mass, position, velocity = robot.center_of_mass(x, y)
+            pin.centerOfMass(peer.model, peer.data, pq, pv)
+            near(position, peer.data.com[0])
+            near(velocity, peer.data.vcom[0])
+            near(robot.centroidal_matrix(x) @ y, robot.centroidal_momentum(x, y))
+            near(mass, sum(inertia.mass for inertia in peer.model.inertias))
+            up = pin.computePotentialEnergy(peer.model, peer.data, pq)
+            near(robot.potential_energy(x), up)
+
+
+def test_operational_space_is_j_minv_jt(pair):
+    robot, _, (q, v, _, _) = pair
+    for x, y in zip(q[:5], v):
+        j, m_inv = robot.jacobian(x, robot.nv and robot.bodies[-1]), robot.inverse_mass(x)
+        expected = j @ m_inv @ j.T
+        near(robot.osim_inverse(x, robot.bodies[-1]), expected, 1e-10)
+        found_j, response, mobility, _ = robot.operational_space(x, robot.bodies[-1])
+        near(found_j, j)
+        near(mobility, expected, 1e-10)
+        near(response, j @ m_inv, 1e-10)
+        bias = robot.bias_acceleration(x, y, robot.bodies[-1])
+        _, accelerations = robot.kinematics(x, y, np.zeros(robot.nv))
+        near(bias, accelerations[-1])
+
+
+def test_regressor_times_parameters_is_torque(pair):
+    robot, _, (q, v, a, _) = pair
+    y = robot.regressor(q[0], v[0], a[0])
+    assert y.shape == (robot.nv, len(robot.bodies), 10)
+    # Of a load only the mass column of its body changes torque: the regressor's first column.
+    load = robot.rnea(q[0], v[0], a[0], rd.RIGID_BODY + rd.Payload(robot.bodies[-1], 1.0))
+    near(load - robot.rnea(q[0], v[0], a[0]), y[:, -1, 0], 1e-10)
+
+
+def test_coriolis_matrix_and_momenta_agree_with_bias(pair):
+    robot, _, (q, v, _, _) = pair
+    for x, y in zip(q[:5], v):
+        c = robot.coriolis_matrix(x, y)
+        near(c @ y, robot.bias(x, y, rd.Coriolis()), 1e-11)
+        p, ct_qd = robot.momentum_and_coriolis(x, y)
+        near(p, robot.crba(x) @ y, 1e-11)
+        near(ct_qd, c.T @ y, 1e-11)
+        _, beta = robot.momentum_and_drift(x, y)
+        near(beta, c.T @ y - robot.gravity(x), 1e-11)
+
+
+def test_hybrid_dynamics_agrees_with_both(pair):
+    robot, _, (q, v, _, tau) = pair
+    mask = np.arange(robot.nv) % 2.0
+    given = np.where(mask == 0.0, tau[0], 1.0)
+    torque, acceleration = robot.hybrid_dynamics(q[0], v[0], given, mask)
+    near(robot.rnea(q[0], v[0], acceleration), torque, 1e-9)
+    assert np.array_equal(acceleration[mask == 1.0], given[mask == 1.0])
+    assert np.array_equal(torque[mask == 0.0], given[mask == 0.0])
+
+
+def test_configurations_integrate_and_differ(pair):
+    robot, _, (q, v, _, _) = pair
+    there = robot.integrate(q, 0.3 * v)
+    near(robot.difference(q, there), 0.3 * v, 1e-11)
+    assert np.abs(robot.difference(q, q)).max() < 1e-15
+    assert robot.neutral().shape == (robot.nq,)

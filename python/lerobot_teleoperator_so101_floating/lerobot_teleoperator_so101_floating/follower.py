@@ -1,8 +1,8 @@
 """The load of a follower, from what LeRobot's so101_follower observes: positions alone.
 
 The servo of a joint gives the duty P · 0.166 per radian by which its position is off its goal (0.166 and the motor's numbers: the
-source of `motors.py`). At rest that torque and the surroundings' carry the joint's weight, of which the model is known. While the arm moves,
-the error also has friction and lag in it: `dead_band` leaves them out. Not tried on hardware.
+source of `motors.py`). At rest that torque and the surroundings' carry the joint's weight, of which the model is known. While
+the arm moves, the error also has friction and lag in it: `dead_band` leaves them out. Not tried on hardware.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """A second process that switches the torque off if the first ends without having done so.
 
-It waits at a pipe whose other end the first process holds: however that one ends, the pipe closes. The byte `d` before the end says
-that the torque is off; anything else, or none, makes the guardian open the port and send until the servos confirm.
+It waits at a pipe whose other end the first process holds: however that one ends, the pipe closes. The byte `d` before the end
+says that the torque is off; anything else, or none, makes the guardian open the port and send until the servos confirm.
 
     python -m lerobot_teleoperator_so101_floating.guardian PORT BAUD_RATE SECONDS ID…
 """
@@ -21,7 +21,7 @@ class Guardian:
         # As a file, not as a module: the package imports LeRobot, which takes seconds.
         command = [sys.executable, str(Path(__file__)), port, str(baud_rate), str(seconds), *map(str, servos)]
         # A group of its own: Ctrl-C in a terminal is for the first process.
-        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, start_new_session=True)  # noqa: S603
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, start_new_session=True)
 
     def dismiss(self) -> None:
         """The torque is off: nothing is left to do."""

@@ -1,8 +1,8 @@
 """The law of an arm that floats: observer, friction that is compensated in part, walls, and the follower's load.
 
-Observer and friction are those of the firmware's `Observer` and `HandGuiding` (motion-control), of which the guide has the reasons
-and the measurements: with a share σ of at most 1/(1 + ε) the compensation never exceeds the friction that there is, and by the
-errors of gravity it is smaller still, so that an arm that is released comes to rest.
+Observer and friction are those of the firmware's `Observer` and `HandGuiding` (motion-control), of which the guide has the
+reasons and the measurements: with a share σ of at most 1/(1 + ε) the compensation never exceeds the friction that there is,
+and by the errors of gravity it is smaller still, so that an arm that is released comes to rest.
 """
 
 import math

@@ -98,8 +98,8 @@ class Plausibility:
     def _frozen(self, now: float, place: int, reading: Reading) -> None:
         """A position that stands while the servo's own speed says that it moves."""
         frozen = self._frozen_since[place]
-        # Below this speed the position may stand at one count for as long.
-        if abs(reading.speed) < 2.0 / self.config.stale_time:
+        # Slower than ten counts in this time, the noise of either could look like it.
+        if abs(reading.speed) < 10.0 / self.config.stale_time:
             self._frozen_since[place] = None
         elif frozen is None or abs(reading.position - frozen[1]) > 1:
             self._frozen_since[place] = (now, reading.position)

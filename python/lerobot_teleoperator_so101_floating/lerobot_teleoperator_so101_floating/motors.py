@@ -12,8 +12,8 @@ MX-106 for the load-dependent friction, which were identified on a pendulum with
 `so101_teach` of this project's firmware.
 
 Assumed, and not measured on a leader: the servos with the gears 1:191 and 1:147 have the same motor, so that torque constant and
-dry friction grow with the reduction, and armature and viscous friction with its square; the share of the load that a gear takes is
-the same.
+dry friction grow with the reduction, and armature and viscous friction with its square; the share of the load that a gear
+takes is the same.
 """
 
 from dataclasses import dataclass

@@ -2,8 +2,8 @@
 
 The SDK under `FeetechMotorsBus` reads one register of all servos and stops at the first that does not reply, without saying
 which; it drops the status that a reply carries, and takes replies that came late for those to the next request. The loop needs
-six registers at once, from every servo that replies, and the reason of each that did not. What is done once, at connection, is left
-to `FeetechMotorsBus`.
+six registers at once, from every servo that replies, and the reason of each that did not. What is done once, at connection, is
+left to `FeetechMotorsBus`.
 
 Source: Feetech, "Communication Protocol User Manual", and the memory table of the magnetic STS servos. Signs are one bit above
 the magnitude: bit 15 of position and speed, bit 10 of duty and load.

@@ -12,9 +12,8 @@ stand_ins.install()
 
 import numpy as np  # noqa: E402
 import pytest  # noqa: E402
-from simulated import Arm, Bus, Servo, Still  # noqa: E402
-
 from lerobot.motors.feetech import feetech  # noqa: E402
+from simulated import Arm, Bus, Servo, Still  # noqa: E402
 
 _patient = feetech.patch_setPacketTimeout
 
@@ -85,7 +84,13 @@ class Bench:
         from lerobot_teleoperator_so101_floating import So101FloatingConfig
 
         # A long time for replies: the machine that runs the tests may be busy, and in lockstep nothing waits.
-        settings = {"background": False, "guardian": False, "gears": SCENE_GEARS, "release_time": 0.2, "reply_time": 0.2} | options
+        settings = {
+            "background": False,
+            "guardian": False,
+            "gears": SCENE_GEARS,
+            "release_time": 0.2,
+            "reply_time": 0.2,
+        } | options
         return So101FloatingConfig(id="bench", calibration_dir=self.folder, port=bus.port, **settings)
 
     def teleoperator(self, bus, **options):

@@ -24,7 +24,9 @@ class StandIn(types.ModuleType):
         if name.startswith("__"):
             raise AttributeError(name)
         # Names in capitals become classes, which may be inherited from.
-        made = type(name, (), {"__init__": lambda self, *a, **k: None}) if name[0].isupper() else StandIn(f"{self.__name__}.{name}")
+        made = (
+            type(name, (), {"__init__": lambda self, *a, **k: None}) if name[0].isupper() else StandIn(f"{self.__name__}.{name}")
+        )
         setattr(self, name, made)
         return made
 

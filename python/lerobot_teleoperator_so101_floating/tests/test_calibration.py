@@ -4,6 +4,7 @@ import copy
 
 import pytest
 from conftest import JOINTS, calibration
+
 from lerobot_teleoperator_so101_floating import JointOutOfRange, WrongCalibration, WrongConfiguration, WrongServos
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 FRESH = """
-import sys
+import pathlib, sys
 sys.path.insert(0, {here!r})
 import stand_ins
 stand_ins.install()
@@ -16,7 +16,8 @@ from lerobot.teleoperators import TeleoperatorConfig, Teleoperator, make_teleope
 assert "so101_floating" not in TeleoperatorConfig.get_known_choices()
 assert "lerobot_teleoperator_so101_floating" not in sys.modules
 register_third_party_plugins()
-config = TeleoperatorConfig.get_choice_class("so101_floating")(port="/dev/null", id="fresh", calibration_dir=__import__("pathlib").Path({folder!r}))
+made = TeleoperatorConfig.get_choice_class("so101_floating")
+config = made(port="/dev/null", id="fresh", calibration_dir=pathlib.Path({folder!r}))
 made = make_teleoperator_from_config(config)
 assert isinstance(made, Teleoperator) and config.type == "so101_floating", made
 print(type(made).__name__)
@@ -31,6 +32,7 @@ def test_a_fresh_lerobot_finds_the_installed_plugin(tmp_path):
 
 def test_the_class_implements_all_of_the_base_class():
     from lerobot.teleoperators import Teleoperator
+
     from lerobot_teleoperator_so101_floating import So101Floating, So101FloatingConfig
 
     assert issubclass(So101Floating, Teleoperator) and not So101Floating.__abstractmethods__
@@ -60,7 +62,8 @@ def test_lerobots_command_line_sets_every_field(tmp_path):
 
     arguments = [
         "--robot.type=so101_follower", "--robot.port=/dev/null", "--teleop.type=so101_floating", "--teleop.port=/dev/zero",
-        "--teleop.gears=[345, 345, 345, 345, 345, 345]", "--teleop.friction_share=0.5", "--teleop.supply=5.0", "--teleop.guardian=false",
+        "--teleop.gears=[345, 345, 345, 345, 345, 345]", "--teleop.friction_share=0.5", "--teleop.supply=5.0",
+        "--teleop.guardian=false",
     ]  # fmt: skip
     config = draccus.parse(TeleoperateConfig, args=arguments).teleop
     assert config.gears == (345.0,) * 6 and config.friction_share == 0.5 and config.supply == 5.0 and not config.guardian

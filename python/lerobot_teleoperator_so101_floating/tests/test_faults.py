@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import JOINTS
+
 from lerobot_teleoperator_so101_floating import (
     BusLost,
     CorruptReplies,
@@ -251,7 +252,9 @@ def test_a_model_without_numbers_ends_without_torque(warm, answer):
     no_torque(bus)
 
 
-@pytest.mark.parametrize("feedback", [{"elbow_flex.torque": float("nan")}, {"elbow.torque": 0.1}, {"gripper.pos": 0.1}, {"gripper.torque": "x"}])
+@pytest.mark.parametrize(
+    "feedback", [{"elbow_flex.torque": float("nan")}, {"elbow.torque": 0.1}, {"gripper.pos": 0.1}, {"gripper.torque": "x"}]
+)
 def test_wrong_feedback_ends_without_torque(warm, feedback):
     bus, teleoperator = warm
     with pytest.raises(FeedbackRefused):
@@ -309,7 +312,8 @@ import stand_ins
 stand_ins.install()
 from pathlib import Path
 from lerobot_teleoperator_so101_floating import So101Floating, So101FloatingConfig
-config = So101FloatingConfig(id="bench", calibration_dir=Path({folder!r}), port={port!r}, gears=(345.0,) * 6, most_age=5.0, reply_time=0.5)
+numbers = dict(gears=(345.0,) * 6, most_age=5.0, reply_time=0.5)
+config = So101FloatingConfig(id="bench", calibration_dir=Path({folder!r}), port={port!r}, **numbers)
 teleoperator = So101Floating(config)
 teleoperator.connect(calibrate=False)
 time.sleep(0.3)
@@ -320,12 +324,20 @@ print("floats", flush=True)
 
 @pytest.mark.parametrize(
     "end",
-    ["sys.exit(0)", "raise KeyError", "os._exit(3)", "os.kill(os.getpid(), signal.SIGTERM)", "os.kill(os.getpid(), signal.SIGKILL)"],
+    [
+        "sys.exit(0)",
+        "raise KeyError",
+        "os._exit(3)",
+        "os.kill(os.getpid(), signal.SIGTERM)",
+        "os.kill(os.getpid(), signal.SIGKILL)",
+    ],
 )
 def test_however_the_process_ends_the_torque_does(bench, at_rest, end):
     bus = bench.bus(at_rest, step=None)
     program = CHILD.format(here=str(Path(__file__).parent), folder=str(bench.folder), port=bus.port, then=end)
-    child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env=os.environ)
+    child = subprocess.Popen(
+        [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env=os.environ
+    )
     assert child.stdout.readline() == "floats\n"
     child.wait(timeout=20)
     until = time.monotonic() + 10.0

@@ -104,6 +104,7 @@ def test_a_push_on_the_follower_is_felt_at_the_leader(tmp_path, push):
     """Of LeRobot's own follower, from its positions alone; its joints move, and the hand pushes one."""
     from conftest import Bench
     from lerobot.robots.so_follower import SOFollower, SOFollowerRobotConfig
+
     from lerobot_teleoperator_so101_floating import FollowerLoad
 
     posture = np.array([0.0, -0.8, 0.8, 0.5, 0.0, 0.3])
@@ -120,7 +121,7 @@ def test_a_push_on_the_follower_is_felt_at_the_leader(tmp_path, push):
         robot.connect(calibrate=False)
         estimate = FollowerLoad(dead_band=0.0)
         torques = []
-        for tick in range(1000):
+        for tick in range(800):
             action = teleoperator.get_action()
             robot.send_action(action)
             load = estimate.of(action, robot.get_observation())

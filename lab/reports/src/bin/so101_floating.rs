@@ -128,7 +128,9 @@ fn along_the_path() -> Vec<Value> {
         let position = tick as f32 * TICK / (SLOWER * TaughtPath::TICK);
         let [from, to] = [0, 1].map(|next| reference.at(position as u32 + next).q);
         let share = position.fract();
-        let counts = counts(&core::array::from_fn(|j| from[j] + share * (to[j] - from[j])));
+        let counts = counts(&core::array::from_fn(|j| {
+            from[j] + share * (to[j] - from[j])
+        }));
         let estimate = observer.update(&measured(&counts), &[0.0; 6]);
         json!({ "counts": counts, "commands": commands(&estimate) })
     };

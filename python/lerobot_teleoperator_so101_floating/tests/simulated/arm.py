@@ -1,6 +1,7 @@
 """The arm that the servos move: the scene's plant, by the dynamics of the wheel."""
 
 import numpy as np
+
 from simulated import plant
 
 LOWER = np.array([-1.91986, -1.74533, -1.69, -1.65806, -2.74385, -0.174533])

@@ -1,7 +1,7 @@
 """One simulated STS3215: its registers, and the motor that they command.
 
-Written from Feetech's protocol manual and memory table, not with the plug-in's code: what the two understand differently, the tests
-find.
+Written from Feetech's protocol manual and memory table, not with the plug-in's code: what the two understand differently, the
+tests find.
 """
 
 import math

@@ -19,7 +19,8 @@ def floating_dynamics(motors: Motors, urdf: str | None) -> Dynamics:
         robot = rd.Robot("so101") if urdf is None else rd.Robot.from_file(urdf)
     except rd.RobotDynamicsError as error:
         raise WrongConfiguration(f"{urdf} is no description of an arm: {error}") from error
-    if tuple(robot.joints) != JOINTS:
+    # The library's robot names its joints by their links.
+    if urdf is not None and tuple(robot.joints) != JOINTS:
         raise WrongConfiguration(f"{urdf} has the joints {robot.joints} in place of {list(JOINTS)}")
     gravity = rd.Gravity()
     friction = rd.Scene(

@@ -9,27 +9,16 @@ import stand_ins
 
 sys.path.insert(0, str(Path(__file__).parent))
 stand_ins.install()
+stand_ins.be_patient()
 
 import numpy as np  # noqa: E402
 import pytest  # noqa: E402
-from lerobot.motors.feetech import feetech  # noqa: E402
-from simulated import Arm, Bus, Servo, Still  # noqa: E402
-
-_patient = feetech.patch_setPacketTimeout
-
-
-def _patience(self, packet_length):
-    """The SDK's 50 ms for a reply are too few where other tests keep the machine busy."""
-    _patient(self, packet_length)
-    self.packet_timeout += 1000.0
-
-
-feetech.patch_setPacketTimeout = _patience
 
 JOINTS = ("shoulder_pan", "shoulder_lift", "elbow_flex", "wrist_flex", "wrist_roll", "gripper")
 RANGES = ((796, 3298), (910, 3184), (946, 3148), (966, 3128), (0, 4095), (1500, 2751))
 """What a person records: the joints' ends, a full turn of the wrist, and the jaw's 110°."""
 OFFSETS = (-800, 1200, 40, -1500, 300, 900)
+REPOSITORY = Path(__file__).parents[3]
 SCENE_GEARS = (345.0,) * 6
 TICK = 0.005
 

@@ -142,3 +142,29 @@ def test_angles_are_lerobots_degrees(bench, at_rest):
     action = teleoperator.get_action()
     for joint, angle in zip(JOINTS[:5], at_rest.q, strict=False):
         assert abs(np.deg2rad(action[f"{joint}.pos"]) - angle) < 2e-3, joint
+
+
+def test_the_joints_limits_are_those_of_the_model():
+    import numpy as np
+    import robot_dynamics as rd
+    from lerobot_teleoperator_so101_floating.calibration import LOWER, UPPER
+
+    robot = rd.Robot("so101")
+    assert np.array_equal(robot.lower_limits, LOWER) and np.array_equal(robot.upper_limits, UPPER)
+
+
+def test_another_description_is_taken_or_refused(tmp_path):
+    import numpy as np
+    from conftest import REPOSITORY
+    from lerobot_teleoperator_so101_floating.dynamics import floating_dynamics
+    from lerobot_teleoperator_so101_floating.motors import Motors
+
+    q, qd = np.array([0.3, 0.6, -0.6, 0.2, 0.1, 0.3]), np.full(6, 0.2)
+    file = REPOSITORY / "robot-import/tests/urdf/so101.urdf"
+    for own, library in zip(floating_dynamics(Motors(), str(file))(q, qd), floating_dynamics(Motors(), None)(q, qd), strict=True):
+        assert np.allclose(own, library, atol=1e-6)
+    (tmp_path / "renamed.urdf").write_text(file.read_text().replace('"wrist_roll"', '"wrist_yaw"'))
+    (tmp_path / "broken.urdf").write_text("<robot>")
+    for wrong in ("renamed.urdf", "broken.urdf", "none.urdf"):
+        with pytest.raises(WrongConfiguration):
+            floating_dynamics(Motors(), str(tmp_path / wrong))

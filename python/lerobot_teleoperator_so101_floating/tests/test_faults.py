@@ -310,6 +310,7 @@ import sys, time, os, signal
 sys.path.insert(0, {here!r})
 import stand_ins
 stand_ins.install()
+stand_ins.be_patient()
 from pathlib import Path
 from lerobot_teleoperator_so101_floating import So101Floating, So101FloatingConfig
 numbers = dict(gears=(345.0,) * 6, most_age=5.0, reply_time=0.5)
@@ -335,10 +336,9 @@ print("floats", flush=True)
 def test_however_the_process_ends_the_torque_does(bench, at_rest, end):
     bus = bench.bus(at_rest, step=None)
     program = CHILD.format(here=str(Path(__file__).parent), folder=str(bench.folder), port=bus.port, then=end)
-    child = subprocess.Popen(
-        [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env=os.environ
-    )
-    assert child.stdout.readline() == "floats\n"
+    errors = open(bench.folder / "errors", "w+")
+    child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=errors, text=True, env=os.environ)
+    assert child.stdout.readline() == "floats\n", (bench.folder / "errors").read_text()
     child.wait(timeout=20)
     until = time.monotonic() + 10.0
     while any(servo.torque_enabled for servo in bus.servos) and time.monotonic() < until:

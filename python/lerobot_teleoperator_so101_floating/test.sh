@@ -28,7 +28,8 @@ fi
 wheel=${ROBOT_DYNAMICS_WHEEL:-}
 if [ -z "$wheel" ]; then
     rm -rf "$work/wheels"
-    "$python" -m pip wheel -q --disable-pip-version-check --no-deps --wheel-dir "$work/wheels" "$root/python"
+    # Beside the target of python/test.py, whose build is taken up.
+    CARGO_TARGET_DIR="$work/../python" "$python" -m pip wheel -q --disable-pip-version-check --no-deps --wheel-dir "$work/wheels" "$root/python"
     wheel=$(ls "$work"/wheels/robot_dynamics-*.whl)
 fi
 # From a copy: a build leaves files beside the sources.

@@ -13,6 +13,7 @@ stand_ins.be_patient()
 
 import numpy as np  # noqa: E402
 import pytest  # noqa: E402
+from simulated import Arm, Bus, Servo, Still  # noqa: E402
 
 JOINTS = ("shoulder_pan", "shoulder_lift", "elbow_flex", "wrist_flex", "wrist_roll", "gripper")
 RANGES = ((796, 3298), (910, 3184), (946, 3148), (966, 3128), (0, 4095), (1500, 2751))

@@ -147,6 +147,7 @@ def test_angles_are_lerobots_degrees(bench, at_rest):
 def test_the_joints_limits_are_those_of_the_model():
     import numpy as np
     import robot_dynamics as rd
+
     from lerobot_teleoperator_so101_floating.calibration import LOWER, UPPER
 
     robot = rd.Robot("so101")
@@ -156,6 +157,7 @@ def test_the_joints_limits_are_those_of_the_model():
 def test_another_description_is_taken_or_refused(tmp_path):
     import numpy as np
     from conftest import REPOSITORY
+
     from lerobot_teleoperator_so101_floating.dynamics import floating_dynamics
     from lerobot_teleoperator_so101_floating.motors import Motors
 

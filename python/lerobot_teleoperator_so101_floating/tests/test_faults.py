@@ -336,8 +336,10 @@ print("floats", flush=True)
 def test_however_the_process_ends_the_torque_does(bench, at_rest, end):
     bus = bench.bus(at_rest, step=None)
     program = CHILD.format(here=str(Path(__file__).parent), folder=str(bench.folder), port=bus.port, then=end)
-    errors = open(bench.folder / "errors", "w+")
-    child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=errors, text=True, env=os.environ)
+    with open(bench.folder / "errors", "w") as errors:
+        child = subprocess.Popen(
+            [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=errors, text=True, env=os.environ
+        )
     assert child.stdout.readline() == "floats\n", (bench.folder / "errors").read_text()
     child.wait(timeout=20)
     until = time.monotonic() + 10.0

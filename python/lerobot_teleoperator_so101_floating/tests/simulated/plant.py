@@ -2,6 +2,7 @@
 
 import numpy as np
 import robot_dynamics as rd
+
 from lerobot_teleoperator_so101_floating.motors import WIDTH, Motors
 
 

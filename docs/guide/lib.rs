@@ -33,6 +33,7 @@ pages! {
     payload "payload.md",
     learning "learning.md",
     identification "identification.md",
+    lerobot "lerobot.md",
     porting "porting.md",
     engine "engine.md",
     faq "faq.md",

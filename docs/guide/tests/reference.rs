@@ -84,6 +84,12 @@ static DOCUMENTED: LazyLock<Documented> = LazyLock::new(|| {
         let text = read_to_string(&file).expect("a source file");
         names.extend(between(&text, "pub const ", ':').map(str::to_owned));
     }
+    // Classes of Python.
+    for file in files(&root().join("python"), "py") {
+        let text = read_to_string(&file).expect("a source file");
+        let classes = between(&text, "\nclass ", ':').filter_map(|class| class.split('(').next());
+        names.extend(classes.map(str::to_owned));
+    }
     for known in ["Engine", "Gravity::EARTH", "COUPLING", "Batch::new"] {
         assert!(names.contains(known), "{known}");
     }

@@ -67,6 +67,14 @@ pub fn projects(context: &Context) -> Result<String> {
     Ok(boards.to_owned())
 }
 
+/// The plug-in for LeRobot on a simulated bus.
+pub fn lerobot(context: &Context) -> Result<String> {
+    let folder = "python/lerobot_teleoperator_so101_floating";
+    let script = context.workspace.root.join(folder).join("test.sh");
+    let said = shell::capture(&mut Command::new(script))?;
+    Ok(said.lines().last().unwrap_or_default().to_owned())
+}
+
 pub fn debian(context: &Context) -> Result<String> {
     if context.tools.toolchain == Toolchain::Debian {
         return skip("all of this ran with it");

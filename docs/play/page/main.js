@@ -1,0 +1,97 @@
+// Starts the page, and runs it frame by frame.
+import { Library, unpacked } from "./library.js";
+import { View } from "./view.js";
+import { state } from "./state.js";
+import { by, element } from "./words.js";
+import { frame, load, reach, select, start, compute } from "./move.js";
+import { disturbFrame, open, pull, startDisturb } from "./disturb.js";
+import { openCases, runCase, startCases } from "./cases.js";
+import { connect, serialFrame, startSerial } from "./serial.js";
+
+const TABS = ["move", "disturb", "hard", "real"];
+
+function show(tab) {
+  const before = state.tab;
+  state.tab = tab;
+  document.body.dataset.tab = tab;
+  for (const name of TABS) {
+    const chosenTab = name === tab;
+    by(`tab-${name}`).setAttribute("aria-selected", String(chosenTab));
+    by(`tab-${name}`).tabIndex = chosenTab ? 0 : -1;
+    by(`panel-${name}`).hidden = !chosenTab;
+  }
+  if (tab === "disturb") open();
+  if (tab === "hard") openCases();
+  if (tab === "real" && state.robot.key !== "so101") select("so101");
+  if (before === "disturb" && tab === "move") state.view.show(state.robot.about, compute().poses);
+}
+
+function tabs() {
+  TABS.forEach((name, i) => {
+    by(`tab-${name}`).addEventListener("click", () => show(name));
+    by(`tab-${name}`).addEventListener("keydown", (event) => {
+      const way = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+      if (!way) return;
+      const next = TABS[(i + way + TABS.length) % TABS.length];
+      show(next);
+      by(`tab-${next}`).focus();
+    });
+  });
+}
+
+/// What a test reads: the work of each frame, ms, and the moments.
+const times = { work: [], frames: [], firstTorque: null };
+
+function loop(before) {
+  requestAnimationFrame((now) => {
+    const begin = performance.now();
+    const seconds = Math.max(0, (now - before) / 1000);
+    if (state.tab === "move") frame(seconds);
+    else if (state.tab === "disturb") disturbFrame(seconds);
+    else if (state.tab === "real") {
+      serialFrame();
+      frame(0);
+    }
+    if (state.tab !== "hard") state.view.render();
+    times.firstTorque ??= performance.now();
+    times.work.push(performance.now() - begin);
+    times.frames.push(now);
+    if (times.work.length > 600) {
+      times.work.shift();
+      times.frames.shift();
+    }
+    loop(now);
+  });
+}
+
+async function main() {
+  state.data = JSON.parse(by("recorded").textContent);
+  state.library = await Library.load(await unpacked("library"));
+  const { robots, scenes } = state.library.call({ op: "robots" });
+  state.listed = robots;
+  state.scenes = new Map(scenes);
+  state.select = select;
+  by("robot").append(...robots.map(({ key, title }) => element("option", { value: key }, title)));
+  state.view = new View(by("view"), (body, to) => {
+    if (state.tab === "disturb") pull(body, to);
+    else if (state.tab === "move") reach(body, to);
+  });
+  tabs();
+  start();
+  startDisturb();
+  startCases();
+  startSerial();
+  state.swinging = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+  by("swing").setAttribute("aria-pressed", String(state.swinging));
+  select("ur5e");
+  document.body.dataset.ready = "";
+  loop(performance.now());
+}
+
+// For the tests, and for whoever opens the console.
+globalThis.play = { state, times, load, select, reach, pull, runCase, connect, show, cases: () => gallery.all };
+main().catch((error) => {
+  by("said").hidden = false;
+  by("said").classList.add("wrong");
+  by("said").textContent = `This page needs a browser with WebAssembly and DecompressionStream (${error.message}).`;
+});

@@ -8,7 +8,7 @@ import { gzipSync } from "node:zlib";
 import { cases, recorded } from "./data.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const root = resolve(here, "../..");
+export const root = resolve(here, "../..");
 export const target = resolve(root, process.env.CARGO_TARGET_DIR ?? "target");
 
 /// In the order of their dependence: a script uses those before it alone.
@@ -22,12 +22,12 @@ const packed = (bytes) => gzipSync(bytes, { level: 9 }).toString("base64");
 
 /// The library, compiled for size and optimised.
 export function wasm() {
-  run("cargo", ["build", "--package", "play", "--profile", "small", "--target", "wasm32-unknown-unknown", "--quiet"], { cwd: root });
-  const built = join(target, "wasm32-unknown-unknown/small/play.wasm");
+  run("cargo", ["build", "--package", "play", "--profile", "play", "--target", "wasm32-unknown-unknown", "--quiet"], { cwd: root });
+  const built = join(target, "wasm32-unknown-unknown/play/play.wasm");
   const small = join(target, "play.wasm");
   // No option of these changes a number: the rounding of floats in WebAssembly is fixed.
   const features = ["bulk-memory", "nontrapping-float-to-int", "sign-ext", "mutable-globals", "reference-types", "multivalue"];
-  run("wasm-opt", ["-Os", ...features.map((name) => `--enable-${name}`), "--strip-debug", "--strip-producers", built, "-o", small]);
+  run("wasm-opt", ["--duplicate-function-elimination", "--merge-similar-functions", "-Os", ...features.map((name) => `--enable-${name}`), "--strip-debug", "--strip-producers", built, "-o", small]);
   return readFileSync(small);
 }
 

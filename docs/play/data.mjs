@@ -111,9 +111,19 @@ export function recorded(root) {
   };
 }
 
-/// The hard cases: the texts of their files, by name.
+/// The digits that the page keeps of the suite's fifty: f64, in which errors are measured, reads the same number from them.
+const KEPT = 25;
+
+/// The hard cases: a list of their files, by name, with answers of [`KEPT`] digits.
 export function cases(root) {
   const folder = join(root, "host-tests/suite/cases");
   const files = readdirSync(folder).filter((name) => name.endsWith(".json")).sort();
-  return `[${files.map((name) => readFileSync(join(folder, name), "utf8")).join(",\n")}]`;
+  const shorter = (whole, digits) => {
+    const [, head, rest = ""] = /^([^e]*)(e.*)?$/i.exec(digits);
+    const short = Number(head.slice(0, KEPT) + rest) === Number(digits) && head.includes(".") ? head.slice(0, KEPT) + rest : digits;
+    refuse(Number(short) === Number(digits), `${digits} of a case loses its value`);
+    return `"${short}"`;
+  };
+  const texts = files.map((name) => readFileSync(join(folder, name), "utf8").replace(/"(-?[0-9][0-9.e+-]{20,})"/gi, shorter));
+  return `[${texts.join(",\n")}]`;
 }

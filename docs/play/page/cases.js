@@ -21,7 +21,7 @@ export async function openCases() {
     return element("tr", {}, element("th", { scope: "row" }, `${one.case}. ${one.title}`, element("span", { class: "note" }, one.reason)),
       element("td", {}, String(one.robot.links.length)), single, double, element("td", {}, button));
   }));
-  write(by("case-count"), `${gallery.all.length} files, each with answers of 50 digits.`);
+  write(by("case-count"), `${gallery.all.length} robots, with answers that were computed in 50 digits.`);
 }
 
 /// Runs a case and shows its errors as shares of their bounds.

@@ -105,7 +105,7 @@ function chart() {
     context.moveTo(58, y(10 ** power));
     context.lineTo(width, y(10 ** power));
     context.stroke();
-    if (power % 2 === 0 || power === high) context.fillText(`${10 ** power} mrad`, 0, y(10 ** power) + 4);
+    if (power % 2 === 0) context.fillText(`${10 ** power} mrad`, 0, y(10 ** power) + 4);
   }
   context.strokeStyle = disturb.colour("accent");
   context.lineWidth = 1.5;

@@ -67,7 +67,7 @@ export class Drawn {
     const points = [];
     for (let i = -10; i <= 10; i++) points.push(i * step, -10 * step, 0, i * step, 10 * step, 0, -10 * step, i * step, 0, 10 * step, i * step, 0);
     const geometry = new ogl.Geometry(this.gl, { position: { size: 3, data: new Float32Array(points) } });
-    this.grid = this.mesh(geometry, colour, { flat: true, mode: this.gl.LINES, opacity: 0.5 });
+    this.grid = this.mesh(geometry, colour, { flat: true, mode: this.gl.LINES, opacity: 0.6 });
   }
 
   /// The meshes of a robot of this size.

@@ -2,5 +2,6 @@
 
 fn main() {
     println!("cargo:rustc-link-arg-cdylib=-zstack-size=16777216");
+    println!("cargo:rustc-link-arg-examples=-zstack-size=16777216");
     println!("cargo:rerun-if-changed=build.rs");
 }

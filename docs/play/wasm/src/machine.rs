@@ -5,7 +5,9 @@ use dynamics_core::algorithms::{
 };
 use dynamics_core::effects::{Armature, Coriolis, Coulomb, GravityVector, Inertia, Viscous, Width};
 use dynamics_core::glam::DVec3;
-use dynamics_core::model::{JointKind, Model, RobotModel};
+use dynamics_core::model::{
+    ArmModel, BASE, Body, Joint, JointKind, Model, Robot, RobotModel, model,
+};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::{State, manifold};
@@ -187,11 +189,6 @@ impl<const B: usize, const Q: usize, const V: usize> Sized<B, Q, V> {
         rates
     }
 
-    fn friction(&self, of: fn(&Friction) -> &[f64], on: bool) -> [f64; V] {
-        let given = self.friction.as_ref().filter(|_| on).map(of);
-        self.rates(given.unwrap_or_default())
-    }
-
     fn of_joints<R: Real>(&self, all: &[R; V]) -> Vec<f64> {
         self.joints().map(|(_, _, at)| all[at].to_f64()).collect()
     }
@@ -224,21 +221,31 @@ impl<const B: usize, const Q: usize, const V: usize> Sized<B, Q, V> {
             qdd: if on.inertia { qdd } else { [o; V] },
         };
         let mut tau = rnea(model, &at, &rigid);
-        let width = self
-            .friction
-            .as_ref()
-            .map_or(1.0, |friction| friction.width);
-        let joints = (
-            Viscous(real(self.friction(|f| &f.viscous, on.viscous))),
-            Coulomb {
-                torque: real(self.friction(|f| &f.coulomb, on.coulomb)),
-                width: Width::new(R::from_f64(width)),
-            },
-            Armature(real(self.friction(|f| &f.armature, on.armature))),
-        );
-        let of_joints = rnea(model, &State { q, qd, qdd }, &joints);
-        tau.iter_mut().zip(of_joints).for_each(|(tau, x)| *tau += x);
+        for (number, (_, _, v)) in self.joints().enumerate() {
+            tau[v] += self.friction_of(number, state.qd[v], state.qdd[v], on);
+        }
         tau
+    }
+
+    /// The torque of friction and rotor of a joint. They are the same on every robot: a joint without mass has them too, so
+    /// that one instance of inverse dynamics serves all.
+    fn friction_of<R: Real>(&self, number: usize, qd: f64, qdd: f64, on: &On) -> R {
+        let Some(friction) = &self.friction else {
+            return R::ZERO;
+        };
+        let of = |values: &[f64], on: bool| match on {
+            true => [R::from_f64(values[number])],
+            false => [R::ZERO],
+        };
+        let effects = (
+            Viscous(of(&friction.viscous, on.viscous)),
+            Coulomb {
+                torque: of(&friction.coulomb, on.coulomb),
+                width: Width::new(R::from_f64(friction.width)),
+            },
+            Armature(of(&friction.armature, on.armature)),
+        );
+        friction_alone([qd, qdd].map(R::from_f64), &effects)
     }
 
     /// A coordinate within its joint's limits.
@@ -246,6 +253,29 @@ impl<const B: usize, const Q: usize, const V: usize> Sized<B, Q, V> {
         let limits = &self.exact.links[body].limits;
         q.max(limits.lower).min(limits.upper)
     }
+}
+
+/// A joint without mass.
+struct OneJoint;
+
+impl Robot<1, 1, 1> for OneJoint {
+    const MODEL: ArmModel<f64, 1> = Model::new(
+        "joint",
+        [Body::new("joint", BASE, Joint::revolute([0.0, 0.0, 1.0]))],
+    );
+}
+
+type OfJoint<R> = (Viscous<R, 1>, Coulomb<R, 1>, Armature<R, 1>);
+
+#[inline(never)]
+fn friction_alone<R: Real>([qd, qdd]: [R; 2], effects: &OfJoint<R>) -> R {
+    let state = State {
+        q: [R::ZERO],
+        qd: [qd],
+        qdd: [qdd],
+    };
+    let [tau] = rnea(model::<R, OneJoint, 1, 1, 1>(), &state, effects);
+    tau
 }
 
 fn finite(x: f64) -> Option<f64> {

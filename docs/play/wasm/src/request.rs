@@ -68,8 +68,6 @@ enum Request {
     SerialReply {
         bytes: Vec<u8>,
     },
-    /// The lines of the host's bin `bits`.
-    Bits,
 }
 
 type Answer = Result<Value, String>;
@@ -146,19 +144,6 @@ impl Session {
             }
             Request::SerialRequest => value(serial::request().map_err(|error| error.to_string())?),
             Request::SerialReply { bytes } => value(serial::positions(&bytes)?),
-            Request::Bits => value(bits()),
         }
     }
-}
-
-/// The digests of `cargo xtask test bits`, as the bin `bits` of the host prints them.
-pub fn bits() -> Vec<String> {
-    let mut lines = Vec::new();
-    lab_target::recorded::digests(|robot, quantity, digest| {
-        lines.push(format!("bits {robot} {quantity} {:016x}", digest.0));
-    });
-    lab_target::hard::digests(|case, name, digest| {
-        lines.push(format!("bits hard {case} {name} {:016x}", digest.0));
-    });
-    lines
 }

@@ -295,8 +295,9 @@ where
                 .tick::<PdAlone<S>, _, _>(&self.reference, &input),
         };
         self.clock = telemetry.tick;
-        self.advance(by, now, stuck);
+        // The reference is that of this tick: it is compared with where the arm is now.
         self.show(&telemetry, shown);
+        self.advance(by, now, stuck);
         self.tick += 1;
     }
 

@@ -42,26 +42,47 @@ function tabs() {
 /// What a test reads: the work of each frame, ms, and the moments.
 const times = { work: [], frames: [], firstTorque: null };
 
+/// What a frame does after so many seconds; returns its work, ms.
+function step(seconds) {
+  const begin = performance.now();
+  if (state.tab === "move") frame(seconds);
+  else if (state.tab === "disturb") disturbFrame(seconds);
+  else if (state.tab === "real") {
+    serialFrame();
+    frame(0);
+  }
+  if (state.tab !== "hard") state.view.render();
+  times.firstTorque ??= performance.now();
+  return performance.now() - begin;
+}
+
 function loop(before) {
   requestAnimationFrame((now) => {
-    const begin = performance.now();
-    const seconds = Math.max(0, (now - before) / 1000);
-    if (state.tab === "move") frame(seconds);
-    else if (state.tab === "disturb") disturbFrame(seconds);
-    else if (state.tab === "real") {
-      serialFrame();
-      frame(0);
-    }
-    if (state.tab !== "hard") state.view.render();
-    times.firstTorque ??= performance.now();
-    times.work.push(performance.now() - begin);
-    times.frames.push(now);
-    if (times.work.length > 600) {
-      times.work.shift();
-      times.frames.shift();
+    if (!times.measuring) {
+      const interval = Math.max(0, now - before);
+      if (state.tab !== "hard") state.view.adapt(interval);
+      times.work.push(step(interval / 1000));
+      times.frames.push(now);
+      if (times.work.length > 600) {
+        times.work.shift();
+        times.frames.shift();
+      }
     }
     loop(now);
   });
+}
+
+/// The work of so many frames of a sixtieth of a second, whichever rate the screen has, ms.
+async function work(count) {
+  const before = times.measuring;
+  times.measuring = true;
+  const all = [];
+  for (let i = 0; i < count; i++) {
+    all.push(step(1 / 60));
+    await new Promise((done) => setTimeout(done));
+  }
+  times.measuring = before;
+  return all;
 }
 
 async function main() {
@@ -89,7 +110,7 @@ async function main() {
 }
 
 // For the tests, and for whoever opens the console.
-globalThis.play = { state, times, load, select, reach, pull, runCase, connect, show, cases: () => gallery.all };
+globalThis.play = { state, times, work, load, select, reach, pull, runCase, connect, show, cases: () => gallery.all, disturb };
 main().catch((error) => {
   by("said").hidden = false;
   by("said").classList.add("wrong");

@@ -74,6 +74,15 @@ export class View {
     return [p[0], p[1], p[2]];
   }
 
+  /// Draws with fewer pixels where frames take long: a phone without a fast GPU, or software.
+  adapt(interval) {
+    this.pace = 0.95 * (this.pace ?? 16) + 0.05 * Math.min(200, interval);
+    if (!this.renderer || this.pace < 28 || this.renderer.dpr < 0.6) return;
+    this.pace = 16;
+    this.renderer.dpr *= 0.75;
+    this.resize();
+  }
+
   render() {
     if (!this.renderer || !this.stale || !this.poses) return;
     this.stale = false;

@@ -86,16 +86,19 @@ const tests = {
     for (const tab of ["move", "disturb"]) {
       await page.click(`#tab-${tab}`);
       await pause(500);
-      const before = await page.evaluate(() => {
-        play.times.work.length = play.times.frames.length = 0;
-        return [play.state.shown?.tick ?? 0, performance.now()];
-      });
-      await pause(5000);
-      const { work, frames, tick, now } = await page.evaluate(() => ({ ...play.times, tick: play.state.shown?.tick ?? 0, now: performance.now() }));
-      const { mean, late } = fluent(work);
+      await page.evaluate(() => void (play.times.work.length = play.times.frames.length = 0));
+      const ticks = () => page.evaluate(() => play.state.shown?.tick ?? 0);
+      const [from, begin] = [await ticks(), performance.now()];
+      await pause(3000);
+      const real = ((await ticks()) - from) / (performance.now() - begin);
+      const frames = await page.evaluate(() => play.times.frames);
       const rate = (1000 * (frames.length - 1)) / (frames.at(-1) - frames[0]);
-      const ticks = tab === "disturb" ? `, ${((1000 * (tick - before[0])) / (now - before[1])).toFixed(0)} ticks of the plant a second` : "";
-      say(`frames, ${tab}`, `${mean.toFixed(2)} ms of work, one in twenty ${late.toFixed(2)} ms, ${rate.toFixed(1)} frames a second by software GL${ticks}`);
+      const before = await ticks();
+      const { mean, late } = fluent(await page.evaluate(() => play.work(300)));
+      const each = ((await ticks()) - before) / 300;
+      if (tab === "disturb") must(each > 16, `${each} ticks of the plant in a frame`);
+      const plant = tab === "disturb" ? ` with ${each.toFixed(1)} ticks of the plant; ${(1000 * real).toFixed(0)} ticks a second` : "";
+      say(`frames, ${tab}`, `${mean.toFixed(2)} ms of work${plant}, one in twenty ${late.toFixed(2)} ms; ${rate.toFixed(0)} frames a second by software GL`);
     }
     await page.close();
     refused("fluent", () => fluent(Array(200).fill(9)));
@@ -252,49 +255,62 @@ const tests = {
     const { page, problems } = await opened(browser, file);
     await page.click("#tab-disturb");
     const shown = () => page.evaluate(() => play.state.shown);
+    /// Lets so many ticks of the plant pass, and so the page's words; returns the largest tracking error of them.
+    const run = async (ticks) => {
+      await page.evaluate((frames) => play.work(frames), Math.ceil((ticks * 60) / 1000));
+      return page.evaluate((ticks) => Math.max(...play.disturb.errors.slice(-ticks)), ticks);
+    };
+    // The test moves time: the same motion on a busy machine as on an idle one.
+    await page.evaluate(() => void (play.times.measuring = true));
     for (const key of ["ur5e", "panda", "scara"]) {
       await page.select("#scene-robot", key);
-      await pause(900);
+      const quiet = await run(1500);
       const calm = await shown();
       must(calm.mode === "Full" && calm.fault === null, `${key} does not run: ${calm.mode}, ${calm.fault}`);
-      const quiet = Math.max(...calm.errors);
       // A push moves the arm, and it comes back.
       await page.evaluate(() => {
         const { view } = play.state;
         const [x, y, z] = view.point(view.hand);
         play.pull(view.hand, [x + 0.15, y + 0.1, z]);
       });
-      await pause(500);
-      const pushed = Math.max(...(await shown()).errors);
+      const pushed = await run(600);
       must(pushed > 3 * quiet, `${key} does not feel a push: ${pushed} rad, ${quiet} before`);
       await page.evaluate(() => play.pull(0, null));
-      await pause(1000);
+      await run(1000);
       // Without feed-forward it follows worse.
       await page.click("#feedforward");
-      await pause(1200);
-      const without = await page.$eval("#tracking", (at) => at.textContent);
+      const without = await run(2500);
+      const alone = await shown();
       await page.click("#feedforward");
-      await pause(1500);
-      const withIt = await page.$eval("#tracking", (at) => at.textContent);
-      say(`pushed, ${key}`, `${(1000 * pushed).toFixed(1)} mrad; then ${withIt} with feed-forward, ${without} without`);
+      if (alone.mode !== "Full") {
+        // The SCARA's tool rests in its friction until the detector takes its encoder for frozen.
+        must(/frozen/.test(alone.fault), `${key} under PD control: ${alone.fault}`);
+        say(`PD control, ${key}`, `${alone.mode}: ${alone.fault}`);
+        await page.click("#again");
+      }
+      await run(1500);
+      const withIt = await run(2500);
+      must(withIt < 0.2 * without, `${key}: ${withIt} rad with feed-forward, ${without} without`);
+      const mrad = (x) => `${(1000 * x).toPrecision(3)} mrad`;
+      say(`pushed, ${key}`, `${mrad(pushed)}; then ${mrad(withIt)} with feed-forward, ${mrad(without)} without`);
       // Faults: short ones are ridden through, long ones stop the arm, which restarts.
       await page.select("#fault-ticks", "3");
       await page.click("[data-inject=encoder]");
-      await pause(400);
+      await run(300);
       must((await shown()).mode === "Full", `${key}: an encoder error of 3 ms stops the arm`);
-      const events = () => page.$$eval("#events li", (all) => all.map((one) => one.textContent));
+      const events = () => page.evaluate(() => play.disturb.events);
       const inject = async (what, ticks) => {
         await page.select("#fault-ticks", ticks);
         await page.click(`[data-inject=${what}]`);
-        await pause(900);
+        await run(700);
         const after = await shown();
         const torques = after.torque.every((torque, i) => Number.isFinite(torque) && Math.abs(torque) <= after.limits[i] * 1.0001);
         must(torques, `${key}, ${what}: torques ${after.torque} beyond ${after.limits}`);
         return after;
       };
       // Longer than a fault is ridden through, and shorter than a hold: the arm is held, and goes on.
-      const held = await inject("nan", "30");
-      must(held.mode === "Full" && (await events()).some((one) => one.includes("Hold")), `${key}: NaN for 30 ms: ${held.mode}, ${await events()}`);
+      const held = await inject("encoder", "30");
+      must(held.mode === "Full" && (await events()).some((one) => one.includes("Hold")), `${key}: an encoder error of 30 ms: ${held.mode}, ${await events()}`);
       for (const what of ["encoder", "nan", "stop", "over_torque", "stale"]) {
         const after = await inject(what, "300");
         const seen = (await events()).slice(0, 3).join(" ← ");
@@ -303,12 +319,12 @@ const tests = {
         say(`fault, ${key}, ${what}`, `${after.mode}: ${seen}`);
         if (after.mode !== "Full") {
           await page.click("#reset");
-          await pause(900);
+          await run(700);
           if ((await shown()).mode !== "Full") {
             // The controller says why not: too far from the path.
             must((await page.$eval("#said", (at) => at.textContent)).startsWith("No restart: "), `${key}, ${what}: no restart, and no reason`);
             await page.click("#again");
-            await pause(300);
+            await run(100);
           }
         }
         must((await shown()).mode === "Full", `${key} does not start again after ${what}`);

@@ -11,7 +11,7 @@ export class Orbit {
 
   frame(centre, size) {
     this.target = centre;
-    this.distance = size * 2.1;
+    this.distance = size * 2.4;
     this.near = size * 0.02;
     this.far = size * 30;
   }

@@ -130,12 +130,12 @@ function chose() {
   const errors = all.map((way) => Math.log(way.error));
   const [low, high] = [Math.min(...errors), Math.max(...errors)];
   const dots = all.map((way, i) => {
-    const x = 12 + (276 * (Math.log(way.cycles) - least)) / (most - least || 1);
+    const x = 36 + (250 * (Math.log(way.cycles) - least)) / (most - least || 1);
     const y = 74 - (62 * (Math.log(way.error) - low)) / (high - low || 1);
     const chosenOne = way === move.way;
     return `<circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="${chosenOne ? 6 : 3.5}" class="${chosenOne ? "chosen" : "dot"}"/>`;
   });
-  by("front-picture").innerHTML = dots.join("");
+  by("front-picture").innerHTML = `<text x="4" y="11">error</text><text x="296" y="80" text-anchor="end">cycles</text>${dots.join("")}`;
   code();
 }
 

@@ -1,9 +1,16 @@
 // The Rust for what is chosen.
 import { state, PAYLOAD, EFFECTS, has } from "./state.js";
 
-/// A number as f32 in Rust: with a point.
+/// A number as f32 in Rust: with a point, and with the fewest digits that are the same f32.
 function real(x) {
-  const text = String(Math.fround(x) === x ? x : Number(x.toPrecision(7)));
+  let text = String(x);
+  for (let count = 1; count < 10; count++) {
+    const short = Number(x.toPrecision(count));
+    if (Math.fround(short) === Math.fround(x)) {
+      text = String(short);
+      break;
+    }
+  }
   return /[.e]/.test(text) ? text : `${text}.0`;
 }
 const list = (numbers) => {

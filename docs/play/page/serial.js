@@ -19,7 +19,7 @@ function within(promise, time) {
 
 /// Asks the servos once: their positions in rad.
 async function ask(port) {
-  const request = state.library.call({ op: "serial_request" });
+  const request = state.library.call({ op: "ask_servos" });
   const writer = port.writable.getWriter();
   try {
     await writer.write(new Uint8Array(request));
@@ -36,7 +36,7 @@ async function ask(port) {
     if (chunk.done) throw new Error("the port was closed");
     bytes.push(...chunk.value);
   }
-  return state.library.call({ op: "serial_reply", bytes });
+  return state.library.call({ op: "servo_positions", bytes });
 }
 
 /// Opens a port and shows the arm's positions until it is stopped.

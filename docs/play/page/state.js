@@ -42,7 +42,7 @@ export function range(joint) {
 
 /// The postures in which robots show most, by key; the others start in the middle of their ranges.
 const POSTURES = {
-  ur5e: [0, -1.2, 1.4, -1.8, -1.57, 0],
+  ur5e: [0, -1.5, 1.5, -1.6, -1.57, 0],
   panda: [0, -0.5, 0, -2.1, 0, 1.7, 0.8],
   iiwa14: [0, 0.6, 0, -1.4, 0, 0.9, 0],
   gen3: [0, 0.5, 0, 1.4, 0, 0.9, 0],
@@ -76,7 +76,7 @@ export function motion() {
     const [lower, upper] = range(joint);
     const omega = 1.3 + 0.37 * (i % 5);
     const room = Math.min(upper - q[i], q[i] - lower);
-    const size = Math.max(0, Math.min(amount * speed(joint) / omega, 0.9 * room, joint.prismatic ? 0.2 : 0.8));
+    const size = Math.max(0, Math.min(amount * speed(joint) / omega, 0.9 * room, joint.prismatic ? 0.2 : 0.6));
     const phase = omega * clock;
     moved.q[i] += size * Math.sin(phase);
     moved.qd[i] += size * omega * Math.cos(phase);

@@ -14,7 +14,12 @@ const BUILD: [(&str, &str); 2] = [("node", "nodejs"), ("wasm-opt", "binaryen")];
 const TEST: [(&str, &str); 2] = [("npm", "npm"), ("chromium", "chromium")];
 
 /// A script of docs/play, and what it needs.
-fn script(workspace: &Workspace, options: Options, name: &str, tools: &[(&'static str, &'static str)]) -> Result<Command> {
+fn script(
+    workspace: &Workspace,
+    options: Options,
+    name: &str,
+    tools: &[(&'static str, &'static str)],
+) -> Result<Command> {
     setup::for_programs(options, "the page of docs/play", tools)?;
     if !toolchain::native_has(WASM) {
         setup::for_cores(options, &[WASM], &[])?;

@@ -195,7 +195,11 @@ pub fn for_projects(options: Options) -> Result<()> {
 }
 
 /// Sets up programs with Debian's packages of them, for a purpose.
-pub fn for_programs(options: Options, what: &str, programs: &[(&'static str, &'static str)]) -> Result<()> {
+pub fn for_programs(
+    options: Options,
+    what: &str,
+    programs: &[(&'static str, &'static str)],
+) -> Result<()> {
     let mut plan = Plan::default();
     for (program, package) in programs {
         if shell::which(program).is_none() {

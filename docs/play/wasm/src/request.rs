@@ -64,8 +64,8 @@ enum Request {
         case: SuiteCase,
     },
     /// The bytes that ask an SO-101 for its positions, and the positions in its reply.
-    SerialRequest,
-    SerialReply {
+    AskServos,
+    ServoPositions {
         bytes: Vec<u8>,
     },
 }
@@ -142,8 +142,8 @@ impl Session {
                 // JSON has no infinity: null is an answer that is missing, or should be.
                 Ok(json!({ "f32": single.map(row), "f64": row(double) }))
             }
-            Request::SerialRequest => value(serial::request().map_err(|error| error.to_string())?),
-            Request::SerialReply { bytes } => value(serial::positions(&bytes)?),
+            Request::AskServos => value(serial::request().map_err(|error| error.to_string())?),
+            Request::ServoPositions { bytes } => value(serial::positions(&bytes)?),
         }
     }
 }

@@ -27,6 +27,9 @@ const DESKTOP = { width: 1400, height: 900 };
 const PHONE = { width: 390, height: 844, isMobile: true, hasTouch: true, deviceScaleFactor: 2 };
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 
+/// Two frames now, on a machine that is too busy to draw, too.
+const settled = (page) => page.evaluate(() => play.work(2));
+
 /// A page at rest with the site open.
 async function opened(browser, file, { screen = DESKTOP, dark = false, before } = {}) {
   const page = await browser.newPage();
@@ -143,17 +146,17 @@ const tests = {
     await page.focus("#joint-1");
     const before = await q();
     for (let i = 0; i < 5; i++) await page.keyboard.press("ArrowRight");
-    await pause(200);
+    await settled(page);
     const after = await q();
     must(Math.abs(after[1] - before[1]) > 0.05, `the keyboard does not move a joint: ${before[1]} ${after[1]}`);
     must(!(await page.evaluate(() => play.state.swinging)), "a slider does not stop the swing");
     // At rest, so that gravity alone has a torque.
     await page.click("#home");
-    await pause(100);
+    await settled(page);
     const torque = () => page.evaluate(() => play.state.computed.single);
     const whole = await torque();
     await page.click("#effect-gravity");
-    await pause(100);
+    await settled(page);
     const floating = await torque();
     must(Math.abs(whole[1]) > 10 && Math.abs(floating[1]) < 1e-3, `gravity off leaves ${floating[1]} of ${whole[1]} N·m`);
     await page.click("#effect-gravity");
@@ -164,7 +167,7 @@ const tests = {
     await page.keyboard.down("ArrowUp");
     for (let i = 0; i < 4; i++) await page.keyboard.down("ArrowUp");
     await page.keyboard.up("ArrowUp");
-    await pause(200);
+    await settled(page);
     must((await hand())[2] > low[2] + 0.02, "arrow keys do not lift the hand");
     const at = await page.evaluate(() => {
       const { view } = play.state;
@@ -176,14 +179,14 @@ const tests = {
     await page.mouse.move(...at);
     await page.mouse.down();
     await page.mouse.move(at[0] + 30, at[1] + 60, { steps: 6 });
-    await pause(150);
+    await settled(page);
     await page.mouse.up();
     const dragged = await hand();
     must(Math.hypot(...dragged.map((x, i) => x - start[i])) > 0.05, "the pointer does not drag the hand");
     const keys = await page.evaluate(() => play.state.listed.map(({ key }) => key));
     for (const key of keys) {
       await page.select("#robot", key);
-      await pause(60);
+      await settled(page);
       const { single, double } = await page.evaluate(() => play.state.computed);
       must(single.length > 0 && single.every(Number.isFinite), `${key} has no torques`);
       const scale = Math.max(1, ...double.map(Math.abs));
@@ -197,6 +200,7 @@ const tests = {
         slider.value = i;
         slider.dispatchEvent(new Event("input"));
         await new Promise((done) => setTimeout(done, 260));
+        await play.work(1);
         found.push([document.getElementById("way-name").textContent, document.getElementById("way-now").textContent]);
       }
       return found;
@@ -224,7 +228,7 @@ const tests = {
     };
     await drop("arm.urdf", arm);
     await said("2 joints");
-    await pause(100);
+    await settled(page);
     const { single, rust } = await page.evaluate(() => ({ single: play.state.computed.single, rust: document.getElementById("rust").textContent }));
     must(single.length === 2 && single.every(Number.isFinite), "the dropped arm has no torques");
     must(rust.includes("impl Robot<2, 2, 2> for Dropped"), "the dropped arm has no Rust");
@@ -243,7 +247,7 @@ const tests = {
       const error = await said(`^${name}: .*(${words})`);
       must(await page.$eval("#said", (at) => at.classList.contains("wrong")), `${name} is not refused: ${error}`);
       say(`refused, ${name}`, error.slice(name.length + 2, 140));
-      await pause(60);
+      await settled(page);
       must((await page.evaluate(() => play.state.computed.single)).every(Number.isFinite), `after ${name} nothing is computed`);
     }
     must(problems.length === 0, `errors on the page: ${problems}`);

@@ -26,7 +26,7 @@ attribute vec3 position; uniform mat4 modelMatrix, viewMatrix, projectionMatrix;
 void main() { gl_Position = projectionMatrix * viewMatrix * modelMatrix * vec4(position, 1.0); }`;
 const FLAT_FRAGMENT = `
 precision highp float; uniform vec3 colour; uniform float opacity;
-void main() { gl_FragColor = vec4(colour * opacity, opacity); }`;
+void main() { gl_FragColor = vec4(colour, opacity); }`;
 
 /// A colour "#rrggbb" as three numbers.
 const channels = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255);

@@ -7,7 +7,7 @@ use std::sync::atomic::Ordering;
 use clap::error::ErrorKind;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::commands::{demo, endurance, identify, import, meter, pil, test, watch, weight};
+use crate::commands::{demo, endurance, identify, import, meter, pil, play, test, watch, weight};
 use crate::kit::error::{Result, VERBOSE, check};
 use crate::kit::{output, processes, setup, workspace};
 use crate::studies;
@@ -51,6 +51,8 @@ enum Command {
     Certify(identify::Certify),
     /// Compare the scene ur5e with its robot in f64 on the host, processor in the loop, and with its robot inside
     Pil(pil::Args),
+    /// Build the page on which one tries the library in a browser, target/site/play/index.html
+    Play,
     /// Feed descriptions, files, dynamics, controller and encoder frames random bytes; CI does so for a moment
     Fuzz {
         /// Seconds for each target
@@ -70,9 +72,9 @@ enum Command {
 }
 
 /// The commands for users, in the order of the help; all others are the laboratory's.
-const FIRST: [&str; 11] = [
-    "demo", "test", "new", "import", "meter", "watch", "identify", "certify", "pil", "costs",
-    "accuracy",
+const FIRST: [&str; 12] = [
+    "demo", "test", "new", "import", "meter", "watch", "identify", "certify", "pil", "play",
+    "costs", "accuracy",
 ];
 
 /// The commands that lists name behind those of the studies.
@@ -179,6 +181,7 @@ pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {
         Command::Identify(args) => identify::run("identify", "identify", &args.arguments),
         Command::Certify(args) => identify::run("certification", "certify", &args.arguments),
         Command::Pil(args) => pil::run(setup, &args),
+        Command::Play => play::run(setup),
         Command::Fuzz { seconds } => endurance::fuzz(seconds),
         Command::Soak { ticks } => endurance::soak(ticks),
         Command::Miri => endurance::miri(),

@@ -21,6 +21,10 @@ const STACK: usize = 32 << 20;
 
 /// Runs what is recursive in the nesting of a file on a stack that is large enough, whichever thread calls.
 fn on_a_large_stack<T: Send>(work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
+    // WebAssembly has no threads: its only stack is as large as its linker was told.
+    if cfg!(target_family = "wasm") {
+        return work();
+    }
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(STACK);
         let thread = thread.spawn_scoped(scope, work);

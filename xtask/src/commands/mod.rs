@@ -7,6 +7,7 @@ pub mod import;
 pub mod layers;
 pub mod meter;
 pub mod pil;
+pub mod play;
 pub mod test;
 pub mod watch;
 pub mod weight;

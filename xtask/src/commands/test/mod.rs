@@ -18,7 +18,7 @@ use clap::builder::PossibleValuesParser;
 use cycle_meter::Sample;
 
 use crate::commands::demo::{Built, Measured};
-use crate::commands::{layers, pil, watch};
+use crate::commands::{layers, pil, play, watch};
 use crate::kit::error::{Error, Result};
 use crate::kit::progress::Spinner;
 use crate::kit::qemu::Run;
@@ -85,6 +85,7 @@ const STEPS: &[Step] = &[
     ("faults", Target, Named, "100 arms under injected faults keep their limits in QEMU, with the host's torques", functions::faults),
     ("telemetry", Target, Full, "a tick costs the same with a listener, without one, and with a full queue", |c| watch::check(&c.workspace, &c.tools, c.meter()?)),
     ("pil", Target, Named, "with its robot in f64 on the host the scene ur5e moves as with its robot inside", |c| pil::check(&c.workspace, &c.tools)),
+    ("play", Host, Full, "the page of docs/play is small, fast, accessible, and computes the host's bits", |c| play::check(&c.workspace, c.options)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
     ("projects", Host, Full, "new projects in Rust and in C build, run in QEMU and compute the host's torques", others::projects),
     ("lerobot", Host, Full, "an SO-101 floats in LeRobot with its scene's torques, and every fault of its bus ends without torque", others::lerobot),

@@ -1,0 +1,129 @@
+// The recorded figures that the page shows: read from the generated pages of docs/, none typed here.
+import { readFileSync, readdirSync } from "node:fs";
+import { join } from "node:path";
+
+const number = (text) => {
+  const plain = text.replaceAll(",", "").replace("−", "-").replaceAll("*", "").trim();
+  return plain === "" || !Number.isFinite(Number(plain)) ? null : Number(plain);
+};
+
+/// The rows of all tables of a page, each with the heading above it and the names of its columns.
+function rows(text) {
+  const found = [];
+  let heading = "";
+  let columns = null;
+  for (const line of text.split("\n")) {
+    if (line.startsWith("#")) heading = line.replace(/^#+ /, "");
+    if (!line.startsWith("|")) {
+      columns = null;
+      continue;
+    }
+    const cells = line.split("|").slice(1, -1).map((cell) => cell.trim());
+    if (!columns) columns = cells;
+    else if (!/^[-:]+$/.test(cells[0])) found.push({ heading, columns, cells });
+  }
+  return found;
+}
+
+const refuse = (holds, why) => {
+  if (!holds) throw new Error(`recorded figures: ${why}`);
+};
+
+/// Inverse dynamics of the engine by robot and effects: cycles of the longest state, code in bytes.
+function costs(text) {
+  const costs = {};
+  for (const { heading, columns, cells } of rows(text)) {
+    const name = /^rnea engine (full|bias|gravity|no_coriolis)$/.exec(cells[0]);
+    const code = columns.indexOf("code");
+    const cycles = columns.lastIndexOf("max");
+    if (!name || cells[1] !== "inside" || code < 0 || cycles < 0 || heading.includes(" ")) continue;
+    (costs[heading] ??= {})[name[1]] = { cycles: number(cells[cycles]), code: number(cells[code]) };
+  }
+  refuse(costs.ur5e?.full?.cycles > 0, "docs/costs.md has no inverse dynamics of the UR5e");
+  return costs;
+}
+
+/// What an effect adds to the rigid body's, by robot.
+function effects(text) {
+  const effects = {};
+  for (const { columns, cells } of rows(text)) {
+    const name = /^(\w+) (\w+)$/.exec(cells[0]);
+    if (!name || columns[0] !== "effect, robot") continue;
+    // insn: core, engine; cycles: core, engine; code: core, engine; RAM; torque
+    (effects[name[2]] ??= {})[name[1]] = { cycles: number(cells[4]), code: number(cells[6]) };
+  }
+  refuse(effects.ur5e?.gravity && effects.ur5e.coulomb.cycles > 0, "docs/effects.md has no prices of the UR5e");
+  return effects;
+}
+
+/// Ticks of the scenes.
+function scenes(text) {
+  const scenes = {};
+  for (const { columns, cells } of rows(text)) {
+    const name = /^\*\*(\w+)\*\*$/.exec(cells[0]);
+    if (!name || !columns[1]?.startsWith("tick")) continue;
+    scenes[name[1]] = { cycles: number(cells[1]), share: cells[2], code: number(cells[3]), flash: number(cells[4]), rms: number(cells[6]) };
+  }
+  refuse(scenes.ur5e?.cycles > 0, "docs/scenes.md has no scene ur5e");
+  return scenes;
+}
+
+/// The front of each robot: the ways that compute in every tick, cheapest first.
+function fronts(json) {
+  const fronts = {};
+  for (const way of JSON.parse(json)) {
+    if (way.kind !== "inverse" || !way.front || way.configuration.rate !== "1") continue;
+    (fronts[way.robot] ??= []).push({
+      key: way.key.replace(/,?opt=\w+/, "") || "default",
+      opt: way.configuration.opt,
+      axes: { trig: way.configuration.trig, model: way.configuration.model, form: way.configuration.form, arith: way.configuration.arith },
+      cycles: way.cycles,
+      error: way.error_max,
+      relative: way.relative_max,
+    });
+  }
+  for (const front of Object.values(fronts)) front.sort((a, b) => a.cycles - b.cycles);
+  refuse(fronts.ur5e?.length > 3, "docs/accuracy.json has no front of the UR5e");
+  return fronts;
+}
+
+/// The names of what a way is along each axis, and the Rust for it.
+function names(source) {
+  const names = {};
+  const row = /\("(\w+)", "(\w+)", (?:None|Some\("([^"]*)"\)), "([^"]*)", "((?:[^"\\]|\\.)*)"\)/g;
+  for (const [, axis, value, rust, name, about] of source.matchAll(row)) {
+    (names[axis] ??= {})[value] = { rust: rust ?? null, name, about: about.replaceAll('\\"', '"') };
+  }
+  refuse(names.trig?.table?.rust, "the names of the ways cannot be read");
+  return names;
+}
+
+/// All that is recorded, from the root of the repository.
+export function recorded(root) {
+  const read = (path) => readFileSync(join(root, path), "utf8");
+  return {
+    costs: costs(read("docs/costs.md")),
+    effects: effects(read("docs/effects.md")),
+    scenes: scenes(read("docs/scenes.md")),
+    fronts: fronts(read("docs/accuracy.json")),
+    names: names(read("xtask/src/studies/accuracy/names.rs")),
+    compiler: /Measured with (rustc [\d.]+)/.exec(read("docs/costs.md"))?.[1] ?? "",
+  };
+}
+
+/// The digits that the page keeps of the suite's fifty: f64, in which errors are measured, reads the same number from them.
+const KEPT = 25;
+
+/// The hard cases: a list of their files, by name, with answers of [`KEPT`] digits.
+export function cases(root) {
+  const folder = join(root, "host-tests/suite/cases");
+  const files = readdirSync(folder).filter((name) => name.endsWith(".json")).sort();
+  const shorter = (whole, digits) => {
+    const [, head, rest = ""] = /^([^e]*)(e.*)?$/i.exec(digits);
+    const short = Number(head.slice(0, KEPT) + rest) === Number(digits) && head.includes(".") ? head.slice(0, KEPT) + rest : digits;
+    refuse(Number(short) === Number(digits), `${digits} of a case loses its value`);
+    return `"${short}"`;
+  };
+  const texts = files.map((name) => readFileSync(join(folder, name), "utf8").replace(/"(-?[0-9][0-9.e+-]{20,})"/gi, shorter));
+  return `[${texts.join(",\n")}]`;
+}

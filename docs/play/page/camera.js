@@ -1,0 +1,69 @@
+// A camera that pointers turn, with z up, and where points of the scene are on the screen.
+
+export class Orbit {
+  constructor() {
+    this.turn = -0.9;
+    this.tilt = 0.42;
+    this.distance = 3;
+    this.target = [0, 0, 0.4];
+    this.field = 35;
+  }
+
+  frame(centre, size) {
+    this.target = centre;
+    this.distance = size * 2.4;
+    this.near = size * 0.02;
+    this.far = size * 30;
+  }
+
+  position() {
+    const [x, y, z] = this.target;
+    const c = Math.cos(this.tilt) * this.distance;
+    return [x + c * Math.cos(this.turn), y + c * Math.sin(this.turn), z + Math.sin(this.tilt) * this.distance];
+  }
+
+  turned(dx, dy) {
+    this.turn -= dx * 0.008;
+    this.tilt = Math.max(-0.2, Math.min(1.5, this.tilt + dy * 0.008));
+  }
+
+  zoomed(factor) {
+    this.distance = Math.max(this.near * 8, Math.min(this.far / 4, this.distance * factor));
+  }
+
+  /// Right, up and forward of the camera.
+  axes() {
+    const from = this.position();
+    const forward = unit(this.target.map((x, i) => x - from[i]));
+    const right = unit(cross(forward, [0, 0, 1]));
+    return [right, cross(right, forward), forward];
+  }
+
+  /// Where a point is in a view of this size: x, y in pixels, and its depth.
+  project(point, width, height) {
+    const from = this.position();
+    const d = point.map((x, i) => x - from[i]);
+    const [right, up, forward] = this.axes();
+    const depth = dot(d, forward);
+    const scale = height / 2 / Math.tan((this.field * Math.PI) / 360) / depth;
+    return [width / 2 + dot(d, right) * scale, height / 2 - dot(d, up) * scale, depth];
+  }
+
+  /// The point at a depth under a pixel.
+  unproject(x, y, depth, width, height) {
+    const from = this.position();
+    const [right, up, forward] = this.axes();
+    const scale = (depth * Math.tan((this.field * Math.PI) / 360)) / (height / 2);
+    const [a, b] = [(x - width / 2) * scale, (height / 2 - y) * scale];
+    return from.map((p, i) => p + forward[i] * depth + right[i] * a + up[i] * b);
+  }
+}
+
+export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+export const length = (a) => Math.hypot(...a);
+export const unit = (a) => {
+  const size = length(a) || 1;
+  return a.map((x) => x / size);
+};
+export const minus = (a, b) => a.map((x, i) => x - b[i]);

@@ -1,0 +1,73 @@
+// The bars of the page, each a function that throws if it is missed: the test calls it on the page, and on one that is wrong.
+import { gzipSync } from "node:zlib";
+
+export const BARS = {
+  /// Bytes of the file by gzip.
+  compressed: 1_000_000,
+  /// From opening to the first torque, ms.
+  firstTorque: 2_000,
+  /// A frame's work, ms: the mean, and that of one in twenty.
+  work: 8,
+  workOfOneIn20: 16,
+};
+
+const miss = (holds, words) => {
+  if (!holds) throw new Error(`missed: ${words}`);
+};
+
+export function small(html) {
+  const size = gzipSync(html, { level: 9 }).length;
+  miss(size <= BARS.compressed, `${size} bytes compressed, at most ${BARS.compressed}`);
+  return size;
+}
+
+/// The lines of two machines are the same, and enough of them.
+export function sameBits(here, there) {
+  miss(there.length > 40 && here.length === there.length, `${here.length} digests in WebAssembly, ${there.length} on the host`);
+  here.forEach((line, i) => miss(line === there[i], `WebAssembly has \`${line}\`, the host \`${there[i]}\``));
+  return here.length;
+}
+
+export function prompt(milliseconds) {
+  miss(milliseconds <= BARS.firstTorque, `the first torque after ${milliseconds} ms, at most ${BARS.firstTorque}`);
+  return milliseconds;
+}
+
+/// The work of frames, ms, of which the slowest of twenty counts too.
+export function fluent(work) {
+  miss(work.length >= 100, `${work.length} frames are too few`);
+  const sorted = [...work].sort((a, b) => a - b);
+  const mean = work.reduce((a, b) => a + b, 0) / work.length;
+  const late = sorted[Math.floor(sorted.length * 0.95)];
+  miss(mean <= BARS.work, `a frame's work takes ${mean.toFixed(2)} ms on average, at most ${BARS.work}`);
+  miss(late <= BARS.workOfOneIn20, `one frame in twenty takes ${late.toFixed(2)} ms, at most ${BARS.workOfOneIn20}`);
+  return { mean, late };
+}
+
+/// Whether axe finds nothing.
+export function accessible(violations, where) {
+  const words = violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => `${node.target} ${node.failureSummary}`).join("; ")}`);
+  miss(violations.length === 0, `axe, ${where}: ${words.join(" | ")}`);
+}
+
+/// Whether no request left the page: `requests` are the addresses that were asked for.
+export function alone(requests) {
+  const others = requests.filter((url) => !/^(file|data|blob):/.test(url));
+  miss(others.length === 0, `loaded from elsewhere: ${others.join(", ")}`);
+}
+
+/// Whether nothing is wider than the screen.
+export function narrow(excess, where) {
+  miss(excess <= 0, `the page is ${excess} px wider than the screen, ${where}`);
+}
+
+/// Fails unless a check fails.
+export function refused(name, check) {
+  let failed = false;
+  try {
+    check();
+  } catch {
+    failed = true;
+  }
+  miss(failed, `the check "${name}" does not fail where it should`);
+}

@@ -1,0 +1,28 @@
+// The digests of the step `bits`, computed in WebAssembly by node: prints the lines that the host's bin `bits` prints.
+import { execFileSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { root, target } from "../build.mjs";
+
+/// Flips the lowest bit of an angle of a recorded state, the first that is not zero.
+function spoil(module) {
+  const { q } = JSON.parse(readFileSync(join(root, "host-tests/recordings/ur5e.json"), "utf8"));
+  const state = Buffer.from(Float32Array.from(q[1]).buffer);
+  const at = module.indexOf(state);
+  if (at < 0) throw new Error("the recorded state is not in the module");
+  // The second joint: a turn about the vertical changes no torque.
+  module[at + 4] ^= 1;
+}
+
+/// The lines; of a module with one wrong bit if `spoilt`.
+export async function bits(spoilt = false) {
+  execFileSync("cargo", ["build", "--package", "play", "--example", "bits", "--profile", "play", "--target", "wasm32-unknown-unknown", "--quiet"], { cwd: root, stdio: ["ignore", "inherit", "inherit"] });
+  const module = readFileSync(join(target, "wasm32-unknown-unknown/play/examples/bits.wasm"));
+  if (spoilt) spoil(module);
+  const { exports } = (await WebAssembly.instantiate(module, {})).instance;
+  const length = exports.compute();
+  return new TextDecoder().decode(new Uint8Array(exports.memory.buffer, exports.lines(), length)).trim().split("\n");
+}
+
+if (process.argv[1] && resolve(process.argv[1]) === fileURLToPath(import.meta.url)) console.log((await bits()).join("\n"));

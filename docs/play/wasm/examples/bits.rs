@@ -1,0 +1,32 @@
+//! The digests of the step `bits`, computed in WebAssembly: `docs/play/test/bits.mjs` prints them as the host's bin does.
+
+use std::cell::RefCell;
+use std::fmt::Write;
+
+use lab_target::{hard, recorded};
+
+thread_local! {
+    static LINES: RefCell<String> = RefCell::default();
+}
+
+/// Computes all lines; returns their length in bytes.
+#[unsafe(no_mangle)]
+pub extern "C" fn compute() -> usize {
+    LINES.with_borrow_mut(|lines| {
+        lines.clear();
+        // Writing to a string does not fail.
+        recorded::digests(|robot, quantity, digest| {
+            let _ = writeln!(lines, "bits {robot} {quantity} {:016x}", digest.0);
+        });
+        hard::digests(|case, name, digest| {
+            let _ = writeln!(lines, "bits hard {case} {name} {:016x}", digest.0);
+        });
+        lines.len()
+    })
+}
+
+/// Where they are.
+#[unsafe(no_mangle)]
+pub extern "C" fn lines() -> *const u8 {
+    LINES.with_borrow(|lines| lines.as_ptr())
+}

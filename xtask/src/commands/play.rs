@@ -1,0 +1,46 @@
+//! `cargo xtask play`: the page of docs/play, whose scripts build and test it.
+
+use std::process::{Command, ExitCode};
+
+use crate::kit::error::Result;
+use crate::kit::setup::{self, Options};
+use crate::kit::workspace::Workspace;
+use crate::kit::{host_bin, shell, toolchain, workspace};
+
+/// The target of the library in a browser.
+const WASM: &str = "wasm32-unknown-unknown";
+/// What builds the page, and what tests it besides, with Debian's packages.
+const BUILD: [(&str, &str); 2] = [("node", "nodejs"), ("wasm-opt", "binaryen")];
+const TEST: [(&str, &str); 2] = [("npm", "npm"), ("chromium", "chromium")];
+
+/// A script of docs/play, and what it needs.
+fn script(
+    workspace: &Workspace,
+    options: Options,
+    name: &str,
+    tools: &[(&'static str, &'static str)],
+) -> Result<Command> {
+    setup::for_programs(options, "the page of docs/play", tools)?;
+    if !toolchain::native_has(WASM) {
+        setup::for_cores(options, &[WASM], &[])?;
+    }
+    let mut node = Command::new("node");
+    node.env("CARGO_TARGET_DIR", &workspace.target);
+    node.arg(workspace.root.join("docs/play").join(name));
+    Ok(node)
+}
+
+/// Builds the page.
+pub fn run(options: Options) -> Result<ExitCode> {
+    let mut node = script(&Workspace::find()?, options, "build.mjs", &BUILD)?;
+    shell::run(&mut node).map(|()| ExitCode::SUCCESS)
+}
+
+/// Holds the page to its bars in headless Chromium; returns its figures.
+pub fn check(workspace: &Workspace, options: Options) -> Result<String> {
+    let bits = workspace.output("play.bits")?;
+    workspace::write(&bits, host_bin::text(workspace, "bits")?)?;
+    let mut node = script(workspace, options, "test/play.mjs", &[BUILD, TEST].concat())?;
+    let printed = shell::capture(node.arg("--host-bits").arg(&bits))?;
+    Ok(printed.lines().last().unwrap_or_default().to_owned())
+}

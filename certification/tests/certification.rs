@@ -4,6 +4,8 @@
 mod fpcore;
 #[path = "certification/grid.rs"]
 mod grid;
+#[path = "certification/limits.rs"]
+mod limits;
 #[path = "certification/recorded.rs"]
 mod recorded;
 #[path = "certification/target.rs"]

@@ -38,51 +38,88 @@ impl Floor {
     }
 }
 
-/// Shares of the least value seen that are tried, in this order.
+/// Shares of the least value seen that are tried directly, in this order.
 const SHARES: [f64; 12] = [
     0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95,
 ];
+/// Shares that joints keep when the next one is added.
+const KEPT: [f64; 2] = [0.6, 0.85];
+/// Joints of an arm whose floor is proven directly before further joints are added.
+const FIRST: [usize; 3] = [1, 3, 4];
 
-/// Proves a floor over these positions, with at most so many parts for each value that is tried: body by body from the base on, of the arm
-/// that ends there as [`crate::peel`] leaves it, by what is known of the arm before or by parts.
+/// Proves a floor over these positions, with at most so many parts for each value that is tried: joint by joint from the base on by
+/// [`crate::peel`], and directly.
 pub fn prove(bodies: &[Body], positions: &[Interval], most: usize) -> Floor {
     let mut arms = vec![peel::welded(bodies)];
     while let Some(next) = arms.last().filter(|arm| arm.len() > 1) {
         arms.push(peel::without_last(next));
     }
-    let mut proven = Floor::default();
-    for arm in arms.iter().rev() {
-        let positions = &positions[..arm.len()];
-        let own = peel::own(arm);
-        let mut floor = own * (1.0 - 1e-12);
-        if arm.len() > 1 {
-            let coupling = peel::coupling(arm, positions, most) / own;
-            floor = peel::least(proven.floor, own, coupling);
+    arms.reverse();
+    let Some(arm) = arms.last().filter(|arm| arm.len() == positions.len()) else {
+        return Floor::default();
+    };
+    let mut floor = 0.0_f64;
+    for first in FIRST.into_iter().filter(|first| *first < arms.len()) {
+        let (first, rest) = arms.split_at(first);
+        let known = first.last().map(|arm| directly(arm, &positions[..arm.len()], 0.0, most));
+        let floors = known.map_or_else(Vec::new, |known| vec![known.floor; first.len()]);
+        for kept in KEPT {
+            floor = floor.max(by_joints(rest, floors.clone(), positions, kept, most));
         }
-        let (least, q) = search(arm, positions);
-        let mut parts = 0;
-        let known = floor;
-        for share in SHARES.into_iter().filter(|share| share * least > known) {
-            let Some(taken) = is_above(arm, positions, share * least, most) else {
-                break;
-            };
-            (floor, parts) = (share * least, taken);
-        }
-        proven = Floor {
-            floor,
-            least,
-            q,
-            parts,
-        };
     }
-    proven
+    directly(arm, positions, floor, most)
 }
 
-/// The number of parts by which it is proven that the least eigenvalue is above μ; none if they are not enough.
+/// The floor of an arm by parts of its positions, above one that is known.
+fn directly(arm: &[Body], positions: &[Interval], known: f64, most: usize) -> Floor {
+    let (least, q) = search(arm, positions);
+    let (mut floor, mut parts) = (known, 0);
+    for share in SHARES.into_iter().filter(|share| share * least > known) {
+        let tried = vec![share * least; arm.len()];
+        let Some(taken) = is_above(arm, positions, &tried, most) else {
+            break;
+        };
+        (floor, parts) = (share * least, taken);
+    }
+    Floor {
+        floor,
+        least,
+        q,
+        parts,
+    }
+}
+
+/// The floor of the last of some arms, each with a joint more than the one before, of which the joints keep a share of their own floors.
+fn by_joints(
+    arms: &[Vec<Body>],
+    mut floors: Vec<f64>,
+    positions: &[Interval],
+    kept: f64,
+    parts: usize,
+) -> f64 {
+    for (number, arm) in arms.iter().enumerate() {
+        let own = peel::own(arm) * (1.0 - 1e-12);
+        let coupling = peel::coupling(arm, &positions[..arm.len()], &floors, parts);
+        let before = floors.iter().copied().fold(f64::MAX, f64::min);
+        let lowest = |share: f64| (share * before).min(peel::least(own, coupling, share));
+        let shares = (1..100).map(|percent| 0.01 * f64::from(percent));
+        // The last joint added is to have as much as the others.
+        let best = shares.max_by(|a, b| lowest(*a).total_cmp(&lowest(*b)));
+        let share = match number + 1 == arms.len() {
+            true => best.unwrap_or(kept),
+            false => kept,
+        };
+        floors.iter_mut().for_each(|floor| *floor *= share);
+        floors.push(peel::least(own, coupling, share));
+    }
+    floors.into_iter().fold(f64::MAX, f64::min)
+}
+
+/// The number of parts by which it is proven that M is above the diagonal matrix of these numbers; none if they are not enough.
 pub fn is_above(
     bodies: &[Body],
     positions: &[Interval],
-    floor: f64,
+    floors: &[f64],
     most: usize,
 ) -> Option<usize> {
     let depends = |part: &[Interval]| Enclosure::of(bodies, part).slopes;
@@ -95,7 +132,7 @@ pub fn is_above(
             return None;
         }
         let enclosure = Enclosure::of(bodies, &part);
-        let Some(weak) = enclosure.weak(floor) else {
+        let Some(weak) = enclosure.weak(floors) else {
             continue;
         };
         let axis = wide(&axes, &part, WIDE).or_else(|| enclosure.widest(&weak, &part))?;
@@ -193,8 +230,8 @@ impl Enclosure {
         sizes.max_by(|a, b| a.1.total_cmp(&b.1)).map(|most| most.0)
     }
 
-    /// A direction in which M may not be above a floor; none if it is everywhere.
-    fn weak(&self, floor: f64) -> Option<Vec<f64>> {
+    /// A direction in which M may not be above the floors; none if it is everywhere.
+    fn weak(&self, floors: &[f64]) -> Option<Vec<f64>> {
         let n = self.centre.len();
         // Slopes that hardly count join the remainder: each other one doubles the corners.
         let even: Vec<f64> = self.scale.iter().map(|scale| 1.0 / scale).collect();
@@ -232,7 +269,7 @@ impl Enclosure {
                         *x += sign * slope[i][j];
                     }
                 }
-                row[i] -= diagonal[i] * (1.0 + 1e-12) + floor;
+                row[i] -= (diagonal[i] + floors[i]) * (1.0 + 1e-12);
             }
             not_positive(&mut corner)
         })

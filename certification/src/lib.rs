@@ -10,6 +10,7 @@
 //! | [`sines`] | the error of sines, by trying every angle |
 //! | [`bodies`], [`taylor`] | the robot's bodies, in numbers and over parts of the box |
 //! | [`limits`]: [`floor`], [`peel`], [`speeds`] | the least eigenvalue of the inertia matrix, and the speeds of the links |
+//! | [`configurations`] | the errors of other kernels of sines and of other models |
 //! | [`search`] | the worst error that is found |
 //! | [`certificate`], [`page`], [`picture`] | what was proven, as data, text and picture |
 //! | [`gappa`], [`check`] | checks of it by others |
@@ -25,6 +26,7 @@ pub mod bound;
 pub mod branch;
 pub mod certificate;
 pub mod check;
+pub mod configurations;
 pub mod cycles;
 mod decode;
 pub mod emulation;

@@ -7,12 +7,12 @@
 //! where D and b are the last row of M: D is the second moment of the last body about its own axis, or its mass, whatever the position is, and S
 //! what the other joints feel while the last one is free. A symmetric J with J z = 0 for the joint's motion z, with the same rotated about the
 //! axis, and below the body's inertia I, I − J ⪰ 0, is below what the free body weighs on its parent too: the complement of Schur of I − J is
-//! I − I z zᵀ I / zᵀ I z − J. So S is no less than the inertia matrix of the arm without the last body, with J as part of the body before it. With
-//! λ for the least eigenvalue of that one and |b| ≤ K D,
+//! I − I z zᵀ I / zᵀ I z − J. So S is no less than the inertia matrix of the arm without the last body, with J as part of the body before it. If
+//! that one is above the diagonal matrix of F_i,
 //!
-//!   q̇ᵀ M q̇ ≥ λ |a|² + D max(0, |w| − K |a|)²,
+//!   q̇ᵀ M q̇ ≥ Σ s F_i a_i² + Σ (1 − s) F_i a_i² + D (w + bᵀa / D)²
 //!
-//! whose minimum for |a|² + w² = 1 is that of two numbers.
+//! for any share s, and with Σ b_i² / F_i ≤ K² the last two are at least D w² / (1 + K² / ((1 − s) D)) for every a.
 
 use std::collections::BinaryHeap;
 
@@ -20,7 +20,7 @@ use crate::bodies::{Body, Moves, Position, inertia_matrix};
 use crate::floor::{WIDE, somewhere, wide};
 use crate::interval::Interval;
 use crate::parts::Part;
-use crate::taylor::{SLOPES, Taylor};
+use crate::taylor::{SLOPES, Scalar, Taylor};
 
 /// A robot's bodies with those that stand still on others as parts of them; bodies that stand still on the base are none.
 pub fn welded(bodies: &[Body]) -> Vec<Body> {
@@ -124,20 +124,16 @@ pub fn own(bodies: &[Body]) -> f64 {
     })
 }
 
-/// The minimum for λ, D and K, rounded down.
-pub fn least(of_rest: f64, own: f64, coupling: f64) -> f64 {
-    // Of [[λ + K² D, −K D], [−K D, D]] by its determinant λ D: half of its trace would lose the smaller one.
-    let trace = of_rest + (1.0 + coupling * coupling) * own;
-    let root = (trace * trace - 4.0 * of_rest * own).max(0.0).sqrt();
-    let apart = 2.0 * of_rest * own / (trace + root);
-    apart.min(of_rest / (1.0 + coupling * coupling)) * (1.0 - 1e-12)
+/// What is left for the last joint if the others keep a share, rounded down.
+pub fn least(own: f64, coupling: f64, share: f64) -> f64 {
+    own / (1.0 + coupling * coupling / ((1.0 - share) * own)) * (1.0 - 1e-12)
 }
 
 /// A bound so little above what a position has is not lowered.
 const CLOSE: f64 = 1.03;
 
-/// At least the greatest |b| over these positions, by so many parts.
-pub fn coupling(bodies: &[Body], positions: &[Interval], parts: usize) -> f64 {
+/// K: at least the greatest root of Σ b_i² / F_i over these positions, by so many parts.
+pub fn coupling(bodies: &[Body], positions: &[Interval], floors: &[f64], parts: usize) -> f64 {
     let n = positions.len();
     let row = |part: &[Interval]| -> Vec<Taylor> {
         let at: Vec<Position<Taylor>> = part
@@ -148,7 +144,8 @@ pub fn coupling(bodies: &[Body], positions: &[Interval], parts: usize) -> f64 {
         let mut matrix = inertia_matrix(bodies, n, &at);
         let mut last = matrix.pop().unwrap_or_default();
         last.pop();
-        last
+        let weighted = last.iter().zip(floors);
+        weighted.map(|(b, floor)| b.times(1.0 / floor.sqrt())).collect()
     };
     let small = row(&somewhere(positions));
     let depends = |k: &usize| small.iter().any(|x| x.slopes[*k] != 0.0);
@@ -164,7 +161,7 @@ pub fn coupling(bodies: &[Body], positions: &[Interval], parts: usize) -> f64 {
         let gain = |k: usize| sum.slopes[k].abs();
         let axis = axes.iter().copied().max_by(|a, b| gain(*a).total_cmp(&gain(*b)));
         let part = Part {
-            bound: sum.range().high.max(0.0).min(apart).sqrt() * (1.0 + 1e-12),
+            bound: sum.range().high.max(0.0).min(apart).sqrt() * (1.0 + 1e-9),
             corner: 0,
             axis: wide(&axes, &positions, WIDE).or(axis),
             positions,

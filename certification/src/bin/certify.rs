@@ -15,7 +15,7 @@ use certification::search::Effort;
 use certification::sheet::{Sheet, Target};
 use certification::state_box::Robot;
 use certification::check::Part;
-use certification::{check, emulation, fpcore, page, picture, sines};
+use certification::{check, configurations, emulation, fpcore, page, picture, sines};
 use clap::Parser;
 
 /// Proven rounding errors of a robot's functions over the whole box of its joints
@@ -75,6 +75,9 @@ struct Args {
     /// Only write each result as a benchmark in the form of FPBench into this directory: FUNCTION_ROBOT.fpcore
     #[arg(long, value_name = "DIR", conflicts_with_all = ["json", "gappa", "sampled", "write_docs", "hashes"])]
     fpcore: Option<PathBuf>,
+    /// Only prove the errors of the configurations of `cargo xtask accuracy`, and print them as JSON
+    #[arg(long, requires = "robot", conflicts_with_all = ["fpcore", "gappa", "sampled", "write_docs", "hashes"])]
+    configurations: bool,
     /// Only let Gappa and Coq check a sample of parts of the box, and refuse wrong ones
     #[arg(long, conflicts_with_all = ["write_docs", "hashes"])]
     sampled: bool,
@@ -112,14 +115,17 @@ const PART: f64 = 1.0 / 64.0;
 /// See [`Args::points`].
 const POINTS: usize = 1_000_000;
 const PAGE_POINTS: usize = 5_000_000;
+/// Points of each grid and parts of each box of `--configurations`, which proves a hundred of them.
+const CONFIGURED_POINTS: usize = 300_000;
+const CONFIGURED_PARTS: usize = 300;
 /// Parts for speeds and for the floor of the inertia matrix; those of the page.
 const SHEET_EFFORT: limits::Effort = limits::Effort {
     speeds: 20_000,
-    floor: 300_000,
+    floor: 20_000,
 };
 const PAGE_EFFORT: limits::Effort = limits::Effort {
     speeds: 100_000,
-    floor: 2_000_000,
+    floor: 80_000,
 };
 const PAGE: &str = "docs/certificates.md";
 /// The results that are kept as benchmarks for FPBench.
@@ -170,6 +176,9 @@ fn run(args: &Args) -> Result<String> {
         Ok(robot)
     };
     let robots: Vec<Robot> = programs.iter().map(boxed).collect::<Result<_>>()?;
+    if args.configurations {
+        return configurations(args, &robots);
+    }
     if args.hashes {
         for program in &programs {
             let image = Image::read(&program.elf)?;
@@ -236,6 +245,19 @@ fn run(args: &Args) -> Result<String> {
         }
     }
     finish(args, &docs, &certificates, limits.first(), written)
+}
+
+/// The proven errors of the configurations of a robot, as JSON.
+fn configurations(args: &Args, robots: &[Robot]) -> Result<String> {
+    let name = args.robot.as_deref().unwrap_or_default();
+    let program = program::configured(name, &args.options)?;
+    let spent = configurations::Spent {
+        points: args.points.unwrap_or(CONFIGURED_POINTS),
+        parts: CONFIGURED_PARTS,
+    };
+    let robot = robots.first().ok_or_else(|| Error::Missing("robot".to_owned()))?;
+    let all = configurations::prove(&program, robot, spent)?;
+    serde_json::to_string_pretty(&all).map_err(|e| Error::Robot(e.to_string()))
 }
 
 /// What is proven of the robots themselves.

@@ -255,7 +255,11 @@ impl<S: Scalar> Inertia<S> {
 
 /// The inertia of a body that stands still on its parent, in the parent's frame.
 pub(crate) fn at_parent(body: &Body) -> [f64; 10] {
-    let Inertia { mass, first, second } = Inertia::of(body).before(body, &[]);
+    let Inertia {
+        mass,
+        first,
+        second,
+    } = Inertia::of(body).before(body, &[]);
     let [a, b, c, d, e, f] = second;
     let [x, y, z] = first;
     [mass, x, y, z, a, b, c, d, e, f]

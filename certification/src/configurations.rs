@@ -58,10 +58,16 @@ const MODELS: [(&str, &str); 11] = [
 
 /// What has no bound here, and why.
 const LEFT_OUT: [(&str, &str); 5] = [
-    ("rate", "the ticks between depend on the path, not on a state"),
+    (
+        "rate",
+        "the ticks between depend on the path, not on a state",
+    ),
     ("trig=incremental", "its error depends on the ticks before"),
     ("trig=libm, trig=micromath", "they are not the library's"),
-    ("form=core", "`cargo xtask certify --function core` bounds it"),
+    (
+        "form=core",
+        "`cargo xtask certify --function core` bounds it",
+    ),
     ("arith=f64", "its code calls routines for f64"),
 ];
 
@@ -89,7 +95,9 @@ pub struct Spent {
 fn key(kernel: &str, model: &str) -> String {
     let axes = [("trig", kernel), ("model", model)];
     let changed = axes.iter().filter(|(_, value)| !value.is_empty());
-    let words: Vec<String> = changed.map(|(axis, value)| format!("{axis}={value}")).collect();
+    let words: Vec<String> = changed
+        .map(|(axis, value)| format!("{axis}={value}"))
+        .collect();
     match words.is_empty() {
         true => "default".to_owned(),
         false => words.join(","),
@@ -107,7 +115,9 @@ pub fn prove(program: &Program, robot: &Robot, spent: Spent) -> Result<Configura
     let errors = sines::enumerate_each(&robot.joints, &kernels);
     let mut all = Configurations {
         robot: program.robot.clone(),
-        left_out: LEFT_OUT.map(|(what, why)| (what.to_owned(), why.to_owned())).into(),
+        left_out: LEFT_OUT
+            .map(|(what, why)| (what.to_owned(), why.to_owned()))
+            .into(),
         ..Configurations::default()
     };
     let graph = |variable: &str| -> Result<Graph> {
@@ -118,7 +128,13 @@ pub fn prove(program: &Program, robot: &Robot, spent: Spent) -> Result<Configura
     for (model, variable) in MODELS {
         let own = graph(variable)?;
         let of_whole = model.is_empty().then_some(&whole);
-        match each(&own, of_whole.is_none().then_some(&whole), robot, &errors, spent) {
+        match each(
+            &own,
+            of_whole.is_none().then_some(&whole),
+            robot,
+            &errors,
+            spent,
+        ) {
             Some(bounds) => {
                 let keys = names.iter().map(|kernel| key(kernel, model));
                 all.proven.extend(keys.zip(bounds));
@@ -127,8 +143,10 @@ pub fn prove(program: &Program, robot: &Robot, spent: Spent) -> Result<Configura
                 return Err(Error::Missing("an input that the box bounds".to_owned()));
             }
             None => {
-                let why = "a joint slides, so that no grid bounds how far it is from the whole model";
-                all.left_out.insert(format!("model={model}"), why.to_owned());
+                let why =
+                    "a joint slides, so that no grid bounds how far it is from the whole model";
+                all.left_out
+                    .insert(format!("model={model}"), why.to_owned());
             }
         }
     }
@@ -156,7 +174,8 @@ pub fn each(
             Some(_) => Counted::WithoutLiterals,
             None => Counted::All,
         };
-        let by_grid = grid.and_then(|grid| grid.prove_each(&graph, robot, errors, counted, spent.points));
+        let by_grid =
+            grid.and_then(|grid| grid.prove_each(&graph, robot, errors, counted, spent.points));
         let mut bounds = parts;
         if let Some(by_grid) = by_grid {
             for (bound, other) in bounds.iter_mut().zip(by_grid) {
@@ -167,7 +186,10 @@ pub fn each(
             return Some(bounds);
         };
         let place = own.outputs[output].0;
-        let same = whole.outputs.iter().position(|(offset, _)| *offset == place)?;
+        let same = whole
+            .outputs
+            .iter()
+            .position(|(offset, _)| *offset == place)?;
         let whole = whole.of_output(same);
         let apart = difference(&graph, &whole);
         let apart = Grid::new(&apart, robot)?.greatest_value(spent.points)?;
@@ -176,7 +198,12 @@ pub fn each(
             .prove_each(&whole, robot, &none, Counted::LiteralsAlone, spent.points)?
             .pop()?
             .total();
-        Some(bounds.into_iter().map(|bound| bound + apart + literals).collect())
+        Some(
+            bounds
+                .into_iter()
+                .map(|bound| bound + apart + literals)
+                .collect(),
+        )
     });
     let mut most = vec![0.0_f64; errors.len()];
     for bounds in joints {

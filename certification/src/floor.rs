@@ -61,7 +61,9 @@ pub fn prove(bodies: &[Body], positions: &[Interval], most: usize) -> Floor {
     let mut floor = 0.0_f64;
     for first in FIRST.into_iter().filter(|first| *first < arms.len()) {
         let (first, rest) = arms.split_at(first);
-        let known = first.last().map(|arm| directly(arm, &positions[..arm.len()], 0.0, most));
+        let known = first
+            .last()
+            .map(|arm| directly(arm, &positions[..arm.len()], 0.0, most));
         let floors = known.map_or_else(Vec::new, |known| vec![known.floor; first.len()]);
         for kept in KEPT {
             floor = floor.max(by_joints(rest, floors.clone(), positions, kept, most));
@@ -123,7 +125,10 @@ pub fn is_above(
     most: usize,
 ) -> Option<usize> {
     let depends = |part: &[Interval]| Enclosure::of(bodies, part).slopes;
-    let axes: Vec<usize> = depends(&somewhere(positions)).iter().map(|slope| slope.0).collect();
+    let axes: Vec<usize> = depends(&somewhere(positions))
+        .iter()
+        .map(|slope| slope.0)
+        .collect();
     let mut open = vec![positions.to_vec()];
     let mut parts = 0;
     while let Some(part) = open.pop() {
@@ -224,8 +229,15 @@ impl Enclosure {
     /// it changes.
     fn widest(&self, weak: &[f64], part: &[Interval]) -> Option<usize> {
         let width = |k: usize| part[k].high - part[k].low;
-        let most = self.slopes.iter().map(|(k, _)| width(*k)).fold(0.0, f64::max);
-        let open = self.slopes.iter().filter(|(k, _)| width(*k) > NARROW * most);
+        let most = self
+            .slopes
+            .iter()
+            .map(|(k, _)| width(*k))
+            .fold(0.0, f64::max);
+        let open = self
+            .slopes
+            .iter()
+            .filter(|(k, _)| width(*k) > NARROW * most);
         let sizes = open.map(|(k, slope)| (*k, self.size(slope, weak)));
         sizes.max_by(|a, b| a.1.total_cmp(&b.1)).map(|most| most.0)
     }
@@ -322,7 +334,10 @@ pub fn least_eigenvalue(bodies: &[Body], q: &[f64]) -> f64 {
         }
         not_positive(&mut shifted).is_none()
     };
-    let (mut low, mut high) = (0.0, (0..q.len()).map(|i| matrix[i][i]).fold(f64::MAX, f64::min));
+    let (mut low, mut high) = (
+        0.0,
+        (0..q.len()).map(|i| matrix[i][i]).fold(f64::MAX, f64::min),
+    );
     for _ in 0..40 {
         let middle = 0.5 * (low + high);
         if is_above(middle) {
@@ -347,7 +362,9 @@ fn search(bodies: &[Body], positions: &[Interval]) -> (f64, Vec<f64>) {
         }
     };
     for _ in 0..TRIED {
-        let q = positions.iter().map(|x| x.low + rng.f64() * (x.high - x.low));
+        let q = positions
+            .iter()
+            .map(|x| x.low + rng.f64() * (x.high - x.low));
         keep(q.collect(), &mut best);
     }
     for step in 0..TRIED {

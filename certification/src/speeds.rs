@@ -64,7 +64,10 @@ pub fn prove(bodies: &[Body], positions: &[Interval], most: &[f64], parts: usize
         // What a body adds to its parent's speeds at most.
         let parent = body.parent.and_then(|parent| all.get(parent));
         let before = |of: fn(&Speeds) -> f64| parent.map_or(0.0, of);
-        let (turning, moving) = (before(|one| one.turning.bound), before(|one| one.joint.bound));
+        let (turning, moving) = (
+            before(|one| one.turning.bound),
+            before(|one| one.joint.bound),
+        );
         let (turns, slides, reach) = match body.moves {
             Moves::Fixed => (0.0, 0.0, 0.0),
             Moves::Turns(joint) => (most[joint], 0.0, 0.0),
@@ -73,7 +76,8 @@ pub fn prove(bodies: &[Body], positions: &[Interval], most: &[f64], parts: usize
         let origin = moving + turning * (length(body.pos) + reach) + slides;
         own.turning.lower(turning + turns);
         own.joint.lower(origin);
-        own.mass.lower(own.joint.bound + own.turning.bound * length(body.centre()));
+        own.mass
+            .lower(own.joint.bound + own.turning.bound * length(body.centre()));
         all.push(own);
     }
     all
@@ -202,7 +206,10 @@ impl<'a> Path<'a> {
         let apart: f64 = velocity.iter().map(|x| x.magnitude().powi(2)).sum();
         let bound = square.range().high.max(0.0).min(apart).sqrt() * (1.0 + 1e-12);
         let gain = |k: usize| velocity.iter().map(|x| x.slopes[k].abs()).sum::<f64>();
-        let slope = axes.iter().copied().max_by(|a, b| gain(*a).total_cmp(&gain(*b)));
+        let slope = axes
+            .iter()
+            .copied()
+            .max_by(|a, b| gain(*a).total_cmp(&gain(*b)));
         Part {
             bound,
             corner,

@@ -1,5 +1,7 @@
 //! The checks of certificates, each with what it refuses.
 
+#[path = "certification/configurations.rs"]
+mod configurations;
 #[path = "certification/fpcore.rs"]
 mod fpcore;
 #[path = "certification/grid.rs"]

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use certification::certificate::{self, Certificate, Function, Spent};
+use certification::check::Part;
 use certification::error::{Error, Result};
 use certification::image::Image;
 use certification::limits::{self, Limits};
@@ -14,7 +15,6 @@ use certification::rows::{self, Measured, Report};
 use certification::search::Effort;
 use certification::sheet::{Sheet, Target};
 use certification::state_box::Robot;
-use certification::check::Part;
 use certification::{check, configurations, emulation, fpcore, page, picture, sines};
 use clap::Parser;
 
@@ -255,7 +255,9 @@ fn configurations(args: &Args, robots: &[Robot]) -> Result<String> {
         points: args.points.unwrap_or(CONFIGURED_POINTS),
         parts: CONFIGURED_PARTS,
     };
-    let robot = robots.first().ok_or_else(|| Error::Missing("robot".to_owned()))?;
+    let robot = robots
+        .first()
+        .ok_or_else(|| Error::Missing("robot".to_owned()))?;
     let all = configurations::prove(&program, robot, spent)?;
     serde_json::to_string_pretty(&all).map_err(|e| Error::Robot(e.to_string()))
 }
@@ -373,9 +375,11 @@ fn spent(args: &Args) -> Spent {
     let children = args.states / 3 * 2 / 96;
     Spent {
         parts: args.parts,
-        points: args
-            .points
-            .unwrap_or(if args.write_docs.is_some() { PAGE_POINTS } else { POINTS }),
+        points: args.points.unwrap_or(if args.write_docs.is_some() {
+            PAGE_POINTS
+        } else {
+            POINTS
+        }),
         search: Effort {
             random: args.states / 3,
             generations: 96,

@@ -43,11 +43,19 @@ impl Program {
         let nodes = graph.nodes.len();
         let rounding = rounding(nodes);
         let values = self.values(&sizes, rounding);
-        let weights = sines.iter().map(|sines| weights(graph, robot, &values, *sines, counted));
+        let weights = sines
+            .iter()
+            .map(|sines| weights(graph, robot, &values, *sines, counted));
         let weights: Vec<Vec<f64>> = weights.collect();
-        let classes = weights.iter().map(|weights| self.classes(weights, &sizes, rounding));
+        let classes = weights
+            .iter()
+            .map(|weights| self.classes(weights, &sizes, rounding));
         let classes: Vec<Vec<Class>> = classes.collect();
-        let sums: Vec<Weighted> = classes.iter().flatten().map(|class| joined(&class.sum)).collect();
+        let sums: Vec<Weighted> = classes
+            .iter()
+            .flatten()
+            .map(|class| joined(&class.sum))
+            .collect();
         let sums: Vec<&[(u32, f64)]> = sums.iter().map(Vec::as_slice).collect();
         let mut on_grid = self.greatest(&self.steps, &sizes, &sums).into_iter();
         let mut bounds = Vec::new();

@@ -28,7 +28,18 @@ pub fn bodies<const B: usize, const N: usize>(model: &Model<f64, B, N, N>) -> Ve
             },
             rot: std::array::from_fn(|row| std::array::from_fn(|column| columns[column][row])),
             pos: link.placement.pos.to_array(),
-            inertia: [link.inertia.mass, x, y, z, i[0], i[1], i[2], i[4], i[5], i[8]],
+            inertia: [
+                link.inertia.mass,
+                x,
+                y,
+                z,
+                i[0],
+                i[1],
+                i[2],
+                i[4],
+                i[5],
+                i[8],
+            ],
         }
     };
     model.links.iter().map(body).collect()
@@ -39,7 +50,9 @@ fn positions(n: usize) -> Vec<Interval> {
 }
 
 fn within(rng: &mut fastrand::Rng, of: &[Interval]) -> Vec<f64> {
-    of.iter().map(|x| x.low + rng.f64() * (x.high - x.low)).collect()
+    of.iter()
+        .map(|x| x.low + rng.f64() * (x.high - x.low))
+        .collect()
 }
 
 fn differs<T: Robot<B, N, N>, const B: usize, const N: usize>(rng: &mut fastrand::Rng) -> f64 {
@@ -118,7 +131,10 @@ fn numbers_over_a_part_keep_their_operations() {
             let [x, y] = part.map(|x| x.low + rng.f64() * (x.high - x.low));
             let exact = (x.cos() * y.sin() - x * x) * -0.7 + y * y.sin() + 0.25;
             let range = all.range();
-            assert!(range.low <= exact && exact <= range.high, "{part:?} {exact}");
+            assert!(
+                range.low <= exact && exact <= range.high,
+                "{part:?} {exact}"
+            );
         }
     }
 }
@@ -152,12 +168,18 @@ fn taking_the_last_body_off_is_below_and_needs_the_coupling() {
     for _ in 0..100_000 {
         least = least.min(least_eigenvalue(arm, &within(&mut rng, &positions)));
     }
-    assert!(0.05 * least < floor && floor <= least, "{floor:e} {least:e}");
+    assert!(
+        0.05 * least < floor && floor <= least,
+        "{floor:e} {least:e}"
+    );
     assert!(rest.min(peel::least(own, 0.0, 0.0)) > least);
     // What is welded weighs as before, and what is taken off not more.
     let all = &bodies(&A1Leg::MODEL);
     for _ in 0..1000 {
-        let q = within(&mut rng, &[positions.clone(), positions.clone()].concat()[..3]);
+        let q = within(
+            &mut rng,
+            &[positions.clone(), positions.clone()].concat()[..3],
+        );
         let [a, b] = [all, &whole].map(|bodies| least_eigenvalue(bodies, &q));
         assert!((a / b - 1.0).abs() < 1e-8, "{a} {b}");
     }
@@ -171,7 +193,10 @@ fn no_link_is_faster_than_proven() {
     let ratio = |of: Speed| of.bound / of.found.max(1e-9);
     for one in &proven {
         assert!(one.turning.found <= one.turning.bound && ratio(one.turning) < 1.02);
-        assert!(one.mass.found <= one.mass.bound && ratio(one.mass) < 1.1, "{one:?}");
+        assert!(
+            one.mass.found <= one.mass.bound && ratio(one.mass) < 1.1,
+            "{one:?}"
+        );
     }
     // Far from the base, by differences of positions: the foot's speed where each joint moves as fast as it may.
     let foot = |q: &[f64]| {
@@ -202,7 +227,10 @@ fn no_link_is_faster_than_proven() {
         fastest = fastest.max(distance / step);
     }
     let bound = proven[3].joint.bound;
-    assert!(fastest <= bound * (1.0 + 1e-5) && fastest > 0.9 * bound, "{fastest} {bound}");
+    assert!(
+        fastest <= bound * (1.0 + 1e-5) && fastest > 0.9 * bound,
+        "{fastest} {bound}"
+    );
     // Proven for slower joints it would be contradicted.
     let slower = speeds::prove(&bodies, &positions, &most.map(|x| 0.8 * x), 20_000);
     assert!(slower[3].joint.bound < fastest);
@@ -235,5 +263,8 @@ fn what_is_found_beyond_a_limit_is_an_error() {
         mass: Speed::default(),
     });
     let said = wrong.check().expect_err("too fast").to_string();
-    assert_eq!(said, "angular velocity of body 2: 1e0 is proven, and 1.1e0 was found");
+    assert_eq!(
+        said,
+        "angular velocity of body 2: 1e0 is proven, and 1.1e0 was found"
+    );
 }

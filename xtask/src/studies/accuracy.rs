@@ -65,7 +65,10 @@ pub struct Args {
 
 /// Measures, writes page and pictures, and prints; or chooses.
 pub fn run(options: Options, args: Args) -> Result<ExitCode> {
-    if args.proven_error.is_some_and(|allowed| allowed.kind != Kind::Inverse) {
+    if args
+        .proven_error
+        .is_some_and(|allowed| allowed.kind != Kind::Inverse)
+    {
         bail!("only errors of torques are proven: --proven-error 0.01Nm");
     }
     let budget = match (args.error.or(args.proven_error), args.cycles) {

@@ -21,15 +21,10 @@ pub struct Proven {
 impl Proven {
     /// Of a robot, by the arguments that name it.
     pub fn of(workspace: &Workspace, robot: &[&str]) -> Result<Self> {
-        output::note(
-            "The errors of a hundred configurations are proven: this takes some minutes.",
-        );
+        output::note("The errors of a hundred configurations are proven: this takes some minutes.");
         let words = "--quiet --profile simulated --package certification -- --configurations";
         let mut command = workspace.cargo("run");
-        command
-            .args(words.split(' '))
-            .args(["--robot"])
-            .args(robot);
+        command.args(words.split(' ')).args(["--robot"]).args(robot);
         let text = shell::capture(&mut command)?;
         serde_json::from_str(&text).map_err(|error| check!("certify: {error}"))
     }
@@ -46,7 +41,10 @@ impl Proven {
 
     /// How the code is optimised changes no number.
     fn point(&self, measured: &Point) -> Option<Point> {
-        let axes = measured.key.split(',').filter(|axis| !axis.starts_with("opt="));
+        let axes = measured
+            .key
+            .split(',')
+            .filter(|axis| !axis.starts_with("opt="));
         let key: Vec<&str> = axes.collect();
         let key = match key.is_empty() {
             true => "default".to_owned(),
@@ -65,7 +63,9 @@ impl Proven {
     /// What the errors are of, and what has none.
     pub fn note(&self) -> String {
         let left_out = self.left_out.iter();
-        let left_out: Vec<String> = left_out.map(|(what, why)| format!("{what} ({why})")).collect();
+        let left_out: Vec<String> = left_out
+            .map(|(what, why)| format!("{what} ({why})"))
+            .collect();
         format!(
             "\nErrors are proven for every state of the joints' box: limits, rated speeds, and accelerations up to 10 rad/s². Nothing is proven \
              of {}.",
@@ -84,9 +84,13 @@ mod tests {
     #[test]
     fn the_cheapest_of_which_the_error_is_proven_is_chosen() {
         let proven = Proven {
-            proven: [("default", 1e-4), ("trig=table", 0.02), ("model=gravity", 30.0)]
-                .map(|(key, bound)| (key.to_owned(), bound))
-                .into(),
+            proven: [
+                ("default", 1e-4),
+                ("trig=table", 0.02),
+                ("model=gravity", 30.0),
+            ]
+            .map(|(key, bound)| (key.to_owned(), bound))
+            .into(),
             left_out: [("rate".to_owned(), "a path".to_owned())].into(),
         };
         let measured = [
@@ -101,12 +105,17 @@ mod tests {
         let chosen = |error: f64| {
             let kind = Kind::Inverse;
             let budget = Budget::Error(Allowed { error, kind });
-            budget.choose(&all).map(|point| (point.key.clone(), point.error()))
+            budget
+                .choose(&all)
+                .map(|point| (point.key.clone(), point.error()))
         };
         // Measured the table would do, and so would every tenth tick.
         assert!(chosen(0.01).is_ok_and(|chosen| chosen == ("opt=s".to_owned(), 1e-4)));
         assert!(chosen(0.05).is_ok_and(|chosen| chosen == ("trig=table".to_owned(), 0.02)));
-        assert!(chosen(1e-5).is_err(), "less than what is proven of the default");
+        assert!(
+            chosen(1e-5).is_err(),
+            "less than what is proven of the default"
+        );
         assert!(proven.note().contains("rate (a path)"));
         assert!(proven.points(&measured[3..4]).is_err());
     }

@@ -143,8 +143,7 @@ pub fn prove(program: &Program, robot: &Robot, spent: Spent) -> Result<Configura
                 return Err(Error::Missing("an input that the box bounds".to_owned()));
             }
             None => {
-                let why =
-                    "a joint slides, so that no grid bounds how far it is from the whole model";
+                let why = "no grid bounds how far it is from the whole model: a joint slides, or --points are too few";
                 all.left_out
                     .insert(format!("model={model}"), why.to_owned());
             }

@@ -33,11 +33,14 @@ pub(crate) fn is_near(joint: &Joint) -> bool {
     most <= 2.0 * std::f64::consts::TAU
 }
 
+/// Sine and cosine of an angle.
+type Function = fn(f32) -> (f32, f32);
+
 /// A kernel of sines: for two turns, and for more.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernel {
-    near: fn(f32) -> (f32, f32),
-    far: fn(f32) -> (f32, f32),
+    near: Function,
+    far: Function,
 }
 
 impl Kernel {
@@ -71,7 +74,7 @@ pub fn enumerate_each(joints: &[Joint], kernels: &[Kernel]) -> Vec<SineErrors> {
                 .filter(|joint| joint.turns && is_near(joint) == near)
         };
         let of = |kernel: &Kernel| if near { kernel.near } else { kernel.far };
-        let functions: Vec<fn(f32) -> (f32, f32)> = kernels.iter().map(of).collect();
+        let functions: Vec<Function> = kernels.iter().map(of).collect();
         let most = |end: fn(&Joint) -> f64| mine().map(end).fold(0.0_f64, f64::max) as f32;
         for (sign, most) in [
             (1.0, most(|joint| joint.position.high)),
@@ -97,11 +100,7 @@ fn larger(a: SineErrors, b: SineErrors) -> SineErrors {
 }
 
 /// The errors over numbers of f32 by their bits, on all cores. The kernels are of the angle with its sign, the angle without.
-fn over(
-    bits: RangeInclusive<u32>,
-    kernels: &[fn(f32) -> (f32, f32)],
-    sign: f32,
-) -> Vec<SineErrors> {
+fn over(bits: RangeInclusive<u32>, kernels: &[Function], sign: f32) -> Vec<SineErrors> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from) as u32;
     let (first, last) = (*bits.start(), (*bits.end()).max(*bits.start()));
     let share = (last - first) / threads + 1;

@@ -10,7 +10,7 @@ use dynamics_core::trig::{Kernel as _, Table};
 use super::recorded::{GRAVITY, RNEA, SINES, graph, robot};
 
 const SPENT: Spent = Spent {
-    points: 5_000,
+    points: 20_000,
     parts: 10,
 };
 

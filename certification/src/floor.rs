@@ -99,6 +99,10 @@ fn by_joints(
     kept: f64,
     parts: usize,
 ) -> f64 {
+    // Nothing follows from joints of which nothing is known.
+    if !floors.iter().all(|floor| *floor > 0.0) {
+        return 0.0;
+    }
     for (number, arm) in arms.iter().enumerate() {
         let own = peel::own(arm) * (1.0 - 1e-12);
         let coupling = peel::coupling(arm, &positions[..arm.len()], &floors, parts);

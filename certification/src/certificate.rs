@@ -250,7 +250,10 @@ pub fn certify(
 }
 
 /// The results of some tasks, on all cores.
-fn in_parallel<T: Send>(tasks: usize, run: impl Fn(usize) -> Option<T> + Sync) -> Vec<Option<T>> {
+pub(crate) fn in_parallel<T: Send>(
+    tasks: usize,
+    run: impl Fn(usize) -> Option<T> + Sync,
+) -> Vec<Option<T>> {
     let (next, threads) = (
         AtomicUsize::new(0),
         std::thread::available_parallelism().map_or(1, usize::from),

@@ -8,18 +8,32 @@ use crate::image::Image;
 use crate::interval::Interval;
 use crate::state_box::Robot;
 
-const BEGIN: &str = "<!-- certificates:begin -->\n<!-- written by `cargo xtask certify --write-docs`: do not edit -->\n";
-const END: &str = "<!-- certificates:end -->";
+/// A part of the page, between its marks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Part {
+    /// All of them.
+    All,
+    /// The proven errors.
+    Certificates,
+    /// What is proven of the robots themselves.
+    Limits,
+}
 
-/// The page with its tables replaced.
+/// The page with a part replaced.
 ///
 /// # Errors
-/// [`Error::Missing`] if the page has no place for them.
-pub fn page(written: &str, tables: &str) -> Result<String> {
-    let missing = || Error::Missing("place for tables on the page".to_owned());
-    let (before, rest) = written.split_once(BEGIN).ok_or_else(missing)?;
-    let (_, after) = rest.split_once(END).ok_or_else(missing)?;
-    Ok(format!("{before}{BEGIN}\n{tables}{END}{after}"))
+/// [`Error::Missing`] if the page has no place for it.
+pub fn page(written: &str, part: Part, text: &str) -> Result<String> {
+    let name = clap::ValueEnum::to_possible_value(&part);
+    let name = name.as_ref().map_or("", |name| name.get_name());
+    let begin = format!(
+        "<!-- {name}:begin -->\n<!-- written by `cargo xtask certify --write-docs`: do not edit -->\n"
+    );
+    let end = format!("<!-- {name}:end -->");
+    let missing = || Error::Missing(format!("place for {name} on the page"));
+    let (before, rest) = written.split_once(&begin).ok_or_else(missing)?;
+    let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
+    Ok(format!("{before}{begin}\n{text}{end}{after}"))
 }
 
 /// Fails unless the page has the hashes of these functions of a program.

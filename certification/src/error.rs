@@ -7,6 +7,7 @@ pub type Result<T> = std::result::Result<T, Error>;
 
 /// Why there is no certificate.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
     /// The program is no ELF.
     #[error("not an ELF: {0}")]
@@ -44,6 +45,16 @@ pub enum Error {
         bound: f64,
         /// The error of a state that was found.
         observed: f64,
+    },
+    /// Something of the robot itself was found beyond what is proven of it.
+    #[error("{what}: {proven:e} is proven, and {found:e} was found")]
+    Limit {
+        /// What was bounded.
+        what: String,
+        /// The proven bound.
+        proven: f64,
+        /// What a state has.
+        found: f64,
     },
     /// A call took more cycles than its machine code says, or not as many although nothing branches on data.
     #[error("{function}: the bound is {bound} cycles, and {least} to {most} were measured")]

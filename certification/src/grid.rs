@@ -18,12 +18,15 @@
 //! so that the error of the result is Σ (e_k + d_a d_b) ∂τ/∂v_k with derivatives at v. The same identity, with the errors of the literals, leads
 //! from v to the model's exact value.
 
+mod proof;
+
+pub use proof::Counted;
+
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
-use crate::bound::{Bound, SineErrors};
+use crate::bound::Bound;
 use crate::graph::{Graph, Node};
-use crate::interval::half_ulp;
 use crate::state_box::{Leaf, Robot};
 
 /// A product of at most two speeds and accelerations, the lesser number first, from one; zero stands for one.
@@ -361,10 +364,10 @@ fn larger(a: &[u8], b: &[u8]) -> Vec<u8> {
 }
 
 impl Program {
-    /// The angles of the grid for each joint, at most this many points in all; `None` if the degrees ask for more.
-    fn sizes(&self, most: usize) -> Option<Vec<usize>> {
+    /// The angles of the grid for each joint, at most this many points in all; `None` if these degrees ask for more.
+    fn sizes(&self, of: &[Vec<u8>], most: usize) -> Option<Vec<usize>> {
         let n = self.angles.len();
-        let degree = |i: usize| self.degrees.iter().map(|of| of[i]).max().unwrap_or(0);
+        let degree = |i: usize| of.iter().map(|of| of[i]).max().unwrap_or(0);
         let degrees: Vec<usize> = (0..n).map(|i| usize::from(degree(i))).collect();
         let sizes = |share: f64| -> Vec<usize> {
             let of = |degree: &usize| ((share * *degree as f64) as usize).max(2 * degree + 1);
@@ -479,56 +482,6 @@ impl Program {
             classes[j] = classes[j].with(&other);
         }
         classes
-    }
-
-    /// Bounds the error over all angles, from a grid of at most so many points; `None` if they are too few.
-    pub fn prove(
-        &self,
-        graph: &Graph,
-        robot: &Robot,
-        sines: SineErrors,
-        points: usize,
-    ) -> Option<Bound> {
-        let sizes = self.sizes(points)?;
-        let nodes = graph.nodes.len();
-        // More than the relative error of an evaluation in f64, of so many operations after each other.
-        let rounding = 4.0 * f64::EPSILON * nodes as f64;
-        let values = self.values(&sizes, rounding);
-        let (mut errors, mut weights) = (vec![0.0; nodes], vec![0.0; nodes]);
-        for (k, node) in graph.nodes.iter().enumerate() {
-            let (propagated, second_order) = match *node {
-                Node::Input(_) | Node::Literal(_) => (0.0, 0.0),
-                Node::Neg(a) => (errors[a], 0.0),
-                Node::Add(a, b) | Node::Sub(a, b) => (errors[a] + errors[b], 0.0),
-                Node::Mul(a, b) => (
-                    values[a] * errors[b] + values[b] * errors[a],
-                    errors[a] * errors[b],
-                ),
-            };
-            let most = (values[k] + propagated + second_order) * (1.0 + 1e-12);
-            let own = match *node {
-                Node::Input(input) => match robot.leaf(input) {
-                    Some(Leaf::Sine(_)) => sines.sine,
-                    Some(Leaf::Cosine(_)) => sines.cosine,
-                    _ => 0.0,
-                },
-                Node::Literal(0.0) | Node::Neg(_) => 0.0,
-                Node::Literal(x) => half_ulp(f64::from(x).abs()),
-                _ if most == 0.0 => 0.0,
-                _ => half_ulp(most),
-            };
-            errors[k] = (propagated + second_order + own) * (1.0 + 1e-12);
-            weights[k] = (own + second_order) * (1.0 + 1e-12);
-        }
-        let classes = self.classes(&weights, &sizes, rounding);
-        let sums: Vec<Weighted> = classes.iter().map(|class| joined(&class.sum)).collect();
-        let sums: Vec<&[(u32, f64)]> = sums.iter().map(Vec::as_slice).collect();
-        let on_grid = self.greatest(&self.steps, &sizes, &sums);
-        let of_class = |(class, most): (&Class, f64)| {
-            (most * (1.0 + rounding) + class.hidden) * Class::between(&class.degrees, &sizes)
-        };
-        let total = classes.iter().zip(on_grid).map(of_class).sum();
-        Some(self.shared(graph, &weights, &sizes, total))
     }
 
     /// A bound whose parts have the shares that they have at the sampled points together.

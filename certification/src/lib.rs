@@ -8,6 +8,9 @@
 //! | [`bound`], [`branch`] | the error over a part of the box, and over the whole |
 //! | [`grid`] | the error over all angles, by a grid of them |
 //! | [`sines`] | the error of sines, by trying every angle |
+//! | [`bodies`], [`taylor`] | the robot's bodies, in numbers and over parts of the box |
+//! | [`limits`]: [`floor`], [`peel`], [`speeds`] | the least eigenvalue of the inertia matrix, and the speeds of the links |
+//! | [`configurations`] | the errors of other kernels of sines and of other models |
 //! | [`search`] | the worst error that is found |
 //! | [`certificate`], [`page`], [`picture`] | what was proven, as data, text and picture |
 //! | [`gappa`], [`check`] | checks of it by others |
@@ -18,15 +21,18 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod bodies;
 pub mod bound;
 pub mod branch;
 pub mod certificate;
 pub mod check;
+pub mod configurations;
 pub mod cycles;
 mod decode;
 pub mod emulation;
 pub mod error;
 mod flags;
+pub mod floor;
 mod flow;
 pub mod forms;
 pub mod fpcore;
@@ -35,16 +41,21 @@ pub mod graph;
 pub mod grid;
 pub mod image;
 pub mod interval;
+pub mod limits;
 mod machine;
 pub mod narrow;
 pub mod page;
+mod parts;
+pub mod peel;
 pub mod picture;
 pub mod program;
 pub mod rows;
 pub mod search;
 pub mod sheet;
 pub mod sines;
+pub mod speeds;
 pub mod stack;
 pub mod state_box;
+pub mod taylor;
 pub mod walk;
 mod words;

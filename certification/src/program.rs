@@ -35,6 +35,19 @@ pub struct Program {
 /// # Errors
 /// [`Error::Robot`] of a description that is not taken, [`Error::Program`] if cargo fails.
 pub fn build(robot: &str, options: &import::Options) -> Result<Program> {
+    bin(robot, options, PACKAGE, "firmware")
+}
+
+/// Builds the program of the configurations of a robot: [`crate::configurations`].
+///
+/// # Errors
+/// As [`build`].
+pub fn configured(robot: &str, options: &import::Options) -> Result<Program> {
+    bin(robot, options, "configured", "configured")
+}
+
+fn bin(robot: &str, options: &import::Options, name: &str, feature: &str) -> Result<Program> {
+    let bin = name;
     let folder = tempfile::tempdir().map_err(|source| Error::File {
         path: "a temporary folder".into(),
         source,
@@ -51,13 +64,15 @@ pub fn build(robot: &str, options: &import::Options) -> Result<Program> {
         "--release",
         "--package",
         PACKAGE,
+        "--bin",
+        bin,
         "--features",
-        "firmware",
+        feature,
         "--target",
         TARGET,
     ];
     capture(cargo().args(words).env("CERTIFIED_ROBOT", &included))?;
-    let path = target().join(TARGET).join("release").join(PACKAGE);
+    let path = target().join(TARGET).join("release").join(bin);
     let elf = std::fs::read(&path).map_err(|source| Error::File { path, source })?;
     let rustc = capture(
         Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into())).arg("--version"),

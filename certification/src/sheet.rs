@@ -10,6 +10,7 @@ use crate::cycles::{self, Declined};
 use crate::emulation::Emulation;
 use crate::error::{Error, Result};
 use crate::image::Image;
+use crate::limits::Limits;
 use crate::page::{ranges, short};
 use crate::rows::{PRECONDITIONS, Preconditions};
 use crate::search::Evaluation;
@@ -213,6 +214,7 @@ pub struct Sheet<'a> {
     preconditions: Preconditions,
     assumed: [&'static str; 4],
     functions: Vec<Entry<'a>>,
+    limits: &'a Limits,
 }
 
 #[derive(Serialize)]
@@ -222,8 +224,8 @@ struct Entry<'a> {
 }
 
 impl<'a> Sheet<'a> {
-    /// Of some certificates of one robot; nothing of none.
-    pub fn of(certificates: &'a [Certificate]) -> Option<Self> {
+    /// Of some certificates of one robot, and of what is proven of the robot itself; nothing of none.
+    pub fn of(certificates: &'a [Certificate], limits: &'a Limits) -> Option<Self> {
         let first = certificates.first()?;
         let entry = |certificate: &'a Certificate| Entry {
             effects: effects(certificate.function),
@@ -237,6 +239,7 @@ impl<'a> Sheet<'a> {
             preconditions: PRECONDITIONS,
             assumed: ASSUMED,
             functions: certificates.iter().map(entry).collect(),
+            limits,
         })
     }
 
@@ -256,6 +259,7 @@ impl<'a> Sheet<'a> {
         for entry in &self.functions {
             text += &function(entry);
         }
+        let _ = write!(text, "\n## The robot itself\n\n{}", self.limits.markdown());
         text += "\n## What is assumed\n\n";
         for one in self.assumed {
             let _ = writeln!(text, "- Errors: {one}.");

@@ -33,35 +33,63 @@ pub(crate) fn is_near(joint: &Joint) -> bool {
     most <= 2.0 * std::f64::consts::TAU
 }
 
-/// The greatest errors over all numbers of f32 in the ranges of the joints that turn.
+/// Sine and cosine of an angle.
+type Function = fn(f32) -> (f32, f32);
+
+/// A kernel of sines: for two turns, and for more.
+#[derive(Clone, Copy, Debug)]
+pub struct Kernel {
+    near: Function,
+    far: Function,
+}
+
+impl Kernel {
+    /// The library's own.
+    pub const NATIVE: Self = Self {
+        near: trig::sin_cos_near,
+        far: trig::sin_cos,
+    };
+
+    /// The kernel that a type is.
+    pub fn of<K: trig::Kernel<f32>>() -> Self {
+        Self {
+            near: K::sin_cos_near,
+            far: K::sin_cos,
+        }
+    }
+}
+
+/// The greatest errors of the library's sines over all numbers of f32 in the ranges of the joints that turn.
 pub fn enumerate(joints: &[Joint]) -> SineErrors {
-    let mut worst = SineErrors::default();
+    enumerate_each(joints, &[Kernel::NATIVE])[0]
+}
+
+/// The greatest errors of each of some kernels.
+pub fn enumerate_each(joints: &[Joint], kernels: &[Kernel]) -> Vec<SineErrors> {
+    let mut worst = vec![SineErrors::default(); kernels.len()];
     for near in [false, true] {
         let mine = || {
             joints
                 .iter()
                 .filter(|joint| joint.turns && is_near(joint) == near)
         };
-        let kernel = if near {
-            trig::sin_cos_near
-        } else {
-            trig::sin_cos
-        };
+        let of = |kernel: &Kernel| if near { kernel.near } else { kernel.far };
+        let functions: Vec<Function> = kernels.iter().map(of).collect();
         let most = |end: fn(&Joint) -> f64| mine().map(end).fold(0.0_f64, f64::max) as f32;
         for (sign, most) in [
             (1.0, most(|joint| joint.position.high)),
             (-1.0, most(|joint| -joint.position.low)),
         ] {
             // One beyond, if the limit was rounded down.
-            let of_sign = over(
-                TINY.to_bits()..=most.to_bits() + 1,
-                &|x: f32| kernel(sign * x),
-                f64::from(sign),
-            );
-            worst = larger(worst, of_sign);
+            let of_sign = over(TINY.to_bits()..=most.to_bits() + 1, &functions, sign);
+            worst = larger_each(&worst, &of_sign);
         }
     }
     worst
+}
+
+fn larger_each(a: &[SineErrors], b: &[SineErrors]) -> Vec<SineErrors> {
+    a.iter().zip(b).map(|(a, b)| larger(*a, *b)).collect()
 }
 
 fn larger(a: SineErrors, b: SineErrors) -> SineErrors {
@@ -71,23 +99,26 @@ fn larger(a: SineErrors, b: SineErrors) -> SineErrors {
     }
 }
 
-/// The errors over numbers of f32 by their bits, on all cores. The kernel is of the angle with its sign, the angle without.
-fn over(
-    bits: RangeInclusive<u32>,
-    kernel: &(impl Fn(f32) -> (f32, f32) + Sync),
-    sign: f64,
-) -> SineErrors {
+/// The errors over numbers of f32 by their bits, on all cores. The kernels are of the angle with its sign, the angle without.
+fn over(bits: RangeInclusive<u32>, kernels: &[Function], sign: f32) -> Vec<SineErrors> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from) as u32;
     let (first, last) = (*bits.start(), (*bits.end()).max(*bits.start()));
     let share = (last - first) / threads + 1;
+    let none = vec![SineErrors::default(); kernels.len()];
     std::thread::scope(|scope| {
         let parts = (0..threads).map(|i| {
             let start = first + i * share;
             let end = start.saturating_add(share - 1).min(last);
+            let mut worst = none.clone();
             scope.spawn(move || {
-                (start..=end).fold(SineErrors::default(), |worst, bits| {
-                    larger(worst, error(f32::from_bits(bits), kernel, sign))
-                })
+                for bits in start..=end {
+                    let x = f32::from_bits(bits);
+                    let exact = reference(x);
+                    for (worst, kernel) in worst.iter_mut().zip(kernels) {
+                        *worst = larger(*worst, error(kernel(sign * x), exact, sign));
+                    }
+                }
+                worst
             })
         });
         let parts: Vec<_> = parts.collect();
@@ -96,24 +127,27 @@ fn over(
             sine: f64::INFINITY,
             cosine: f64::INFINITY,
         };
-        parts
+        let joined = parts
             .into_iter()
-            .map(|part| part.join().unwrap_or(nothing))
-            .fold(SineErrors::default(), larger)
+            .map(|part| part.join().unwrap_or_else(|_| vec![nothing; kernels.len()]));
+        joined.fold(none.clone(), |worst, part| larger_each(&worst, &part))
     })
 }
 
 #[inline(always)]
-fn error(x: f32, kernel: impl Fn(f32) -> (f32, f32), sign: f64) -> SineErrors {
-    let (sine, cosine) = kernel(x);
+fn reference(x: f32) -> (f64, f64) {
     let (wide, square) = (f64::from(x), f64::from(x) * f64::from(x));
-    let (s, c) = if x < SMALL {
+    if x < SMALL {
         (wide * (1.0 - square / 6.0), 1.0 - 0.5 * square)
     } else {
         wide.sin_cos()
-    };
+    }
+}
+
+#[inline(always)]
+fn error((sine, cosine): (f32, f32), (s, c): (f64, f64), sign: f32) -> SineErrors {
     SineErrors {
-        sine: (f64::from(sine) - sign * s).abs() + REFERENCE,
+        sine: (f64::from(sine) - f64::from(sign) * s).abs() + REFERENCE,
         cosine: (f64::from(cosine) - c).abs() + REFERENCE,
     }
 }

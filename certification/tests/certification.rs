@@ -1,9 +1,13 @@
 //! The checks of certificates, each with what it refuses.
 
+#[path = "certification/configurations.rs"]
+mod configurations;
 #[path = "certification/fpcore.rs"]
 mod fpcore;
 #[path = "certification/grid.rs"]
 mod grid;
+#[path = "certification/limits.rs"]
+mod limits;
 #[path = "certification/recorded.rs"]
 mod recorded;
 #[path = "certification/target.rs"]

@@ -11,7 +11,7 @@ use core::mem::offset_of;
 
 use cortex_m_semihosting::debug;
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
-use dynamics_core::model::{JointCoordinate, JointKind, Robot as _};
+use dynamics_core::model::{BASE, JointCoordinate, JointKind, Robot as _};
 use dynamics_core::state::{JointTrig, StateWithTrig};
 use dynamics_core::{Core, Engine, MassMatrix};
 use firmware_demo::target;
@@ -50,6 +50,61 @@ const fn joints() -> [[f32; 4]; N] {
         i += 1;
     }
     joints
+}
+
+/// Of each body: its parent, its joint's kind and coordinate, placement, mass, first moment and second moments, for what is proven of
+/// the model itself.
+#[used]
+static CERTIFIED_BODIES: [[f64; 25]; B] = bodies();
+
+const fn bodies() -> [[f64; 25]; B] {
+    let (links, mut bodies) = (Robot::MODEL.links, [[0.0; 25]; B]);
+    let mut i = 0;
+    while i < B {
+        let (link, number) = (&links[i], &mut bodies[i]);
+        number[0] = if link.parent == BASE {
+            -1.0
+        } else {
+            link.parent as f64
+        };
+        number[1] = match link.joint.kind {
+            JointKind::Fixed => 0.0,
+            JointKind::Revolute | JointKind::Continuous => 1.0,
+            JointKind::Prismatic => 2.0,
+            _ => 3.0,
+        };
+        number[2] = if link.idx_v == BASE {
+            -1.0
+        } else {
+            link.idx_v as f64
+        };
+        let (placement, inertia) = (&link.placement, &link.inertia);
+        let (rot, moments) = (
+            placement.rot.to_cols_array(),
+            inertia.rotational.to_cols_array(),
+        );
+        let (pos, first) = (placement.pos.to_array(), inertia.first_moment.to_array());
+        let mut k = 0;
+        while k < 3 {
+            let mut j = 0;
+            while j < 3 {
+                number[3 + 3 * k + j] = rot[3 * j + k];
+                j += 1;
+            }
+            number[12 + k] = pos[k];
+            number[16 + k] = first[k];
+            k += 1;
+        }
+        number[15] = inertia.mass;
+        let places = [0, 1, 2, 4, 5, 8]; // xx, xy, xz, yy, yz, zz
+        k = 0;
+        while k < 6 {
+            number[19 + k] = moments[places[k]];
+            k += 1;
+        }
+        i += 1;
+    }
+    bodies
 }
 
 /// Bytes between coordinates, and to sine, cosine and position in each.

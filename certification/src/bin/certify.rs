@@ -5,15 +5,17 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use certification::certificate::{self, Certificate, Function, Spent};
+use certification::check::Part;
 use certification::error::{Error, Result};
 use certification::image::Image;
+use certification::limits::{self, Limits};
 use certification::narrow::Narrow;
 use certification::program::{self, LIBRARY, Program};
 use certification::rows::{self, Measured, Report};
 use certification::search::Effort;
 use certification::sheet::{Sheet, Target};
 use certification::state_box::Robot;
-use certification::{check, emulation, fpcore, page, picture, sines};
+use certification::{check, configurations, emulation, fpcore, page, picture, sines};
 use clap::Parser;
 
 /// Proven rounding errors of a robot's functions over the whole box of its joints
@@ -73,12 +75,23 @@ struct Args {
     /// Only write each result as a benchmark in the form of FPBench into this directory: FUNCTION_ROBOT.fpcore
     #[arg(long, value_name = "DIR", conflicts_with_all = ["json", "gappa", "sampled", "write_docs", "hashes"])]
     fpcore: Option<PathBuf>,
+    /// Only prove the errors of the configurations of `cargo xtask accuracy`, and print them as JSON
+    #[arg(long, requires = "robot", conflicts_with_all = ["fpcore", "gappa", "sampled", "write_docs", "hashes"])]
+    configurations: bool,
     /// Only let Gappa and Coq check a sample of parts of the box, and refuse wrong ones
     #[arg(long, conflicts_with_all = ["write_docs", "hashes"])]
     sampled: bool,
-    /// Rewrite docs/certificates.md with its picture
-    #[arg(long, conflicts_with_all = ["robot", "json"])]
-    write_docs: bool,
+    /// Rewrite docs/certificates.md with its picture, or a part of the page
+    #[arg(
+        long,
+        value_enum,
+        value_name = "PART",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "all",
+        conflicts_with_all = ["robot", "json"]
+    )]
+    write_docs: Option<Part>,
     /// Only compare the hashes in docs/certificates.md with today's machine code
     #[arg(long, conflicts_with_all = ["robot", "write_docs"])]
     hashes: bool,
@@ -89,11 +102,31 @@ struct Args {
     options: robot_import::import::Options,
 }
 
+impl Args {
+    /// Whether a part of the page is to be written.
+    fn writes(&self, part: Part) -> bool {
+        self.write_docs
+            .is_some_and(|written| written == Part::All || written == part)
+    }
+}
+
 /// The share of each range that the parts have which Gappa checks.
 const PART: f64 = 1.0 / 64.0;
 /// See [`Args::points`].
 const POINTS: usize = 1_000_000;
 const PAGE_POINTS: usize = 5_000_000;
+/// Points of each grid and parts of each box of `--configurations`, which proves a hundred of them.
+const CONFIGURED_POINTS: usize = 300_000;
+const CONFIGURED_PARTS: usize = 300;
+/// Parts for speeds and for the floor of the inertia matrix; those of the page.
+const SHEET_EFFORT: limits::Effort = limits::Effort {
+    speeds: 20_000,
+    floor: 20_000,
+};
+const PAGE_EFFORT: limits::Effort = limits::Effort {
+    speeds: 100_000,
+    floor: 80_000,
+};
 const PAGE: &str = "docs/certificates.md";
 /// The results that are kept as benchmarks for FPBench.
 const KEPT: [(&str, Function); 2] = [("ur5e", Function::Rnea), ("so101", Function::Gravity)];
@@ -143,6 +176,9 @@ fn run(args: &Args) -> Result<String> {
         Ok(robot)
     };
     let robots: Vec<Robot> = programs.iter().map(boxed).collect::<Result<_>>()?;
+    if args.configurations {
+        return configurations(args, &robots);
+    }
     if args.hashes {
         for program in &programs {
             let image = Image::read(&program.elf)?;
@@ -156,7 +192,7 @@ fn run(args: &Args) -> Result<String> {
         }
         return Ok(format!("{PAGE} and {FOLDER} are of today's machine code"));
     }
-    if args.write_docs {
+    if args.writes(Part::Certificates) {
         for (path, text) in kept(&docs, &programs, &robots)? {
             program::write(&path, &text)?;
         }
@@ -166,6 +202,20 @@ fn run(args: &Args) -> Result<String> {
     }
     if args.sampled {
         return sampled(args, &programs, &robots);
+    }
+    let limits = if args.robot.is_some() || args.writes(Part::Limits) {
+        limits(args, &programs, &robots)?
+    } else {
+        Vec::new()
+    };
+    if args.writes(Part::Limits) {
+        let of = |one: &Limits| format!("### {}\n\n{}\n", one.robot, one.markdown());
+        let text: String = limits.iter().map(of).collect();
+        let page = check::page(&written()?, Part::Limits, &text)?;
+        program::write(&docs.join(PAGE), &page)?;
+    }
+    if args.write_docs.is_some() && !args.writes(Part::Certificates) {
+        return Ok(format!("written: {PAGE}"));
     }
     // Once for all robots: what holds over the widest ranges holds over each.
     let joints: Vec<_> = robots
@@ -194,7 +244,39 @@ fn run(args: &Args) -> Result<String> {
             certificates.push(one);
         }
     }
-    finish(args, &docs, &certificates, written)
+    finish(args, &docs, &certificates, limits.first(), written)
+}
+
+/// The proven errors of the configurations of a robot, as JSON.
+fn configurations(args: &Args, robots: &[Robot]) -> Result<String> {
+    let name = args.robot.as_deref().unwrap_or_default();
+    let program = program::configured(name, &args.options)?;
+    let spent = configurations::Spent {
+        points: args.points.unwrap_or(CONFIGURED_POINTS),
+        parts: CONFIGURED_PARTS,
+    };
+    let robot = robots
+        .first()
+        .ok_or_else(|| Error::Missing("robot".to_owned()))?;
+    let all = configurations::prove(&program, robot, spent)?;
+    serde_json::to_string_pretty(&all).map_err(|e| Error::Robot(e.to_string()))
+}
+
+/// What is proven of the robots themselves.
+fn limits(args: &Args, programs: &[Program], robots: &[Robot]) -> Result<Vec<Limits>> {
+    let effort = match args.write_docs {
+        Some(_) => PAGE_EFFORT,
+        None => SHEET_EFFORT,
+    };
+    let all = programs.iter().zip(robots);
+    all.map(|(program, robot)| {
+        let start = Instant::now();
+        let one = Limits::of(program, robot, effort)?;
+        let seconds = start.elapsed().as_secs_f64();
+        eprintln!("{}: speeds and inertia: {seconds:.0} s", one.robot);
+        Ok(one)
+    })
+    .collect()
 }
 
 /// The bounds of measured rows of programs, by the paths of these.
@@ -293,9 +375,11 @@ fn spent(args: &Args) -> Spent {
     let children = args.states / 3 * 2 / 96;
     Spent {
         parts: args.parts,
-        points: args
-            .points
-            .unwrap_or(if args.write_docs { PAGE_POINTS } else { POINTS }),
+        points: args.points.unwrap_or(if args.write_docs.is_some() {
+            PAGE_POINTS
+        } else {
+            POINTS
+        }),
         search: Effort {
             random: args.states / 3,
             generations: 96,
@@ -308,21 +392,22 @@ fn finish(
     args: &Args,
     docs: &Path,
     certificates: &[Certificate],
+    limits: Option<&Limits>,
     written: impl Fn() -> Result<String>,
 ) -> Result<String> {
     if let Some(path) = &args.picture {
         program::write(path, &picture::svg(certificates))?;
     }
-    if args.write_docs {
+    if args.writes(Part::Certificates) {
         program::write(&docs.join(PICTURE), &picture::svg(certificates))?;
         program::write(
             &docs.join(PAGE),
-            &check::page(&written()?, &page::tables(certificates))?,
+            &check::page(&written()?, Part::Certificates, &page::tables(certificates))?,
         )?;
         return Ok(format!("written: {PAGE}"));
     }
     let json = |e: serde_json::Error| Error::Robot(e.to_string());
-    match Sheet::of(certificates).filter(|_| args.robot.is_some()) {
+    match limits.and_then(|limits| Sheet::of(certificates, limits)) {
         Some(sheet) if args.json => serde_json::to_string_pretty(&sheet).map_err(json),
         Some(sheet) => Ok(sheet.markdown()),
         None if args.json => serde_json::to_string_pretty(certificates).map_err(json),

@@ -11,6 +11,7 @@ mod page;
 mod plot;
 mod point;
 mod printed;
+mod proven;
 mod recorded;
 
 use std::path::PathBuf;
@@ -50,6 +51,10 @@ pub struct Args {
     #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
     #[arg(requires = "chosen", conflicts_with = "cycles")]
     error: Option<Allowed>,
+    /// Choose the cheapest configuration that is proven to be off by no more than this in any state of the joints' box: 0.01Nm
+    #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
+    #[arg(requires = "chosen", conflicts_with_all = ["cycles", "error"])]
+    proven_error: Option<Allowed>,
     /// Choose the most accurate configuration whose worst tick takes no more cycles than this
     #[arg(long, value_name = "CYCLES", requires = "chosen")]
     cycles: Option<u64>,
@@ -60,12 +65,19 @@ pub struct Args {
 
 /// Measures, writes page and pictures, and prints; or chooses.
 pub fn run(options: Options, args: Args) -> Result<ExitCode> {
-    let budget = match (args.error, args.cycles) {
+    if args
+        .proven_error
+        .is_some_and(|allowed| allowed.kind != Kind::Inverse)
+    {
+        bail!("only errors of torques are proven: --proven-error 0.01Nm");
+    }
+    let budget = match (args.error.or(args.proven_error), args.cycles) {
         (Some(error), _) => Some(Budget::Error(error)),
         (None, cycles) => cycles.map(Budget::Cycles),
     };
     if let Some(robot) = args.own.robot(&Workspace::find()?, own::MOST_JOINTS)? {
-        return own::run(options, &robot, budget, args.json);
+        let proven = args.proven_error.map(|_| args.own.words());
+        return own::run(options, &robot, budget, proven, args.json);
     }
     let choice = budget.zip(args.robot);
     let workspace = match choice {
@@ -98,7 +110,12 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         }
         return Ok(ExitCode::SUCCESS);
     };
-    let points = choice::shipped(&points, budget.group(robot));
+    let mut points = choice::shipped(&points, budget.group(robot));
+    if args.proven_error.is_some() {
+        let proven = proven::Proven::of(&workspace, &[robot.name()])?;
+        points = proven.points(&points)?;
+        output::note(&proven.note());
+    }
     show(budget, &points, args.json)?;
     if !args.json && !args.measure {
         let file = recorded::FILE;

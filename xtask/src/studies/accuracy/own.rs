@@ -8,6 +8,7 @@ use super::join::{Host, join};
 use super::measure::ACCURACY;
 use super::page;
 use super::point::{Kind, Point};
+use super::proven::Proven;
 use crate::kit::error::{Result, bail, check};
 use crate::kit::firmware::{OWN_ROBOTS, build_own, variable};
 use crate::kit::meter::MODEL;
@@ -28,6 +29,7 @@ pub fn run(
     options: Options,
     robot: &OwnRobot,
     budget: Option<Budget>,
+    proven: Option<Vec<&str>>,
     json: bool,
 ) -> Result<ExitCode> {
     if let Some(Budget::Error(allowed)) = budget
@@ -38,10 +40,16 @@ pub fn run(
     let workspace = Workspace::find()?;
     let points = measure(&workspace, &setup::for_demo(options)?, robot)?;
     if let Some(budget) = budget {
-        let points = shipped(&points, (&*robot.name, Kind::Inverse, ""));
+        let mut points = shipped(&points, (&*robot.name, Kind::Inverse, ""));
+        if let Some(words) = &proven {
+            let proven = Proven::of(&workspace, words)?;
+            points = proven.points(&points)?;
+            output::note(&proven.note());
+        }
         super::show(budget, &points, json)?;
         output::note(&format!(
-            "\n`crate::robot` is the file of `cargo xtask import`. {REFERENCE}."
+            "\n`crate::robot` is the file of `cargo xtask import`. {}",
+            proven.map_or(REFERENCE, |_| "")
         ));
     } else if json {
         docs::print_json(&points)?;

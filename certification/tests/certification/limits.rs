@@ -1,0 +1,270 @@
+//! What is proven of a robot itself, against the core in f64 and against what a search finds.
+
+use certification::bodies::{Body, Moves, Position, inertia_matrix};
+use certification::error::Error;
+use certification::floor::{Floor, is_above, least_eigenvalue, prove};
+use certification::interval::Interval;
+use certification::limits::Limits;
+use certification::peel;
+use certification::speeds::{self, Speed};
+use certification::taylor::{Scalar, Taylor};
+use dynamics_core::Core;
+use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::model::{BASE, JointKind, Model, Robot};
+use dynamics_core::robots::{A1Leg, Ur5e};
+
+/// As the firmware writes it.
+pub fn bodies<const B: usize, const N: usize>(model: &Model<f64, B, N, N>) -> Vec<Body> {
+    let body = |link: &dynamics_core::model::Link<f64>| {
+        let columns = link.placement.rot.to_cols_array_2d();
+        let i = link.inertia.rotational.to_cols_array();
+        let [x, y, z] = link.inertia.first_moment.to_array();
+        Body {
+            parent: (link.parent != BASE).then_some(link.parent),
+            moves: match link.joint.kind {
+                JointKind::Fixed => Moves::Fixed,
+                JointKind::Prismatic => Moves::Slides(link.idx_v),
+                _ => Moves::Turns(link.idx_v),
+            },
+            rot: std::array::from_fn(|row| std::array::from_fn(|column| columns[column][row])),
+            pos: link.placement.pos.to_array(),
+            inertia: [
+                link.inertia.mass,
+                x,
+                y,
+                z,
+                i[0],
+                i[1],
+                i[2],
+                i[4],
+                i[5],
+                i[8],
+            ],
+        }
+    };
+    model.links.iter().map(body).collect()
+}
+
+fn positions(n: usize) -> Vec<Interval> {
+    vec![Interval::new(-1.2, 2.0); n]
+}
+
+fn within(rng: &mut fastrand::Rng, of: &[Interval]) -> Vec<f64> {
+    of.iter()
+        .map(|x| x.low + rng.f64() * (x.high - x.low))
+        .collect()
+}
+
+fn differs<T: Robot<B, N, N>, const B: usize, const N: usize>(rng: &mut fastrand::Rng) -> f64 {
+    let q = within(rng, &positions(N));
+    let at: Vec<_> = q.iter().map(|q| Position::at(*q)).collect();
+    let mine = inertia_matrix(&bodies(&T::MODEL), N, &at);
+    let q: [f64; N] = std::array::from_fn(|i| q[i]);
+    let core = Core::<T>::crba(&q, &RIGID_BODY);
+    let mut most = 0.0_f64;
+    for (i, row) in mine.iter().enumerate() {
+        for (j, entry) in row.iter().enumerate() {
+            most = most.max((entry - core.get(i, j)).abs());
+        }
+    }
+    most
+}
+
+#[test]
+fn the_inertia_matrix_is_the_cores() {
+    let mut rng = fastrand::Rng::with_seed(1);
+    for _ in 0..100 {
+        assert!(differs::<Ur5e, 6, 6>(&mut rng) < 1e-13);
+        assert!(differs::<A1Leg, 4, 3>(&mut rng) < 1e-14);
+    }
+}
+
+/// Each entry of M at a position of a part is where the centre, the slopes and the remainder say; without the remainder it is not.
+#[test]
+fn an_enclosure_holds_and_needs_its_remainder() {
+    let (mut rng, bodies) = (fastrand::Rng::with_seed(1), bodies(&Ur5e::MODEL));
+    let mut beyond_slopes = 0;
+    for number in 0..400 {
+        let half = 0.5_f64.powi(number % 12);
+        let middle = within(&mut rng, &positions(6));
+        let part: Vec<Interval> = middle
+            .iter()
+            .map(|q| Interval::new(q - half, q + half))
+            .collect();
+        let over: Vec<_> = (0..)
+            .zip(&part)
+            .map(|(joint, range)| Position::over(joint, *range))
+            .collect();
+        let enclosed = inertia_matrix(&bodies, 6, &over);
+        for _ in 0..50 {
+            let q = within(&mut rng, &part);
+            let at: Vec<_> = q.iter().map(|q| Position::at(*q)).collect();
+            let exact = inertia_matrix(&bodies, 6, &at);
+            for (exact, enclosed) in exact.iter().flatten().zip(enclosed.iter().flatten()) {
+                let moved = q.iter().zip(&middle).zip(enclosed.slopes);
+                let linear: f64 = moved.map(|((q, m), slope)| slope * (q - m) / half).sum();
+                let off = (exact - enclosed.centre - linear).abs();
+                assert!(off <= enclosed.rest + 1e-13, "{half}: {off:e} {enclosed:?}");
+                beyond_slopes += usize::from(off > 1e-6 && off > 0.1 * enclosed.rest);
+                let range = enclosed.range();
+                assert!(range.low <= exact + 1e-13 && exact - 1e-13 <= range.high);
+            }
+        }
+    }
+    assert!(beyond_slopes > 100, "{beyond_slopes}");
+}
+
+#[test]
+fn numbers_over_a_part_keep_their_operations() {
+    let mut rng = fastrand::Rng::with_seed(1);
+    for _ in 0..2000 {
+        let part = [0.3, 1.1].map(|x| {
+            let half = 1.6 * rng.f64();
+            Interval::new(x - half, x + half)
+        });
+        let [[c, _], [_, s]] = [0, 1].map(|k| Taylor::cosine_and_sine(part[k], 1.0, Some(k)));
+        let q = Taylor::coordinate(part[0], Some(0));
+        // The last has no slope of its own.
+        let r = Taylor::coordinate(part[1], None);
+        let all = (c * s - q.square()).times(-0.7) + r * s + Taylor::of(0.25);
+        for _ in 0..20 {
+            let [x, y] = part.map(|x| x.low + rng.f64() * (x.high - x.low));
+            let exact = (x.cos() * y.sin() - x * x) * -0.7 + y * y.sin() + 0.25;
+            let range = all.range();
+            assert!(
+                range.low <= exact && exact <= range.high,
+                "{part:?} {exact}"
+            );
+        }
+    }
+}
+
+#[test]
+fn no_position_has_an_eigenvalue_below_the_floor() {
+    let (bodies, positions) = (bodies(&A1Leg::MODEL), positions(3));
+    let floor = prove(&bodies, &positions, 20_000);
+    assert!(floor.ratio() > 0.8 && floor.ratio() < 1.0, "{floor:?}");
+    let mut rng = fastrand::Rng::with_seed(7);
+    for _ in 0..100_000 {
+        let q = within(&mut rng, &positions);
+        assert!(least_eigenvalue(&bodies, &q) > floor.floor);
+    }
+    assert!(is_above(&bodies, &positions, &[floor.floor; 3], 20_000).is_some());
+    // A floor above what was found is not proven, however many parts it is given.
+    assert!(is_above(&bodies, &positions, &[1.001 * floor.least; 3], 20_000).is_none());
+}
+
+/// The floor by an arm without its last body holds, and one that leaves the coupling out does not.
+#[test]
+fn taking_the_last_body_off_is_below_and_needs_the_coupling() {
+    let positions = positions(2);
+    let whole = peel::welded(&bodies(&A1Leg::MODEL));
+    let arm = &peel::without_last(&whole);
+    let (own, rest) = (peel::own(arm), peel::own(&peel::without_last(arm)));
+    let coupling = peel::coupling(arm, &positions, &[rest], 5000);
+    let floor = (0.5 * rest).min(peel::least(own, coupling, 0.5));
+    let mut rng = fastrand::Rng::with_seed(1);
+    let mut least = f64::INFINITY;
+    for _ in 0..100_000 {
+        least = least.min(least_eigenvalue(arm, &within(&mut rng, &positions)));
+    }
+    assert!(
+        0.05 * least < floor && floor <= least,
+        "{floor:e} {least:e}"
+    );
+    assert!(rest.min(peel::least(own, 0.0, 0.0)) > least);
+    // What is welded weighs as before, and what is taken off not more.
+    let all = &bodies(&A1Leg::MODEL);
+    for _ in 0..1000 {
+        let q = within(
+            &mut rng,
+            &[positions.clone(), positions.clone()].concat()[..3],
+        );
+        let [a, b] = [all, &whole].map(|bodies| least_eigenvalue(bodies, &q));
+        assert!((a / b - 1.0).abs() < 1e-8, "{a} {b}");
+    }
+}
+
+#[test]
+fn no_link_is_faster_than_proven() {
+    let (bodies, positions) = (bodies(&A1Leg::MODEL), positions(3));
+    let most = [21.0, 20.0, 19.0];
+    let proven = speeds::prove(&bodies, &positions, &most, 20_000);
+    let ratio = |of: Speed| of.bound / of.found.max(1e-9);
+    for one in &proven {
+        assert!(one.turning.found <= one.turning.bound && ratio(one.turning) < 1.02);
+        assert!(
+            one.mass.found <= one.mass.bound && ratio(one.mass) < 1.1,
+            "{one:?}"
+        );
+    }
+    // Far from the base, by differences of positions: the foot's speed where each joint moves as fast as it may.
+    let foot = |q: &[f64]| {
+        let mut at = [0.0; 3];
+        for body in bodies.iter().rev() {
+            let (s, c) = match body.moves {
+                Moves::Turns(joint) => q[joint].sin_cos(),
+                _ => (0.0, 1.0),
+            };
+            let [x, y, z] = at;
+            let turned = [x * c - y * s, x * s + y * c, z];
+            at = std::array::from_fn(|i| {
+                body.pos[i] + (0..3).map(|k| body.rot[k][i] * turned[k]).sum::<f64>()
+            });
+        }
+        at
+    };
+    let mut rng = fastrand::Rng::with_seed(1);
+    let mut fastest = 0.0_f64;
+    for _ in 0..100_000 {
+        let q = within(&mut rng, &positions);
+        let step = 1e-7;
+        let moved: Vec<f64> = (0..3)
+            .map(|i| q[i] + step * if rng.bool() { most[i] } else { -most[i] })
+            .collect();
+        let (a, b) = (foot(&q), foot(&moved));
+        let distance = (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
+        fastest = fastest.max(distance / step);
+    }
+    let bound = proven[3].joint.bound;
+    assert!(
+        fastest <= bound * (1.0 + 1e-5) && fastest > 0.9 * bound,
+        "{fastest} {bound}"
+    );
+    // Proven for slower joints it would be contradicted.
+    let slower = speeds::prove(&bodies, &positions, &most.map(|x| 0.8 * x), 20_000);
+    assert!(slower[3].joint.bound < fastest);
+}
+
+#[test]
+fn what_is_found_beyond_a_limit_is_an_error() {
+    let good = Limits {
+        robot: "leg".to_owned(),
+        speeds: Vec::new(),
+        floor: Floor {
+            floor: 1.0,
+            least: 1.5,
+            ..Floor::default()
+        },
+    };
+    assert!(good.check().is_ok() && good.markdown().contains("the floor 0.667 of it"));
+    let mut wrong = good.clone();
+    wrong.floor.floor = 1.6;
+    assert!(matches!(wrong.check(), Err(Error::Limit { .. })));
+    let mut wrong = good;
+    let fast = Speed {
+        bound: 1.0,
+        found: 1.1,
+    };
+    wrong.speeds.push(speeds::Speeds {
+        body: 2,
+        turning: fast,
+        joint: Speed::default(),
+        mass: Speed::default(),
+    });
+    let said = wrong.check().expect_err("too fast").to_string();
+    assert_eq!(
+        said,
+        "angular velocity of body 2: 1e0 is proven, and 1.1e0 was found"
+    );
+}

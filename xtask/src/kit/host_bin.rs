@@ -12,7 +12,7 @@ use crate::kit::workspace::Workspace;
 /// The packages of the host whose crates are built together, whichever of their programs is wanted: another selection has other
 /// features of the crates below, which would be compiled once more. xtask is there already, with features of its own.
 pub const SHARED: &str = "--workspace --exclude xtask --exclude telemetry-watch --exclude telemetry-pil --exclude firmware-demo \
-     --exclude lab-target --exclude identification --exclude identify --exclude simulation-tests --exclude trial-tests --exclude play";
+     --exclude lab-target --exclude identification --exclude identify --exclude simulation-tests --exclude trial-tests --exclude play --exclude site";
 
 /// The packages that simulate, likewise, and the profile that inlines the library into them.
 pub const SIMULATED: &str = "--profile simulated --package identification --package identify --package simulation-tests --package trial-tests";

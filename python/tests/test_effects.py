@@ -62,6 +62,8 @@ def test_loads_wrenches_and_bases_act():
     gears = rd.RIGID_BODY + rd.LoadFriction([0.2] * 6, [0.1] * 6, 0.01)
     motor = robot.rnea(q, v, a, gears)
     assert np.allclose(robot.transmitted_torque(q, v, motor, gears), robot.rnea(q, v, a), atol=1e-9)
+    for forward in (robot.aba, robot.forward_dynamics):
+        assert np.allclose(forward(q, v, motor, gears), a, atol=1e-8), forward
     ground = rd.Contact([(body, [0.0, 0.0, 0.0])], [0.0, 0.0, 1.0], 10.0, 100.0, 1.0, 0.01, 0.5, 0.01)
     assert not np.allclose(robot.rnea(q, v, a, rd.RIGID_BODY + ground), robot.rnea(q, v, a))
 

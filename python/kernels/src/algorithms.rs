@@ -110,7 +110,7 @@ macro_rules! algorithm {
                 $row: &mut impl Row<R>,
             ) -> Result<(), usize> {
                 let $this = self;
-                let $scene = &Scene::<R, V, A, C, X>(parts);
+                let $scene = &Scene::<R, V, A, C, X>(parts, true);
                 let _ = ($this, $scene);
                 $body
             }
@@ -217,7 +217,7 @@ fn factors<
     parts: &Parts<R, V>,
     counts: Counts,
 ) -> Result<algorithms::Ltdl<R, V>, usize> {
-    let scene = Scene::<R, V, true, true, X>(parts);
+    let scene = Scene::<R, V, true, true, X>(parts, true);
     let mut unit = [R::ZERO; V];
     unit[counts.v..].fill(R::ONE);
     let m = algorithms::crba(robot, q, &scene);
@@ -318,7 +318,7 @@ algorithm! {
     ForwardDynamics, moving, |this, robot, counts, scene, row| {
         let (state, tau) = (state(row, counts, 2), filled(row, 2, counts.v));
         let parts = parts_of(scene);
-        let bias = algorithms::rnea(robot, &state, &Scene::<R, V, false, C, X>(parts));
+        let bias = algorithms::rnea(robot, &state, &Scene::<R, V, false, C, X>(parts, false));
         let mut rest = algorithms::transmitted_torque(robot, &state, &tau, scene);
         for (rest, bias) in rest.iter_mut().zip(bias) {
             *rest -= bias;

@@ -52,8 +52,12 @@ pub struct Parts<R: Real, const V: usize> {
 }
 
 /// A scene: whether it has the products of accelerations (A), of velocities (C), and effects at bodies or gears (X).
+///
+/// The second field is whether the friction of gears acts: forward dynamics takes the motors' torques through the gears
+/// and then computes its bias without them.
 pub struct Scene<'a, R: Real, const V: usize, const A: bool, const C: bool, const X: bool>(
     pub &'a Parts<R, V>,
+    pub bool,
 );
 
 impl<R: Real, const B: usize, const V: usize, const A: bool, const C: bool, const X: bool>
@@ -134,7 +138,7 @@ impl<R: Real, const V: usize, const A: bool, const C: bool, const X: bool>
         factors: &mut LoadFactors<R>,
     ) {
         let add = const { <LoadFriction<R, V> as Effect<R, B, V>>::LOAD_FRICTION.factors };
-        if let (Some(gears), Some(add)) = (&self.0.gears, add) {
+        if let (true, Some(gears), Some(add)) = (self.1, &self.0.gears, add) {
             add(gears, joint, at, factors);
         }
     }
@@ -146,7 +150,7 @@ impl<R: Real, const V: usize, const A: bool, const C: bool, const X: bool>
         slopes: &mut LoadFactors<R>,
     ) {
         let add = const { <LoadFriction<R, V> as Effect<R, B, V>>::LOAD_FRICTION.slopes };
-        if let (Some(gears), Some(add)) = (&self.0.gears, add) {
+        if let (true, Some(gears), Some(add)) = (self.1, &self.0.gears, add) {
             add(gears, joint, at, slopes);
         }
     }

@@ -40,14 +40,24 @@ pub fn run(options: Options, name: &str) -> Result<ExitCode> {
 pub fn check(workspace: &Workspace, options: Options) -> Result<String> {
     let bits = workspace.output("play.bits")?;
     workspace::write(&bits, host_bin::text(workspace, "bits")?)?;
-    let mut node = script(workspace, options, "play/test/play.mjs", &[BUILD, TEST].concat())?;
+    let mut node = script(
+        workspace,
+        options,
+        "play/test/play.mjs",
+        &[BUILD, TEST].concat(),
+    )?;
     last_line(node.arg("--host-bits").arg(&bits))
 }
 
 /// Holds the site to its checks, likewise.
 pub fn check_site(workspace: &Workspace, options: Options) -> Result<String> {
     let tools = [BUILD, TEST].concat();
-    last_line(&mut script(workspace, options, "site/test/site.mjs", &tools)?)
+    last_line(&mut script(
+        workspace,
+        options,
+        "site/test/site.mjs",
+        &tools,
+    )?)
 }
 
 fn last_line(node: &mut Command) -> Result<String> {

@@ -24,9 +24,12 @@ pub mod static_bounds;
 pub mod study;
 pub mod trial;
 
+use std::process::ExitCode;
+
 use clap::{ArgMatches, Args, Command};
 
 use crate::kit::error::Result;
+use crate::kit::workspace::Workspace;
 use crate::kit::{setup, shell};
 use study::Form::{Demo, Own, Part, Whole};
 use study::Held::{Bars, Step};
@@ -36,6 +39,13 @@ use study::{Study, given};
 
 /// The check of a study that no step measures.
 const NO_STEP: fn(&study::Bench<'_>) -> Result<String> = |_| Ok(String::new());
+
+/// Writes docs/film.svg, or with `--check` compares it.
+fn film(workspace: &Workspace, options: &[&str]) -> Result<String> {
+    let mut film = workspace.cargo("run");
+    film.args(["--quiet", "--package", "site", "--bin", "film", "--"]);
+    shell::capture(film.args(options).arg(workspace.report("docs/film.svg")))
+}
 
 /// In the order in which their steps run.
 #[rustfmt::skip]
@@ -110,7 +120,11 @@ pub const STUDIES: &[Study] = &[
         name: "film", about: "Simulate a UR5e with feed-forward, without it and with it again, rewrite docs/film.svg",
         files: &["docs/film.svg"],
         held: Step(Host, Full, "docs/film.svg is the film of today's simulation"),
-        form: Own(|command| command, |_, _| drawn::film(&[]), |_| drawn::film(&["--check"]).map(|_| String::new())),
+        form: Own(
+            |command| command,
+            |_, _| film(&Workspace::for_reports()?, &[]).map(|_| ExitCode::SUCCESS),
+            |bench| film(bench.workspace, &["--check"]),
+        ),
     },
     Study {
         name: "static", about: "Bound the cycles and the stack of each algorithm by its machine code, rewrite a part of docs/certificates.md",

@@ -53,6 +53,8 @@ fn of(readme: &str, film: &str) -> Result<String> {
     page += "## Continue\n\n\
              - The [guide](docs/guide/src/README.md), from the first torque to a port\n\
              - [Reports and decisions](docs), with all figures\n\
+             - The <a href=\"reference/index.html\">reference</a> of the crates\n\
+             - <a href=\"play/index.html\">Try it in the browser</a>\n\
              - The [README](README.md), with how to use the library and what it computes\n\
              - [Architecture](ARCHITECTURE.md) and [contributing](CONTRIBUTING.md)\n";
     Ok(page)

@@ -53,6 +53,8 @@ enum Command {
     Pil(pil::Args),
     /// Build the page on which one tries the library in a browser, target/site/play/index.html
     Play,
+    /// Build the guide, the reports, the reference and the page to try as one site, target/site/index.html
+    Site,
     /// Feed descriptions, files, dynamics, controller and encoder frames random bytes; CI does so for a moment
     Fuzz {
         /// Seconds for each target
@@ -78,7 +80,7 @@ const FIRST: [&str; 12] = [
 ];
 
 /// The commands that lists name behind those of the studies.
-const LAST: [&str; 5] = ["fuzz", "soak", "miri", "lines", "help"];
+const LAST: [&str; 6] = ["site", "fuzz", "soak", "miri", "lines", "help"];
 
 const LABORATORY: &str = "\x1b[1;4mLaboratory, which writes the pages of docs/\x1b[0m";
 
@@ -181,7 +183,8 @@ pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {
         Command::Identify(args) => identify::run("identify", "identify", &args.arguments),
         Command::Certify(args) => identify::run("certification", "certify", &args.arguments),
         Command::Pil(args) => pil::run(setup, &args),
-        Command::Play => play::run(setup),
+        Command::Play => play::run(setup, "play/build.mjs"),
+        Command::Site => play::run(setup, "site/build.mjs"),
         Command::Fuzz { seconds } => endurance::fuzz(seconds),
         Command::Soak { ticks } => endurance::soak(ticks),
         Command::Miri => endurance::miri(),

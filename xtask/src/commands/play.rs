@@ -1,4 +1,4 @@
-//! `cargo xtask play`: the page of docs/play, whose scripts build and test it.
+//! `cargo xtask play` and `site`: the page of docs/play and the site of docs/site, whose scripts build and test them.
 
 use std::process::{Command, ExitCode};
 
@@ -13,26 +13,26 @@ const WASM: &str = "wasm32-unknown-unknown";
 const BUILD: [(&str, &str); 2] = [("node", "nodejs"), ("wasm-opt", "binaryen")];
 const TEST: [(&str, &str); 2] = [("npm", "npm"), ("chromium", "chromium")];
 
-/// A script of docs/play, and what it needs.
+/// A script of a folder of docs, and what it needs.
 fn script(
     workspace: &Workspace,
     options: Options,
     name: &str,
     tools: &[(&'static str, &'static str)],
 ) -> Result<Command> {
-    setup::for_programs(options, "the page of docs/play", tools)?;
+    setup::for_programs(options, "the pages of docs/play and docs/site", tools)?;
     if !toolchain::native_has(WASM) {
         setup::for_cores(options, &[WASM], &[])?;
     }
     let mut node = Command::new("node");
     node.env("CARGO_TARGET_DIR", &workspace.target);
-    node.arg(workspace.root.join("docs/play").join(name));
+    node.arg(workspace.root.join("docs").join(name));
     Ok(node)
 }
 
-/// Builds the page.
-pub fn run(options: Options) -> Result<ExitCode> {
-    let mut node = script(&Workspace::find()?, options, "build.mjs", &BUILD)?;
+/// Builds by a script.
+pub fn run(options: Options, name: &str) -> Result<ExitCode> {
+    let mut node = script(&Workspace::find()?, options, name, &BUILD)?;
     shell::run(&mut node).map(|()| ExitCode::SUCCESS)
 }
 
@@ -40,7 +40,27 @@ pub fn run(options: Options) -> Result<ExitCode> {
 pub fn check(workspace: &Workspace, options: Options) -> Result<String> {
     let bits = workspace.output("play.bits")?;
     workspace::write(&bits, host_bin::text(workspace, "bits")?)?;
-    let mut node = script(workspace, options, "test/play.mjs", &[BUILD, TEST].concat())?;
-    let printed = shell::capture(node.arg("--host-bits").arg(&bits))?;
+    let mut node = script(
+        workspace,
+        options,
+        "play/test/play.mjs",
+        &[BUILD, TEST].concat(),
+    )?;
+    last_line(node.arg("--host-bits").arg(&bits))
+}
+
+/// Holds the site to its checks, likewise.
+pub fn check_site(workspace: &Workspace, options: Options) -> Result<String> {
+    let tools = [BUILD, TEST].concat();
+    last_line(&mut script(
+        workspace,
+        options,
+        "site/test/site.mjs",
+        &tools,
+    )?)
+}
+
+fn last_line(node: &mut Command) -> Result<String> {
+    let printed = shell::capture(node)?;
     Ok(printed.lines().last().unwrap_or_default().to_owned())
 }

@@ -24,9 +24,12 @@ pub mod static_bounds;
 pub mod study;
 pub mod trial;
 
+use std::process::ExitCode;
+
 use clap::{ArgMatches, Args, Command};
 
 use crate::kit::error::Result;
+use crate::kit::workspace::Workspace;
 use crate::kit::{setup, shell};
 use study::Form::{Demo, Own, Part, Whole};
 use study::Held::{Bars, Step};
@@ -36,6 +39,13 @@ use study::{Study, given};
 
 /// The check of a study that no step measures.
 const NO_STEP: fn(&study::Bench<'_>) -> Result<String> = |_| Ok(String::new());
+
+/// Writes docs/film.svg, or with `--check` compares it.
+fn film(workspace: &Workspace, options: &[&str]) -> Result<String> {
+    let mut film = workspace.cargo("run");
+    film.args(["--quiet", "--package", "site", "--bin", "film", "--"]);
+    shell::capture(film.args(options).arg(workspace.report("docs/film.svg")))
+}
 
 /// In the order in which their steps run.
 #[rustfmt::skip]
@@ -105,6 +115,16 @@ pub const STUDIES: &[Study] = &[
             let mut python = std::process::Command::new("python3");
             shell::capture(python.current_dir(&bench.workspace.root).arg("python/test.py"))
         }),
+    },
+    Study {
+        name: "film", about: "Simulate a UR5e with feed-forward, without it and with it again, rewrite docs/film.svg",
+        files: &["docs/film.svg"],
+        held: Step(Host, Full, "docs/film.svg is the film of today's simulation"),
+        form: Own(
+            |command| command,
+            |_, _| film(&Workspace::for_reports()?, &[]).map(|_| ExitCode::SUCCESS),
+            |bench| film(bench.workspace, &["--check"]),
+        ),
     },
     Study {
         name: "static", about: "Bound the cycles and the stack of each algorithm by its machine code, rewrite a part of docs/certificates.md",
@@ -220,9 +240,9 @@ mod tests {
     #[test]
     fn every_generated_file_belongs_to_a_study_that_is_held() {
         let mut there = below("docs");
-        // The guide and the page to play with are written by hand, their programs included.
+        // The guide, the page to play with and the site are written by hand, their programs included.
         let by_hand = |name: &str| {
-            ["docs/guide/", "docs/play/"]
+            ["docs/guide/", "docs/play/", "docs/site/"]
                 .iter()
                 .any(|folder| name.starts_with(folder))
         };

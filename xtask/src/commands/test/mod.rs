@@ -86,6 +86,7 @@ const STEPS: &[Step] = &[
     ("telemetry", Target, Full, "a tick costs the same with a listener, without one, and with a full queue", |c| watch::check(&c.workspace, &c.tools, c.meter()?)),
     ("pil", Target, Named, "with its robot in f64 on the host the scene ur5e moves as with its robot inside", |c| pil::check(&c.workspace, &c.tools)),
     ("play", Host, Full, "the page of docs/play is small, fast, accessible, and computes the host's bits", |c| play::check(&c.workspace, c.options)),
+    ("site", Host, Full, "every link of the site resolves, its pages are accessible, narrow and load nothing from elsewhere", |c| play::check_site(&c.workspace, c.options)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
     ("projects", Host, Full, "new projects in Rust and in C build, run in QEMU and compute the host's torques", others::projects),
     ("lerobot", Host, Full, "an SO-101 floats in LeRobot with its scene's torques, and every fault of its bus ends without torque", others::lerobot),

@@ -58,7 +58,9 @@ fn links(html: &str) -> Links {
         }
         // A trait's page asks for the implementations of other crates, for which rustdoc writes no file if there are none.
         let asks = value("src").filter(|source| !source.contains("trait.impl/"));
-        found.targets.extend(value("href"));
+        // So does an implementation of a private trait: rustdoc leads from its methods to those of the trait, which it does not show.
+        let leads = value("href").filter(|target| !target.starts_with("#tymethod."));
+        found.targets.extend(leads);
         found.targets.extend(asks);
     }
     found

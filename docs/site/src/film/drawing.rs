@@ -348,9 +348,12 @@ impl Film<'_> {
         );
         for error in [0.0, 20.0, 40.0] {
             let y = Self::plotted(0.0, error).y;
-            self.draw(&format!(
-                "<path class=\"line faint-line\" d=\"M{left},{y}H{right}\"/>"
-            ));
+            // At 0 it would be drawn over the curve.
+            if error > 0.0 {
+                self.draw(&format!(
+                    "<path class=\"line faint-line\" d=\"M{left},{y}H{right}\"/>"
+                ));
+            }
             self.text(
                 "muted",
                 15,

@@ -6,6 +6,15 @@ mod simulation;
 
 use std::process::ExitCode;
 
+/// Fails unless the file is the film.
+fn held(file: &str, film: &str) -> Result<(), String> {
+    match std::fs::read_to_string(file) {
+        Ok(written) if written == film => Ok(()),
+        Ok(_) => Err("is not today's: `cargo xtask film` writes it".to_owned()),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let (checks, file) = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
@@ -18,11 +27,7 @@ fn main() -> ExitCode {
     };
     let film = drawing::film(&simulation::run());
     let done = match checks {
-        true => match std::fs::read_to_string(file) {
-            Ok(written) if written == film => Ok(()),
-            Ok(_) => Err("is not today's: `cargo xtask film` writes it".to_owned()),
-            Err(error) => Err(error.to_string()),
-        },
+        true => held(file, &film),
         false => std::fs::write(file, film).map_err(|error| error.to_string()),
     };
     match done {
@@ -37,7 +42,16 @@ fn main() -> ExitCode {
 #[cfg(test)]
 mod tests {
     use crate::simulation::Tick;
-    use crate::{drawing, simulation};
+    use crate::{drawing, held, simulation};
+
+    #[test]
+    fn another_film_or_none_is_refused() {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../film.svg");
+        let written = std::fs::read_to_string(file).expect("the film");
+        assert!(held(file, &written).is_ok());
+        assert!(held(file, &written.replacen('7', "8", 1)).is_err());
+        assert!(held("no/film.svg", &written).is_err());
+    }
 
     #[test]
     fn the_film_is_small_and_says_what_it_shows() {

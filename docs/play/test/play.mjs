@@ -119,7 +119,7 @@ const tests = {
           if (tab === "hard") await page.waitForSelector("#cases tr");
           await pause(600);
           accessible(await violations(page), `${tab}, ${theme}, ${size}`);
-          narrow(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), `${tab}, ${size}`);
+          narrow(await page.evaluate(() => document.documentElement.scrollWidth - screen.width), `${tab}, ${size}`);
           await page.screenshot({ path: join(pictures, `${tab}-${theme}-${size}.png`) });
           runs++;
         }
@@ -133,7 +133,7 @@ const tests = {
     must(found.some(({ id }) => id === "color-contrast"), "axe does not find a contrast that is too low");
     refused("accessible", () => accessible(found, "with a wrong contrast"));
     await page.addStyleTag({ content: "main { width: 3000px }" });
-    const excess = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    const excess = await page.evaluate(() => document.documentElement.scrollWidth - screen.width);
     refused("narrow", () => narrow(excess, "with a wrong width"));
     await page.close();
   },

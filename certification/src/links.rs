@@ -163,6 +163,7 @@ impl Add for Size {
 
 impl Sub for Size {
     type Output = Self;
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "magnitudes add up")]
     fn sub(self, b: Self) -> Self {
         self + b
     }

@@ -5,6 +5,7 @@ use crate::bodies::{Body, Moves, Position};
 use crate::error::{Error, Result};
 use crate::interval::Interval;
 use crate::links::{EARTH, Frame, monomials, terms};
+use crate::page::short;
 use crate::peel::welded;
 use crate::state_box::Robot;
 
@@ -55,7 +56,7 @@ impl Links {
         })
     }
 
-    /// What each link needs of each joint at a state, by joint and link, without gravity's and the others' parts of it.
+    /// What each link alone needs of each joint at a state, by joint and link.
     pub fn torques(&self, q: &[f64], qd: &[f64], qdd: &[f64]) -> Vec<Vec<f64>> {
         let n = self.bodies.len();
         let mut torques = vec![vec![0.0; n]; q.len()];
@@ -229,12 +230,16 @@ impl Bands {
              |\n|---|---|---|---|\n",
             self.percent
         );
+        let shown = |x: f64| match x {
+            0.1.. => format!("{x:.3}"),
+            _ => short(x),
+        };
         for (number, Band { bound, found }) in self.joints.iter().enumerate() {
-            text += &format!(
-                "| {} | {bound:.4} | {found:.4} | {:.2} |\n",
-                number + 1,
-                bound / found
-            );
+            let (number, at_most, most) = (number + 1, shown(*bound), shown(*found));
+            text += &match *found > 0.0 {
+                true => format!("| {number} | {at_most} | {most} | {:.2} |\n", bound / found),
+                false => format!("| {number} | {at_most} | {most} | |\n"),
+            };
         }
         text
     }

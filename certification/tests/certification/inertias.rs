@@ -2,8 +2,10 @@
 
 use certification::bodies::{Body, Moves};
 use certification::error::Error;
-use certification::inertias::{Bands, Effort, Links};
+use certification::floor::Floor;
+use certification::inertias::{Band, Bands, Effort, Links};
 use certification::interval::Interval;
+use certification::limits::Limits;
 use certification::state_box::{Joint, Robot};
 use dynamics_core::Core;
 use dynamics_core::effects::RIGID_BODY;
@@ -240,7 +242,7 @@ fn an_arm_that_slides_out_is_bounded_at_its_reach() {
 #[test]
 fn the_bound_of_a_ur5e_is_below_three_times_what_is_found() {
     let robot = Robot {
-        joints: [3.14, 3.14, 3.14, 6.28, 6.28, 6.28]
+        joints: [3.0, 3.0, 3.0, 6.0, 6.0, 6.0]
             .map(|speed| Joint {
                 turns: true,
                 position: Interval::new(-7.0, 7.0),
@@ -255,7 +257,6 @@ fn the_bound_of_a_ur5e_is_below_three_times_what_is_found() {
         states: 100_000,
     };
     let bands = Bands::prove(&bodies(&Ur5e::MODEL), &robot, 5.0, effort).expect("an arm");
-    eprintln!("{}", bands.markdown());
     for band in &bands.joints {
         assert!(
             band.found <= band.bound && band.bound < 3.0 * band.found,
@@ -274,4 +275,55 @@ fn what_is_no_percentage_or_moves_by_one_joint_is_declined() {
     bodies[1].moves = bodies[0].moves;
     let declined = Bands::prove(&bodies, &robot, 5.0, LITTLE).expect_err("twice");
     assert!(declined.to_string().contains("joint 1"), "{declined}");
+}
+
+/// Two legs on one hip: their links are counted once.
+#[test]
+fn a_tree_is_bounded_by_its_branches() {
+    let mut bodies = bodies(&A1Leg::MODEL);
+    for k in 1..4 {
+        let mut other = bodies[k];
+        other.parent = Some(if k == 1 { 0 } else { k + 2 });
+        if let Moves::Turns(joint) = other.moves {
+            other.moves = Moves::Turns(joint + 2);
+        }
+        bodies.push(other);
+    }
+    let mut robot = leg();
+    robot.joints.extend_from_within(1..);
+    let links = Links::of(&bodies).expect("two legs");
+    let found = links.search(&robot, 20_000);
+    let bounds = links.bounds(&robot, &found, LITTLE.points);
+    for (bound, found) in bounds.iter().zip(&found) {
+        assert!(found <= bound && *bound < 2.0 * found, "{found} {bound}");
+    }
+    // The second leg moves nothing of the first but the hip.
+    let torques = links.torques(&[0.3; 5], &[1.0; 5], &[2.0; 5]);
+    assert!(torques[1][1] != 0.0 && torques[1][3..].iter().all(|x| *x == 0.0));
+    assert!((torques[1][1] - torques[3][3]).abs() < 1e-14 && torques[0][4] != 0.0);
+}
+
+#[test]
+fn the_sheet_has_the_bands_and_refuses_a_band_below_what_was_found() {
+    let mut limits = Limits {
+        robot: "leg".to_owned(),
+        speeds: Vec::new(),
+        floor: Floor::default(),
+        bands: Some(Bands {
+            percent: 5.0,
+            joints: vec![Band {
+                bound: 1.5,
+                found: 1.0,
+            }],
+        }),
+    };
+    assert!(limits.check().is_ok());
+    assert!(limits.markdown().contains("| 1 | 1.500 | 1.000 | 1.50 |"));
+    let json = serde_json::to_value(&limits).expect("data");
+    assert_eq!(json["bands"]["joints"][0]["bound"], 1.5);
+    for wrong in [0.9, f64::NAN] {
+        limits.bands.as_mut().expect("it has them").joints[0].bound = wrong;
+        let said = limits.check().expect_err("below").to_string();
+        assert!(said.starts_with("torque of joint 1 by inertias"), "{said}");
+    }
 }

@@ -46,6 +46,18 @@ pub struct Position<S> {
     q: S,
 }
 
+impl<S: Scalar> Position<S> {
+    /// Without what composite inertias need of it.
+    pub(crate) fn plain(cosine: S, sine: S, q: S) -> Self {
+        Self {
+            cosine,
+            sine,
+            q,
+            ..Self::default()
+        }
+    }
+}
+
 impl Position<f64> {
     /// Of a number.
     pub fn at(q: f64) -> Self {

@@ -10,6 +10,7 @@
 //! | [`sines`] | the error of sines, by trying every angle |
 //! | [`bodies`], [`taylor`] | the robot's bodies, in numbers and over parts of the box |
 //! | [`limits`]: [`floor`], [`peel`], [`speeds`] | the least eigenvalue of the inertia matrix, and the speeds of the links |
+//! | [`inertias`], `links` | the most that inertias known within some percent change torques |
 //! | [`configurations`] | the errors of other kernels of sines and of other models |
 //! | [`search`] | the worst error that is found |
 //! | [`certificate`], [`page`], [`picture`] | what was proven, as data, text and picture |
@@ -40,8 +41,10 @@ pub mod gappa;
 pub mod graph;
 pub mod grid;
 pub mod image;
+pub mod inertias;
 pub mod interval;
 pub mod limits;
+mod links;
 mod machine;
 pub mod narrow;
 pub mod page;

@@ -8,6 +8,7 @@ use crate::bodies;
 use crate::error::{Error, Result};
 use crate::floor::{self, Floor};
 use crate::image::Image;
+use crate::inertias::{self, Band, Bands};
 use crate::page::short;
 use crate::program::Program;
 use crate::speeds::{self, Speed, Speeds};
@@ -22,6 +23,9 @@ pub struct Limits {
     pub speeds: Vec<Speeds>,
     /// The floor of the least eigenvalue of the inertia matrix.
     pub floor: Floor,
+    /// What inertias can change of the torques, if a percentage is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bands: Option<Bands>,
 }
 
 /// Parts of the positions for each speed; for each floor that is tried.
@@ -31,6 +35,8 @@ pub struct Effort {
     pub speeds: usize,
     /// See [`floor::prove`].
     pub floor: usize,
+    /// The percentage of [`Bands`], and what is spent on them.
+    pub inertias: Option<(f64, inertias::Effort)>,
 }
 
 impl Limits {
@@ -42,7 +48,11 @@ impl Limits {
         let bodies = bodies::read(&Image::read(&program.elf)?)?;
         let positions = &robot.whole()[..robot.joints.len()];
         let most: Vec<f64> = robot.joints.iter().map(|joint| joint.speed).collect();
+        let bands = effort
+            .inertias
+            .map(|(percent, effort)| Bands::prove(&bodies, robot, percent, effort));
         let limits = Self {
+            bands: bands.transpose()?,
             robot: program.robot.clone(),
             speeds: speeds::prove(&bodies, positions, &most, effort.speeds),
             floor: floor::prove(&bodies, positions, effort.floor),
@@ -68,6 +78,16 @@ impl Limits {
             above("angular velocity", one.body, one.turning)?;
             above("velocity of the joint", one.body, one.joint)?;
             above("velocity of the centre of mass", one.body, one.mass)?;
+        }
+        let bands = self.bands.iter().flat_map(|bands| &bands.joints);
+        for (joint, Band { bound, found }) in bands.enumerate() {
+            if bound.is_nan() || found > bound {
+                return Err(Error::Limit {
+                    what: format!("torque of joint {} by inertias", joint + 1),
+                    proven: *bound,
+                    found: *found,
+                });
+            }
         }
         let Floor { floor, least, .. } = self.floor;
         match least < floor {
@@ -101,6 +121,9 @@ impl Limits {
             short(least),
             self.floor.ratio(),
         );
+        if let Some(bands) = &self.bands {
+            text = text + "\n" + &bands.markdown();
+        }
         text
     }
 }

@@ -6,6 +6,8 @@ mod configurations;
 mod fpcore;
 #[path = "certification/grid.rs"]
 mod grid;
+#[path = "certification/inertias.rs"]
+mod inertias;
 #[path = "certification/limits.rs"]
 mod limits;
 #[path = "certification/recorded.rs"]

@@ -15,7 +15,7 @@ use certification::rows::{self, Measured, Report};
 use certification::search::Effort;
 use certification::sheet::{Sheet, Target};
 use certification::state_box::Robot;
-use certification::{check, configurations, emulation, fpcore, page, picture, sines};
+use certification::{check, configurations, emulation, fpcore, inertias, page, picture, sines};
 use clap::Parser;
 
 /// Proven rounding errors of a robot's functions over the whole box of its joints
@@ -51,6 +51,9 @@ struct Args {
         requires = "robot"
     )]
     narrow: Vec<Narrow>,
+    /// Also how far each torque can be off if each link's inertia is known within so many percent: all its parameters off by one factor
+    #[arg(long, value_name = "PERCENT", requires = "robot")]
+    inertias: Option<f64>,
     /// Into how many parts the box of each result is split: more time, tighter bounds
     #[arg(long, value_name = "N", default_value_t = 4000)]
     parts: usize,
@@ -122,11 +125,15 @@ const CONFIGURED_PARTS: usize = 300;
 const SHEET_EFFORT: limits::Effort = limits::Effort {
     speeds: 20_000,
     floor: 20_000,
+    inertias: None,
 };
 const PAGE_EFFORT: limits::Effort = limits::Effort {
     speeds: 100_000,
     floor: 80_000,
+    inertias: None,
 };
+/// Points of each grid of `--inertias`.
+const BAND_POINTS: usize = 4_000_000;
 const PAGE: &str = "docs/certificates.md";
 /// The results that are kept as benchmarks for FPBench.
 const KEPT: [(&str, Function); 2] = [("ur5e", Function::Rnea), ("so101", Function::Gravity)];
@@ -264,10 +271,15 @@ fn configurations(args: &Args, robots: &[Robot]) -> Result<String> {
 
 /// What is proven of the robots themselves.
 fn limits(args: &Args, programs: &[Program], robots: &[Robot]) -> Result<Vec<Limits>> {
-    let effort = match args.write_docs {
+    let mut effort = match args.write_docs {
         Some(_) => PAGE_EFFORT,
         None => SHEET_EFFORT,
     };
+    let spent = inertias::Effort {
+        points: args.points.unwrap_or(BAND_POINTS),
+        states: args.states,
+    };
+    effort.inertias = args.inertias.map(|percent| (percent, spent));
     let all = programs.iter().zip(robots);
     all.map(|(program, robot)| {
         let start = Instant::now();

@@ -246,6 +246,7 @@ fn what_is_found_beyond_a_limit_is_an_error() {
             least: 1.5,
             ..Floor::default()
         },
+        bands: None,
     };
     assert!(good.check().is_ok() && good.markdown().contains("the floor 0.667 of it"));
     let mut wrong = good.clone();

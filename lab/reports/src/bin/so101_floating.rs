@@ -1,5 +1,5 @@
 //! Prints what an SO-101 that floats should command, as JSON, for the tests of the plug-in for LeRobot: the torques of the scene
-//! [`so101_teach`] and of hand guiding, at positions that its encoders can measure.
+//! `so101_teach` and of hand guiding, at positions that its encoders can measure.
 //!
 //! The plug-in computes the same through Python, and its tests decode what it sends to the servos. Nothing here passes through
 //! Python: observer, law and dynamics are those of the firmware, in f32.

@@ -51,7 +51,7 @@ def _release(port: str, baud_rate: int, servos: list[int]) -> bool:
     try:
         with serial.Serial(port, baud_rate, timeout=0) as opened:
             return wire.Wire(opened, servos, 0.02).release(5)
-    except (OSError, serial.SerialException):
+    except wire.PORT_ERRORS:
         return False  # The adapter may be plugged in again.
 
 

@@ -8,7 +8,6 @@ import weakref
 from typing import Any
 
 import numpy as np
-import serial
 from lerobot.motors import Motor, MotorNormMode
 from lerobot.motors.feetech import FeetechMotorsBus, OperatingMode
 from lerobot.processor import RobotAction
@@ -26,8 +25,6 @@ from .loop import Loop
 from .motors import JOINTS, Motors
 
 logger = logging.getLogger(__name__)
-
-_PORT_ERRORS = (OSError, serial.SerialException)
 
 
 class So101Floating(Teleoperator):
@@ -106,7 +103,7 @@ class So101Floating(Teleoperator):
     def _open(self) -> None:
         try:
             self.bus.connect()
-        except _PORT_ERRORS as error:
+        except wires.PORT_ERRORS as error:
             self._close_port()
             raise BusLost(f"the port {self.config.port} did not open, or failed: {error}") from error
         except RuntimeError as error:
@@ -121,7 +118,7 @@ class So101Floating(Teleoperator):
             return call()
         except FloatingError:
             raise
-        except _PORT_ERRORS as error:
+        except wires.PORT_ERRORS as error:
             raise BusLost(f"the port {self.config.port} failed: {error}") from error
         except RuntimeError as error:
             raise WrongServos(str(error)) from error
@@ -211,7 +208,7 @@ class So101Floating(Teleoperator):
         except FloatingError as error:
             self._fail(error)
             raise
-        except _PORT_ERRORS as error:
+        except wires.PORT_ERRORS as error:
             lost = BusLost(f"the port {self.config.port} failed: {error}")
             self._fail(lost)
             raise lost from error
@@ -287,7 +284,7 @@ class So101Floating(Teleoperator):
             while not released:
                 try:
                     released = self._wire.release(1)
-                except _PORT_ERRORS:
+                except wires.PORT_ERRORS:
                     self._reopen()
                 if released or time.monotonic() > until:
                     break
@@ -305,7 +302,7 @@ class So101Floating(Teleoperator):
             self._close_port()
             self.bus.port_handler.openPort()
             self._wire = wires.Wire(self.bus.port_handler.ser, self.bus.ids, self.config.reply_time)
-        except _PORT_ERRORS:
+        except wires.PORT_ERRORS:
             pass
 
     def _stop_thread(self) -> None:
@@ -336,7 +333,7 @@ class So101Floating(Teleoperator):
             for joint in JOINTS:
                 if self.bus.read("Operating_Mode", joint) != OperatingMode.POSITION.value:
                     self.bus.write("Operating_Mode", joint, OperatingMode.POSITION.value)
-        except (RuntimeError, *_PORT_ERRORS) as error:
+        except (RuntimeError, *wires.PORT_ERRORS) as error:
             logger.warning("%s: the servos stay in the PWM mode, without torque: %s", self, error)
 
     def _close(self) -> None:
@@ -347,7 +344,7 @@ class So101Floating(Teleoperator):
         try:
             if self.bus.port_handler.is_open:
                 self.bus.port_handler.closePort()
-        except _PORT_ERRORS:
+        except wires.PORT_ERRORS:
             pass
         self.bus.port_handler.is_open = False
         self.bus.port_handler.is_using = False

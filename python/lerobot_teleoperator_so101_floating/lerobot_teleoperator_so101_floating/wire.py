@@ -12,6 +12,16 @@ the magnitude: bit 15 of position and speed, bit 10 of duty and load.
 import time
 from dataclasses import dataclass
 
+import serial
+
+try:
+    import termios
+except ImportError:  # Not a POSIX system.
+    termios = None
+
+# What a port raises whose adapter is gone: `termios.error` is no `OSError`, and pyserial lets it pass.
+PORT_ERRORS = (OSError, serial.SerialException) + ((termios.error,) if termios else ())
+
 HEADER = b"\xff\xff"
 BROADCAST = 0xFE
 READ, WRITE, SYNC_READ, SYNC_WRITE = 0x02, 0x03, 0x82, 0x83

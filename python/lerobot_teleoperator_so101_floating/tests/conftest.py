@@ -79,7 +79,7 @@ class Bench:
             "guardian": False,
             "gears": SCENE_GEARS,
             "release_time": 0.2,
-            "reply_time": 1.0,
+            "reply_time": 0.2,
         } | options
         return So101FloatingConfig(id="bench", calibration_dir=self.folder, port=bus.port, **settings)
 

@@ -58,3 +58,9 @@ def test_the_end_takes_the_duty_before_the_torque():
     first, second = wire.release([1, 2]).split(wire.HEADER)[1:]
     assert first[3] == wire.GOAL_DUTY and second[3] == wire.TORQUE_ENABLE
     assert wire.release([1]).endswith(bytes.fromhex("fffffe0683280101004e"))
+
+
+def test_the_error_of_a_terminal_is_one_of_a_port():
+    """A flush of a port whose adapter is gone raises it, and pyserial lets it pass."""
+    termios = pytest.importorskip("termios")
+    assert termios.error in wire.PORT_ERRORS and not issubclass(termios.error, OSError)

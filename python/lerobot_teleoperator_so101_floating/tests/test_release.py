@@ -24,9 +24,9 @@ POSTURES = np.array(
 HELD, RAMP, RELEASED = 0.5, 0.3, 2.0
 """A hand holds the arm while the torque rises, and then it is released, s."""
 BAR, FALL = 1.0, 20.0
-# Degrees that an arm may sink whose bus is lost.
-SINKS = 10.0
 """The greatest drift of any joint with compensation, and the least motion of an arm without, degrees."""
+SINKS = 10.0
+"""The greatest drift of an arm whose bus is lost, degrees."""
 
 
 def hold(posture):

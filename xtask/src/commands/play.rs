@@ -2,7 +2,7 @@
 
 use std::process::{Command, ExitCode};
 
-use crate::kit::error::Result;
+use crate::kit::error::{Error, Result};
 use crate::kit::setup::{self, Options};
 use crate::kit::workspace::Workspace;
 use crate::kit::{host_bin, shell, toolchain, workspace};
@@ -40,24 +40,23 @@ pub fn run(options: Options, name: &str) -> Result<ExitCode> {
 pub fn check(workspace: &Workspace, options: Options) -> Result<String> {
     let bits = workspace.output("play.bits")?;
     workspace::write(&bits, host_bin::text(workspace, "bits")?)?;
-    let mut node = script(
-        workspace,
-        options,
-        "play/test/play.mjs",
-        &[BUILD, TEST].concat(),
-    )?;
+    let mut node = test(workspace, options, "play/test/play.mjs")?;
     last_line(node.arg("--host-bits").arg(&bits))
 }
 
 /// Holds the site to its checks, likewise.
 pub fn check_site(workspace: &Workspace, options: Options) -> Result<String> {
-    let tools = [BUILD, TEST].concat();
-    last_line(&mut script(
-        workspace,
-        options,
-        "site/test/site.mjs",
-        &tools,
-    )?)
+    last_line(&mut test(workspace, options, "site/test/site.mjs")?)
+}
+
+/// A script that tests; the step is skipped where its programs are not there and may not be installed.
+fn test(workspace: &Workspace, options: Options, name: &str) -> Result<Command> {
+    let skip = |why: Error| Error::Skipped(why.to_string());
+    let node = script(workspace, options, name, &[BUILD, TEST].concat()).map_err(skip)?;
+    let old = "process.exit(+(parseInt(process.versions.node) < 20))";
+    shell::capture(Command::new("node").args(["-e", old]))
+        .map_err(|_| Error::Skipped("node is older than 20, which drives the browser".into()))?;
+    Ok(node)
 }
 
 fn last_line(node: &mut Command) -> Result<String> {

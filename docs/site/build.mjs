@@ -13,7 +13,7 @@ const cargo = (...words) => execFileSync("cargo", words, { cwd: root, stdio: ["i
 /// Returns the folder.
 export function build() {
   play();
-  const [out, doc] = [join(target, "site"), join(target, "site-doc")];
+  const [out, doc] = [join(target, "site"), join(target, "site-reference")];
   // A folder of its own: the one of `cargo doc` has other crates too. One by one, since rustdoc links only to what is written.
   for (const name of CRATES) cargo("doc", "--no-deps", "--quiet", "--target-dir", doc, "--package", name);
   cargo("run", "--quiet", "--package", "site", "--bin", "site", "--", root, out, "--doc", join(doc, "doc"));

@@ -14,7 +14,7 @@ use robot_import::source;
 use robot_import::tree::{Numbers, Tree};
 
 use crate::arrays::Argument;
-use crate::compute::By;
+use crate::compute::{By, Request};
 use crate::costs::{self, Cost};
 use crate::error::{Exception, of_import, of_model};
 use crate::library;
@@ -46,7 +46,7 @@ pub struct Robot {
     bodies: Vec<BodyInfo>,
 }
 
-/// What Python asks of a body.
+/// The properties of a body, its joint's among them.
 struct BodyInfo {
     name: String,
     joint: String,
@@ -239,12 +239,51 @@ fn argument<'a, 'py>(
     Argument { name, given, width }
 }
 
-fn only<'py>(mut results: Vec<Bound<'py, PyAny>>) -> Bound<'py, PyAny> {
-    results.swap_remove(0)
-}
+/// The methods of the files below: an algorithm, effects, arguments, and the shape of a row of each result.
+impl Robot {
+    /// The configuration, an argument.
+    fn q<'a, 'py>(&self, given: &'a Array<'py>) -> Argument<'a, 'py> {
+        argument("q", given, self.counts.q)
+    }
 
-fn all<'py>(py: Python<'py>, results: Vec<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyTuple>> {
-    PyTuple::new(py, results)
+    /// An argument of one number for each velocity coordinate.
+    fn v<'a, 'py>(&self, name: &'static str, given: &'a Array<'py>) -> Argument<'a, 'py> {
+        argument(name, given, self.counts.v)
+    }
+
+    /// The results of an algorithm that has several.
+    fn several<'py>(
+        &self,
+        py: Python<'py>,
+        by: impl Into<By>,
+        effects: &[Spec],
+        arguments: &[Argument<'_, 'py>],
+        results: &[&[usize]],
+    ) -> PyResult<Bound<'py, PyTuple>> {
+        let request = Request {
+            effects,
+            arguments,
+            results,
+        };
+        PyTuple::new(py, self.compute(py, by, &request)?)
+    }
+
+    /// The result of an algorithm that has one.
+    fn one<'py>(
+        &self,
+        py: Python<'py>,
+        by: impl Into<By>,
+        effects: &[Spec],
+        arguments: &[Argument<'_, 'py>],
+        result: &[usize],
+    ) -> PyResult<Array<'py>> {
+        let request = Request {
+            effects,
+            arguments,
+            results: &[result],
+        };
+        Ok(self.compute(py, by, &request)?.swap_remove(0))
+    }
 }
 
 type Array<'py> = Bound<'py, PyAny>;

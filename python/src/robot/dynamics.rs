@@ -6,8 +6,7 @@ use robot_dynamics_engines::Scene as EngineScene;
 use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::spec::Spec;
 
-use super::{Array, Robot, all, argument, frame_of, only, with_inertia};
-use crate::compute::Request;
+use super::{Array, Robot, frame_of, with_inertia};
 use crate::effects::given as effects_of;
 
 #[pymethods]
@@ -25,15 +24,6 @@ impl Robot {
         form: &str,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[
-                argument("q", q, self.counts.q),
-                argument("qd", qd, self.counts.v),
-                argument("qdd", qdd, self.counts.v),
-            ],
-            results: &[&[self.counts.v]],
-        };
         let by = self.by(
             py,
             form,
@@ -41,8 +31,13 @@ impl Robot {
             EngineScene::RigidBody,
             &effects,
         )?;
-        let found = self.compute(py, by, &request)?;
-        Ok(only(found))
+        self.one(
+            py,
+            by,
+            &effects,
+            &[self.q(q), self.v("qd", qd), self.v("qdd", qdd)],
+            &[self.counts.v],
+        )
     }
 
     /// The torques (…, nv), N·m or N, at q (…, nq) and q̇ (…, nv) without acceleration: C(q, q̇) q̇ + g(q) and the
@@ -62,14 +57,6 @@ impl Robot {
             .filter(|spec| !matches!(spec, Spec::Inertia))
             .cloned()
             .collect();
-        let request = Request {
-            effects: &effects,
-            arguments: &[
-                argument("q", q, self.counts.q),
-                argument("qd", qd, self.counts.v),
-            ],
-            results: &[&[self.counts.v]],
-        };
         let by = self.by(
             py,
             form,
@@ -77,8 +64,13 @@ impl Robot {
             EngineScene::Bias,
             &effects,
         )?;
-        let found = self.compute(py, by, &request)?;
-        Ok(only(found))
+        self.one(
+            py,
+            by,
+            &effects,
+            &[self.q(q), self.v("qd", qd)],
+            &[self.counts.v],
+        )
     }
 
     /// The torques (…, nv), N·m or N, that hold the robot against gravity at q (…, nq). Of the effects only Gravity
@@ -97,11 +89,6 @@ impl Robot {
             .filter(|spec| matches!(spec, Spec::Gravity(_) | Spec::Payload { .. }))
             .cloned()
             .collect();
-        let request = Request {
-            effects: &effects,
-            arguments: &[argument("q", q, self.counts.q)],
-            results: &[&[self.counts.v]],
-        };
         let by = self.by(
             py,
             form,
@@ -109,8 +96,7 @@ impl Robot {
             EngineScene::Gravity,
             &effects,
         )?;
-        let found = self.compute(py, by, &request)?;
-        Ok(only(found))
+        self.one(py, by, &effects, &[self.q(q)], &[self.counts.v])
     }
 
     /// M q̈_r + C(q, q̇) q̇_r + g and the other effects, (…, nv): q (…, nq), q̇, q̈_r and q̇_r (…, nv).
@@ -125,18 +111,18 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[
-                argument("q", q, self.counts.q),
-                argument("qd", qd, self.counts.v),
-                argument("qdd", qdd, self.counts.v),
-                argument("qd_r", qd_r, self.counts.v),
+        self.one(
+            py,
+            Which::RneaTwoVelocities,
+            &effects,
+            &[
+                self.q(q),
+                self.v("qd", qd),
+                self.v("qdd", qdd),
+                self.v("qd_r", qd_r),
             ],
-            results: &[&[self.counts.v]],
-        };
-        let found = self.compute(py, Which::RneaTwoVelocities, &request)?;
-        Ok(only(found))
+            &[self.counts.v],
+        )
     }
 
     /// M(q), the joint-space inertia matrix (…, nv, nv), kg·m² or kg, with the motors' `Armature`; q (…, nq).
@@ -148,13 +134,13 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[argument("q", q, self.counts.q)],
-            results: &[&[self.counts.v, self.counts.v]],
-        };
-        let found = self.compute(py, Which::Crba, &request)?;
-        Ok(only(found))
+        self.one(
+            py,
+            Which::Crba,
+            &effects,
+            &[self.q(q)],
+            &[self.counts.v, self.counts.v],
+        )
     }
 
     /// M(q)⁻¹ (…, nv, nv); q (…, nq).
@@ -166,13 +152,13 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[argument("q", q, self.counts.q)],
-            results: &[&[self.counts.v, self.counts.v]],
-        };
-        let found = self.compute(py, Which::InverseMass, &request)?;
-        Ok(only(found))
+        self.one(
+            py,
+            Which::InverseMass,
+            &effects,
+            &[self.q(q)],
+            &[self.counts.v, self.counts.v],
+        )
     }
 
     /// Forward dynamics by articulated bodies: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ (…, nv).
@@ -187,17 +173,13 @@ impl Robot {
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
         with_inertia(py, &effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[
-                argument("q", q, self.counts.q),
-                argument("qd", qd, self.counts.v),
-                argument("tau", tau, self.counts.v),
-            ],
-            results: &[&[self.counts.v]],
-        };
-        let found = self.compute(py, Which::Aba, &request)?;
-        Ok(only(found))
+        self.one(
+            py,
+            Which::Aba,
+            &effects,
+            &[self.q(q), self.v("qd", qd), self.v("tau", tau)],
+            &[self.counts.v],
+        )
     }
 
     /// Forward dynamics by M and its factors: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ (…, nv).
@@ -212,17 +194,13 @@ impl Robot {
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
         with_inertia(py, &effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[
-                argument("q", q, self.counts.q),
-                argument("qd", qd, self.counts.v),
-                argument("tau", tau, self.counts.v),
-            ],
-            results: &[&[self.counts.v]],
-        };
-        let found = self.compute(py, Which::ForwardDynamics, &request)?;
-        Ok(only(found))
+        self.one(
+            py,
+            Which::ForwardDynamics,
+            &effects,
+            &[self.q(q), self.v("qd", qd), self.v("tau", tau)],
+            &[self.counts.v],
+        )
     }
 
     /// Torques and accelerations, each (…, nv), where of each coordinate one is given: its torque, or, where
@@ -239,18 +217,18 @@ impl Robot {
     ) -> PyResult<Bound<'py, PyTuple>> {
         let effects = effects_of(effects)?;
         with_inertia(py, &effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[
-                argument("q", q, self.counts.q),
-                argument("qd", qd, self.counts.v),
-                argument("given", given, self.counts.v),
-                argument("accelerated", accelerated, self.counts.v),
+        self.several(
+            py,
+            Which::Hybrid,
+            &effects,
+            &[
+                self.q(q),
+                self.v("qd", qd),
+                self.v("given", given),
+                self.v("accelerated", accelerated),
             ],
-            results: &[&[self.counts.v], &[self.counts.v]],
-        };
-        let found = self.compute(py, Which::Hybrid, &request)?;
-        all(py, found)
+            &[&[self.counts.v], &[self.counts.v]],
+        )
     }
 
     /// What of the motors' torques τ (…, nv) arrives behind the friction of the gears (`LoadFriction`), (…, nv).
@@ -264,17 +242,13 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[
-                argument("q", q, self.counts.q),
-                argument("qd", qd, self.counts.v),
-                argument("tau", tau, self.counts.v),
-            ],
-            results: &[&[self.counts.v]],
-        };
-        let found = self.compute(py, Which::Transmitted, &request)?;
-        Ok(only(found))
+        self.one(
+            py,
+            Which::Transmitted,
+            &effects,
+            &[self.q(q), self.v("qd", qd), self.v("tau", tau)],
+            &[self.counts.v],
+        )
     }
 
     /// C(q, q̇) (…, nv, nv), of Christoffel's symbols; q (…, nq), q̇ (…, nv).
@@ -287,16 +261,13 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[
-                argument("q", q, self.counts.q),
-                argument("qd", qd, self.counts.v),
-            ],
-            results: &[&[self.counts.v, self.counts.v]],
-        };
-        let found = self.compute(py, Which::CoriolisMatrix, &request)?;
-        Ok(only(found))
+        self.one(
+            py,
+            Which::CoriolisMatrix,
+            &effects,
+            &[self.q(q), self.v("qd", qd)],
+            &[self.counts.v, self.counts.v],
+        )
     }
 
     /// Λ⁻¹ = J M⁻¹ Jᵀ of a body, (…, 6, 6), by propagation of forces; q (…, nq).
@@ -312,13 +283,13 @@ impl Robot {
         let body = self.body(body)?;
         let frame = frame_of(py, frame)?;
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[argument("q", q, self.counts.q)],
-            results: &[&[6, 6]],
-        };
-        let found = self.compute(py, Which::OsimInverse { body, frame }, &request)?;
-        Ok(only(found))
+        self.one(
+            py,
+            Which::OsimInverse { body, frame },
+            &effects,
+            &[self.q(q)],
+            &[6, 6],
+        )
     }
 
     /// J (…, 6, nv), J M⁻¹ (…, 6, nv), Λ⁻¹ and Λ (…, 6, 6) of a body, Λ damped by ``damping`` relative to the largest
@@ -336,21 +307,17 @@ impl Robot {
         let body = self.body(body)?;
         let frame = frame_of(py, frame)?;
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[argument("q", q, self.counts.q)],
-            results: &[&[6, self.counts.v], &[6, self.counts.v], &[6, 6], &[6, 6]],
-        };
-        let found = self.compute(
+        self.several(
             py,
             Which::OperationalSpaceOf {
                 body,
                 frame,
                 damping,
             },
-            &request,
-        )?;
-        all(py, found)
+            &effects,
+            &[self.q(q)],
+            &[&[6, self.counts.v], &[6, self.counts.v], &[6, 6], &[6, 6]],
+        )
     }
 
     /// Y (…, nv, bodies, 10) with τ = Y φ, φ of a body: m, m c (3), then Ixx, Ixy, Iyy, Ixz, Iyz, Izz about the
@@ -365,16 +332,12 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[
-                argument("q", q, self.counts.q),
-                argument("qd", qd, self.counts.v),
-                argument("qdd", qdd, self.counts.v),
-            ],
-            results: &[&[self.counts.v, self.counts.bodies, 10]],
-        };
-        let found = self.compute(py, Which::Regressor, &request)?;
-        Ok(only(found))
+        self.one(
+            py,
+            Which::Regressor,
+            &effects,
+            &[self.q(q), self.v("qd", qd), self.v("qdd", qdd)],
+            &[self.counts.v, self.counts.bodies, 10],
+        )
     }
 }

@@ -4,8 +4,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use robot_dynamics_kernels::Which;
 
-use super::{Array, Robot, all, argument, only};
-use crate::compute::Request;
+use super::{Array, Robot, argument};
 use crate::effects::given as effects_of;
 
 #[pymethods]
@@ -20,16 +19,13 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[
-                argument("q", q, self.counts.q),
-                argument("qd", qd, self.counts.v),
-            ],
-            results: &[&[]],
-        };
-        let found = self.compute(py, Which::KineticEnergy, &request)?;
-        Ok(only(found))
+        self.one(
+            py,
+            Which::KineticEnergy,
+            &effects,
+            &[self.q(q), self.v("qd", qd)],
+            &[],
+        )
     }
 
     /// The potential energy in the field of gravity (…), J, zero at the base's origin; q (…, nq).
@@ -41,13 +37,7 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[argument("q", q, self.counts.q)],
-            results: &[&[]],
-        };
-        let found = self.compute(py, Which::PotentialEnergy, &request)?;
-        Ok(only(found))
+        self.one(py, Which::PotentialEnergy, &effects, &[self.q(q)], &[])
     }
 
     /// The momentum of all bodies about the base's origin (…, 6): N·m·s, then N·s; q (…, nq), q̇ (…, nv).
@@ -60,16 +50,13 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[
-                argument("q", q, self.counts.q),
-                argument("qd", qd, self.counts.v),
-            ],
-            results: &[&[6]],
-        };
-        let found = self.compute(py, Which::Momentum, &request)?;
-        Ok(only(found))
+        self.one(
+            py,
+            Which::Momentum,
+            &effects,
+            &[self.q(q), self.v("qd", qd)],
+            &[6],
+        )
     }
 
     /// The momentum of all bodies about their centre of mass (…, 6): N·m·s, then N·s; q (…, nq), q̇ (…, nv).
@@ -82,16 +69,13 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[
-                argument("q", q, self.counts.q),
-                argument("qd", qd, self.counts.v),
-            ],
-            results: &[&[6]],
-        };
-        let found = self.compute(py, Which::CentroidalMomentum, &request)?;
-        Ok(only(found))
+        self.one(
+            py,
+            Which::CentroidalMomentum,
+            &effects,
+            &[self.q(q), self.v("qd", qd)],
+            &[6],
+        )
     }
 
     /// A(q) (…, 6, nv) with A q̇ the momentum about the centre of mass; q (…, nq).
@@ -103,13 +87,13 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[argument("q", q, self.counts.q)],
-            results: &[&[6, self.counts.v]],
-        };
-        let found = self.compute(py, Which::CentroidalMatrix, &request)?;
-        Ok(only(found))
+        self.one(
+            py,
+            Which::CentroidalMatrix,
+            &effects,
+            &[self.q(q)],
+            &[6, self.counts.v],
+        )
     }
 
     /// p = M q̇ and Cᵀ q̇, each (…, nv), for observers of external torques; q (…, nq), q̇ (…, nv).
@@ -122,16 +106,13 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyTuple>> {
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[
-                argument("q", q, self.counts.q),
-                argument("qd", qd, self.counts.v),
-            ],
-            results: &[&[self.counts.v], &[self.counts.v]],
-        };
-        let found = self.compute(py, Which::MomentumAndCoriolis, &request)?;
-        all(py, found)
+        self.several(
+            py,
+            Which::MomentumAndCoriolis,
+            &effects,
+            &[self.q(q), self.v("qd", qd)],
+            &[&[self.counts.v], &[self.counts.v]],
+        )
     }
 
     /// p = M q̇ and β = Cᵀ q̇ − g − F, each (…, nv); q (…, nq), q̇ (…, nv).
@@ -144,16 +125,13 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyTuple>> {
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[
-                argument("q", q, self.counts.q),
-                argument("qd", qd, self.counts.v),
-            ],
-            results: &[&[self.counts.v], &[self.counts.v]],
-        };
-        let found = self.compute(py, Which::MomentumAndDrift, &request)?;
-        all(py, found)
+        self.several(
+            py,
+            Which::MomentumAndDrift,
+            &effects,
+            &[self.q(q), self.v("qd", qd)],
+            &[&[self.counts.v], &[self.counts.v]],
+        )
     }
 
     /// q̇ (…, nv) with the rates of the free base for which the momentum of all bodies about the base's origin is h
@@ -168,16 +146,12 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        let request = Request {
-            effects: &effects,
-            arguments: &[
-                argument("q", q, self.counts.q),
-                argument("qd", qd, self.counts.v),
-                argument("h", h, 6),
-            ],
-            results: &[&[self.counts.v]],
-        };
-        let found = self.compute(py, Which::BaseVelocity, &request)?;
-        Ok(only(found))
+        self.one(
+            py,
+            Which::BaseVelocity,
+            &effects,
+            &[self.q(q), self.v("qd", qd), argument("h", h, 6)],
+            &[self.counts.v],
+        )
     }
 }

@@ -184,7 +184,11 @@ fn a_truncated_file_is_refused_wherever_it_ends() {
 #[test]
 fn a_file_with_a_byte_changed_is_read_or_refused() {
     let mut read = 0;
-    let step = if cfg!(feature = "full") { 11 } else { 41 };
+    let (step, least) = if cfg!(feature = "full") {
+        (11, 100)
+    } else {
+        (41, 50)
+    };
     for (i, byte) in (0..SO101.len()).step_by(step).zip(
         [b'<', b'"', b'9', b'e', b'-', b' ', 0xC3, b'&']
             .iter()
@@ -201,7 +205,7 @@ fn a_file_with_a_byte_changed_is_read_or_refused() {
         assert!(tree.bodies.iter().all(|body| body.inertia.mass.is_finite()));
         read += 1;
     }
-    assert!(read > 50, "{read} of the files were read");
+    assert!(read > least, "{read} of the files were read");
 }
 
 #[test]

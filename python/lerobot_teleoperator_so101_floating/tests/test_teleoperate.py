@@ -40,7 +40,7 @@ def test_lerobot_teleoperate_runs_from_its_command_line(two, monkeypatch, caplog
     lerobot_teleoperate.main()
     # The leader floated, the follower followed it, and the torque of both is off.
     commanded = [duties for duties in leader.duties if any(duties.values())]
-    assert len(commanded) > 40
+    assert len(commanded) > 100
     assert np.abs(leader_arm.q - posture).max() > 0.15
     assert np.abs(follower_arm.q - posture)[[0, 4]].min() > 0.1
     assert not any(servo.torque_enabled for servo in leader.servos + follower.servos)
@@ -60,7 +60,7 @@ def test_the_thread_keeps_the_rate_and_the_action_is_fresh(bench):
     teleoperator.disconnect()
     assert set(actions[0]) == {f"{joint}.pos" for joint in JOINTS}
     # A machine that is busy with other tests has less than the 200 Hz of the configuration.
-    assert 20.0 < rate < 210.0
+    assert 50.0 < rate < 210.0
     assert not any(servo.torque_enabled for servo in bus.servos)
 
 

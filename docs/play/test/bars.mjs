@@ -56,6 +56,10 @@ export function alone(requests) {
   miss(others.length === 0, `loaded from elsewhere: ${others.join(", ")}`);
 }
 
+/// By how many pixels something on a page is wider than the viewport that the test set. Not `innerWidth`: a phone's grows
+/// with what is too wide; nor `screen`: its width on a desktop is that of the browser's own screen.
+export const excess = (page) => page.evaluate((width) => document.documentElement.scrollWidth - width, page.viewport().width);
+
 /// Whether nothing is wider than the screen.
 export function narrow(excess, where) {
   miss(excess <= 0, `the page is ${excess} px wider than the screen, ${where}`);

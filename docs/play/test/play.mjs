@@ -5,7 +5,7 @@ import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { build, root, target } from "../build.mjs";
-import { accessible, alone, fluent, narrow, prompt, refused, sameBits, small } from "./bars.mjs";
+import { accessible, alone, excess, fluent, narrow, prompt, refused, sameBits, small } from "./bars.mjs";
 import { bits } from "./bits.mjs";
 import { packages } from "./packages.mjs";
 import { simulatedPort } from "./servos.mjs";
@@ -119,7 +119,7 @@ const tests = {
           if (tab === "hard") await page.waitForSelector("#cases tr");
           await pause(600);
           accessible(await violations(page), `${tab}, ${theme}, ${size}`);
-          narrow(await page.evaluate(() => document.documentElement.scrollWidth - screen.width), `${tab}, ${size}`);
+          narrow(await excess(page), `${tab}, ${size}`);
           await page.screenshot({ path: join(pictures, `${tab}-${theme}-${size}.png`) });
           runs++;
         }
@@ -133,8 +133,8 @@ const tests = {
     must(found.some(({ id }) => id === "color-contrast"), "axe does not find a contrast that is too low");
     refused("accessible", () => accessible(found, "with a wrong contrast"));
     await page.addStyleTag({ content: "main { width: 3000px }" });
-    const excess = await page.evaluate(() => document.documentElement.scrollWidth - screen.width);
-    refused("narrow", () => narrow(excess, "with a wrong width"));
+    const wide = await excess(page);
+    refused("narrow", () => narrow(wide, "with a wrong width"));
     await page.close();
   },
 

@@ -5,7 +5,7 @@ import { appendFileSync, cpSync, existsSync, mkdirSync, readFileSync, readdirSyn
 import { join, relative } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { root, target } from "../../play/build.mjs";
-import { accessible, narrow } from "../../play/test/bars.mjs";
+import { accessible, excess, narrow } from "../../play/test/bars.mjs";
 import { packages } from "../../play/test/packages.mjs";
 import { build } from "../build.mjs";
 
@@ -51,8 +51,6 @@ const facts = (page) =>
     names: [...document.querySelectorAll("[id]")].map((one) => one.id),
     lost: [...document.images].filter((image) => !image.complete || image.naturalWidth === 0).map((image) => image.src),
     images: document.images.length,
-    // Not `innerWidth`: a phone's grows with what is too wide.
-    excess: document.documentElement.scrollWidth - screen.width,
   }));
 
 /// Opens pages of a site at the width of a phone and returns what does not hold, with the numbers of what does.
@@ -62,7 +60,7 @@ async function faults(browser, site, names = pages(site)) {
   const count = { pages: 0, links: 0, pictures: 0 };
   for (const name of names) {
     const { page, problems, requests } = await opened(browser, join(site, name), { screen: PHONE });
-    const one = await facts(page);
+    const one = { ...(await facts(page)), excess: await excess(page) };
     await page.close();
     found.set(name, one);
     count.pages += 1;

@@ -252,8 +252,6 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     #[must_use]
     pub fn on_brake(mut self) -> Self {
         self.supervisor = self.supervisor.on_brake();
-        // The arm does not leave its trajectory, so that the clock stays where it is.
-        self.resume.start(self.observer.estimate(), self.clock);
         self
     }
 

@@ -1,8 +1,8 @@
 //! Robots of more than 16 joints are split into one function per subtree where wrenches act on bodies.
 //!
-//! With poses and velocities of bodies, one function of a humanoid of 29 joints keeps more on the stack than one instruction can
-//! address, and takes more cycles than a function for each limb; without them it takes fewer. Arguments between the functions are
-//! plain numbers; values that no effect needs are known zeros in each function.
+//! There a humanoid of 29 joints takes fewer cycles with a function for each limb, and elsewhere fewer in one function; the figures are in
+//! `docs/decisions/0013-joints-of-every-kind.md`. Arguments between the functions are plain numbers; values that no effect needs
+//! are known zeros in each function.
 
 use super::acceleration_field::{AccelerationField, Wrench};
 use super::base::base;

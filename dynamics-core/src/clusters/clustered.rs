@@ -7,7 +7,7 @@ use super::layout::{EXPANDED, NONE};
 use super::set::{TreeState, sealed::Set};
 use super::{ClusterError, ClusteredRobot, TreeMotion};
 use crate::algorithms::rnea;
-use crate::effects::{Effect, OfBodies, no_load_friction};
+use crate::effects::{Declared, Effect, OfBodies, no_load_friction};
 use crate::engine::{
     CompiledJoint, CompiledRobot, Index, for_each_joint, has_subtree_functions, joint_state,
 };
@@ -133,7 +133,7 @@ where
         state: &State<R, Q, V>,
         effects: &E,
     ) -> [R; V] {
-        if const { !has_subtree_functions::<CompiledRobot<T, B, Q, V>>() } {
+        if const { !has_subtree_functions::<CompiledRobot<T, B, Q, V>>(E::WRENCH) } {
             return Engine::<T>::run(trig, trig, state, effects);
         }
         // Functions of subtrees get the state in memory, and with it angles of which only effects at joints read more
@@ -210,7 +210,7 @@ impl<A> Clustered<A> {
     /// That of the tree's `rnea` without the sines of the dependent angles, that of the clusters, and 2 M N flops for
     /// each. The same instructions for all data, but at singularities. Dependent angles themselves, which only
     /// effects of joints read, cost an arc tangent each where one does, in the core, and in the engine on trees of more
-    /// than 16 joints.
+    /// than 16 joints with wrenches on bodies.
     ///
     /// # Errors
     /// [`ClusterError`] names the cluster that no configuration closes at y; and where a torque is not finite, the first

@@ -52,20 +52,20 @@ where
         tau: &mut tau,
     };
     for_each_joint!(J, {
-        if const { CompiledJoint::<C, J>::IS_ON_BASE && !has_subtree_functions::<C>() }
+        if const { CompiledJoint::<C, J>::IS_ON_BASE && !has_subtree_functions::<C>(E::WRENCH) }
             && let Some(visit) = const {
                 only_if(
-                    CompiledJoint::<C, J>::IS_ON_BASE && !has_subtree_functions::<C>(),
+                    CompiledJoint::<C, J>::IS_ON_BASE && !has_subtree_functions::<C>(E::WRENCH),
                     visit::<R, C, E, B, Q, V, J> as Visit<R, E, Q, V>,
                 )
             }
         {
             visit(&mut task, &base);
         }
-        if const { CompiledJoint::<C, J>::IS_ON_BASE && has_subtree_functions::<C>() }
+        if const { CompiledJoint::<C, J>::IS_ON_BASE && has_subtree_functions::<C>(E::WRENCH) }
             && let Some(visit) = const {
                 only_if(
-                    CompiledJoint::<C, J>::IS_ON_BASE && has_subtree_functions::<C>(),
+                    CompiledJoint::<C, J>::IS_ON_BASE && has_subtree_functions::<C>(E::WRENCH),
                     root_subtree::<R, C, E, B, Q, V, J> as fn(&mut Task<'_, R, E, Q, V>),
                 )
             }

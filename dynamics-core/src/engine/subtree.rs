@@ -1,8 +1,8 @@
-//! Robots of more than 16 joints are split into one function per subtree, to bound compile time.
+//! Robots of more than 16 joints are split into one function per subtree where wrenches act on bodies.
 //!
-//! The compile time grows faster than the square of a function's length: a humanoid of 29 joints takes minutes in one
-//! function. Arguments between the functions are plain numbers; values that no effect needs are known zeros in each
-//! function.
+//! There a humanoid of 29 joints takes fewer cycles with a function for each limb, and elsewhere fewer in one function; the figures are in
+//! `docs/decisions/0013-joints-of-every-kind.md`. Arguments between the functions are plain numbers; values that no effect needs
+//! are known zeros in each function.
 
 use super::acceleration_field::{AccelerationField, Wrench};
 use super::base::base;
@@ -17,8 +17,8 @@ use crate::scalar::{Real, Vector};
 /// Robots of up to this number of joints are one function.
 const WHOLE: usize = 16;
 
-/// Whether a robot is split.
-pub(crate) const fn has_subtree_functions<C: Compiled>() -> bool {
+/// Whether a robot is split, in a scene with wrenches on bodies or without.
+pub(crate) const fn has_subtree_functions<C: Compiled>(wrench: bool) -> bool {
     let (mut joints, mut i) = (0, 0);
     while i < C::JOINTS.len() {
         if C::JOINTS[i].first == i {
@@ -26,11 +26,11 @@ pub(crate) const fn has_subtree_functions<C: Compiled>() -> bool {
         }
         i += 1;
     }
-    joints > WHOLE
+    wrench && joints > WHOLE
 }
 
 /// Whether joint `i` of a large robot is the parent of several others.
-const fn is_subtree_root<C: Compiled>(i: usize) -> bool {
+const fn is_subtree_root<C: Compiled>(i: usize, wrench: bool) -> bool {
     let (mut children, mut j) = (0, 0);
     while j < C::JOINTS.len() {
         if is_parent::<C>(last::<C>(i), j) {
@@ -38,7 +38,7 @@ const fn is_subtree_root<C: Compiled>(i: usize) -> bool {
         }
         j += 1;
     }
-    has_subtree_functions::<C>() && children > 1
+    has_subtree_functions::<C>(wrench) && children > 1
 }
 
 /// Joint I on the base and its descendants.
@@ -83,7 +83,7 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    if const { !is_subtree_root::<C>(I) } {
+    if const { !is_subtree_root::<C>(I, E::WRENCH) } {
         return visit::<R, C, E, B, Q, V, J>(task, parent);
     }
     let ([ux, uy, uz], [x, y, z]) = (parent.u.0, parent.pose.axes.0);

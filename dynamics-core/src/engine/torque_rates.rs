@@ -69,7 +69,7 @@ impl<T, K> Engine<T, K> {
 /// A robot whose joints may be elastic here.
 const fn takes_elastic_joints<C: Compiled>() {
     assert!(
-        !has_subtree_functions::<C>(),
+        !has_subtree_functions::<C>(true),
         "the engine takes elastic joints of up to 16 moving bodies; use `Core`"
     );
     let mut i = 0;

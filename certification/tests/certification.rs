@@ -10,6 +10,8 @@ mod grid;
 mod inertias;
 #[path = "certification/limits.rs"]
 mod limits;
+#[path = "certification/loops.rs"]
+mod loops;
 #[path = "certification/recorded.rs"]
 mod recorded;
 #[path = "certification/target.rs"]

@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::forms::{self, Form, Rotation, Sum};
 use crate::graph::{Graph, Node};
 use crate::interval::{Interval, half_ulp};
+use crate::roots;
 use crate::state_box::{Leaf, Robot, Sector, cosine, sine};
 
 /// The error of a kernel of sines: the most by which a sine or cosine differs from the true one.
@@ -66,6 +67,10 @@ pub struct Bounder {
     uses: Vec<Form>,
     /// The sectors of the joints' angles.
     sectors: Vec<Sector>,
+    /// The derivatives of quotients and roots by their operands.
+    slopes: Vec<[Interval; 2]>,
+    /// The relative errors of reciprocal roots.
+    relative: Vec<f64>,
     /// The values and the adjoints of the nodes, and the greatest error of each.
     pub values: Vec<Interval>,
     /// See `values`.
@@ -101,7 +106,13 @@ impl Bounder {
             ),
         };
         let sectors = vec![Sector::default(); robot.joints.len()];
+        let relative = |node: &Node| match *node {
+            Node::InverseRoot(_, guess) => roots::relative_error(guess),
+            _ => 0.0,
+        };
         Some(Self {
+            slopes: vec![[Interval::default(); 2]; graph.nodes.len()],
+            relative: graph.nodes.iter().map(relative).collect(),
             leaves,
             sines,
             sums,
@@ -148,6 +159,13 @@ impl Bounder {
     /// The bound over a box of the robot's coordinates.
     pub fn bound(&mut self, states: &[Interval]) -> Bound {
         self.forward(states);
+        if !self.is_finite() {
+            // A quotient or a root has no bound over so large a part.
+            return Bound {
+                operations: f64::INFINITY,
+                ..Bound::default()
+            };
+        }
         self.reverse()
     }
 
@@ -169,8 +187,21 @@ impl Bounder {
                 Node::Literal(0.0) => (Interval::default(), 0.0),
                 Node::Literal(x) => (Interval::point(x.into()), half_ulp(f64::from(x).abs())),
                 Node::Neg(a) => (-values[a], 0.0),
+                Node::InverseRoot(a, _) => {
+                    let exact = Interval::point(1.0) / values[a].root();
+                    let is_tried = roots::RANGE.contains(&values[a].low)
+                        && roots::RANGE.contains(&values[a].high);
+                    let relative = if is_tried {
+                        self.relative[k]
+                    } else {
+                        f64::INFINITY
+                    };
+                    (exact, relative * exact.magnitude())
+                }
                 _ => {
                     let exact = match *node {
+                        Node::Div(a, b) => values[a] / values[b],
+                        Node::Sqrt(a) => values[a].root(),
                         Node::Add(a, b) => values[a] + values[b],
                         Node::Sub(a, b) => values[a] - values[b],
                         Node::Mul(a, b) if a == b => values[a].square(),
@@ -181,7 +212,13 @@ impl Bounder {
                         .as_ref()
                         .map(|form| self.evaluate(form, values));
                     let exact = written_out.map_or(exact, |other| exact.and(other));
-                    (exact, half_ulp(exact.magnitude()))
+                    // What is zero stays zero.
+                    let error = if exact.is_zero() {
+                        0.0
+                    } else {
+                        half_ulp(exact.magnitude())
+                    };
+                    (exact, error)
                 }
             };
             self.values[k] = if error > 0.0 {
@@ -190,7 +227,28 @@ impl Bounder {
                 exact
             };
             self.errors[k] = error;
+            self.slopes[k] = self.slopes_of(k);
         }
+    }
+
+    /// The derivatives of a quotient or root by its operands, at any point between exact and computed values.
+    fn slopes_of(&self, k: usize) -> [Interval; 2] {
+        let (values, one) = (&self.values, Interval::point(1.0));
+        let first = match self.graph.nodes[k] {
+            Node::Div(_, b) => return [one / values[b], -(values[k] / values[b])],
+            Node::Sqrt(a) => one / values[a].root().times(2.0),
+            Node::InverseRoot(a, _) => -(one / (values[a] * values[a].root()).times(2.0)),
+            _ => Interval::default(),
+        };
+        [first, Interval::default()]
+    }
+
+    /// Whether every computed number is one of f32, neither infinite nor NaN.
+    pub fn is_finite(&self) -> bool {
+        self.values
+            .iter()
+            .all(|x| x.magnitude() <= f64::from(f32::MAX))
+            && self.errors.iter().all(|error| error.is_finite())
     }
 
     /// The range of a form over values or adjoints.
@@ -201,6 +259,9 @@ impl Bounder {
         }
         for rotation in &form.rotations {
             range = range + self.rotation(rotation, of);
+        }
+        for (k, operand) in &form.steep {
+            range = range + self.slopes[*k][*operand] * of[*k];
         }
         if form.errors.is_empty() {
             return range;

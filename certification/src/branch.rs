@@ -5,6 +5,7 @@ use std::collections::BinaryHeap;
 
 use crate::bound::{Bound, Bounder};
 use crate::interval::Interval;
+use crate::ways;
 
 /// A part of the box, and the bound over it.
 #[derive(Clone, Debug)]
@@ -159,6 +160,11 @@ fn split(
     whole: &[Interval],
     gains: &mut Gains,
 ) -> Option<[Part; 2]> {
+    if part.bound.total().is_infinite() {
+        // What has no bound has no gain either.
+        let halves = ways::halves(&part.states, ways::decisive(bounder, &part.states)?)?;
+        return Some(halves.map(|states| bounded(bounder, states)));
+    }
     let mut best: Option<(f64, [Part; 2])> = None;
     for candidate in gains.candidates(part, whole) {
         let axis = gains.axes[candidate.0];

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::bound::{Bound, Bounder, Enclosure, SineErrors};
 use crate::branch::{Proven, prove};
 use crate::error::{Error, Result};
+use crate::graph::Node;
 use crate::grid;
 use crate::image::Image;
 use crate::interval::Interval;
@@ -15,6 +16,7 @@ use crate::search::{Effort, search};
 use crate::sheet::Target;
 use crate::state_box::{Joint, Robot};
 use crate::walk::{Walked, walk};
+use crate::ways;
 
 /// A function that has a certificate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
@@ -28,6 +30,8 @@ pub enum Function {
     Crba,
     /// Inverse dynamics of the core
     Core,
+    /// Inverse dynamics of the engine for a robot with a kinematic loop: the program of `four_bar_leg` has no other
+    Clustered,
 }
 
 impl Function {
@@ -38,6 +42,7 @@ impl Function {
             Self::Gravity => "engine `rnea`, gravity alone",
             Self::Crba => "engine `crba`",
             Self::Core => "core `rnea`",
+            Self::Clustered => "engine `rnea` with a four-bar",
         }
     }
 
@@ -48,7 +53,13 @@ impl Function {
             Self::Gravity => "CERTIFIED_GRAVITY",
             Self::Crba => "CERTIFIED_CRBA",
             Self::Core => "CERTIFIED_CORE",
+            Self::Clustered => "CERTIFIED_CLUSTERED",
         }
+    }
+
+    /// Whether its errors are torques or forces, which depend on speeds and accelerations.
+    pub(crate) fn is_inverse_dynamics(self) -> bool {
+        matches!(self, Self::Rnea | Self::Core | Self::Clustered)
     }
 }
 
@@ -62,6 +73,9 @@ pub struct Spent {
     /// The search of observed errors.
     pub search: Effort,
 }
+
+/// The parts by which it is proven of each branch that the whole box takes it.
+const WAYS: usize = 20_000;
 
 /// What holds of one output.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -139,12 +153,16 @@ pub struct Certificate {
     pub target: Option<Target>,
 }
 
-/// The address of a function of a program.
+/// The address of a function of a program, as firmware calls it.
 ///
 /// # Errors
 /// [`Error::Missing`].
 pub fn address(image: &Image, function: Function) -> Result<u32> {
-    Ok(image.variable(function.variable())?.1[0])
+    let variable = match function {
+        Function::Clustered => "CERTIFIED_FIRMWARE",
+        _ => function.variable(),
+    };
+    Ok(image.variable(variable)?.1[0])
 }
 
 /// The expression of a function of a program.
@@ -152,19 +170,31 @@ pub fn address(image: &Image, function: Function) -> Result<u32> {
 /// # Errors
 /// [`Error::Declined`], [`Error::Missing`].
 pub fn expression(image: &Image, function: Function) -> Result<Walked> {
-    let address = address(image, function)?;
+    let address = image.variable(function.variable())?.1[0];
     let (effects, _) = image.variable("CERTIFIED_EFFECTS")?;
     let arguments = match function {
         Function::Crba => [None, None, Some(effects), None],
         _ => [None, None, None, Some(effects)],
     };
-    walk(image, address, arguments)
+    let mut walked = walk(image, address, arguments)?;
+    if function == Function::Clustered {
+        // The first word says that there are torques, which are the next ones.
+        let (_, status) = walked.graph.outputs.remove(0);
+        if walked.graph.nodes[status] != Node::Literal(0.0) {
+            return Err(Error::Missing("torques at the state zero".to_owned()));
+        }
+        for output in &mut walked.graph.outputs {
+            output.0 -= 4;
+        }
+    }
+    Ok(walked)
 }
 
 /// Proves the bounds of a function, and searches the worst errors beside them.
 ///
 /// # Errors
-/// [`Error::Declined`] of code that is not followed, [`Error::Contradicted`] if the search finds more than the bound.
+/// [`Error::Declined`] of code that is not followed, [`Error::Way`] of a branch that states of the box may take otherwise,
+/// [`Error::Contradicted`] if the search finds more than the bound, [`Error::Infinite`] if there is none.
 pub fn certify(
     program: &Program,
     function: Function,
@@ -174,6 +204,7 @@ pub fn certify(
 ) -> Result<Certificate> {
     let image = Image::read(&program.elf)?;
     let walked = expression(&image, function)?;
+    ways::prove(&walked, robot, sines, WAYS)?;
     let n = robot.joints.len();
     let mut graph = walked.graph.clone();
     if function == Function::Crba {
@@ -216,6 +247,9 @@ pub fn certify(
             _ => (bound, Proof::Parts),
         };
         let total = bound.total();
+        if !total.is_finite() {
+            return Err(Error::Infinite { output: output + 1 });
+        }
         if total < observed.error {
             return Err(Error::Contradicted {
                 output: output + 1,

@@ -216,13 +216,7 @@ pub fn each(
 /// The expression of the difference of two.
 pub fn difference(a: &Graph, b: &Graph) -> Graph {
     let (mut nodes, first) = (a.nodes.clone(), a.nodes.len());
-    nodes.extend(b.nodes.iter().map(|node| match *node {
-        Node::Add(a, b) => Node::Add(a + first, b + first),
-        Node::Sub(a, b) => Node::Sub(a + first, b + first),
-        Node::Mul(a, b) => Node::Mul(a + first, b + first),
-        Node::Neg(a) => Node::Neg(a + first),
-        leaf => leaf,
-    }));
+    nodes.extend(b.nodes.iter().map(|node| node.moved(|a| a + first)));
     let last = nodes.len() - 1;
     nodes.push(Node::Sub(first - 1, last));
     Graph {

@@ -34,6 +34,8 @@ pub enum Arithmetic {
     Mul,
     /// −(n m)
     NegatedMul,
+    /// n / m
+    Div,
 }
 
 /// The other operations on integers.
@@ -115,6 +117,12 @@ pub enum Instruction {
     Arithmetic { op: Arithmetic, d: u8, n: u8, m: u8 },
     /// d = −m
     Negate { d: u8, m: u8 },
+    /// d = √m
+    Root { d: u8, m: u8 },
+    /// Compares d with m, or with zero if there is none.
+    Compare { d: u8, m: Option<u8> },
+    /// The flags of that comparison become those of the processor.
+    TakeFlags,
     /// d = m
     Copy { d: u8, m: u8 },
     /// d = a constant

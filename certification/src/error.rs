@@ -28,6 +28,26 @@ pub enum Error {
         /// What is not proven.
         reason: &'static str,
     },
+    /// The way that code takes at a branch depends on the state, or is not proven not to.
+    #[error(
+        "declined at {address:#010x}: the code branches on data, and that the compared numbers are {ordering:?}, as at the state zero, is not proven where q, q̇, q̈ are in {states:.3?}: a narrower --box may exclude it"
+    )]
+    Way {
+        /// The address of the comparison.
+        address: u32,
+        /// The order of the numbers at the state zero.
+        ordering: std::cmp::Ordering,
+        /// A part of the box where it may be another.
+        states: Vec<crate::interval::Interval>,
+    },
+    /// The error has no bound over the box.
+    #[error(
+        "output {output}: no bound over the box: more --parts or a narrower --box may give one"
+    )]
+    Infinite {
+        /// The number of the output, from 1.
+        output: usize,
+    },
     /// The joints have no finite box.
     #[error("joint {joint} has no {what}: --speed and --range give one")]
     Unbounded {

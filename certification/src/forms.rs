@@ -35,6 +35,8 @@ pub struct Form {
     pub rotations: Vec<Rotation>,
     /// The nodes whose rounding errors the sum has beside these.
     pub errors: Sum,
+    /// Of adjoints, those of quotients and roots, and of which operand: the first or the second.
+    pub steep: Vec<(usize, usize)>,
 }
 
 /// Longer sums are not written out.
@@ -129,10 +131,12 @@ pub fn of_adjoints(graph: &Graph, leaves: &[Option<Leaf>]) -> Vec<Form> {
     // A term is an adjoint, times a value if there is one.
     type Terms = BTreeMap<(Option<usize>, usize), f64>;
     let mut terms: Vec<Terms> = vec![Terms::new(); graph.nodes.len()];
+    let mut steep: Vec<Vec<(usize, usize)>> = vec![Vec::new(); graph.nodes.len()];
     for k in (0..graph.nodes.len()).rev() {
         let pass = |terms: &mut Vec<Terms>, to: usize, factor: f64| {
             // What is short is passed on term by term, so that what cancels does.
-            let passed = if terms[k].is_empty() || terms[k].len() + terms[to].len() > LONGEST {
+            let is_long = terms[k].len() + terms[to].len() > LONGEST;
+            let passed = if terms[k].is_empty() || !steep[k].is_empty() || is_long {
                 Terms::from([((None, k), 1.0)])
             } else {
                 terms[k].clone()
@@ -155,13 +159,20 @@ pub fn of_adjoints(graph: &Graph, leaves: &[Option<Leaf>]) -> Vec<Form> {
                 *terms[a].entry((Some(b), k)).or_default() += 1.0;
                 *terms[b].entry((Some(a), k)).or_default() += 1.0;
             }
+            Node::Div(a, b) => {
+                steep[a].push((k, 0));
+                steep[b].push((k, 1));
+            }
+            Node::Sqrt(a) | Node::InverseRoot(a, _) => steep[a].push((k, 0)),
             Node::Input(_) | Node::Literal(_) => {}
         }
     }
-    terms
-        .into_iter()
-        .map(|terms| adjoint(terms, leaves))
-        .collect()
+    let both = terms.into_iter().zip(steep);
+    both.map(|(terms, steep)| Form {
+        steep,
+        ..adjoint(terms, leaves)
+    })
+    .collect()
 }
 
 fn adjoint(terms: BTreeMap<(Option<usize>, usize), f64>, leaves: &[Option<Leaf>]) -> Form {

@@ -1,7 +1,8 @@
 //! A result of machine code as an FPCore, the form of the benchmarks of FPBench, which other tools that bound rounding errors read.
 //!
 //! FPCore 2.0 (<https://fpbench.org/spec/fpcore-2.0.html>). An operation of the code is a binding of `let*`, rounded to binary32; a
-//! product and a sum stay two operations, as the code has them.
+//! product and a sum stay two operations, as the code has them. A reciprocal root, in the code a guess from bits and Newton's steps, is one that is
+//! rounded once: FPCore knows no bits.
 
 use std::fmt::Write as _;
 
@@ -44,6 +45,10 @@ pub fn fpcore(graph: &Graph, output: usize, robot: &Robot, name: &str) -> Option
             Node::Add(a, b) => format!("(+ v{a} v{b})"),
             Node::Sub(a, b) => format!("(- v{a} v{b})"),
             Node::Mul(a, b) => format!("(* v{a} v{b})"),
+            Node::Div(a, b) => format!("(/ v{a} v{b})"),
+            Node::Sqrt(a) => format!("(sqrt v{a})"),
+            // Which the code rounds otherwise: see the top.
+            Node::InverseRoot(a, _) => format!("(cast (! :precision real (/ 1 (sqrt v{a}))))"),
             Node::Neg(a) => format!("(- v{a})"),
         };
         let _ = writeln!(bindings, "   [v{k} {value}]");

@@ -49,6 +49,10 @@ pub fn script(bounder: &Bounder) -> Script {
         let v = format!("v{k}");
         let (operation, rounds) = match *node {
             Node::Input(_) | Node::Literal(_) => (None, false),
+            Node::Div(a, b) => (Some(format!("v{a} / v{b}")), true),
+            Node::Sqrt(a) => (Some(format!("sqrt(v{a})")), true),
+            // Its error was found by trying every number, as that of a sine.
+            Node::InverseRoot(a, _) => (Some(format!("1 / sqrt(v{a}) + e{k}")), false),
             Node::Neg(a) => (Some(format!("-v{a}")), false),
             Node::Add(a, b) => (Some(format!("v{a} + v{b}")), true),
             Node::Sub(a, b) => (Some(format!("v{a} - v{b}")), true),
@@ -99,6 +103,11 @@ pub fn script(bounder: &Bounder) -> Script {
                 .iter()
                 .map(|(value, sum)| format!("v{value} * ({})", weighted(sum))),
         );
+        terms.extend(
+            form.steep
+                .iter()
+                .map(|steep| slope(graph.nodes[steep.0], *steep)),
+        );
         // The output's own adjoint is one, by its range.
         if !terms.is_empty() {
             script.proven.push(range(
@@ -108,6 +117,17 @@ pub fn script(bounder: &Bounder) -> Script {
         }
     }
     script
+}
+
+/// The adjoint of a quotient or root times its derivative by an operand.
+fn slope(node: Node, (k, operand): (usize, usize)) -> String {
+    match (node, operand) {
+        (Node::Div(_, b), 0) => format!("w{k} / v{b}"),
+        (Node::Div(a, b), _) => format!("(-w{k}) * ((v{a} / v{b}) / v{b})"),
+        (Node::Sqrt(a), _) => format!("w{k} / (2 * sqrt(v{a}))"),
+        (Node::InverseRoot(a, _), _) => format!("(-w{k}) / (2 * (v{a} * sqrt(v{a})))"),
+        _ => "0".to_owned(),
+    }
 }
 
 /// A sum of adjoints with their factors.

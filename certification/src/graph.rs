@@ -22,8 +22,52 @@ pub enum Node {
     Sub(usize, usize),
     /// a b, rounded
     Mul(usize, usize),
+    /// a / b, rounded
+    Div(usize, usize),
+    /// √a, rounded
+    Sqrt(usize),
+    /// 1/√a, in so many steps of Newton from a guess
+    InverseRoot(usize, Guess),
     /// −a, exact
     Neg(usize),
+}
+
+/// A guess of 1/√x, the number whose bits are a magic number less half of those of x, and the steps y + y (½ − ½ x y²) from there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Guess {
+    /// The magic number.
+    pub magic: u32,
+    /// The steps.
+    pub steps: u8,
+}
+
+impl Guess {
+    /// What the code computes.
+    pub fn inverse_root(self, x: f32) -> f32 {
+        let mut y = f32::from_bits(self.magic.wrapping_sub(x.to_bits() >> 1));
+        let half = 0.5 * x;
+        for _ in 0..self.steps {
+            y += y * (0.5 - half * y * y);
+        }
+        y
+    }
+}
+
+impl Node {
+    /// The same operation on nodes at other places.
+    #[must_use]
+    pub fn moved(self, to: impl Fn(usize) -> usize) -> Self {
+        match self {
+            Self::Input(_) | Self::Literal(_) => self,
+            Self::Add(a, b) => Self::Add(to(a), to(b)),
+            Self::Sub(a, b) => Self::Sub(to(a), to(b)),
+            Self::Mul(a, b) => Self::Mul(to(a), to(b)),
+            Self::Div(a, b) => Self::Div(to(a), to(b)),
+            Self::Sqrt(a) => Self::Sqrt(to(a)),
+            Self::InverseRoot(a, guess) => Self::InverseRoot(to(a), guess),
+            Self::Neg(a) => Self::Neg(to(a)),
+        }
+    }
 }
 
 /// An expression, and the places of its results.
@@ -45,10 +89,16 @@ pub trait Number: Copy + std::ops::Neg<Output = Self> {
     fn sub(self, b: Self) -> Self;
     /// a b
     fn mul(self, b: Self) -> Self;
+    /// a / b
+    fn div(self, b: Self) -> Self;
+    /// √a
+    fn sqrt(self) -> Self;
+    /// 1/√a
+    fn inverse_root(self, guess: Guess) -> Self;
 }
 
 macro_rules! number {
-    ($($type:ty),*) => {$(
+    ($($type:ty: $inverse_root:expr),*) => {$(
         impl Number for $type {
             fn of(literal: f32) -> Self {
                 Self::from(literal)
@@ -62,10 +112,19 @@ macro_rules! number {
             fn mul(self, b: Self) -> Self {
                 self * b
             }
+            fn div(self, b: Self) -> Self {
+                self / b
+            }
+            fn sqrt(self) -> Self {
+                <$type>::sqrt(self)
+            }
+            fn inverse_root(self, guess: Guess) -> Self {
+                $inverse_root(guess, self)
+            }
         }
     )*};
 }
-number!(f32, f64);
+number!(f32: Guess::inverse_root, f64: |_, x: f64| 1.0 / x.sqrt());
 
 impl Graph {
     /// The value of each node; `values` holds them.
@@ -78,10 +137,21 @@ impl Graph {
                 Node::Add(a, b) => values[a].add(values[b]),
                 Node::Sub(a, b) => values[a].sub(values[b]),
                 Node::Mul(a, b) => values[a].mul(values[b]),
+                Node::Div(a, b) => values[a].div(values[b]),
+                Node::Sqrt(a) => values[a].sqrt(),
+                Node::InverseRoot(a, guess) => values[a].inverse_root(guess),
                 Node::Neg(a) => -values[a],
             };
             values.push(value);
         }
+    }
+
+    /// The graph of the difference of two of its nodes.
+    pub fn of_difference(&self, a: usize, b: usize) -> Self {
+        let mut nodes = self.nodes.clone();
+        nodes.push(Node::Sub(a, b));
+        let outputs = vec![(0, nodes.len() - 1)];
+        Self { nodes, outputs }.of_output(0)
     }
 
     /// The graph of one output alone, which is its last node.
@@ -101,13 +171,7 @@ impl Graph {
         let mut nodes = Vec::new();
         for at in (0..=node).filter(|at| used[*at]) {
             places[at] = nodes.len();
-            nodes.push(match self.nodes[at] {
-                Node::Add(a, b) => Node::Add(places[a], places[b]),
-                Node::Sub(a, b) => Node::Sub(places[a], places[b]),
-                Node::Mul(a, b) => Node::Mul(places[a], places[b]),
-                Node::Neg(a) => Node::Neg(places[a]),
-                leaf => leaf,
-            });
+            nodes.push(self.nodes[at].moved(|a| places[a]));
         }
         let last = nodes.len() - 1;
         Self {
@@ -118,7 +182,8 @@ impl Graph {
 
     /// The number of rounded operations.
     pub fn operations(&self) -> usize {
-        let rounds = |node: &&Node| matches!(node, Node::Add(..) | Node::Sub(..) | Node::Mul(..));
+        let rounds =
+            |node: &&Node| !matches!(node, Node::Input(_) | Node::Literal(_) | Node::Neg(_));
         self.nodes.iter().filter(rounds).count()
     }
 }
@@ -127,7 +192,7 @@ impl Graph {
 pub fn operands(node: Node) -> [Option<usize>; 2] {
     match node {
         Node::Input(_) | Node::Literal(_) => [None, None],
-        Node::Add(a, b) | Node::Sub(a, b) | Node::Mul(a, b) => [Some(a), Some(b)],
-        Node::Neg(a) => [Some(a), None],
+        Node::Add(a, b) | Node::Sub(a, b) | Node::Mul(a, b) | Node::Div(a, b) => [Some(a), Some(b)],
+        Node::Sqrt(a) | Node::InverseRoot(a, _) | Node::Neg(a) => [Some(a), None],
     }
 }

@@ -123,6 +123,7 @@ impl Builder<'_> {
                 Polynomial::from([((0, 0), (place, false))])
             }
             Node::Neg(a) => negated(&self.values[a]),
+            Node::Div(..) | Node::Sqrt(_) | Node::InverseRoot(..) => return None,
             Node::Add(a, b) | Node::Sub(a, b) => {
                 let (mut sum, a, b) = (
                     Polynomial::new(),
@@ -220,7 +221,7 @@ fn times(m: Monomial, n: Monomial) -> Option<Monomial> {
 }
 
 impl Program {
-    /// Of a graph of one output; `None` if it is no such polynomial: of a joint that slides, or of a higher degree in speeds.
+    /// Of a graph of one output; `None` if it is no such polynomial: of a joint that slides, of a higher degree in speeds, of a quotient or a root.
     pub fn new(graph: &Graph, robot: &Robot) -> Option<Self> {
         let n = robot.joints.len();
         let whole = robot.whole();
@@ -292,13 +293,14 @@ impl Program {
                     (larger(&degrees[a], &degrees[b]), absolute[a] + absolute[b])
                 }
                 Node::Mul(a, b) => (both(&degrees[a], &degrees[b]), absolute[a] * absolute[b]),
+                // Of these there is no program.
+                Node::Div(..) | Node::Sqrt(_) | Node::InverseRoot(..) => continue,
             };
         }
         absolute[2 * nodes - 1] = 1.0;
         for k in (0..nodes).rev() {
             let (degree, size) = (degrees[nodes + k].clone(), absolute[nodes + k]);
             let propagated = match graph.nodes[k] {
-                Node::Input(_) | Node::Literal(_) => continue,
                 Node::Neg(a) => vec![(a, degree, size)],
                 Node::Add(a, b) | Node::Sub(a, b) => {
                     vec![(a, degree.clone(), size), (b, degree, size)]
@@ -307,6 +309,7 @@ impl Program {
                     (a, both(&degree, &degrees[b]), size * absolute[b]),
                     (b, both(&degree, &degrees[a]), size * absolute[a]),
                 ],
+                _ => continue,
             };
             for (to, degree, size) in propagated {
                 degrees[nodes + to] = larger(&degrees[nodes + to], &degree);

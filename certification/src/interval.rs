@@ -1,6 +1,6 @@
 //! Intervals of real numbers in f64, rounded outward.
 
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// All real numbers from one to another.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -86,6 +86,29 @@ impl Interval {
             down(a.min(b)).max(0.0)
         };
         Self::new(low, up(a.max(b)))
+    }
+}
+
+impl Interval {
+    /// √x of the numbers that have one.
+    #[inline]
+    pub fn root(self) -> Self {
+        Self::new(
+            down(self.low.max(0.0).sqrt()).max(0.0),
+            up(self.high.max(0.0).sqrt()),
+        )
+    }
+}
+
+impl Div for Interval {
+    type Output = Self;
+    /// All numbers if the divisor may be zero.
+    #[inline]
+    fn div(self, b: Self) -> Self {
+        if !(b.low > 0.0 || b.high < 0.0) {
+            return Self::new(f64::NEG_INFINITY, f64::INFINITY);
+        }
+        self * Self::new(down(1.0 / b.high), up(1.0 / b.low))
     }
 }
 

@@ -7,7 +7,8 @@
 //! | [`interval`], [`state_box`], [`forms`] | ranges of numbers, inputs and sums |
 //! | [`bound`], [`branch`] | the error over a part of the box, and over the whole |
 //! | [`grid`] | the error over all angles, by a grid of them |
-//! | [`sines`] | the error of sines, by trying every angle |
+//! | [`sines`], [`roots`] | the errors of sines and of reciprocal roots, by trying every number |
+//! | [`ways`] | that every state of the box takes the way that was followed at a branch |
 //! | [`bodies`], [`taylor`] | the robot's bodies, in numbers and over parts of the box |
 //! | [`limits`]: [`floor`], [`peel`], [`speeds`] | the least eigenvalue of the inertia matrix, and the speeds of the links |
 //! | [`inertias`], `links` | the most that inertias known within some percent change torques |
@@ -52,6 +53,7 @@ mod parts;
 pub mod peel;
 pub mod picture;
 pub mod program;
+pub mod roots;
 pub mod rows;
 pub mod search;
 pub mod sheet;
@@ -61,4 +63,5 @@ pub mod stack;
 pub mod state_box;
 pub mod taylor;
 pub mod walk;
+pub mod ways;
 mod words;

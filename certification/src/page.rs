@@ -86,7 +86,7 @@ pub(crate) fn ranges(one: &Certificate) -> String {
         let joint = one.joints[i];
         let (q, unit) = (joint.position, if joint.turns { "rad" } else { "m" });
         let mut text = format!("q from {:.2} to {:.2} {unit}", q.low, q.high);
-        if one.function == Function::Rnea || one.function == Function::Core {
+        if one.function.is_inverse_dynamics() {
             let _ = write!(
                 text,
                 ", |q̇| ≤ {:.2} {unit}/s, |q̈| ≤ {:.2} {unit}/s²",

@@ -5,6 +5,7 @@ use std::process::Command;
 
 use robot_import::import;
 
+use crate::certificate::Function;
 use crate::error::{Error, Result};
 
 /// The robots of the library of which `docs/certificates.md` has certificates, and what the firmware includes for each.
@@ -15,6 +16,9 @@ pub const LIBRARY: [(&str, &str); 5] = [
     ("so101", include_str!("../firmware/robots/so101.rs")),
     ("a1_leg", include_str!("../firmware/robots/a1_leg.rs")),
 ];
+
+/// The robot with a kinematic loop of which the page has a certificate: a program of its own.
+pub const CLUSTERED: &str = "four_bar_leg";
 
 const TARGET: &str = "thumbv7em-none-eabihf";
 const PACKAGE: &str = "certified";
@@ -35,7 +39,20 @@ pub struct Program {
 /// # Errors
 /// [`Error::Robot`] of a description that is not taken, [`Error::Program`] if cargo fails.
 pub fn build(robot: &str, options: &import::Options) -> Result<Program> {
-    bin(robot, options, PACKAGE, "firmware")
+    match robot {
+        CLUSTERED => bin(robot, options, "clustered", "clustered"),
+        _ => bin(robot, options, PACKAGE, "firmware"),
+    }
+}
+
+impl Program {
+    /// The functions that it has, of those that are asked for.
+    pub fn functions<'a>(&self, asked: &'a [Function]) -> &'a [Function] {
+        match self.robot.as_str() {
+            CLUSTERED => &[Function::Clustered],
+            _ => asked,
+        }
+    }
 }
 
 /// Builds the program of the configurations of a robot: [`crate::configurations`].
@@ -55,6 +72,8 @@ fn bin(robot: &str, options: &import::Options, name: &str, feature: &str) -> Res
     let included = folder.path().join("included.rs");
     let (name, text) = match LIBRARY.iter().find(|(name, _)| *name == robot) {
         Some((name, text)) => ((*name).to_owned(), (*text).to_owned()),
+        // Its program names the robot itself.
+        None if robot == CLUSTERED => (robot.to_owned(), String::new()),
         None => of_description(Path::new(robot), options, &folder.path().join("robot.rs"))?,
     };
     write(&included, &text)?;

@@ -1,17 +1,21 @@
 //! From machine code to the expression that it evaluates.
 //!
 //! The walk executes the code with real numbers as nodes of a graph and everything else, addresses and counters, as it is. So it follows
-//! calls and loops with constant bounds; a branch that depends on a real number has no known direction, and is declined.
+//! calls and loops with constant bounds. At a branch by a comparison of real numbers it goes on as the state zero does, and notes the
+//! comparison, of which [`crate::ways`] proves that all states of the box decide it so. Calls of the function that the program names
+//! `CERTIFIED_SINES` are not followed: they are inputs, the sine and the cosine of a coordinate.
 
+use std::cmp::Ordering;
 use std::collections::{BTreeSet, HashMap};
 
 use crate::decode::{
-    self, ALWAYS, Access, Arithmetic, Condition, Instruction, LR, NOWHERE, Operand, PC, SP,
+    self, ALWAYS, Access, Arithmetic, Condition, Instruction, Integer, LR, NOWHERE, Operand, PC, SP,
 };
 use crate::error::{Error, Result};
 use crate::flags;
-use crate::graph::{Graph, Input, Node};
+use crate::graph::{Graph, Guess, Input, Node};
 use crate::image::Image;
+use crate::roots;
 
 /// Addresses at which nothing lies: of what the arguments point to, a range for each; of the stack; and of the caller.
 const ARGUMENTS: u32 = 0x9000_0000;
@@ -28,6 +32,36 @@ enum Word {
     Bits(u32),
     /// A real number.
     Real(usize),
+    /// A guess of the reciprocal root of a real number: a magic number less half of its bits.
+    Guess(usize, u32),
+}
+
+/// A comparison of two real numbers that a branch depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comparison {
+    /// The address of the instruction that takes its flags.
+    pub address: u32,
+    /// The nodes that are compared.
+    pub nodes: [usize; 2],
+    /// How they are ordered at the state zero, and must be at every state of the box.
+    pub ordering: Ordering,
+}
+
+/// The function that computes sine and cosine, and where they lie among inputs: [`crate::state_box::Robot::trig`].
+struct Sines {
+    address: u32,
+    trig: [u32; 4],
+}
+
+impl Sines {
+    fn of(image: &Image) -> Option<Self> {
+        let (_, words) = image.variable("CERTIFIED_SINES").ok()?;
+        let trig = image.variable("CERTIFIED_TRIG").ok()?.1;
+        Some(Self {
+            address: words.first()? & !1,
+            trig: trig.try_into().ok()?,
+        })
+    }
 }
 
 /// A function's expression, and where its code lies.
@@ -39,6 +73,8 @@ pub struct Walked {
     pub visited: Vec<u32>,
     /// Instructions executed.
     pub executed: usize,
+    /// The comparisons on which the way depends.
+    pub comparisons: Vec<Comparison>,
 }
 
 struct Walk<'a> {
@@ -51,6 +87,10 @@ struct Walk<'a> {
     memory: HashMap<u32, Word>,
     /// Negative, zero, carry, overflow of the last comparison of integers.
     flags: Option<[bool; 4]>,
+    sines: Option<Sines>,
+    /// The real numbers that were compared last.
+    compared: Option<[usize; 2]>,
+    comparisons: Vec<Comparison>,
     /// The first address of the instruction, and the next one's.
     here: u32,
     next: u32,
@@ -72,6 +112,9 @@ pub fn walk(image: &Image, function: u32, arguments: [Option<u32>; 4]) -> Result
         real: [None; 32],
         memory: HashMap::new(),
         flags: None,
+        sines: Sines::of(image),
+        compared: None,
+        comparisons: Vec::new(),
         here: function & !1,
         next: function & !1,
         code: 0,
@@ -107,7 +150,9 @@ pub fn walk(image: &Image, function: u32, arguments: [Option<u32>; 4]) -> Result
         let node = walk.node(word);
         walk.graph.outputs.push((offset, node));
     }
+    roots::join_steps(&mut walk.graph);
     Ok(Walked {
+        comparisons: walk.comparisons,
         graph: walk.graph,
         visited: visited.into_iter().collect(),
         executed,
@@ -132,6 +177,7 @@ impl Walk<'_> {
     fn node(&mut self, word: Word) -> usize {
         match word {
             Word::Real(node) => node,
+            Word::Guess(a, magic) => self.push(Node::InverseRoot(a, Guess { magic, steps: 0 })),
             Word::Bits(bits) => match self.literals.get(&bits) {
                 Some(node) => *node,
                 None => {
@@ -154,7 +200,7 @@ impl Walk<'_> {
     fn bits(&self, register: u8) -> Result<u32> {
         match self.core(register)? {
             Word::Bits(bits) => Ok(bits),
-            Word::Real(_) => Err(self.declined("an integer operation on a real number")),
+            _ => Err(self.declined("an integer operation on a real number")),
         }
     }
 
@@ -205,7 +251,7 @@ impl Walk<'_> {
             NOWHERE => {}
             PC => match word {
                 Word::Bits(address) => self.next = address & !1,
-                Word::Real(_) => return Err(self.declined("a branch to a real number")),
+                _ => return Err(self.declined("a branch to a real number")),
             },
             register => self.core[usize::from(register)] = Some(word),
         }
@@ -317,6 +363,34 @@ impl Walk<'_> {
                 self.real[usize::from(d)] = Some(Word::Real(node));
                 Ok(())
             }
+            I::Root { d, m } => {
+                let word = self.real(m)?;
+                let a = self.node(word);
+                let node = self.push(Node::Sqrt(a));
+                self.real[usize::from(d)] = Some(Word::Real(node));
+                Ok(())
+            }
+            I::Compare { d, m } => {
+                let a = self.real(d)?;
+                let b = m.map_or(Ok(Word::Bits(0)), |m| self.real(m))?;
+                self.compared = Some([self.node(a), self.node(b)]);
+                Ok(())
+            }
+            I::TakeFlags => self.take_flags(),
+            I::Integer {
+                op: Integer::Sub,
+                d,
+                n,
+                by: Operand::Right(m, 1),
+                flags: false,
+            } => {
+                let (magic, halved) = (self.bits(n)?, self.core(m)?);
+                match halved {
+                    Word::Real(a) => self.set(d, Word::Guess(a, magic)),
+                    Word::Bits(bits) => self.set(d, Word::Bits(magic.wrapping_sub(bits >> 1))),
+                    Word::Guess(..) => Err(self.declined("a guess of a guess")),
+                }
+            }
             I::Copy { d, m } => {
                 self.real[usize::from(d)] = Some(self.real(m)?);
                 Ok(())
@@ -334,7 +408,11 @@ impl Walk<'_> {
                     let word = self.real(real)?;
                     return self.set(core, word);
                 }
-                self.real[usize::from(real)] = Some(self.core(core)?);
+                let mut word = self.core(core)?;
+                if let Word::Guess(..) = word {
+                    word = Word::Real(self.node(word));
+                }
+                self.real[usize::from(real)] = Some(word);
                 Ok(())
             }
             I::Branch {
@@ -342,11 +420,15 @@ impl Walk<'_> {
                 condition,
                 link,
             } => {
+                let to = (self.here + 4).wrapping_add_signed(offset);
+                if link && self.sines.as_ref().is_some_and(|sines| sines.address == to) {
+                    return self.sine_and_cosine();
+                }
                 if link {
                     self.core[usize::from(LR)] = Some(Word::Bits(self.next | 1));
                 }
                 if self.holds(condition)? {
-                    self.next = (self.here + 4).wrapping_add_signed(offset);
+                    self.next = to;
                 }
                 Ok(())
             }
@@ -363,6 +445,66 @@ impl Walk<'_> {
             I::Access(one) if one.bytes == 4 => self.access(one),
             _ => Err(self.declined("an instruction of which nothing is proven")),
         }
+    }
+
+    /// The flags of the comparison of real numbers: those of the state zero.
+    fn take_flags(&mut self) -> Result<()> {
+        let trig = self.sines.as_ref().map(|sines| sines.trig);
+        // Cosines are one, all else is zero.
+        let zero = |input: Input| match trig {
+            Some([stride, _, cosine, _]) if input.argument == 1 => {
+                f32::from(u8::from(input.offset % stride == cosine))
+            }
+            _ => 0.0,
+        };
+        let mut values = Vec::new();
+        self.graph.evaluate(zero, &mut values);
+        let nodes = self
+            .compared
+            .ok_or_else(|| self.declined("no comparison"))?;
+        let [a, b] = nodes.map(|k| values[k]);
+        let ordering = a
+            .partial_cmp(&b)
+            .ok_or_else(|| self.declined("a comparison with what is no number"))?;
+        self.comparisons.push(Comparison {
+            address: self.here,
+            nodes,
+            ordering,
+        });
+        self.flags = Some(match ordering {
+            Ordering::Less => [true, false, false, false],
+            Ordering::Equal => [false, true, true, false],
+            Ordering::Greater => [false, false, true, false],
+        });
+        Ok(())
+    }
+
+    /// A call of the function for sines: of a position, the first numbers of the state.
+    fn sine_and_cosine(&mut self) -> Result<()> {
+        let of = match self.real(0)? {
+            Word::Real(node) => match self.graph.nodes[node] {
+                Node::Input(Input {
+                    argument: 2,
+                    offset,
+                }) => Some(offset / 4),
+                _ => None,
+            },
+            _ => None,
+        };
+        let (Some(joint), Some(sines)) = (of, &self.sines) else {
+            return Err(self.declined("a sine of what is no coordinate"));
+        };
+        let [stride, sine, cosine, _] = sines.trig;
+        let at = [sine, cosine].map(|within| ARGUMENTS + RANGE + stride * joint + within);
+        // What a call need not keep.
+        self.core[..4].fill(None);
+        self.core[12] = None;
+        self.real[..16].fill(None);
+        self.flags = None;
+        for (register, at) in at.into_iter().enumerate() {
+            self.real[register] = Some(self.load(at)?);
+        }
+        Ok(())
     }
 
     /// One word or two.
@@ -464,6 +606,7 @@ impl Walk<'_> {
         let mut node = self.push(match op {
             Arithmetic::Add => Node::Add(a, b),
             Arithmetic::Sub => Node::Sub(a, b),
+            Arithmetic::Div => Node::Div(a, b),
             Arithmetic::Mul | Arithmetic::NegatedMul => Node::Mul(a, b),
         });
         if op == Arithmetic::NegatedMul {

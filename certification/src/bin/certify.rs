@@ -10,7 +10,7 @@ use certification::error::{Error, Result};
 use certification::image::Image;
 use certification::limits::{self, Limits};
 use certification::narrow::Narrow;
-use certification::program::{self, LIBRARY, Program};
+use certification::program::{self, CLUSTERED, LIBRARY, Program};
 use certification::rows::{self, Measured, Report};
 use certification::search::Effort;
 use certification::sheet::{Sheet, Target};
@@ -136,7 +136,11 @@ const PAGE_EFFORT: limits::Effort = limits::Effort {
 const BAND_POINTS: usize = 4_000_000;
 const PAGE: &str = "docs/certificates.md";
 /// The results that are kept as benchmarks for FPBench.
-const KEPT: [(&str, Function); 2] = [("ur5e", Function::Rnea), ("so101", Function::Gravity)];
+const KEPT: [(&str, Function, &str); 3] = [
+    ("ur5e", Function::Rnea, "rnea_ur5e.fpcore"),
+    ("so101", Function::Gravity, "gravity_so101.fpcore"),
+    (CLUSTERED, Function::Clustered, "four_bar.fpcore"),
+];
 const FOLDER: &str = "docs/fpbench";
 const PICTURE: &str = "docs/certificates.svg";
 
@@ -164,7 +168,10 @@ fn run(args: &Args) -> Result<String> {
     }
     let robots: Vec<&str> = match &args.robot {
         Some(robot) => vec![robot],
-        None => LIBRARY.map(|(name, _)| name).to_vec(),
+        None => {
+            let library = LIBRARY.map(|(name, _)| name);
+            library.into_iter().chain([CLUSTERED]).collect()
+        }
     };
     let programs = robots
         .iter()
@@ -189,7 +196,8 @@ fn run(args: &Args) -> Result<String> {
     if args.hashes {
         for program in &programs {
             let image = Image::read(&program.elf)?;
-            check::hashes(&image, &args.function, &program.robot, &written()?)?;
+            let functions = program.functions(&args.function);
+            check::hashes(&image, functions, &program.robot, &written()?)?;
         }
         for (path, text) in kept(&docs, &programs, &robots)? {
             if std::fs::read_to_string(&path).ok().as_ref() != Some(&text) {
@@ -199,7 +207,7 @@ fn run(args: &Args) -> Result<String> {
         }
         return Ok(format!("{PAGE} and {FOLDER} are of today's machine code"));
     }
-    if args.writes(Part::Certificates) {
+    if args.writes(Part::Certificates) || args.writes(Part::Clusters) {
         for (path, text) in kept(&docs, &programs, &robots)? {
             program::write(&path, &text)?;
         }
@@ -221,9 +229,6 @@ fn run(args: &Args) -> Result<String> {
         let page = check::page(&written()?, Part::Limits, &text)?;
         program::write(&docs.join(PAGE), &page)?;
     }
-    if args.write_docs.is_some() && !args.writes(Part::Certificates) {
-        return Ok(format!("written: {PAGE}"));
-    }
     // Once for all robots: what holds over the widest ranges holds over each.
     let joints: Vec<_> = robots
         .iter()
@@ -232,12 +237,16 @@ fn run(args: &Args) -> Result<String> {
     let sines = sines::enumerate(&joints);
     let mut certificates = Vec::new();
     for (program, robot) in programs.iter().zip(&robots) {
+        if args.write_docs.is_some() && !args.writes(part(program)) {
+            continue;
+        }
         let image = Image::read(&program.elf)?;
         let emulation = emulation::run(program, robot).map_err(|error| error.to_string());
-        for function in &args.function {
+        for function in program.functions(&args.function) {
             let start = Instant::now();
             let target = Target::of(&image, *function, robot, &emulation)?;
-            let mut one = certificate::certify(program, *function, robot, sines, spent(args))?;
+            let mut one =
+                certificate::certify(program, *function, robot, sines, spent(args, *function))?;
             one.target = Some(target);
             if args.gappa {
                 check::by_gappa(&image, *function, robot, sines, &one, PART, args.coq)?;
@@ -269,6 +278,14 @@ fn configurations(args: &Args, robots: &[Robot]) -> Result<String> {
     serde_json::to_string_pretty(&all).map_err(|e| Error::Robot(e.to_string()))
 }
 
+/// The part of the page that has a program's certificates.
+fn part(program: &Program) -> Part {
+    match program.robot.as_str() {
+        CLUSTERED => Part::Clusters,
+        _ => Part::Certificates,
+    }
+}
+
 /// What is proven of the robots themselves.
 fn limits(args: &Args, programs: &[Program], robots: &[Robot]) -> Result<Vec<Limits>> {
     let mut effort = match args.write_docs {
@@ -280,7 +297,8 @@ fn limits(args: &Args, programs: &[Program], robots: &[Robot]) -> Result<Vec<Lim
         states: args.states,
     };
     effort.inertias = args.inertias.map(|percent| (percent, spent));
-    let all = programs.iter().zip(robots);
+    let is_tree = |one: &(&Program, &Robot)| part(one.0) == Part::Certificates;
+    let all = programs.iter().zip(robots).filter(is_tree);
     all.map(|(program, robot)| {
         let start = Instant::now();
         let one = Limits::of(program, robot, effort)?;
@@ -337,7 +355,7 @@ fn benchmarks(
 ) -> Result<String> {
     let mut written = Vec::new();
     for (program, robot) in programs.iter().zip(robots) {
-        for function in &args.function {
+        for function in program.functions(&args.function) {
             let file = folder.join(file_name(&program.robot, *function));
             program::write(&file, &benchmark(program, robot, *function)?)?;
             written.push(file.display().to_string());
@@ -349,13 +367,13 @@ fn benchmarks(
 /// The files of benchmarks that are kept, and their texts.
 fn kept(docs: &Path, programs: &[Program], robots: &[Robot]) -> Result<Vec<(PathBuf, String)>> {
     let mut files = Vec::new();
-    for (name, function) in KEPT {
+    for (name, function, file) in KEPT {
         for (program, robot) in programs
             .iter()
             .zip(robots)
             .filter(|one| one.0.robot == name)
         {
-            let path = docs.join(FOLDER).join(file_name(name, function));
+            let path = docs.join(FOLDER).join(file);
             files.push((path, benchmark(program, robot, function)?));
         }
     }
@@ -366,7 +384,7 @@ fn sampled(args: &Args, programs: &[Program], robots: &[Robot]) -> Result<String
     let mut rng = fastrand::Rng::with_seed(1);
     let mut sampled = 0;
     for (program, robot) in programs.iter().zip(robots) {
-        for function in &args.function {
+        for function in program.functions(&args.function) {
             check::sampled(&Image::read(&program.elf)?, *function, robot, &mut rng)?;
             eprintln!(
                 "{}: {}: accepted by Gappa and Coq",
@@ -382,9 +400,14 @@ fn sampled(args: &Args, programs: &[Program], robots: &[Robot]) -> Result<String
     ))
 }
 
-fn spent(args: &Args) -> Spent {
+fn spent(args: &Args, function: Function) -> Spent {
+    // Of the loop a million states with its three results.
+    let states = match function {
+        Function::Clustered => 2 * args.states,
+        _ => args.states,
+    };
     // A third of the states at random, the rest in generations.
-    let children = args.states / 3 * 2 / 96;
+    let children = states / 3 * 2 / 96;
     Spent {
         parts: args.parts,
         points: args.points.unwrap_or(if args.write_docs.is_some() {
@@ -393,7 +416,7 @@ fn spent(args: &Args) -> Spent {
             POINTS
         }),
         search: Effort {
-            random: args.states / 3,
+            random: states / 3,
             generations: 96,
             children,
         },
@@ -410,12 +433,20 @@ fn finish(
     if let Some(path) = &args.picture {
         program::write(path, &picture::svg(certificates))?;
     }
+    let (loops, trees): (Vec<_>, Vec<_>) = certificates
+        .iter()
+        .cloned()
+        .partition(|one| one.function == Function::Clustered);
     if args.writes(Part::Certificates) {
-        program::write(&docs.join(PICTURE), &picture::svg(certificates))?;
-        program::write(
-            &docs.join(PAGE),
-            &check::page(&written()?, Part::Certificates, &page::tables(certificates))?,
-        )?;
+        program::write(&docs.join(PICTURE), &picture::svg(&trees))?;
+    }
+    for (part, certificates) in [(Part::Certificates, &trees), (Part::Clusters, &loops)] {
+        if args.writes(part) {
+            let page = check::page(&written()?, part, &page::tables(certificates))?;
+            program::write(&docs.join(PAGE), &page)?;
+        }
+    }
+    if args.write_docs.is_some() {
         return Ok(format!("written: {PAGE}"));
     }
     let json = |e: serde_json::Error| Error::Robot(e.to_string());

@@ -50,12 +50,15 @@ pub fn real_memory(first: u16, second: u16) -> Option<Instruction> {
 
 /// Data processing and moves: A6.4, A6.6.
 pub fn real_data(first: u16, second: u16) -> Option<Instruction> {
-    use Instruction::{Copy, Negate, Real, Transfer};
+    use Instruction::{Compare, Copy, Negate, Real, Root, TakeFlags, Transfer};
     if second >> 8 & 15 != 10 {
         return None;
     }
     let d = real(second >> 12, first >> 6);
     let (n, m) = (real(first, second >> 7), real(second, second >> 5));
+    if (first, second) == (0xeef1, 0xfa10) {
+        return Some(TakeFlags);
+    }
     if second & 0x10 != 0 {
         let core = (second >> 12) as u8;
         let is_move = first & 0xe0 == 0 && second & 0x7f == 0x10 && core < SP;
@@ -71,6 +74,7 @@ pub fn real_data(first: u16, second: u16) -> Option<Instruction> {
         (0x20, true) => op(Arithmetic::NegatedMul),
         (0x30, false) => op(Arithmetic::Add),
         (0x30, true) => op(Arithmetic::Sub),
+        (0x80, false) => op(Arithmetic::Div),
         (0xb0, false) if second & 0xa0 == 0 => {
             let byte = u32::from((first & 15) << 4 | second & 15);
             let exponent = if byte & 0x40 != 0 { 0x7c } else { 0x80 } | byte >> 4 & 3;
@@ -82,6 +86,10 @@ pub fn real_data(first: u16, second: u16) -> Option<Instruction> {
         (0xb0, true) => match (first & 15, second >> 7 & 1) {
             (0, 0) => Some(Copy { d, m }),
             (1, 0) => Some(Negate { d, m }),
+            (1, 1) => Some(Root { d, m }),
+            // Of numbers the form that signals NaNs is the same.
+            (4, _) => Some(Compare { d, m: Some(m) }),
+            (5, _) if second & 0x2f == 0 => Some(Compare { d, m: None }),
             _ => None,
         },
         _ => None,

@@ -99,6 +99,7 @@ fn weights(
     for (k, node) in graph.nodes.iter().enumerate() {
         let (propagated, second_order) = match *node {
             Node::Input(_) | Node::Literal(_) => (0.0, 0.0),
+            Node::Div(..) | Node::Sqrt(_) | Node::InverseRoot(..) => (f64::INFINITY, 0.0),
             Node::Neg(a) => (errors[a], 0.0),
             Node::Add(a, b) | Node::Sub(a, b) => (errors[a] + errors[b], 0.0),
             Node::Mul(a, b) => (

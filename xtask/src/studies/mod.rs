@@ -95,7 +95,7 @@ pub const STUDIES: &[Study] = &[
     Study {
         name: "certificates", about: "",
         files: &[
-            "docs/certificates.md", "docs/certificates.svg", "docs/fpbench/gravity_so101.fpcore", "docs/fpbench/rnea_ur5e.fpcore",
+            "docs/certificates.md", "docs/certificates.svg", "docs/fpbench/four_bar.fpcore", "docs/fpbench/gravity_so101.fpcore", "docs/fpbench/rnea_ur5e.fpcore",
         ],
         held: Step(Target, Full, "docs/certificates.md has the hashes of today's machine code; Gappa and Coq accept parts of the proofs, and refuse wrong ones"),
         form: Demo(|bench| {

@@ -1,0 +1,131 @@
+//! Inverse dynamics of a robot with a kinematic loop of closed form, a leg with a four-bar knee, which `certify` proves and QEMU runs.
+//!
+//! Such a function computes sines inside. The proven one has its kernel of sines apart, as a call; as the kernel's results are inputs of
+//! the rest, and no compiler may change how f32 is rounded, the function of firmware has the same expression, and QEMU compares the bits.
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+use core::mem::offset_of;
+
+use cortex_m_semihosting::{debug, hprintln};
+use dynamics_core::Engine;
+use dynamics_core::clusters::{ClusterError, Clustered};
+use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
+use dynamics_core::model::{JointCoordinate, Robot as _};
+use dynamics_core::state::{JointTrig, State};
+use dynamics_core::trig::{self, Kernel};
+use firmware_demo::marker::measured;
+use firmware_demo::robots::FourBarLeg;
+use firmware_demo::target;
+
+const Y: usize = 3;
+const STATES: usize = 32;
+
+type Trig = JointTrig<f32, Y>;
+type Full = (Gravity, Inertia, Coriolis);
+type Inverse = fn(&Trig, &State<f32, Y, Y>, &Full) -> Result<[f32; Y], ClusterError>;
+
+/// The tree's joint that each independent coordinate is: hip, crank, ankle.
+const JOINTS: [usize; Y] = [0, 1, 4];
+/// The crank's range as in `docs/costs.md`: the loop does not close all around.
+const CRANK: f32 = 0.6;
+
+/// Of each joint: whether it turns, least and greatest position, greatest speed.
+#[used]
+static CERTIFIED_JOINTS: [[f32; 4]; Y] = {
+    let mut joints = [[0.0; 4]; Y];
+    let mut i = 0;
+    while i < Y {
+        let limits = FourBarLeg::MODEL.links[JOINTS[i]].limits;
+        let [lower, upper] = if i == 1 {
+            [-CRANK, CRANK]
+        } else {
+            [limits.lower as f32, limits.upper as f32]
+        };
+        joints[i] = [1.0, lower, upper, limits.velocity as f32];
+        i += 1;
+    }
+    joints
+};
+
+/// Bytes between coordinates, and to sine, cosine and position in each.
+#[used]
+static CERTIFIED_TRIG: [u32; 4] = [
+    size_of::<JointCoordinate<f32>>() as u32,
+    offset_of!(JointCoordinate<f32>, sin) as u32,
+    offset_of!(JointCoordinate<f32>, cos) as u32,
+    offset_of!(JointCoordinate<f32>, q) as u32,
+];
+
+#[used]
+static CERTIFIED_EFFECTS: Full = RIGID_BODY;
+
+#[used]
+static CERTIFIED_STATES: [State<f32, Y, Y>; STATES] = [const {
+    State {
+        q: [0.0; Y],
+        qd: [0.0; Y],
+        qdd: [0.0; Y],
+    }
+}; STATES];
+/// Not read: where the host writes sines for functions that take them.
+#[used]
+static CERTIFIED_TRIGS: [Trig; STATES] = [const {
+    Trig {
+        coordinates: [JointCoordinate {
+            q: 0.0,
+            sin: 0.0,
+            cos: 1.0,
+        }; Y],
+    }
+}; STATES];
+
+/// The kernel as a call.
+struct Apart;
+
+impl Kernel<f32> for Apart {
+    #[inline(always)]
+    fn sin_cos(x: f32) -> (f32, f32) {
+        sines(x)
+    }
+}
+
+#[inline(never)]
+fn sines(x: f32) -> (f32, f32) {
+    trig::sin_cos_near(x)
+}
+
+#[used]
+static CERTIFIED_SINES: fn(f32) -> (f32, f32) = sines;
+
+#[inline(never)]
+fn apart(_: &Trig, y: &State<f32, Y, Y>, effects: &Full) -> Result<[f32; Y], ClusterError> {
+    Clustered::<Engine<FourBarLeg, Apart>>::rnea(y, effects)
+}
+
+#[inline(never)]
+fn firmware(_: &Trig, y: &State<f32, Y, Y>, effects: &Full) -> Result<[f32; Y], ClusterError> {
+    Clustered::<Engine<FourBarLeg>>::rnea(y, effects)
+}
+
+/// The function that is proven, and the one that firmware has.
+#[used]
+static CERTIFIED_CLUSTERED: Inverse = apart;
+#[used]
+static CERTIFIED_FIRMWARE: Inverse = firmware;
+
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    let function = black_box(CERTIFIED_FIRMWARE);
+    for (state, trig) in black_box(&CERTIFIED_STATES)
+        .iter()
+        .zip(black_box(&CERTIFIED_TRIGS))
+    {
+        let result = measured::<0, _>(|| function(trig, state, &CERTIFIED_EFFECTS));
+        // A cluster that does not close has no bits.
+        let bits = result.map_or([0; Y], |tau| tau.map(f32::to_bits));
+        hprintln!("clustered {:x?}", bits);
+    }
+    target::leave(debug::EXIT_SUCCESS)
+}

@@ -1,6 +1,6 @@
 // Torques as bars: for each joint a row in which the effects' parts are stacked to both sides, and a line at the sum.
 import { EFFECTS } from "./state.js";
-import { digits } from "./words.js";
+import { digits, inMemory } from "./words.js";
 
 const ROW = 30;
 
@@ -21,7 +21,7 @@ export class Bars {
       canvas.height = Math.round(height * ratio);
       canvas.style.height = `${height}px`;
     }
-    const context = canvas.getContext("2d");
+    const context = inMemory(canvas);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, width, height);
     const label = Math.min(130, width * 0.28);

@@ -67,3 +67,12 @@ export const unit = (a) => {
   return a.map((x) => x / size);
 };
 export const minus = (a, b) => a.map((x, i) => x - b[i]);
+export const plus = (a, b) => a.map((x, i) => x + b[i]);
+export const scaled = (a, factor) => a.map((x) => x * factor);
+
+/// Columns of a matrix that takes y to the direction from a to b.
+export function along(a, b) {
+  const y = unit(minus(b, a));
+  const x = unit(cross(y, Math.abs(y[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0]));
+  return [x, y, cross(x, y)];
+}

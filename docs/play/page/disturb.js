@@ -1,7 +1,7 @@
 // The tab "Disturb me": a scene's plant and control loop at 1 kHz, which the page pushes and spoils.
 import { minus } from "./camera.js";
 import { say, state } from "./state.js";
-import { by, colours, digits, element, grouped, write } from "./words.js";
+import { by, colours, digits, element, grouped, inMemory, write } from "./words.js";
 
 const disturb = { key: null, push: null, errors: [], events: [], owed: 0, ticks: 0, worst: 0, colour: null, text: 0 };
 
@@ -92,7 +92,7 @@ function chart() {
     canvas.width = Math.round(width * ratio);
     canvas.height = height * ratio;
   }
-  const context = canvas.getContext("2d");
+  const context = inMemory(canvas);
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, width, height);
   const [low, high] = [-2, 3];

@@ -1,5 +1,7 @@
 // Starts the page, and runs it frame by frame.
 import { Library, unpacked } from "./library.js";
+import { Gl } from "./gl.js";
+import { Soft } from "./soft.js";
 import { View } from "./view.js";
 import { state } from "./state.js";
 import { by, element } from "./words.js";
@@ -110,7 +112,7 @@ async function main() {
 }
 
 // For the tests, and for whoever opens the console.
-globalThis.play = { state, times, work, load, select, reach, pull, runCase, connect, show, cases: () => gallery.all, disturb };
+globalThis.play = { state, times, work, load, select, reach, pull, runCase, connect, show, cases: () => gallery.all, disturb, Gl, Soft };
 main().catch((error) => {
   by("said").hidden = false;
   by("said").classList.add("wrong");

@@ -153,7 +153,7 @@ function code() {
   write(by("cost-note"), found.why ? found.why + estimate : `Modelled Cortex-M4F, worst of the recorded states, sines included; from ${found.from.join(" and ")}${sum}.${share}`);
 }
 
-/// The errors of f32 and of the way, and the numbers as a table, a few times a second.
+/// The errors of f32 and of the way, and the numbers as a table.
 function words() {
   const { single, double, parts } = state.computed;
   const error = Math.max(0, ...single.map((x, i) => Math.abs(x - double[i])));
@@ -188,12 +188,13 @@ export function frame(seconds) {
   move.bars.draw(all.map((joint) => joint.name), computed, move.colour);
   const of = QUANTITIES[move.quantity];
   const now = state.moved[move.quantity];
-  all.forEach((joint, i) => {
+  all.forEach((_, i) => {
     if (document.activeElement !== move.inputs[i] || state.swinging) move.inputs[i].value = now[i];
-    write(move.numbers[i], `${digits(now[i])} ${of.unit(joint)}`);
   });
-  if (performance.now() - move.text > 200) {
+  // Nobody reads faster.
+  if (performance.now() - move.text > 100) {
     move.text = performance.now();
+    all.forEach((joint, i) => write(move.numbers[i], `${digits(now[i])} ${of.unit(joint)}`));
     words();
   }
 }

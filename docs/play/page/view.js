@@ -1,46 +1,62 @@
 // The view of the robot: it draws, turns, and says which body a pointer or the keyboard drags where.
 import { Orbit, length, minus } from "./camera.js";
-import { Drawn } from "./scene.js";
-import { by, colours } from "./words.js";
+import { Gl, hasGraphics } from "./gl.js";
+import { Ground } from "./ground.js";
+import { Shape, palette } from "./shape.js";
+import { Soft } from "./soft.js";
+import { by, colours, element } from "./words.js";
 
 /// How near a pointer has to be to a body, pixels; a finger is wider than a mouse.
 const NEAR = { mouse: 26, pen: 30, touch: 44 };
 
+/// Frames that take longer than SLOW, ms, on average get fewer pixels, those that take less than QUICK more.
+const [SLOW, QUICK] = [22, 18];
+/// The fewest pixels for each of the page's, and what more or fewer is.
+const [LEAST, FEWER] = [0.5, 0.75];
+
 export class View {
   /// `dragged(body, point)` is called as a body is dragged to a point, and with a point of null at its end.
-  constructor(canvas, dragged) {
-    this.canvas = canvas;
+  constructor(at, dragged) {
+    this.at = at;
     this.dragged = dragged;
     this.orbit = new Orbit();
     this.poses = null;
     this.pointers = new Map();
     this.drag = null;
-    this.colour = colours();
-    try {
-      this.renderer = new ogl.Renderer({ canvas, alpha: true, antialias: true, dpr: Math.min(2, devicePixelRatio) });
-      this.drawn = new Drawn(this.renderer.gl);
-      this.camera = new ogl.Camera(this.renderer.gl, { fov: this.orbit.field });
-      this.camera.up.set(0, 0, 1);
-    } catch (error) {
-      // Without WebGL the torques are computed all the same.
-      this.renderer = null;
-      by("no-webgl").hidden = false;
-    }
+    this.ground = new Ground(by("ground"));
+    this.recolour();
+    // A test may want either.
+    this.draws(location.hash === "#webgl" || (location.hash !== "#software" && hasGraphics()) ? Gl : Soft);
     this.listen();
-    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    new ResizeObserver(() => this.resize()).observe(at);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.recolour());
+  }
+
+  /// Draws by `Gl` or `Soft` from now on.
+  draws(By) {
+    this.canvas?.remove();
+    this.canvas = this.at.appendChild(element("canvas"));
+    this.picture = new By(this.canvas);
+    Object.assign(this, { ratio: this.finest, pace: 16, calm: 0, patience: 5 });
+    if (this.size) this.resize();
+    if (this.shape) this.picture.take(this.shape);
+  }
+
+  get finest() {
+    return Math.min(2, devicePixelRatio);
   }
 
   recolour() {
     this.colour = colours();
-    this.drawn?.recolour(this.colour);
+    this.palette = palette(this.colour);
+    this.stale = true;
   }
 
   resize() {
-    const { clientWidth, clientHeight } = this.canvas.parentElement;
+    const { clientWidth, clientHeight } = this.at;
     this.size = [clientWidth, clientHeight];
-    if (!this.renderer || clientWidth === 0) return;
-    this.renderer.setSize(clientWidth, clientHeight);
+    if (clientWidth === 0) return;
+    this.picture.size(clientWidth, clientHeight, this.ratio);
     this.stale = true;
   }
 
@@ -49,16 +65,11 @@ export class View {
     const points = [[0, 0, 0], ...poses.map((p) => [p[0], p[1], p[2]])];
     const low = [0, 1, 2].map((i) => Math.min(...points.map((p) => p[i])));
     const high = [0, 1, 2].map((i) => Math.max(...points.map((p) => p[i])));
-    const size = Math.max(0.2, length(minus(high, low)));
-    this.orbit.frame(low.map((x, i) => (x + high[i]) / 2), size);
-    this.extent = size;
-    this.about = about;
-    if (this.drawn) {
-      this.drawn.build(about, size, this.colour);
-      this.drawn.ground(size * 1.2, this.colour("grid"));
-    }
-    const parents = new Set(about.bodies.map((body) => body.parent));
-    this.hand = about.bodies.map((_, i) => i).filter((i) => !parents.has(i)).at(-1);
+    this.extent = Math.max(0.2, length(minus(high, low)));
+    this.orbit.frame(low.map((x, i) => (x + high[i]) / 2), this.extent);
+    this.shape = new Shape(about, this.extent);
+    this.picture.take(this.shape);
+    this.hand = this.shape.hand;
     this.drag = null;
     this.place(poses, []);
   }
@@ -74,27 +85,31 @@ export class View {
     return [p[0], p[1], p[2]];
   }
 
-  /// Draws with fewer pixels where frames take long: a phone without a fast GPU, or software.
+  /// Draws with fewer pixels where frames take long, and after some calm seconds with more, later each time that was too
+  /// much; what is still slow with the fewest is drawn by the processor. `interval` is what the last frame took, ms.
   adapt(interval) {
-    this.pace = 0.95 * (this.pace ?? 16) + 0.05 * Math.min(200, interval);
-    if (!this.renderer || this.pace < 28 || this.renderer.dpr < 0.6) return;
-    this.pace = 16;
-    this.renderer.dpr *= 0.75;
+    this.pace = 0.95 * this.pace + 0.05 * Math.min(200, interval);
+    this.calm = this.pace < QUICK ? this.calm + interval / 1000 : 0;
+    if (this.pace > SLOW && this.ratio > LEAST) {
+      this.ratio = Math.max(LEAST, this.ratio * FEWER);
+      this.patience *= 2;
+    } else if (this.pace > SLOW && this.picture instanceof Gl) {
+      return this.draws(Soft);
+    } else if (this.calm > this.patience && this.ratio < this.finest) {
+      this.ratio = Math.min(this.finest, this.ratio / FEWER);
+    } else {
+      return;
+    }
+    [this.pace, this.calm] = [16, 0];
     this.resize();
   }
 
   render() {
-    if (!this.renderer || !this.stale || !this.poses) return;
+    if (!this.stale || !this.poses || !this.size?.[0]) return;
     this.stale = false;
-    const [width, height] = this.size ?? [1, 1];
-    const eye = this.orbit.position();
-    this.camera.perspective({ fov: this.orbit.field, aspect: width / height, near: this.orbit.near, far: this.orbit.far });
-    this.camera.position.set(...eye);
-    this.camera.lookAt(this.orbit.target);
-    this.drawn.place(this.poses, this.loads, this.colour, eye);
-    this.drawn.point(this.drag && this.point(this.drag.body), this.drag?.to);
-    for (const mesh of this.drawn.arrow ?? []) mesh.program.uniforms.eye.value = eye;
-    this.renderer.render({ scene: this.drawn.root, camera: this.camera });
+    this.ground.draw(this.orbit, this.extent, this.size);
+    this.shape.place(this.poses, this.loads, this.drag && [this.point(this.drag.body), this.drag.to]);
+    this.picture.draw(this.shape, this.orbit, this.palette);
   }
 
   /// The body under a pointer.
@@ -111,23 +126,23 @@ export class View {
   }
 
   listen() {
-    const canvas = this.canvas;
+    const view = this.at;
     const at = (event) => {
-      const box = canvas.getBoundingClientRect();
+      const box = view.getBoundingClientRect();
       return [event.clientX - box.left, event.clientY - box.top];
     };
-    canvas.addEventListener("pointerdown", (event) => {
-      canvas.setPointerCapture(event.pointerId);
+    view.addEventListener("pointerdown", (event) => {
+      view.setPointerCapture(event.pointerId);
       const [x, y] = at(event);
       this.pointers.set(event.pointerId, [x, y]);
       const body = this.pointers.size === 1 ? this.under(x, y, event.pointerType) : null;
       if (body !== null) this.begin(body);
     });
-    canvas.addEventListener("pointermove", (event) => {
+    view.addEventListener("pointermove", (event) => {
       const [x, y] = at(event);
       const before = this.pointers.get(event.pointerId);
       if (!before) {
-        canvas.style.cursor = this.under(x, y, event.pointerType) === null ? "" : "grab";
+        view.style.cursor = this.under(x, y, event.pointerType) === null ? "" : "grab";
         return;
       }
       const spread = () => {
@@ -152,16 +167,16 @@ export class View {
       this.pointers.delete(event.pointerId);
       if (this.drag && this.pointers.size === 0) this.end();
     };
-    canvas.addEventListener("pointerup", end);
-    canvas.addEventListener("pointercancel", end);
-    canvas.addEventListener("wheel", (event) => {
+    view.addEventListener("pointerup", end);
+    view.addEventListener("pointercancel", end);
+    view.addEventListener("wheel", (event) => {
       event.preventDefault();
       this.orbit.zoomed(Math.exp(event.deltaY * 0.001));
       this.stale = true;
     }, { passive: false });
-    canvas.addEventListener("keydown", (event) => this.key(event));
-    canvas.addEventListener("keyup", (event) => event.key.startsWith("Arrow") && this.drag?.keys && this.end());
-    canvas.addEventListener("blur", () => this.drag?.keys && this.end());
+    view.addEventListener("keydown", (event) => this.key(event));
+    view.addEventListener("keyup", (event) => event.key.startsWith("Arrow") && this.drag?.keys && this.end());
+    view.addEventListener("blur", () => this.drag?.keys && this.end());
   }
 
   begin(body) {

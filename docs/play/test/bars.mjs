@@ -9,6 +9,13 @@ export const BARS = {
   /// A frame's work, ms: the mean, and that of one in twenty.
   work: 8,
   workOfOneIn20: 16,
+  /// The processor time of all of the browser's processes for a frame, ms: two cores, sixty times a second.
+  processor: 33,
+  /// Frames a second where a share of the machine's processors is idle: on a busy one the rate says nothing of the page.
+  rate: 55,
+  idle: 0.3,
+  /// The share of the robot's pixels in which the picture without WebGL may differ from that with it: edges, and highlights.
+  pixels: 0.1,
 };
 
 const miss = (holds, words) => {
@@ -42,6 +49,25 @@ export function fluent(work) {
   miss(mean <= BARS.work, `a frame's work takes ${mean.toFixed(2)} ms on average, at most ${BARS.work}`);
   miss(late <= BARS.workOfOneIn20, `one frame in twenty takes ${late.toFixed(2)} ms, at most ${BARS.workOfOneIn20}`);
   return { mean, late };
+}
+
+/// Processor time of the browser for a frame, ms.
+export function cheap(processor) {
+  miss(processor > 0 && processor <= BARS.processor, `a frame takes ${processor.toFixed(1)} ms of processor time, at most ${BARS.processor}`);
+  return processor;
+}
+
+/// Whether frames come at their rate, or the machine is too busy to say: returns whether it was held to the bar.
+export function steady({ rate, idle }) {
+  const held = idle >= BARS.idle;
+  miss(!held || rate >= BARS.rate, `${rate.toFixed(1)} frames a second while ${(100 * idle).toFixed(0)} % of the processors are idle, at least ${BARS.rate}`);
+  return held;
+}
+
+/// Whether two pictures of a robot are alike: `differ` of its `of` pixels are not.
+export function alike({ differ, of }, where) {
+  miss(of > 1_000 && differ <= BARS.pixels * of, `${differ} of ${of} pixels of the robot differ without WebGL, ${where}`);
+  return differ / of;
 }
 
 /// Whether axe finds nothing.

@@ -6,7 +6,7 @@ const TICK = 10;
 export const measurable = existsSync("/proc/stat");
 
 /// Processor time of a process and its descendants so far, ms.
-export function spent(root) {
+function spent(root) {
   const all = new Map();
   for (const pid of readdirSync("/proc").filter((name) => /^\d+$/.test(name))) {
     try {
@@ -23,8 +23,19 @@ export function spent(root) {
   return tree.reduce((sum, pid) => sum + (all.get(pid)?.time ?? 0), 0);
 }
 
-/// Ticks in which the machine's processors were idle so far, and all.
-export function machine() {
+/// The time in which the machine's processors were busy so far, and all of it, both in ticks of the kernel.
+function machine() {
   const fields = readFileSync("/proc/stat", "utf8").split("\n")[0].split(/\s+/).slice(1, 9).map(Number);
-  return { idle: fields[3], all: fields.reduce((a, b) => a + b, 0) };
+  const all = fields.reduce((a, b) => a + b, 0);
+  return { busy: all - fields[3] - fields[4], all };
+}
+
+/// Runs something and returns what it returns, the processor time that the process `root` and its descendants took for it, ms, and
+/// the share of the machine's processors that something else had.
+export async function during(root, run) {
+  if (!measurable) return { result: await run(), processor: NaN, others: NaN };
+  const [time, before] = [spent(root), machine()];
+  const result = await run();
+  const [processor, after] = [spent(root) - time, machine()];
+  return { result, processor, others: (after.busy - before.busy - processor / TICK) / (after.all - before.all) };
 }

@@ -37,6 +37,13 @@ export function sameBits(here, there) {
   return here.length;
 }
 
+/// Each of the page's lines is one of the host's.
+export function ownBits(here, there) {
+  miss(here.length > 0, "no digest of the page's own module");
+  for (const line of here) miss(there.includes(line), `the page's own module has \`${line}\`, which the host has not`);
+  return here.length;
+}
+
 export function prompt(milliseconds) {
   miss(milliseconds <= BARS.firstTorque, `the first torque after ${milliseconds} ms, at most ${BARS.firstTorque}`);
   return milliseconds;

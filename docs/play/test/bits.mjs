@@ -25,4 +25,23 @@ export async function bits(spoilt = false) {
   return new TextDecoder().decode(new Uint8Array(exports.memory.buffer, exports.lines(), length)).trim().split("\n");
 }
 
+/// The same digests by the page's own module, of the quantities that its ways to compute a torque are: its lines. `spoilt` has one
+/// bit of a torque wrong.
+export async function pageBits(page, spoilt = false) {
+  const lines = [];
+  for (const robot of ["ur5e", "panda"]) {
+    const { q, qd, qdd } = JSON.parse(readFileSync(join(root, `host-tests/recordings/${robot}.json`), "utf8"));
+    for (const [key, quantity] of Object.entries({ default: "engine rnea", "trig=table3x4,form=core": "core rnea" })) {
+      const motions = q.map((_, i) => ({ q: q[i], qd: qd[i], qdd: qdd[i] }));
+      const torques = await page.evaluate((robot, key, motions) => motions.map((motion) => play.state.library.call({ op: "way", robot, key, motion }).torque), robot, key, motions);
+      const bytes = Buffer.from(Float32Array.from(torques.flat()).buffer);
+      if (spoilt) bytes[0] ^= 1;
+      // FNV-1a, as `firmware_demo::digest`.
+      const digest = bytes.reduce((hash, byte) => ((hash ^ BigInt(byte)) * 0x100000001b3n) & 0xffffffffffffffffn, 0xcbf29ce484222325n);
+      lines.push(`bits ${robot} ${quantity} ${digest.toString(16).padStart(16, "0")}`);
+    }
+  }
+  return lines;
+}
+
 if (process.argv[1] && resolve(process.argv[1]) === fileURLToPath(import.meta.url)) console.log((await bits()).join("\n"));

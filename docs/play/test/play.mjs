@@ -5,8 +5,8 @@ import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { build, root, target } from "../build.mjs";
-import { accessible, alike, alone, calm, cheap, excess, fluent, narrow, prompt, refused, sameBits, small, steady } from "./bars.mjs";
-import { bits } from "./bits.mjs";
+import { accessible, alike, alone, calm, cheap, excess, fluent, narrow, ownBits, prompt, refused, sameBits, small, steady } from "./bars.mjs";
+import { bits, pageBits } from "./bits.mjs";
 import { packages } from "./packages.mjs";
 import { during, measurable } from "./processor.mjs";
 import { simulatedPort } from "./servos.mjs";
@@ -82,12 +82,19 @@ const tests = {
   },
 
   /// The recorded states have the host's bits.
-  async bits({ say }) {
+  async bits({ browser, file, say }) {
     const host = option("--host-bits");
     if (!host) return say("bits", "not compared: no --host-bits");
     const there = readFileSync(host, "utf8").split("\n").filter((line) => line.startsWith("bits "));
     const here = await bits();
     say("equal bits", `${sameBits(here, there)} digests of recorded states (201 of each of four robots) and hard cases`);
+    // The page's own module, after `wasm-opt`, has no states inside: it is asked for the torques of the recorded ones.
+    const { page } = await opened(browser, file);
+    const own = await pageBits(page);
+    say("equal bits of the page's own module", `${ownBits(own, there)} digests of 201 states`);
+    const wrong = await pageBits(page, true);
+    refused("ownBits", () => ownBits(wrong, there));
+    await page.close();
     const spoilt = await bits(true);
     refused("sameBits of one wrong bit", () => sameBits(spoilt, there));
     refused("sameBits of fewer", () => sameBits(here.slice(1), there));

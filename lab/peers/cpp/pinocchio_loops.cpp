@@ -3,10 +3,9 @@
 //     void *pinocchio_loops_open(const char *machine);
 //     void pinocchio_loops_<inverse or forward>(void *, const double *states, size_t count, double *out);
 //
-// A machine is a robot as `robot.hpp` reads it; the number of its loops, and of each the body and the place on it of one
-// point and the other; the number of actuated coordinates, and their indices; mu of the proximal solver, which redundant
-// constraints need. A state is q, q̇ and q̈ in a row, in forward dynamics q, q̇ and τ of every joint. Inverse dynamics
-// writes the torques of the actuated coordinates, forward dynamics all accelerations.
+// A machine is a robot with its loops as `robot.hpp` reads them; redundant constraints need the proximal solver's mu. A
+// state is q, q̇ and q̈ in a row, in forward dynamics q, q̇ and τ of every joint. Inverse dynamics writes the torques of the
+// actuated coordinates, forward dynamics all accelerations.
 
 #define PINOCCHIO_DISABLE_UNSUPPORTED_WARNINGS
 #include <algorithm>
@@ -30,14 +29,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using View = Eigen::Map<const VectorXd>;
 
-static pinocchio::SE3 read_place(std::istream &in) {
-  double rotation[9], position[3];
-  read(in, rotation);
-  read(in, position);
-  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> r(rotation);
-  return pinocchio::SE3(Eigen::Matrix3d(r), Eigen::Vector3d(position));
-}
-
 struct Machine {
   pinocchio::Model model;
   pinocchio::Data data;
@@ -54,27 +45,15 @@ struct Machine {
     Placed placed;
     model = pinocchio_model(read_robot(in), Position::angle, &placed);
     data = pinocchio::Data(model);
-    std::size_t count;
-    for (in >> count; count > 0; --count) {
-      pinocchio::JointIndex joints[2];
-      pinocchio::SE3 places[2];
-      for (int end = 0; end < 2; ++end) {
-        std::size_t body;
-        in >> body;
-        joints[end] = placed.at(body).first;
-        places[end] = placed.at(body).second * read_place(in);
-      }
-      loops.emplace_back(pinocchio::CONTACT_3D, model, joints[0], places[0], joints[1], places[1],
+    const Loops given = read_loops(in, placed);
+    for (const auto &[one, other] : given.ends)
+      loops.emplace_back(pinocchio::CONTACT_3D, model, one.first, one.second, other.first, other.second,
                          pinocchio::LOCAL_WORLD_ALIGNED);
-    }
-    actuated.resize((in >> count, count));
-    for (int &index : actuated) in >> index;
-    double mu;
-    if (!(in >> mu)) throw std::runtime_error("an incomplete machine");
+    actuated = given.actuated;
     for (int i = 0; i < model.nv; ++i)
       if (!std::count(actuated.begin(), actuated.end(), i)) dependent.push_back(i);
     for (const auto &loop : loops) loop_data.emplace_back(loop);
-    if (mu > 0.0) settings = pinocchio::ProximalSettings(1e-12, mu, 20);
+    if (given.mu > 0.0) settings = pinocchio::ProximalSettings(1e-12, given.mu, 20);
     pinocchio::initConstraintDynamics(model, data, loops, loop_data);
     k = MatrixXd::Zero(3 * loops.size(), model.nv);
     k_dependent = MatrixXd::Zero(k.rows(), dependent.size());

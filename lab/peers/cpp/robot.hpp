@@ -1,6 +1,7 @@
 // A robot from `cargo xtask peers`' text form, as Pinocchio's model.
 #pragma once
 
+#include <array>
 #include <utility>
 
 #include <pinocchio/multibody.hpp>
@@ -31,8 +32,21 @@ inline pinocchio::JointModel joint_model(const Body &body, Position position) {
   return JointModel(JointModelRevoluteUnboundedUnaligned(axis));
 }
 
-// Each body's joint and its place on it.
-using Placed = std::vector<std::pair<pinocchio::JointIndex, pinocchio::SE3>>;
+// A joint and a place on the body that it carries.
+using Place = std::pair<pinocchio::JointIndex, pinocchio::SE3>;
+// Those of each body.
+using Placed = std::vector<Place>;
+
+// The joints that carry a body. A universal one, of which Pinocchio has no form that takes cosines, is then two revolute ones.
+inline std::vector<Body> parts(const Body &body, Position position) {
+  if (body.joint == "fixed") return {};
+  if (body.joint != "universal" || position == Position::angle) return {body};
+  Body first = body, second = body;
+  first.joint = second.joint = "revolute";
+  first.name += "_first";
+  std::copy_n(body.axis2, 3, second.axis);
+  return {first, second};
+}
 
 inline pinocchio::Model pinocchio_model(const Robot &robot, Position position, Placed *out = nullptr) {
   using namespace pinocchio;
@@ -45,8 +59,8 @@ inline pinocchio::Model pinocchio_model(const Robot &robot, Position position, P
     if (body.parent >= 0) std::tie(joint, at) = placed.at(body.parent);
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> rotation(body.rotation);
     SE3 here = at * SE3(Eigen::Matrix3d(rotation), Eigen::Vector3d(body.position));
-    if (body.joint != "fixed") {
-      joint = model.addJoint(joint, joint_model(body, position), here, body.name);
+    for (const Body &part : parts(body, position)) {
+      joint = model.addJoint(joint, joint_model(part, position), here, part.name);
       here = SE3::Identity();
     }
     placed.emplace_back(joint, here);
@@ -56,4 +70,41 @@ inline pinocchio::Model pinocchio_model(const Robot &robot, Position position, P
   }
   if (out) *out = placed;
   return model;
+}
+
+// The loops of a robot: pairs of points that coincide, and the coordinates with a motor.
+struct Loops {
+  std::vector<std::array<Place, 2>> ends;
+  std::vector<int> actuated;
+  // Of the proximal solver.
+  double mu = 0.0;
+};
+
+inline pinocchio::SE3 read_place(std::istream &in) {
+  double rotation[9], position[3];
+  read(in, rotation);
+  read(in, position);
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> r(rotation);
+  return pinocchio::SE3(Eigen::Matrix3d(r), Eigen::Vector3d(position));
+}
+
+// The lines below those of a robot: the number of loops, and of each the body, -1 for the base, and the place on it of one
+// point and the other; the number of actuated coordinates, and their indices; mu.
+inline Loops read_loops(std::istream &in, const Placed &placed) {
+  Loops loops;
+  std::size_t count;
+  for (in >> count; in && count > 0; --count) {
+    loops.ends.emplace_back();
+    for (Place &end : loops.ends.back()) {
+      int body;
+      in >> body;
+      if (body >= 0) end = placed.at(body);
+      else end = {0, pinocchio::SE3::Identity()};
+      end.second = end.second * read_place(in);
+    }
+  }
+  loops.actuated.resize((in >> count, in ? count : 0));
+  for (int &index : loops.actuated) in >> index;
+  if (!(in >> loops.mu)) throw std::runtime_error("an incomplete robot with loops");
+  return loops;
 }

@@ -47,6 +47,9 @@ pub struct Args {
     /// Measure nothing: fail if docs/peers.md is of other code than this
     #[arg(long)]
     check: bool,
+    /// Only robots with loops on the target: prints their rows as JSON, and leaves docs/peers.md
+    #[arg(long)]
+    loops: bool,
     /// The measurements as JSON on stdout; progress stays on stderr
     #[arg(long)]
     json: bool,
@@ -66,17 +69,19 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     // Now, so that the page is old if somebody edits it meanwhile.
     let code = age::of_code(&workspace.root)?.markdown();
     let robots = robots::export(&workspace)?;
+    if args.loops {
+        shop.generate(&robots, &host::bench(&workspace)?)?;
+        let rows = target::machines(&workspace, &shop, &tools)?;
+        return docs::show(true, &rows, "");
+    }
     // Nothing but the times waits for Pinocchio.
     let (others, pinocchio) = thread::scope(|scope| {
         let pinocchio = scope.spawn(|| host::pinocchio(&shop));
         let others = || {
-            shop.generate(&robots)?;
+            let bench = host::bench(&workspace)?;
+            shop.generate(&robots, &bench)?;
             let on_target = target::measure(&workspace, &shop, &tools, &robots)?;
-            Ok((
-                on_target,
-                host::casadi(&shop, &robots)?,
-                host::bench(&workspace)?,
-            ))
+            Ok((on_target, host::casadi(&shop, &robots)?, bench))
         };
         (others(), pinocchio.join())
     });

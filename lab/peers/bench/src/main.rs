@@ -1,10 +1,12 @@
 //! `peers-bench MANIFEST`: checks every function of the manifest, and ours, against what Pinocchio
 //! recorded, then times them in one process, their batches interleaved. Each line on stdout is a
-//! JSON object. `cargo xtask peers` writes the manifest and reads the lines.
+//! JSON object. `cargo xtask peers` writes the manifest and reads the lines. Without a manifest it prints the robots with
+//! loops that the target compares.
 
 mod dynibo;
 mod foreign;
 mod loops;
+mod machines;
 mod ours;
 mod robot;
 mod subject;
@@ -31,9 +33,10 @@ struct Manifest {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let path = std::env::args()
-        .nth(1)
-        .ok_or("usage: peers-bench MANIFEST")?;
+    let Some(path) = std::env::args().nth(1) else {
+        print!("{}", machines::all());
+        return Ok(());
+    };
     let manifest: Manifest = serde_json::from_str(&std::fs::read_to_string(path)?)?;
     let loops = &manifest.loops;
     loops::general::<Delta, 10, 22, 21, 6, 18, 3>(loops)?;

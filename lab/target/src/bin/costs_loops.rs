@@ -2,15 +2,17 @@
 #![no_std]
 #![no_main]
 
+#[path = "costs/closed.rs"]
+mod closed;
 mod costs;
 
 use core::marker::PhantomData;
 
-use costs::row::{Row, numbers};
+use costs::row::Row;
 use costs::{STATES, done};
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::loops::{
-    LoopRobot, LoopTorque, Moving, Stabilisation, assemble, forward_dynamics, inverse_dynamics,
+    LoopRobot, LoopTorque, Stabilisation, forward_dynamics, inverse_dynamics,
 };
 use dynamics_core::model::Static;
 use dynamics_core::state::State;
@@ -57,26 +59,6 @@ where
         found.ok().map(|motion| motion.qdd)
     }
 
-    /// Closed states near a configuration, by motors that are moved within `range` of theirs.
-    fn states(home: [f32; Q], (motors, range): ([usize; A], f32)) -> [State<f32, Q, V>; STATES] {
-        let mut number = numbers();
-        [(); STATES].map(|()| {
-            let mut guess = home;
-            for at in motors {
-                guess[at] += number(range);
-            }
-            let closed = assemble(&Static::<T>::NEW, &T::LOOPS, &guess, Moving::Passive);
-            State {
-                q: match closed {
-                    Ok(closed) => closed.q,
-                    Err(_) => defmt::panic!("a loop does not close"),
-                },
-                qd: [(); V].map(|()| number(2.0)),
-                qdd: [(); V].map(|()| number(10.0)),
-            }
-        })
-    }
-
     /// Both directions, on states that are closed and have a result.
     fn rows(states: &[State<f32, Q, V>]) {
         let of = |algorithm| Row {
@@ -103,18 +85,8 @@ where
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    let home = [-1.0, 0.5, -1.5];
-    type Four = Of<FourBar, 3, 3, 3, 1, 5, 1>;
-    Four::rows(&Four::states(home, ([0], 0.6)));
-    let home = [-2.2, 1.2, -0.9, -1.2];
-    type Five = Of<FiveBar, 4, 4, 4, 1, 5, 2>;
-    Five::rows(&Five::states(home, ([0, 2], 0.4)));
-    let mut home = [0.0; 22];
-    (home[3], home[6]) = (1.0, -0.33);
-    for first in [7, 12, 17] {
-        (home[first], home[first + 1], home[first + 3]) = (0.2, 0.7, 0.7);
-    }
-    type Parallel = Of<Delta, 10, 22, 21, 6, 18, 3>;
-    Parallel::rows(&Parallel::states(home, ([7, 12, 17], 0.4)));
+    Of::<FourBar, 3, 3, 3, 1, 5, 1>::rows(&closed::four_bar::<STATES>());
+    Of::<FiveBar, 4, 4, 4, 1, 5, 2>::rows(&closed::five_bar::<STATES>());
+    Of::<Delta, 10, 22, 21, 6, 18, 3>::rows(&closed::delta::<STATES>());
     done()
 }

@@ -4,10 +4,15 @@
 #![no_main]
 #![allow(
     dead_code,
+    unused_imports,
     reason = "xtask links some algorithms of some robots at a time"
 )]
 
+#[path = "costs/closed.rs"]
+mod closed;
 mod costs;
+#[path = "peers/looped.rs"]
+mod looped;
 
 use core::hint::black_box;
 
@@ -15,7 +20,7 @@ use cortex_m_rt::entry;
 use dynamics_core::algorithms::frame::Local;
 use dynamics_core::algorithms::{NotPositiveDefinite, OsimInverse};
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
-use dynamics_core::model::{OnBody, Robot};
+use dynamics_core::model::{JointCoordinate, OnBody, Robot};
 use dynamics_core::robots::*;
 use dynamics_core::scalar::Vector;
 use dynamics_core::spatial::Force;
@@ -42,6 +47,7 @@ type Tip<const Q: usize, const BODY: usize> = fn(
     &Scene,
 ) -> Result<OsimInverse<f32>, NotPositiveDefinite>;
 
+/// C by a compiler; of several forms of a function with the form before it.
 struct Peer {
     build: &'static str,
     run: C,
@@ -56,8 +62,10 @@ const STATES: usize = 8;
 const MOST: usize = 640;
 
 /// The input of a measured function.
-struct Ask<const Q: usize, const V: usize> {
+struct Ask<const Q: usize, const V: usize, X = ()> {
     state: State<f32, Q, V>,
+    /// What ours takes in its place, if anything.
+    own: X,
     trig: JointTrig<f32, Q>,
     /// Cosines and sines; the coordinates of a free base stand among the cosines as they are.
     cos: [f32; Q],
@@ -80,21 +88,26 @@ fn asks<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() -> 
             qd: [(); V].map(|()| number(3.0)),
             qdd: [(); V].map(|()| number(10.0)),
         };
-        // A quaternion is of unit length in it.
-        let trig = Core::<T>::joint_trig(&state.q);
-        let of_base = 7 * (Q - V);
-        let cos = core::array::from_fn(|k| {
-            let at = &trig.coordinates[k];
-            if k < of_base { at.q } else { at.cos }
-        });
+        Ask::new(state, Core::<T>::joint_trig(&state.q), ())
+    })
+}
+
+impl<X, const Q: usize, const V: usize> Ask<Q, V, X> {
+    fn new(state: State<f32, Q, V>, trig: JointTrig<f32, Q>, own: X) -> Self {
+        // Of an angle, sine and cosine are not both zero.
+        let is_angle = |at: &JointCoordinate<f32>| at.sin != 0.0 || at.cos != 0.0;
+        let cos = trig
+            .coordinates
+            .map(|at| if is_angle(&at) { at.cos } else { at.q });
         let sin = trig.coordinates.map(|at| at.sin);
-        Ask {
+        Self {
             state,
+            own,
             trig,
             cos,
             sin,
         }
-    })
+    }
 }
 
 fn rnea<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(peers: &[Peer]) {
@@ -120,9 +133,9 @@ fn under<T, E, const B: usize, const Q: usize, const V: usize>(
 {
     let asks = &asks::<T, B, Q, V>();
     let forms: [Inverse<'_, E, Q, V>; 2] = [Core::<T>::rnea, Engine::<T>::rnea];
-    compare::<T, _, _, B, Q, V>(
-        (algorithm, asks, peers),
-        forms.map(|run| (run, run as usize)),
+    compare(
+        (Of::robot::<T, B, Q, V>(algorithm), asks, peers),
+        &both(forms.map(|run| (run, run as usize))),
         |run, ask| run(ask.trig.with(&ask.state), effects),
         |tau| tau.into_iter().collect(),
     );
@@ -131,9 +144,9 @@ fn under<T, E, const B: usize, const Q: usize, const V: usize>(
 fn crba<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(peers: &[Peer]) {
     let asks = &asks::<T, B, Q, V>();
     let forms: [Matrix<Q, V>; 2] = [Core::<T>::crba, Engine::<T>::crba];
-    compare::<T, _, _, B, Q, V>(
-        ("crba", asks, peers),
-        forms.map(|run| (run, run as usize)),
+    compare(
+        (Of::robot::<T, B, Q, V>("crba"), asks, peers),
+        &both(forms.map(|run| (run, run as usize))),
         |run, ask| run(&ask.trig, &RIGID_BODY),
         |m| {
             let entries = (0..V).flat_map(|i| (i..V).map(move |j| (i, j)));
@@ -146,9 +159,9 @@ fn crba<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(peers
 fn aba<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(peers: &[Peer]) {
     let asks = &asks::<T, B, Q, V>();
     let forms: [Forward<'_, Q, V>; 2] = [Core::<T>::aba, Engine::<T>::forward_dynamics];
-    compare::<T, _, _, B, Q, V>(
-        ("aba", asks, peers),
-        forms.map(|run| (run, run as usize)),
+    compare(
+        (Of::robot::<T, B, Q, V>("aba"), asks, peers),
+        &both(forms.map(|run| (run, run as usize))),
         |run, ask| run(ask.trig.with(&ask.state), &ask.state.qdd, &RIGID_BODY),
         |qdd| qdd.unwrap_or([f32::NAN; V]).into_iter().collect(),
     );
@@ -165,9 +178,9 @@ where
         let e = |j| if j == k { 1.0 } else { 0.0 };
         Force::<f32>::new(Vector::new(e(0), e(1), e(2)), Vector::new(e(3), e(4), e(5)))
     };
-    compare::<T, _, _, B, Q, V>(
-        ("osim", asks, peers),
-        forms.map(|run| (run, run as usize)),
+    compare(
+        (Of::robot::<T, B, Q, V>("osim"), asks, peers),
+        &both(forms.map(|run| (run, run as usize))),
         |run, ask| run(&ask.trig, OnBody::<BODY>, Local, &RIGID_BODY),
         |mobility| {
             let Ok(mobility) = mobility else {
@@ -182,25 +195,57 @@ where
     );
 }
 
-/// An algorithm: ours in both forms, the first of which is the reference, then each build of the C. The last entry of
+/// A function that is compared.
+#[derive(Clone, Copy)]
+struct Of {
+    robot: &'static str,
+    algorithm: &'static str,
+    /// Which of the C's outputs ours are; its first ones if there are none.
+    outputs: &'static [usize],
+    joints: usize,
+}
+
+impl Of {
+    fn robot<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
+        algorithm: &'static str,
+    ) -> Self {
+        Self {
+            robot: T::MODEL.name,
+            algorithm,
+            outputs: &[],
+            joints: V,
+        }
+    }
+}
+
+/// Ours: its name, the function and its address.
+type Ours<F> = (&'static str, F, usize);
+
+fn both<F>([(core, core_at), (engine, engine_at)]: [(F, usize); 2]) -> [Ours<F>; 2] {
+    [("core", core, core_at), ("engine", engine, engine_at)]
+}
+
+/// An algorithm: ours in its forms, the first of which is the reference, then each build of the C. The last entry of
 /// each row is the largest error, relative to full scale.
-fn compare<'a, T: Robot<B, Q, V>, F: Copy, O, const B: usize, const Q: usize, const V: usize>(
-    (algorithm, asks, peers): (&'static str, &'a [Ask<Q, V>; STATES], &[Peer]),
-    ours: [(F, usize); 2],
-    call: impl Fn(F, &'a Ask<Q, V>) -> O,
+fn compare<'a, X, F: Copy, O, const Q: usize, const V: usize>(
+    (of, asks, peers): (Of, &'a [Ask<Q, V, X>; STATES], &[Peer]),
+    ours: &[Ours<F>],
+    call: impl Fn(F, &'a Ask<Q, V, X>) -> O,
     flat: impl Fn(O) -> Vec<f32, MOST>,
 ) {
-    let [(textbook, _), _] = ours;
+    let Some(&(_, textbook, _)) = ours.first() else {
+        return;
+    };
     let expected = |ask| flat(call(textbook, ask));
     let size = |numbers: Vec<f32, MOST>| numbers.iter().fold(0.0, |size, x| larger(size, x.abs()));
     let scale = asks
         .iter()
         .fold(0.0, |scale, ask| larger(scale, size(expected(ask))));
-    let report = |found: &mut dyn FnMut(&'a Ask<Q, V>) -> Vec<f32, MOST>| {
+    let report = |found: &mut dyn FnMut(&'a Ask<Q, V, X>) -> Vec<f32, MOST>| {
         let off = asks.iter().fold(0.0, |off, ask| {
             let (found, expected) = (found(ask), expected(ask));
             // NaN counts as wrong, and so does a number that is missing.
-            let missing = if found.len() < expected.len() {
+            let missing = if expected.is_empty() || found.len() < expected.len() {
                 f32::NAN
             } else {
                 0.0
@@ -213,19 +258,19 @@ fn compare<'a, T: Robot<B, Q, V>, F: Copy, O, const B: usize, const Q: usize, co
         defmt::println!("error {=f32}", off / scale);
     };
     let row = |form| Row {
-        robot: T::MODEL.name,
-        algorithm,
+        robot: of.robot,
+        algorithm: of.algorithm,
         form,
         inputs: "full",
         trig: false,
-        joints: V,
+        joints: of.joints,
     };
-    for ((run, address), form) in core::iter::zip(ours, ["core", "engine"]) {
+    for &(form, run, address) in ours {
         row(form).measure(address, asks, |ask| call(run, ask));
         report(&mut |ask| flat(call(run, ask)));
     }
     for &Peer { build, run } in peers {
-        let call = |ask: &Ask<Q, V>, out: &mut [f32; MOST]| {
+        let call = |ask: &Ask<Q, V, X>, out: &mut [f32; MOST]| {
             let (qd, qdd) = (ask.state.qd.as_ptr(), ask.state.qdd.as_ptr());
             // SAFETY: xtask's table names functions of this type, which read Q or V numbers at most from
             // each input and write no more than V (V + 1) / 2 or 21.
@@ -243,7 +288,12 @@ fn compare<'a, T: Robot<B, Q, V>, F: Copy, O, const B: usize, const Q: usize, co
         row(build).measure(run as usize, asks, |ask| call(ask, &mut out));
         report(&mut |ask| {
             call(ask, &mut out);
-            Vec::from_array(black_box(out))
+            let out = black_box(out);
+            if of.outputs.is_empty() {
+                Vec::from_array(out)
+            } else {
+                of.outputs.iter().map(|&at| out[at]).collect()
+            }
         });
     }
 }

@@ -79,14 +79,16 @@ impl<'a> Workshop<'a> {
         Ok(output)
     }
 
-    /// Writes the robots and has CasADi write its C.
-    pub fn generate(&self, robots: &[Robot]) -> Result<()> {
+    /// Writes the robots and has CasADi write its C; `bench` describes those with loops.
+    pub fn generate(&self, robots: &[Robot], bench: &Path) -> Result<()> {
         let _spinner = Spinner::start("generating C by CasADi");
         for robot in robots {
             robot.write(&self.robots)?;
         }
         let text = self.robots_file();
         workspace::write(&text, robots.iter().map(Robot::text).collect::<String>())?;
+        let machines = self.robots.join("machines.txt");
+        workspace::write(&machines, shell::capture(&mut Command::new(bench))?)?;
         let casadi = self.peers.packages.join("casadi");
         let libraries = [self.prefix().join("lib"), casadi.clone()].map(|dir| {
             let dir = dir.display().to_string();
@@ -105,7 +107,8 @@ impl<'a> Workshop<'a> {
             parts.map(|parts| format!("{}_{}", robot.name, parts.join("_")))
         });
         let mut command = Command::new(&generator);
-        shell::capture(command.arg(&text).arg(&self.code).args(functions))?;
+        command.args([&text, &machines, &self.code]);
+        shell::capture(command.args(functions).args(target::of_machines()))?;
         Ok(())
     }
 
@@ -180,15 +183,16 @@ impl<'a> Workshop<'a> {
         let dirs = [self.prefix().join("include"), self.peers.eigen.clone()];
         let dirs = dirs.map(|dir| format!("-isystem{}", dir.display()));
         let dirs = dirs.each_ref().map(String::as_str);
-        let sources = [source, "robot.hpp", "robot_text.hpp"].map(|name| self.sources.join(name));
+        let headers = ["closed.hpp", "robot.hpp", "robot_text.hpp"];
+        let headers = headers.iter().skip(usize::from(source != "generate.cpp"));
+        let sources: Vec<PathBuf> = std::iter::once(&source)
+            .chain(headers)
+            .map(|name| self.sources.join(name))
+            .collect();
         // Warnings are of others' headers.
         let all: [&[&str]; 4] = [&["-std=c++17", "-w"], &words(BOOST), &dirs, args];
-        self.make(
-            name,
-            compiler,
-            &all,
-            &sources.each_ref().map(PathBuf::as_path),
-        )
+        let sources: Vec<&Path> = sources.iter().map(PathBuf::as_path).collect();
+        self.make(name, compiler, &all, &sources)
     }
 
     /// The prefix of the headers and libraries of Pinocchio's packages.

@@ -6,7 +6,7 @@ use crate::kit::bars::{self, Compared};
 use crate::kit::meter::MODEL;
 use crate::kit::table::{Table, thousands};
 use crate::studies::peers::ALGORITHMS;
-use crate::studies::peers::target::Build;
+use crate::studies::peers::target::{Build, LOOPS_FORWARD, LOOPS_INVERSE};
 
 /// The processor that runs xtask.
 pub const HOST: &str = "host";
@@ -107,6 +107,10 @@ fn text(value: Option<f64>, digits: usize) -> String {
     value.map_or("–".into(), |x| format!("{x:.digits$}"))
 }
 
+fn number(value: Option<u64>) -> String {
+    value.map_or("–".into(), thousands)
+}
+
 const ON_TARGET: &str = "f32, sines and cosines computed outside; instructions are exact, \
     cycles modelled. `casadi clang` has our CPU flags and is outside the bars.";
 const ON_HOST: &str =
@@ -130,6 +134,8 @@ impl Report {
                 .on_target(algorithm)),
             host = section("Host", ON_HOST, &|algorithm| self.on_host(algorithm)),
             builds = self.build_times().markdown(),
+            looped_inverse = self.against_casadi(LOOPS_INVERSE).markdown(),
+            looped_forward = self.against_casadi(LOOPS_FORWARD).markdown(),
             inverse = self.in_a_row("loops inverse").markdown(),
             forward = self.in_a_row("loops forward").markdown(),
             bars = bars::table(&self.compared).markdown(),
@@ -169,8 +175,30 @@ impl Report {
         )
     }
 
+    /// Cycles, and their ratio to those of CasADi's fastest function by gcc.
+    fn against_casadi(&self, algorithm: &str) -> Table {
+        let ratio = |row: &Row| {
+            let theirs = self.of(M4F, algorithm).filter(|other| {
+                other.robot == row.robot
+                    && other.peer.contains("casadi")
+                    && other.peer.contains("gcc")
+            });
+            let best = theirs.filter_map(|other| other.cycles).min()?;
+            Some(row.cycles? as f64 / best as f64)
+        };
+        Table::of(
+            self.of(M4F, algorithm),
+            &[
+                ("robot, code", &|row| format!("{}, {}", row.robot, row.peer)),
+                ("instructions", &|row| number(row.instructions)),
+                ("cycles", &|row| number(row.cycles)),
+                ("bytes", &|row| number(row.code_bytes)),
+                ("this / casadi gcc", &|row| text(ratio(row), 2)),
+            ],
+        )
+    }
+
     fn on_target(&self, algorithm: &str) -> Table {
-        let number = |value: Option<u64>| value.map_or("–".into(), thousands);
         let ratio = |row: &Row| {
             let mut rows = self.of(M4F, algorithm);
             let engine = rows.find(|other| other.robot == row.robot && other.peer == "engine")?;

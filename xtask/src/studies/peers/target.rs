@@ -25,9 +25,35 @@ pub type Build = (String, f64);
 /// ill-conditioned.
 fn bound(algorithm: &str) -> f64 {
     match algorithm {
-        "aba" | "osim" => 1e-3,
+        "aba" | "osim" | LOOPS_FORWARD => 1e-3,
+        LOOPS_INVERSE => 1e-4,
         _ => 1e-5,
     }
+}
+
+/// Inverse and forward dynamics of robots with kinematic loops, as the firmware names them.
+pub const LOOPS_INVERSE: &str = "loops_inverse";
+pub const LOOPS_FORWARD: &str = "loops_forward";
+/// CasADi's functions of each, with what their peers are called.
+const INVERSE: [[&str; 2]; 1] = [["inverse", "casadi"]];
+const FORWARD: [[&str; 2]; 2] = [["kkt", "casadi KKT,"], ["projected", "casadi projected,"]];
+/// The robots with loops, which `peers-bench` describes, and CasADi's functions of their inverse dynamics: on its feet the
+/// motion does not determine the torques.
+const MACHINES: [(&str, &[[&str; 2]]); 6] = [
+    ("four_bar", &INVERSE),
+    ("five_bar", &INVERSE),
+    ("delta", &INVERSE),
+    ("four_bar_leg", &INVERSE),
+    ("pick_delta", &INVERSE),
+    ("a1_held", &[]),
+];
+
+/// The functions of robots with loops that CasADi is to write.
+pub fn of_machines() -> impl Iterator<Item = String> {
+    MACHINES.into_iter().flat_map(|(machine, inverse)| {
+        let functions = inverse.iter().chain(&FORWARD);
+        functions.map(move |[function, _]| format!("{machine}_{function}_cs_f32"))
+    })
 }
 
 /// Ways to compile the C: what each is called at the end of its symbols, in the report, the compiler and its flags; of
@@ -62,25 +88,35 @@ pub fn measure(
     for robot in robots.iter().filter(|robot| robot.is_on_target()) {
         let most = if robot.is_free() { 1 } else { ALGORITHMS.len() };
         for algorithms in robot.algorithms().chunks(most) {
-            let (rows, seconds) = firmware(workspace, shop, tools, robot, algorithms)?;
+            let made = compile(shop, robot, algorithms)?;
+            let (rows, seconds) = firmware(workspace, tools, made)?;
             found.extend(rows);
             if let ([algorithm], true) = (algorithms, robot.is_free()) {
                 builds.push((format!("{}, {algorithm}", robot.name), seconds));
             }
         }
     }
+    found.extend(machines(workspace, shop, tools)?);
     Ok((found, builds))
 }
 
-/// Rows of a firmware with these functions of a robot, and the seconds of processor time of its build, over a library that is built.
+/// The rows of robots with loops.
+pub fn machines(workspace: &Workspace, shop: &Workshop<'_>, tools: &Tools) -> Result<Vec<Row>> {
+    let mut found = Vec::new();
+    for (machine, inverse) in MACHINES {
+        let made = compile_machine(shop, machine, inverse)?;
+        found.extend(firmware(workspace, tools, made)?.0);
+    }
+    Ok(found)
+}
+
+/// Rows of a firmware with these objects and the table of their functions, and the seconds of processor time of its build, over a
+/// library that is built.
 fn firmware(
     workspace: &Workspace,
-    shop: &Workshop<'_>,
     tools: &Tools,
-    robot: &Robot,
-    algorithms: &[&str],
+    (objects, table): (Vec<PathBuf>, PathBuf),
 ) -> Result<(Vec<Row>, f64)> {
-    let (objects, table) = compile(shop, robot, algorithms)?;
     let spinner = Spinner::start("compiling a firmware of the peers");
     let objects = objects
         .iter()
@@ -124,11 +160,54 @@ fn compile(
     robot: &Robot,
     algorithms: &[&str],
 ) -> Result<(Vec<PathBuf>, PathBuf)> {
-    let spinner = Spinner::start("building CasADi's C for the target");
-    let (mut objects, mut externs, mut calls) = (Vec::new(), String::new(), String::new());
-    let inputs = "_: *const f32, ".repeat(4);
+    let mut table = Functions::default();
     for algorithm in algorithms {
-        let name = format!("{}_{algorithm}_cs_f32", robot.name);
+        let peers = table.compile(shop, &format!("{}_{algorithm}_cs_f32", robot.name), "")?;
+        let [bodies, positions, velocities] = robot.size();
+        let tip = match *algorithm {
+            "osim" => format!(", {}", bodies - 1),
+            _ => String::new(),
+        };
+        let of = format!(
+            "{}, {bodies}, {positions}, {velocities}{tip}",
+            robot.type_name()
+        );
+        table.calls += &format!("    {algorithm}::<{of}>(&[{peers}]);\n");
+    }
+    table.write(shop)
+}
+
+/// The same of a robot with loops.
+fn compile_machine(
+    shop: &Workshop<'_>,
+    machine: &str,
+    inverse: &[[&str; 2]],
+) -> Result<(Vec<PathBuf>, PathBuf)> {
+    let mut table = Functions::default();
+    let mut peers = |functions: &[[&str; 2]]| {
+        let each = functions.iter().map(|[function, _]| {
+            table.compile(shop, &format!("{machine}_{function}_cs_f32"), function)
+        });
+        each.collect::<Result<String>>()
+    };
+    let (inverse, forward) = (peers(inverse)?, peers(&FORWARD)?);
+    table.calls = format!("    looped::{machine}(&[{inverse}], &[{forward}]);\n");
+    table.write(shop)
+}
+
+/// Functions of CasADi's C, compiled, and what the firmware does with them.
+#[derive(Default)]
+struct Functions {
+    objects: Vec<PathBuf>,
+    externs: String,
+    calls: String,
+}
+
+impl Functions {
+    /// Compiles a function in all ways, and returns the entries of the firmware's table, which are of this form.
+    fn compile(&mut self, shop: &Workshop<'_>, name: &str, form: &str) -> Result<String> {
+        let spinner = Spinner::start("building CasADi's C for the target");
+        let inputs = "_: *const f32, ".repeat(4);
         let source = shop.code.join(format!("{name}.c"));
         let mut peers = String::new();
         let builds = BUILDS
@@ -141,26 +220,37 @@ fn compile(
             let peer = format!("-DPEER(name)=name##_{suffix}");
             let restrict = format!("-DRESTRICT={keyword}");
             let args: [&[&str]; 3] = [&words(flags), &words(COMMON), &[&peer, &restrict]];
-            objects.push(shop.make(&format!("{symbol}.o"), compiler, &args, &[&source])?);
-            externs += &format!("    fn {symbol}({inputs}_: *mut f32);\n");
+            let object = shop.make(&format!("{symbol}.o"), compiler, &args, &[&source])?;
+            self.objects.push(object);
+            self.externs += &format!("    fn {symbol}({inputs}_: *mut f32);\n");
+            let build = [form, build].join("/");
+            let build = build.trim_start_matches('/');
             peers += &format!("Peer {{ build: {build:?}, run: {symbol} }}, ");
         }
-        let [bodies, positions, velocities] = robot.size();
-        let tip = match *algorithm {
-            "osim" => format!(", {}", bodies - 1),
-            _ => String::new(),
-        };
-        let of = format!(
-            "{}, {bodies}, {positions}, {velocities}{tip}",
-            robot.type_name()
-        );
-        calls += &format!("    {algorithm}::<{of}>(&[{peers}]);\n");
+        Ok(peers)
     }
-    let text = format!("unsafe extern \"C\" {{\n{externs}}}\nfn run() {{\n{calls}}}\n");
-    let path = shop.built.join("peers.rs");
-    // Written anew each time: cargo then links anew, and does not look at the objects itself.
-    workspace::write(&path, text)?;
-    Ok((objects, path))
+
+    fn write(self, shop: &Workshop<'_>) -> Result<(Vec<PathBuf>, PathBuf)> {
+        let Self { externs, calls, .. } = &self;
+        let text = format!("unsafe extern \"C\" {{\n{externs}}}\nfn run() {{\n{calls}}}\n");
+        let path = shop.built.join("peers.rs");
+        // Written anew each time: cargo then links anew, and does not look at the objects itself.
+        workspace::write(&path, text)?;
+        Ok((self.objects, path))
+    }
+}
+
+/// What a peer is called whose row is of this form.
+fn peer(form: &str) -> String {
+    let (function, build) = form.split_once('/').unwrap_or(("", form));
+    let Some([_, name, ..]) = BUILDS.iter().find(|known| known[0] == build) else {
+        return form.to_owned();
+    };
+    let mut functions = INVERSE.iter().chain(&FORWARD);
+    match functions.find(|[known, _]| *known == function) {
+        Some([_, casadi]) => name.replacen("casadi", casadi, 1),
+        None => (*name).to_owned(),
+    }
 }
 
 /// The firmware's measurements with its errors in the same order; of two forms of a build the better.
@@ -180,10 +270,9 @@ fn rows(measured: Vec<MeasuredRow>, lines: &[String]) -> Result<Vec<Row>> {
                 "{algorithm} of {robot} by {form} is off by {error:.1e} of full scale on the target"
             );
         }
-        let build = BUILDS.iter().find(|build| build[0] == form);
         let row = Row {
             target: M4F,
-            peer: build.map_or(form, |build| build[1].to_owned()),
+            peer: peer(&form),
             robot,
             algorithm,
             precision: "f32".into(),
@@ -213,7 +302,17 @@ pub fn compilers() -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::processor_time;
+    use super::{of_machines, peer, processor_time};
+
+    #[test]
+    fn peers_are_named_by_function_and_build() {
+        assert_eq!(peer("core"), "core");
+        assert_eq!(peer("off"), "casadi gcc -ffp-contract=off");
+        assert_eq!(peer("kkt/gcc"), "casadi KKT, gcc");
+        assert_eq!(peer("inverse/clang"), "casadi clang");
+        // No inverse dynamics of a robot on its feet.
+        assert_eq!(of_machines().count(), 17);
+    }
 
     #[test]
     fn the_time_of_a_build_is_its_childrens() {

@@ -62,10 +62,14 @@ def bare(wheel: pathlib.Path) -> float:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--wheel", type=pathlib.Path)
+    parser.add_argument("--build", action="store_true", help="print where the wheel is, and test nothing")
     arguments, more = parser.parse_known_args()
     python = environment(TARGET / "tools")
     run(python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *TOOLS)
     wheel = arguments.wheel.resolve() if arguments.wheel else build(python)
+    if arguments.build:
+        print(wheel)
+        return
     seconds = bare(wheel)
     if seconds > SECONDS:
         sys.exit(f"installation and notebook took {seconds:.0f} s, at most {SECONDS}")

@@ -1,10 +1,12 @@
 #!/bin/sh
-# Tests the plug-in against LeRobot's own classes and a simulated bus: test.sh [PYTEST ARGUMENT]…
+# Tests the plug-in against LeRobot's own classes and a simulated bus: test.sh [--prepare | PYTEST ARGUMENT…]
+#
+# --prepare makes the environment, and tests nothing.
 #
 # Below target/lerobot it makes a virtual environment with LeRobot from PyPI, without the packages that take gigabytes and that
 # no test computes with (torch above all; tests/stand_ins.py takes their places), the wheel of robot_dynamics, and this package. What the
 # firmware's scene commands is computed by Rust.
-#   ROBOT_DYNAMICS_WHEEL   a wheel to take in place of one built from python/
+#   ROBOT_DYNAMICS_WHEEL   a wheel to take in place of the one that python/test.py builds
 #   TABLES_WRITE=1         writes the tables of the guide's page in place of comparing them
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -25,12 +27,13 @@ if ! [ -x "$python" ] || ! cmp -s "$here/tests/requirements.txt" "$stamp"; then
     cp "$here/tests/requirements.txt" "$stamp"
 fi
 
+if [ "${1:-}" = --prepare ]; then
+    exit
+fi
+
 wheel=${ROBOT_DYNAMICS_WHEEL:-}
 if [ -z "$wheel" ]; then
-    rm -rf "$work/wheels"
-    # Beside the target of python/test.py, whose build is taken up.
-    CARGO_TARGET_DIR="$work/../python" "$python" -m pip wheel -q --disable-pip-version-check --no-deps --wheel-dir "$work/wheels" "$root/python"
-    wheel=$(ls "$work"/wheels/robot_dynamics-*.whl)
+    wheel=$(python3 "$root/python/test.py" --build)
 fi
 # From a copy: a build leaves files beside the sources.
 rm -rf "$work/package"

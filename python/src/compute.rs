@@ -77,7 +77,8 @@ impl Robot {
         request: &Request<'_, 'py>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let number = |body: &BodyRef| self.body_number(body);
-        fit(request.effects, self.counts.v, |body| {
+        let alone = |coordinate| self.is_alone(coordinate);
+        fit(request.effects, self.counts.v, alone, |body| {
             number(body).ok_or_else(|| format!("the robot has no body {body:?}"))
         })
         .map_err(|error| {

@@ -360,6 +360,19 @@ fn armature(py: Python<'_>, inertia: Vec<f64>) -> PyResult<PyScene> {
     )
 }
 
+/// Rotors that spin on the links before their joints: moment of inertia of each about its axis, kg·m², and the ratio of
+/// its gear, rad of the rotor per rad or m of the joint, negative for the opposite sense; zeros where there is none.
+///
+/// `Armature` of I ρ² has their inertia at the joints alone. `centroidal_matrix` and `osim_inverse` do not take them.
+#[pyfunction(name = "GyroscopicRotors")]
+fn gyroscopic_rotors(py: Python<'_>, inertia: Vec<f64>, ratio: Vec<f64>) -> PyResult<PyScene> {
+    let scene = PyScene::of(Spec::GyroscopicRotors {
+        inertia: inertia.clone(),
+        ratio: ratio.clone(),
+    });
+    finite(py, scene, &[&inertia, &ratio])
+}
+
 /// A load on a body: mass kg, centre of mass m in the body's frame, inertia about it (xx, xy, xz, yy, yz, zz) kg·m².
 #[pyfunction(name = "Payload")]
 #[pyo3(signature = (body, mass, com = [0.0; 3], inertia = [0.0; 6]))]
@@ -475,6 +488,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
         end_stops,
         cogging,
         armature,
+        gyroscopic_rotors,
         payload,
         body_wrench,
         world_wrench,

@@ -123,16 +123,24 @@ impl Robot {
         }
     }
 
+    /// The body that a velocity coordinate moves.
+    fn moved_by(&self, coordinate: usize) -> Option<&BodyInfo> {
+        let mut first = 0;
+        self.bodies.iter().find(|body| {
+            first += body.kind.coordinates().1;
+            coordinate < first
+        })
+    }
+
     /// The name of the joint of a velocity coordinate.
     pub fn joint_of(&self, coordinate: usize) -> &str {
-        let mut first = 0;
-        for body in &self.bodies {
-            first += body.kind.coordinates().1;
-            if coordinate < first {
-                return &body.joint;
-            }
-        }
-        ""
+        self.moved_by(coordinate).map_or("", |body| &body.joint)
+    }
+
+    /// Whether a velocity coordinate is its joint's only one.
+    pub fn is_alone(&self, coordinate: usize) -> bool {
+        let body = self.moved_by(coordinate);
+        body.is_some_and(|body| body.kind.coordinates().1 == 1)
     }
 
     fn body(&self, given: &Bound<'_, PyAny>) -> PyResult<usize> {
@@ -228,6 +236,18 @@ fn with_inertia(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
     let text = "forward dynamics needs Inertia in the scene";
     Err(Exception::new(py, "EffectError", text)
         .with("effect", "Inertia")
+        .build())
+}
+
+/// Refuses rotors that spin, which some algorithms of the library do not have.
+fn without_rotors(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
+    let spins = |effect: &Spec| matches!(effect, Spec::GyroscopicRotors { .. });
+    if !effects.iter().any(spins) {
+        return Ok(());
+    }
+    let text = "GyroscopicRotors: this algorithm has no rotors that spin: name Armature";
+    Err(Exception::new(py, "EffectError", text)
+        .with("effect", "GyroscopicRotors")
         .build())
 }
 

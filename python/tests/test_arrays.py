@@ -170,3 +170,16 @@ def test_singular_inertia_names_joint_and_state():
     with pytest.raises(rd.NotPositiveDefinite) as error:
         good.aba(q, v, tau)
     assert error.value.state == 2071
+
+
+@pytest.mark.parametrize("lane", range(8))
+def test_a_singular_state_among_eight_is_named(lane):
+    """float32 computes eight states at once, and those of a block with a singular one again one by one."""
+    robot, state = rd.Robot("ur5e"), 16 + lane
+    q, v, _, tau = (x.astype(np.float32) for x in states(robot, 40))
+    q[state, 3] = np.nan
+    with pytest.raises(rd.NotPositiveDefinite) as alone:
+        robot.aba(q[state], v[state], tau[state])
+    with pytest.raises(rd.NotPositiveDefinite) as among:
+        robot.aba(q, v, tau)
+    assert among.value.state == state and among.value.coordinate == alone.value.coordinate

@@ -41,6 +41,19 @@ def test_single_precision_has_the_bits_of_core(name, quantity):
         assert found.tobytes() == expected.tobytes()
 
 
+@pytest.mark.parametrize("quantity", ["rnea", "aba"])
+@pytest.mark.parametrize("name", ["ur5e", "a1", "a1_free"])
+def test_spinning_rotors_have_the_bits_of_core(name, quantity):
+    robot = rd.Robot(name)
+    rows = [x.astype(np.float32) for x in states(robot, 1000)]
+    inertia = np.where(np.arange(robot.nv) < 6 * name.endswith("free"), 0.0, np.float32(1e-4))
+    scene = rd.RIGID_BODY + rd.GyroscopicRotors(inertia, 5.0 - 2.0 * np.arange(robot.nv))
+    q, v, a, tau = rows
+    found = robot.rnea(q, v, a, scene) if quantity == "rnea" else robot.aba(q, v, tau, scene)
+    assert found.tobytes() == firmware(robot, f"core {quantity} spinning", rows).tobytes()
+    assert found.tobytes() != ours(robot, quantity, rows).tobytes()
+
+
 def test_another_state_has_other_bits():
     robot = rd.Robot("ur5e")
     rows = [x.astype(np.float32) for x in states(robot, 10)]

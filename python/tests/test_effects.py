@@ -68,6 +68,20 @@ def test_loads_wrenches_and_bases_act():
     assert not np.allclose(robot.rnea(q, v, a, rd.RIGID_BODY + ground), robot.rnea(q, v, a))
 
 
+def test_rotors_that_spin_have_no_place_where_the_core_has_none():
+    robot, q, v, a, tau = arm()
+    scene = rd.RIGID_BODY + rd.GyroscopicRotors([1e-4] * 6, [5.0] * 6)
+    for call in (lambda: robot.centroidal_matrix(q, scene), lambda: robot.osim_inverse(q, 0, "local", scene)):
+        with pytest.raises(rd.EffectError, match="Armature") as error:
+            call()
+        assert error.value.effect == "GyroscopicRotors"
+    free = rd.Robot("a1_free")
+    with pytest.raises(rd.EffectError, match="coordinate 2 has several"):
+        free.crba(free.neutral(), rd.GyroscopicRotors([0.0, 0.0, 1e-4] + [0.0] * 15, [5.0] * 18))
+    with pytest.raises(rd.EffectError, match="5 numbers for 6"):
+        robot.crba(q, rd.GyroscopicRotors([1e-4] * 6, [5.0] * 5))
+
+
 def test_two_of_a_kind_are_refused():
     for effect in (rd.Gravity(), rd.Inertia(), rd.Coriolis(), rd.Viscous(ONES), rd.Coulomb(ONES, 0.1)):
         with pytest.raises(rd.EffectError) as error:

@@ -170,6 +170,46 @@ def test_hybrid_dynamics_agrees_with_both(pair):
     assert np.array_equal(torque[mask == 0.0], given[mask == 0.0])
 
 
+def test_rotors_that_spin_are_bodies_of_pinocchio():
+    """A rotor is a body of its own on the link before its joint, whose inertia counts it as locked."""
+    text = urdf(seed=8, joints=6, kinds=("revolute", "prismatic"))
+    robot, peer = rd.Robot.from_text(text, exact=False), Peer(text)
+    q, v, a, tau = states(robot, 20)
+    inertia, ratio = np.linspace(1e-3, 5e-3, 6), np.array([6.0, -4.0, 9.0, 40.0, -12.0, 5.0])
+    whole = peer.model.copy()
+    pin.computeJointJacobians(peer.model, peer.data, pin.neutral(peer.model))
+    for i in range(6):
+        at, place = peer.model.getJointId(robot.joints[i]), peer.model.jointPlacements[peer.model.getJointId(robot.joints[i])]
+        column = pin.getJointJacobian(peer.model, peer.data, at, pin.LOCAL)[:, peer.model.joints[at].idx_v]
+        axis = place.rotation @ (column[:3] + column[3:])
+        spin, parent = inertia[i] * np.outer(axis, axis), peer.model.parents[at]
+        if parent:
+            locked = whole.inertias[parent]
+            whole.inertias[parent] = pin.Inertia(locked.mass, locked.lever, locked.inertia - spin)
+        joint = whole.addJoint(parent, pin.JointModelRevoluteUnaligned(axis), pin.SE3(np.eye(3), place.translation), f"rotor{i}")
+        whole.appendBodyToJoint(joint, pin.Inertia(0.0, np.zeros(3), spin), pin.SE3.Identity())
+    data, scene = whole.createData(), rd.RIGID_BODY + rd.GyroscopicRotors(inertia, ratio)
+
+    def full(x):
+        """The coordinates of joints, and those of rotors behind them."""
+        return np.concatenate([peer.v(robot, x), ratio * x])
+
+    def at_joints(t):
+        return peer.back(robot, t[:6]) + ratio * t[6:]
+
+    for x, y, z, t in zip(q, v, a, tau):
+        state = np.concatenate([peer.q(robot, x), np.zeros(6)]), full(y)
+        near(robot.rnea(x, y, z, scene), at_joints(pin.rnea(whole, data, *state, full(z))))
+        bias = pin.rnea(whole, data, *state, full(0.0 * z))
+        columns = [at_joints(pin.rnea(whole, data, *state, full(unit)) - bias) for unit in np.eye(6)]
+        near(robot.crba(x, scene), np.array(columns).T, 1e-11)
+        near(robot.kinetic_energy(x, y, scene), pin.computeKineticEnergy(whole, data, *state))
+        expected = np.linalg.solve(np.array(columns).T, t - at_joints(bias))
+        for found in (robot.aba(x, y, t, scene), robot.forward_dynamics(x, y, t, scene)):
+            near(found, expected, 1e-10)
+        assert np.abs(robot.aba(x, y, t) - expected).max() > 1e-3 * np.abs(expected).max()
+
+
 def test_configurations_integrate_and_differ(pair):
     robot, _, (q, v, _, _) = pair
     there = robot.integrate(q, 0.3 * v)

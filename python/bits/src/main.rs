@@ -7,7 +7,7 @@
 
 use std::io::{Read as _, Write as _};
 
-use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
+use dynamics_core::effects::{Coriolis, Gravity, GyroscopicRotors, RIGID_BODY};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{
     A1, A1Free, A1Leg, G1, G1Free, Gen3, Iiwa14, Panda, So101, Ur5e, XArm7, Z1,
@@ -22,6 +22,13 @@ fn rows<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
     numbers: &[f32],
 ) -> Option<Vec<f32>> {
     let mut found = Vec::new();
+    // At the joints of a free base there are no motors.
+    let rotor = |i: usize| if Q > V && i < 6 { 0.0 } else { 1e-4 };
+    let rotors = GyroscopicRotors {
+        inertia: std::array::from_fn(rotor),
+        ratio: std::array::from_fn(|i| 5.0 - 2.0 * i as f32),
+    };
+    let spinning = (RIGID_BODY, rotors);
     for row in numbers.chunks_exact(Q + 3 * V) {
         let part = |at: usize| std::array::from_fn(|i| row[at + i]);
         let q: [f32; Q] = std::array::from_fn(|i| row[i]);
@@ -35,6 +42,8 @@ fn rows<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
                 let m = Core::<T>::crba(&q, &RIGID_BODY);
                 (0..V).for_each(|i| found.extend((0..V).map(|j| m.get(i, j))));
             }
+            "core rnea spinning" => found.extend(Core::<T>::rnea(&state, &spinning)),
+            "core aba spinning" => found.extend(Core::<T>::aba(&state, &tau, &spinning).ok()?),
             "core aba" => found.extend(Core::<T>::aba(&state, &tau, &RIGID_BODY).ok()?),
             "core forward_dynamics" => {
                 found.extend(Core::<T>::forward_dynamics(&state, &tau, &RIGID_BODY).ok()?);

@@ -80,6 +80,8 @@ macro_rules! algorithm {
     (@lanes Crba) => { true };
     (@lanes Aba) => { true };
     (@lanes $other:ident) => { false };
+    (@spins unspun) => { false };
+    (@spins $other:ident) => { true };
     (@fast all) => { true };
     (@fast moving) => { true };
     (@fast matrix) => { true };
@@ -110,7 +112,7 @@ macro_rules! algorithm {
                 $row: &mut impl Row<R>,
             ) -> Result<(), usize> {
                 let $this = self;
-                let $scene = &Scene::<R, V, A, C, X>(parts, true);
+                let $scene = &Scene::<R, V, A, C, X, { algorithm!(@spins $scenes) }>(parts, true);
                 let _ = ($this, $scene);
                 $body
             }
@@ -217,7 +219,7 @@ fn factors<
     parts: &Parts<R, V>,
     counts: Counts,
 ) -> Result<algorithms::Ltdl<R, V>, usize> {
-    let scene = Scene::<R, V, true, true, X>(parts, true);
+    let scene = Scene::<R, V, true, true, X, true>(parts, true);
     let mut unit = [R::ZERO; V];
     unit[counts.v..].fill(R::ONE);
     let m = algorithms::crba(robot, q, &scene);
@@ -318,7 +320,7 @@ algorithm! {
     ForwardDynamics, moving, |this, robot, counts, scene, row| {
         let (state, tau) = (state(row, counts, 2), filled(row, 2, counts.v));
         let parts = parts_of(scene);
-        let bias = algorithms::rnea(robot, &state, &Scene::<R, V, false, C, X>(parts, false));
+        let bias = algorithms::rnea(robot, &state, &Scene::<R, V, false, C, X, true>(parts, false));
         let mut rest = algorithms::transmitted_torque(robot, &state, &tau, scene);
         for (rest, bias) in rest.iter_mut().zip(bias) {
             *rest -= bias;
@@ -447,7 +449,7 @@ algorithm! {
 
 algorithm! {
     /// The matrix from q̇ to that momentum.
-    CentroidalMatrix, rigid, |this, robot, counts, scene, row| {
+    CentroidalMatrix, unspun, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         let columns = algorithms::centroidal_matrix(robot, &q, scene);
         for (j, h) in columns.iter().enumerate().take(counts.v) {
@@ -513,7 +515,7 @@ algorithm! {
 
 algorithm! {
     /// Λ⁻¹ of a body.
-    OsimInverse { body: usize, frame: AnyFrame }, rigid, |this, robot, counts, scene, row| {
+    OsimInverse { body: usize, frame: AnyFrame }, unspun, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         let found = in_frame!(this.frame, frame => {
             algorithms::osim_inverse(robot, &q, this.body, frame, scene)
@@ -591,8 +593,16 @@ algorithm! {
     }
 }
 
-fn parts_of<'a, R: Real, const V: usize, const A: bool, const C: bool, const X: bool>(
-    scene: &Scene<'a, R, V, A, C, X>,
+fn parts_of<
+    'a,
+    R: Real,
+    const V: usize,
+    const A: bool,
+    const C: bool,
+    const X: bool,
+    const S: bool,
+>(
+    scene: &Scene<'a, R, V, A, C, X, S>,
 ) -> &'a Parts<R, V> {
     scene.0
 }

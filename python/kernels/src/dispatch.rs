@@ -171,6 +171,8 @@ pub mod terms {
         rigid_one, terms =>
         _ => [true, true, false]
     }
+    /// As [`rigid`], of an algorithm without rotors that spin.
+    pub use rigid as unspun;
     /// As [`rigid`], of an algorithm with forms for some kinds of robots.
     pub use rigid as matrix;
 

@@ -5,8 +5,8 @@
 
 use dynamics_core::effects::{
     AsymmetricCoulomb, BodyState, BodyWrench, Cogging, Contact, Coulomb, Effect, EndStops,
-    JointState, LoadFactors, LoadFriction, Lugre, Spring, Stribeck, TorqueDerivatives, Viscous,
-    WorldWrench, hook,
+    GyroscopicRotors, JointState, LoadFactors, LoadFriction, Lugre, Spring, Stribeck,
+    TorqueDerivatives, Viscous, WorldWrench, hook,
 };
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::{Force, Motion, SpatialInertia};
@@ -41,6 +41,8 @@ pub struct Parts<R: Real, const V: usize> {
     pub joints: Vec<AtJoint<R, V>>,
     /// Inertia of the motors.
     pub armature: Option<[R; V]>,
+    /// Rotors that spin on parent links.
+    pub rotors: Option<GyroscopicRotors<R, V>>,
     /// Velocity and acceleration of the base.
     pub base: Option<(Motion<R>, Motion<R>)>,
     /// Loads, with the numbers of their bodies.
@@ -51,17 +53,30 @@ pub struct Parts<R: Real, const V: usize> {
     pub gears: Option<LoadFriction<R, V>>,
 }
 
-/// A scene: whether it has the products of accelerations (A), of velocities (C), and effects at bodies or gears (X).
+/// A scene: whether it has the products of accelerations (A), of velocities (C), effects at bodies or gears (X), and
+/// rotors that spin (X and S): some algorithms of the library have none.
 ///
 /// The second field is whether the friction of gears acts: forward dynamics takes the motors' torques through the gears
 /// and then computes its bias without them.
-pub struct Scene<'a, R: Real, const V: usize, const A: bool, const C: bool, const X: bool>(
-    pub &'a Parts<R, V>,
-    pub bool,
-);
+pub struct Scene<
+    'a,
+    R: Real,
+    const V: usize,
+    const A: bool,
+    const C: bool,
+    const X: bool,
+    const S: bool,
+>(pub &'a Parts<R, V>, pub bool);
 
-impl<R: Real, const B: usize, const V: usize, const A: bool, const C: bool, const X: bool>
-    Effect<R, B, V> for Scene<'_, R, V, A, C, X>
+impl<
+    R: Real,
+    const B: usize,
+    const V: usize,
+    const A: bool,
+    const C: bool,
+    const X: bool,
+    const S: bool,
+> Effect<R, B, V> for Scene<'_, R, V, A, C, X, S>
 {
     const GRAVITY_FIELD: hook::Field<Self, R> =
         hook::Field::gravity(|scene, g| *g += scene.0.gravity);
@@ -81,6 +96,10 @@ impl<R: Real, const B: usize, const V: usize, const A: bool, const C: bool, cons
         true => hook::LoadFriction::new(Self::load_factors::<B>, Self::load_slopes::<B>),
         false => hook::LoadFriction::NONE,
     };
+    const ROTOR: hook::Rotor<Self, R> = match X && S {
+        true => hook::Rotor::coupling(Self::add_coupling::<B>),
+        false => hook::Rotor::NONE,
+    };
     const ACCELERATIONS: bool = A;
     const VELOCITY_PRODUCTS: bool = C;
 
@@ -99,13 +118,25 @@ impl<R: Real, const B: usize, const V: usize, const A: bool, const C: bool, cons
 
     #[inline(always)]
     fn inertia(&self, joint: usize) -> Option<R> {
-        self.0.armature.as_ref()?.get(joint).copied()
+        let armature = self.0.armature.as_ref().and_then(|all| all.get(joint));
+        if X && let Some(rotors) = &self.0.rotors {
+            let own = Effect::<R, B, V>::inertia(rotors, joint)?;
+            return Some(armature.map_or(own, |&armature| armature + own));
+        }
+        armature.copied()
     }
 }
 
-impl<R: Real, const V: usize, const A: bool, const C: bool, const X: bool>
-    Scene<'_, R, V, A, C, X>
+impl<R: Real, const V: usize, const A: bool, const C: bool, const X: bool, const S: bool>
+    Scene<'_, R, V, A, C, X, S>
 {
+    fn add_coupling<const B: usize>(&self, joint: usize, coupling: &mut R) {
+        let add = const { <GyroscopicRotors<R, V> as Effect<R, B, V>>::ROTOR.add };
+        if let (Some(rotors), Some(add)) = (&self.0.rotors, add) {
+            add(rotors, joint, coupling);
+        }
+    }
+
     fn move_base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
         if let Some((v, a)) = self.0.base {
             *velocity += v;

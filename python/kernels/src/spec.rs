@@ -1,8 +1,8 @@
 //! The effects that a user composes, in numbers of f64, before a robot and a scalar are known.
 
 use dynamics_core::effects::{
-    AsymmetricCoulomb, BodyWrench, Cogging, Contact, ContactPoint, Coulomb, EndStops, LoadFriction,
-    Lugre, Spring, Stribeck, Viscous, Width, WorldWrench,
+    AsymmetricCoulomb, BodyWrench, Cogging, Contact, ContactPoint, Coulomb, EndStops,
+    GyroscopicRotors, LoadFriction, Lugre, Spring, Stribeck, Viscous, Width, WorldWrench,
 };
 use dynamics_core::model::BodyInertia;
 use dynamics_core::scalar::{Real, Vector};
@@ -69,6 +69,10 @@ pub enum Spec {
         sin: Vec<Vec<f64>>,
     },
     Armature(Vec<f64>),
+    GyroscopicRotors {
+        inertia: Vec<f64>,
+        ratio: Vec<f64>,
+    },
     Payload {
         body: BodyRef,
         mass: f64,
@@ -119,6 +123,7 @@ impl Spec {
             Self::EndStops { .. } => "EndStops",
             Self::Cogging { .. } => "Cogging",
             Self::Armature(_) => "Armature",
+            Self::GyroscopicRotors { .. } => "GyroscopicRotors",
             Self::Payload { .. } => "Payload",
             Self::BodyWrench { .. } => "BodyWrench",
             Self::WorldWrench { .. } => "WorldWrench",
@@ -159,6 +164,10 @@ impl Spec {
                 stiffness: a,
                 rest: b,
             }
+            | Self::GyroscopicRotors {
+                inertia: a,
+                ratio: b,
+            }
             | Self::EndStops {
                 lower: a, upper: b, ..
             } => vec![a, b],
@@ -168,11 +177,12 @@ impl Spec {
         }
     }
 
-    /// Whether it acts at bodies, at the base or in gears.
+    /// Whether it acts at bodies, at the base, in gears or by rotors that spin.
     pub(crate) fn is_extra(&self) -> bool {
         matches!(
             self,
             Self::MovingBase { .. }
+                | Self::GyroscopicRotors { .. }
                 | Self::LoadFriction { .. }
                 | Self::Payload { .. }
                 | Self::BodyWrench { .. }
@@ -182,13 +192,15 @@ impl Spec {
     }
 }
 
-/// Why the effects cannot act on a robot of so many velocity coordinates; `body` finds a body.
+/// Why the effects cannot act on a robot of so many velocity coordinates; `alone` says whether a coordinate is its
+/// joint's only one, `body` finds a body.
 ///
 /// # Errors
-/// A list of another length, or a body that the robot does not have.
+/// A list of another length, a rotor at a joint of several coordinates, or a body that the robot does not have.
 pub fn fit(
     specs: &[Spec],
     v: usize,
+    alone: impl Fn(usize) -> bool,
     body: impl Fn(&BodyRef) -> Result<usize, String>,
 ) -> Result<(), Unfit> {
     for spec in specs {
@@ -198,6 +210,12 @@ pub fn fit(
             if list.len() != v {
                 let problem = format!("it has {} numbers for {v} velocity coordinates", list.len());
                 return refuse(problem);
+            }
+        }
+        if let Spec::GyroscopicRotors { inertia, .. } = spec {
+            let mut rotors = inertia.iter().enumerate();
+            if let Some((at, _)) = rotors.find(|&(at, &inertia)| inertia != 0.0 && !alone(at)) {
+                return refuse(format!("the joint of velocity coordinate {at} has several"));
             }
         }
         let bodies: Vec<&BodyRef> = match spec {
@@ -274,6 +292,7 @@ pub(crate) fn parts<R: Real, const V: usize>(
         gravity: <R::Vec3 as Vector<R>>::ZERO,
         joints: Vec::new(),
         armature: None,
+        rotors: None,
         base: None,
         payloads: Vec::new(),
         wrenches: Vec::new(),
@@ -288,6 +307,12 @@ pub(crate) fn parts<R: Real, const V: usize>(
                 acceleration,
             } => parts.base = Some((motion(*velocity), motion(*acceleration))),
             Spec::Armature(values) => parts.armature = Some(array(values)),
+            Spec::GyroscopicRotors { inertia, ratio } => {
+                parts.rotors = Some(GyroscopicRotors {
+                    inertia: array(inertia),
+                    ratio: array(ratio),
+                });
+            }
             Spec::LoadFriction {
                 driving,
                 backdriving,

@@ -3,7 +3,6 @@
 import atexit
 import logging
 import threading
-import time
 import weakref
 from typing import Any
 
@@ -17,6 +16,7 @@ from lerobot.utils.decorators import check_if_already_connected, check_if_not_co
 
 from . import calibration as calibrations
 from . import wire as wires
+from .clock import Clock
 from .config_so101_floating import So101FloatingConfig
 from .dynamics import floating_dynamics
 from .errors import BusLost, FeedbackRefused, FloatingError, LoopLate, WrongCalibration, WrongConfiguration, WrongServos
@@ -32,6 +32,7 @@ class So101Floating(Teleoperator):
 
     config_class = So101FloatingConfig
     name = "so101_floating"
+    clock = Clock()
 
     def __init__(self, config: So101FloatingConfig):
         super().__init__(config)
@@ -41,7 +42,6 @@ class So101Floating(Teleoperator):
         motors = {joint: Motor(place + 1, "sts3215", norms[place]) for place, joint in enumerate(JOINTS)}
         self.bus = FeetechMotorsBus(config.port, motors, self.calibration)
         self.dynamics = floating_dynamics(Motors(config.gears), config.urdf)
-        self.clock = time.monotonic
         self.loop: Loop | None = None
         self._wire: wires.Wire | None = None
         self._guardian: Guardian | None = None
@@ -109,7 +109,7 @@ class So101Floating(Teleoperator):
         except RuntimeError as error:
             self._close_port()
             raise WrongServos(str(error)) from error
-        self._wire = wires.Wire(self.bus.port_handler.ser, self.bus.ids, self.config.reply_time)
+        self._wire = wires.Wire(self.bus.port_handler.ser, self.bus.ids, self.config.reply_time, self.clock.now)
         self._connected = True
 
     def _translated(self, call):
@@ -181,14 +181,14 @@ class So101Floating(Teleoperator):
         if self.config.background:
             self.tick()
             self._thread = threading.Thread(target=self._run, name="so101_floating", daemon=True)
-            self._thread.start()
+            self.clock.start(self._thread)
 
     def _run(self) -> None:
         """The thread: ticks at the rate until the end or an error, which the next call of the user gets."""
-        due = time.monotonic()
+        due = self.clock.now()
         while not self._ended.is_set():
-            due = max(due + self.loop.tick_time, time.monotonic() - self.loop.tick_time)
-            if self._ended.wait(max(due - time.monotonic(), 0.0)):
+            due = max(due + self.loop.tick_time, self.clock.now() - self.loop.tick_time)
+            if self.clock.wait(self._ended, max(due - self.clock.now(), 0.0)):
                 return
             try:
                 self.tick()
@@ -204,7 +204,7 @@ class So101Floating(Teleoperator):
             raise WrongCalibration("the arm is not calibrated: it does not float")
         try:
             with self._lock:
-                self.loop.tick(self.clock())
+                self.loop.tick(self.clock.now())
         except FloatingError as error:
             self._fail(error)
             raise
@@ -243,7 +243,7 @@ class So101Floating(Teleoperator):
                 self._refuse(f"the feedback {key}: {value!r} is not a torque of a joint", joint if known else None)
             torque[JOINTS.index(joint)] = number
         if self.loop is not None:
-            self.loop.feedback.set(torque, self.clock())
+            self.loop.feedback.set(torque, self.clock.now())
 
     def _refuse(self, message: str, joint: str | None) -> None:
         error = FeedbackRefused(message, joint)
@@ -257,10 +257,10 @@ class So101Floating(Teleoperator):
 
     def _raise_if_late(self) -> None:
         last = self.loop.last
-        if last is None or self.clock() - last > self.config.most_age:
+        if last is None or self.clock.now() - last > self.config.most_age:
             self._stop_thread()
             self._raise_if_failed()
-            age = "never" if last is None else f"{self.clock() - last:.2f} s ago"
+            age = "never" if last is None else f"{self.clock.now() - last:.2f} s ago"
             error = LoopLate(f"the servos were last read {age}")
             self._fail(error)
             raise error
@@ -280,13 +280,13 @@ class So101Floating(Teleoperator):
         """Whether all servos confirm that their torque is off; if not, the guardian goes on trying."""
         with self._lock:
             released = False
-            until = time.monotonic() + self.config.release_time
+            until = self.clock.now() + self.config.release_time
             while not released:
                 try:
                     released = self._wire.release(1)
                 except wires.PORT_ERRORS:
                     self._reopen()
-                if released or time.monotonic() > until:
+                if released or self.clock.now() > until:
                     break
             if released:
                 self._torque_may_be_on = False
@@ -297,11 +297,11 @@ class So101Floating(Teleoperator):
 
     def _reopen(self) -> None:
         """A port that failed may be there again: an adapter that was plugged in."""
-        time.sleep(0.05)
+        self.clock.sleep(0.05)
         try:
             self._close_port()
             self.bus.port_handler.openPort()
-            self._wire = wires.Wire(self.bus.port_handler.ser, self.bus.ids, self.config.reply_time)
+            self._wire = wires.Wire(self.bus.port_handler.ser, self.bus.ids, self.config.reply_time, self.clock.now)
         except wires.PORT_ERRORS:
             pass
 
@@ -309,7 +309,7 @@ class So101Floating(Teleoperator):
         self._ended.set()
         thread, self._thread = self._thread, None
         if thread is not None and thread is not threading.current_thread():
-            thread.join(timeout=2.0 + self.config.release_time)
+            self.clock.join(thread, 2.0 + self.config.release_time)
 
     @check_if_not_connected
     def disconnect(self) -> None:

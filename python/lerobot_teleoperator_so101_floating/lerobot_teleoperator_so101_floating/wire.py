@@ -10,6 +10,7 @@ the magnitude: bit 15 of position and speed, bit 10 of duty and load.
 """
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import serial
@@ -136,10 +137,10 @@ class Replies:
 
 
 class Wire:
-    """Exchanges with all servos on a serial port, an open `serial.Serial`."""
+    """Exchanges with all servos on a serial port, an open `serial.Serial`; `now` gives the time, s."""
 
-    def __init__(self, port, servos: list[int], reply_time: float):
-        self.port, self.servos, self.reply_time = port, servos, reply_time
+    def __init__(self, port, servos: list[int], reply_time: float, now: Callable[[], float] = time.monotonic):
+        self.port, self.servos, self.reply_time, self.now = port, servos, reply_time, now
         # The SDK polls; a read that waits for its bytes leaves the processor to LeRobot's other threads.
         port.timeout = reply_time / 4.0
 
@@ -152,11 +153,11 @@ class Wire:
         # A reply to an earlier request would be taken for a new one.
         self.port.reset_input_buffer()
         self.send(sync_read(self.servos, address, length))
-        until = time.monotonic() + self.reply_time
+        until = self.now() + self.reply_time
         while replies.missing:
             # No more than is awaited, so that the read returns as soon as it is there.
             replies.push(self.port.read(max(len(replies.missing) * (length + 6) - len(replies._bytes), 1)))
-            if time.monotonic() > until:
+            if self.now() > until:
                 break
         return replies
 

@@ -1,4 +1,4 @@
-"""Fixtures: an SO-101 on a pseudo-terminal, and the teleoperator that floats it."""
+"""Fixtures: an SO-101 in simulated time, and the teleoperator that floats it."""
 
 import json
 import os
@@ -9,11 +9,12 @@ import stand_ins
 
 sys.path.insert(0, str(Path(__file__).parent))
 stand_ins.install()
-stand_ins.be_patient()
 
 import numpy as np  # noqa: E402
 import pytest  # noqa: E402
-from simulated import Arm, Bus, Servo, Still  # noqa: E402
+from simulated import Arm, Bus, Clock, Servo, Still, install  # noqa: E402
+
+install()
 
 JOINTS = ("shoulder_pan", "shoulder_lift", "elbow_flex", "wrist_flex", "wrist_roll", "gripper")
 RANGES = ((796, 3298), (910, 3184), (946, 3148), (966, 3128), (0, 4095), (1500, 2751))
@@ -53,10 +54,10 @@ def calibration():
 
 
 class Bench:
-    """What a test needs: buses and teleoperators that are closed after it."""
+    """What a test needs: a clock, buses and teleoperators that are closed after it."""
 
-    def __init__(self, folder: Path):
-        self.folder = folder
+    def __init__(self, folder: Path, clock: Clock | None = None):
+        self.folder, self.clock = folder, clock or Clock()
         self.file = folder / "bench.json"
         self.write(calibration())
         self.buses, self.teleoperators = [], []
@@ -64,32 +65,33 @@ class Bench:
     def write(self, entries) -> None:
         self.file.write_text(json.dumps(entries))
 
-    def bus(self, arm, gears=SCENE_GEARS, step=TICK, **options) -> Bus:
-        supply = options.pop("supply", 7.4)
-        bus = Bus(self.folder, arm, servos(gears, supply), step, **options)
+    def bus(self, arm, gears=SCENE_GEARS, step=TICK, supply=7.4, terminal=False) -> Bus:
+        bus = Bus(self.folder, arm, servos(gears, supply), self.clock, step, terminal)
         self.buses.append(bus)
         return bus
 
     def config(self, bus, **options):
         from lerobot_teleoperator_so101_floating import So101FloatingConfig
 
-        # A long time for replies: the machine that runs the tests may be busy, and in lockstep nothing waits.
-        settings = {
-            "background": False,
-            "guardian": False,
-            "gears": SCENE_GEARS,
-            "release_time": 0.2,
-            "reply_time": 0.2,
-        } | options
+        settings = {"background": False, "guardian": False, "gears": SCENE_GEARS, "release_time": 0.2} | options
         return So101FloatingConfig(id="bench", calibration_dir=self.folder, port=bus.port, **settings)
 
     def teleoperator(self, bus, **options):
-        """Not yet connected; in lockstep with the bus unless it has a thread."""
+        """Not yet connected; without a thread, its ticks come at its rate."""
         from lerobot_teleoperator_so101_floating import So101Floating
 
         teleoperator = So101Floating(self.config(bus, **options))
+        teleoperator.clock = self.clock
         if not teleoperator.config.background:
-            teleoperator.clock = bus.clock
+            tick, due = teleoperator.tick, 0.0
+
+            def in_time():
+                nonlocal due
+                due = max(due + TICK, self.clock.now())
+                self.clock.sleep(due - self.clock.now())
+                tick()
+
+            teleoperator.tick = in_time
         self.teleoperators.append(teleoperator)
         return teleoperator
 

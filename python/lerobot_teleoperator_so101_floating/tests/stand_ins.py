@@ -58,16 +58,3 @@ class Finder(importlib.abc.MetaPathFinder, importlib.abc.Loader):
 def install() -> None:
     lacking = {name for name in PACKAGES if importlib.util.find_spec(name) is None}
     sys.meta_path.insert(0, Finder(lacking))
-
-
-def be_patient() -> None:
-    """LeRobot gives a servo 50 ms to reply while it connects: too few where other programs keep the machine busy."""
-    from lerobot.motors.feetech import feetech
-
-    usual = feetech.patch_setPacketTimeout
-
-    def patient(self, packet_length):
-        usual(self, packet_length)
-        self.packet_timeout += 1000.0
-
-    feetech.patch_setPacketTimeout = patient

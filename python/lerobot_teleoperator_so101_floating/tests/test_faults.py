@@ -1,7 +1,5 @@
 """Whatever fails while the arm floats ends in an error of its own type, and in servos without torque."""
 
-import os
-import signal
 import subprocess
 import sys
 import time
@@ -70,11 +68,10 @@ def test_a_bus_that_returns_ends_without_torque(bench, at_rest):
         teleoperator.tick()
     bus.deaf = bus.mute = True
 
-    def back(_):
+    def back():
         bus.deaf = bus.mute = False
 
-    signal.signal(signal.SIGALRM, lambda *_: back(None))
-    signal.setitimer(signal.ITIMER_REAL, 0.6)
+    bench.clock.at(0.6, back)
     error, _ = ends(teleoperator, BusLost)
     assert error.released is True
     no_torque(bus)
@@ -92,24 +89,33 @@ def test_an_adapter_plugged_in_again_ends_without_torque(bench, at_rest):
     for _ in range(WARM):
         teleoperator.tick()
     bus.unplug()
-    signal.signal(signal.SIGALRM, lambda *_: bus.plug_in())
-    signal.setitimer(signal.ITIMER_REAL, 0.5)
+    bench.clock.at(0.5, bus.plug_in)
     error, _ = ends(teleoperator, BusLost)
     assert error.released is True
     no_torque(bus)
 
 
-def test_the_guardian_waits_for_the_adapter(bench, at_rest):
-    bus, teleoperator = bench.floating(at_rest, guardian=True)
+def until(condition):
+    """Waits for another process, as long as it takes."""
+    while not condition():
+        time.sleep(0.02)
+
+
+def test_the_guardian_waits_for_the_adapter(bench, at_rest, monkeypatch):
+    from lerobot_teleoperator_so101_floating.guardian import Guardian
+
+    # It keeps the machine's time, and gives up after a minute of it.
+    monkeypatch.setattr(Guardian.__init__, "__defaults__", (3600.0,))
+    bus = bench.bus(at_rest, terminal=True)
+    teleoperator = bench.teleoperator(bus, guardian=True)
+    teleoperator.connect(calibrate=False)
     for _ in range(WARM):
         teleoperator.tick()
     bus.unplug()
     error, _ = ends(teleoperator, BusLost)
     assert error.released is False
     bus.plug_in()
-    until = time.monotonic() + 10.0
-    while any(servo.torque_enabled for servo in bus.servos) and time.monotonic() < until:
-        time.sleep(0.05)
+    until(lambda: not any(servo.torque_enabled for servo in bus.servos))
     no_torque(bus)
 
 
@@ -233,7 +239,7 @@ def test_a_jump_of_a_position_ends_without_torque(warm, at_rest):
 
 def test_a_late_loop_ends_without_torque(warm):
     bus, teleoperator = warm
-    bus.time += 0.5
+    bus.clock.sleep(0.5)
     ends(teleoperator, LoopLate)
     no_torque(bus)
 
@@ -306,18 +312,20 @@ def test_a_raised_exception_in_a_with_block_ends_without_torque(bench, at_rest):
 
 
 CHILD = """
-import sys, time, os, signal
+import sys, os, signal
 sys.path.insert(0, {here!r})
 import stand_ins
 stand_ins.install()
-stand_ins.be_patient()
 from pathlib import Path
+import simulated
 from lerobot_teleoperator_so101_floating import So101Floating, So101FloatingConfig
-numbers = dict(gears=(345.0,) * 6, most_age=5.0, reply_time=0.5)
-config = So101FloatingConfig(id="bench", calibration_dir=Path({folder!r}), port={port!r}, **numbers)
+simulated.install()
+line = simulated.LINES[{port!r}] = simulated.Remote({address!r})
+So101Floating.clock = line.clock
+config = So101FloatingConfig(id="bench", calibration_dir=Path({folder!r}), port={port!r}, gears=(345.0,) * 6)
 teleoperator = So101Floating(config)
 teleoperator.connect(calibrate=False)
-time.sleep(0.3)
+line.clock.sleep(0.3)
 print("floats", flush=True)
 {then}
 """
@@ -334,17 +342,15 @@ print("floats", flush=True)
     ],
 )
 def test_however_the_process_ends_the_torque_does(bench, at_rest, end):
-    bus = bench.bus(at_rest, step=None)
-    program = CHILD.format(here=str(Path(__file__).parent), folder=str(bench.folder), port=bus.port, then=end)
+    # The plug-in and its guardian are processes: that one keeps its own time, and the guardian waits until servos confirm.
+    bus = bench.bus(at_rest, terminal=True)
+    names = {"here": str(Path(__file__).parent), "folder": str(bench.folder), "port": bus.port, "address": bus.listen()}
     with open(bench.folder / "errors", "w") as errors:
-        child = subprocess.Popen(
-            [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=errors, text=True, env=os.environ
-        )
+        program = [sys.executable, "-c", CHILD.format(then=end, **names)]
+        child = subprocess.Popen(program, stdout=subprocess.PIPE, stderr=errors, text=True)
     assert child.stdout.readline() == "floats\n", (bench.folder / "errors").read_text()
-    child.wait(timeout=20)
-    until = time.monotonic() + 10.0
-    while any(servo.torque_enabled for servo in bus.servos) and time.monotonic() < until:
-        time.sleep(0.05)
+    child.wait()
+    until(lambda: not any(servo.torque_enabled for servo in bus.servos))
     no_torque(bus)
     assert bus.duties and any(any(duties.values()) for duties in bus.duties)
 

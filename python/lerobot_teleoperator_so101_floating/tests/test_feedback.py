@@ -42,7 +42,6 @@ def test_a_load_that_is_no_longer_sent_is_forgotten(warm):
     for _ in range(round(0.3 / TICK)):
         teleoperator.tick()
     assert np.abs(teleoperator.loop.torque - before).max() < 1e-6
-    bus.settle()
     assert not any(servo.registers[65] for servo in bus.servos)
 
 
@@ -111,7 +110,7 @@ def test_a_push_on_the_follower_is_felt_at_the_leader(tmp_path, push):
     sides = []
     for name in ("leader", "follower"):
         (tmp_path / name).mkdir()
-        sides.append(Bench(tmp_path / name))
+        sides.append(Bench(tmp_path / name, sides[0].clock if sides else None))
     try:
         leader, teleoperator = sides[0].floating(Still(posture))
         arm = Arm(posture)

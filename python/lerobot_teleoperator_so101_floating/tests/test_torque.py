@@ -48,7 +48,6 @@ def off_at_rest(bench, scene, law, postures, **options):
         arm.rows, arm.row = np.linspace(arm.q, angles(posture["counts"]), 200), -1
         for _ in range(500):
             teleoperator.tick()
-        bus.settle()
         wanted = np.array(posture["commands"][law])
         sent = decoded(bus, scene["stall"][law], -200)
         # Joints that hardly carry anything are held to a share of 10 mN·m, three steps of the duty.
@@ -77,11 +76,9 @@ def test_torques_in_motion_are_the_scenes(bench, scene, law):
     arm = Still(angles(path[0]))
     bus, teleoperator = floats_at(bench, arm, law)
     arm.rows, arm.row = angles(path), -1
-    bus.settle()
     first = len(bus.duties)
     for _ in path:
         teleoperator.tick()
-    bus.settle()
     sent = decoded(bus, scene["stall"][law], first)
     assert sent.shape == wanted.shape
     largest = np.abs(wanted).max(axis=0)
@@ -106,7 +103,6 @@ def test_a_supply_that_is_measured_gives_the_same_torque(bench, scene):
     teleoperator.connect(calibrate=False)
     for _ in range(500):
         teleoperator.tick()
-    bus.settle()
     sent = decoded(bus, np.array(scene["stall"]["scene"]) * 5.0 / 7.4, -200).mean(axis=0)
     assert np.abs(sent - posture["commands"]["scene"]).max() <= BAR * np.abs(posture["commands"]["scene"]).max()
 

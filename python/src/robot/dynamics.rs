@@ -6,7 +6,7 @@ use robot_dynamics_engines::Scene as EngineScene;
 use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::spec::Spec;
 
-use super::{Array, Robot, frame_of, with_inertia};
+use super::{Array, Robot, frame_of, with_inertia, without_rotors};
 use crate::effects::given as effects_of;
 
 #[pymethods]
@@ -283,6 +283,7 @@ impl Robot {
         let body = self.body(body)?;
         let frame = frame_of(py, frame)?;
         let effects = effects_of(effects)?;
+        without_rotors(py, &effects)?;
         self.one(
             py,
             Which::OsimInverse { body, frame },

@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use robot_dynamics_kernels::Which;
 
-use super::{Array, Robot, argument};
+use super::{Array, Robot, argument, without_rotors};
 use crate::effects::given as effects_of;
 
 #[pymethods]
@@ -87,6 +87,7 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
+        without_rotors(py, &effects)?;
         self.one(
             py,
             Which::CentroidalMatrix,

@@ -28,7 +28,7 @@ use std::process::ExitCode;
 
 use clap::{ArgMatches, Args, Command};
 
-use crate::kit::error::{Error, Result};
+use crate::kit::error::Result;
 use crate::kit::workspace::Workspace;
 use crate::kit::{setup, shell};
 use study::Form::{Demo, Own, Part, Whole};
@@ -112,13 +112,8 @@ pub const STUDIES: &[Study] = &[
         files: &["docs/python.md", "docs/python.svg"],
         held: Step(Host, Full, "the Python wheel builds, runs its notebook in a bare environment, agrees with Pinocchio and has the bits of Core; docs/python.md is of today's code"),
         form: Demo(|bench| {
-            let python = || std::process::Command::new("python3");
-            let needs = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 10))";
-            if shell::capture(python().args(["-c", needs])).is_err() {
-                return Err(Error::Skipped("there is no Python 3.10 with venv".into()));
-            }
-            let mut python = python();
-            shell::capture(python.current_dir(&bench.workspace.root).arg("python/test.py"))
+            let mut python = bench.workspace.python()?;
+            shell::capture(python.arg("python/test.py"))
         }),
     },
     Study {

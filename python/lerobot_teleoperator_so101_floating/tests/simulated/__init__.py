@@ -1,7 +1,9 @@
-"""An SO-101 on a pseudo-terminal: servos that speak the Feetech protocol byte by byte, and the arm that they move."""
+"""An SO-101 in simulated time: servos that speak the Feetech protocol byte by byte, and the arm that they move."""
 
 from .arm import Arm, Still
 from .bus import Bus
+from .clock import Clock
+from .port import LINES, Remote, install
 from .servo import Servo
 
-__all__ = ["Arm", "Bus", "Servo", "Still"]
+__all__ = ["LINES", "Arm", "Bus", "Clock", "Remote", "Servo", "Still", "install"]

@@ -1,14 +1,15 @@
-"""The servos' bus: a pseudo-terminal, the packets on it, and faults of the line."""
+"""The servos' bus: the packets on it, and faults of the line."""
 
-import contextlib
 import os
 import pty
 import select
 import threading
-import time
 import tty
+from multiprocessing.connection import Listener
 from pathlib import Path
 
+from .clock import Clock
+from .port import LINES
 from .servo import Servo
 
 HEADER = b"\xff\xff"
@@ -22,17 +23,17 @@ def checksum(body: bytes) -> int:
 
 
 class Bus:
-    """Six servos behind a port named `port`, a symbolic link as those under /dev/serial/by-id.
+    """Six servos behind a port named `port`.
 
-    In lockstep the arm moves by `step` seconds at each synchronous read of positions, and `clock` is its time: a run is the same
-    however fast the machine is. Otherwise the arm follows the wall clock.
+    The arm moves with the clock at each synchronous read of positions, by at most `step` seconds: while LeRobot connects, for
+    a second or two, it stands. Processes of their own have ways that wait for them: `listen` for a plug-in with a simulated clock,
+    and `terminal`, a pseudo-terminal under the name of the port, for one that knows the machine's ports alone.
     """
 
-    def __init__(self, folder: Path, arm, servos: list[Servo], step: float | None = None, delay: float = 0.0):
-        self.arm, self.servos, self.step, self.delay = arm, servos, step, delay
+    def __init__(self, folder: Path, arm, servos: list[Servo], clock: Clock, step: float, terminal: bool = False):
+        self.folder, self.arm, self.servos, self.clock, self.step = folder, arm, servos, clock, step
         self.port = str(folder / "ttySO101")
         self.lock = threading.RLock()
-        self.time = 0.0
         self.received: list[tuple[int, int, bytes]] = []
         """The instructions that came: identity, instruction, parameters."""
         self.duties: list[dict[int, int]] = []
@@ -45,81 +46,74 @@ class Bus:
         """Servos of which each reply has a wrong bit."""
         self.noise = b""
         """Bytes before each reply."""
-        self._registered: dict[int, tuple[int, bytes]] = {}
-        self._buffer = b""
-        self._master = -1
-        self._slave = -1
+        self._buffer, self._replies = b"", b""
+        self._terminal = terminal
         self._stop = threading.Event()
-        self._last = time.monotonic()
+        self._last = clock.now()
         self._move(0.0)
+        LINES[self.port] = self
         self.plug_in()
-        self._thread = threading.Thread(target=self._serve, daemon=True)
-        self._thread.start()
-
-    def clock(self) -> float:
-        return self.time
 
     def plug_in(self) -> None:
-        """A new pseudo-terminal under the same name, as after an adapter was plugged in."""
-        with self.lock:
-            self._master, self._slave = pty.openpty()
-            tty.setraw(self._master)
-            link = Path(self.port)
-            link.unlink(missing_ok=True)
-            link.symlink_to(os.ttyname(self._slave))
+        """The port is there, and another one than before."""
+        self.plug = object()
+        if self._terminal:
+            master, slave = pty.openpty()
+            tty.setraw(master)
+            Path(self.port).symlink_to(os.ttyname(slave))
+            threading.Thread(target=self._serve, args=(master, slave, self.plug), daemon=True).start()
 
     def unplug(self) -> None:
         """The adapter is gone: the port fails, and nothing reaches the servos, which keep their power."""
-        with self.lock:
-            master, slave, self._master, self._slave = self._master, self._slave, -1, -1
-            os.close(slave)
-            os.close(master)
-            Path(self.port).unlink(missing_ok=True)
+        self.plug = None
+        Path(self.port).unlink(missing_ok=True)
 
     def close(self) -> None:
-        self._stop.set()
-        self._thread.join()
-        if self._master >= 0:
-            self.unplug()
-
-    def settle(self) -> None:
-        """Waits until what was sent has been read: nothing replies to a synchronous write."""
-        time.sleep(0.02)
-        while self._master >= 0 and select.select([self._master], [], [], 0)[0]:
-            time.sleep(0.01)
-        with self.lock:
-            pass
+        self.unplug()
+        LINES.pop(self.port, None)
 
     def advance(self, seconds: float, each: float = 0.005) -> None:
         """Time passes without anything on the bus."""
+        for _ in range(round(seconds / each)):
+            self.clock.sleep(each)
+            self._move(each)
+
+    def exchange(self, data: bytes) -> bytes:
+        """The replies to what came on the line."""
         with self.lock:
-            for _ in range(round(seconds / each)):
-                self._move(each)
+            self._replies = b""
+            if not self.deaf:
+                self._buffer += data
+                self._packets()
+            return self._replies
+
+    def listen(self) -> str:
+        """The address at which another process exchanges with the bus."""
+        listener = Listener(str(self.folder / "line"), family="AF_UNIX")
+
+        def serve():
+            with listener.accept() as connection:
+                try:
+                    while True:
+                        connection.send_bytes(self.exchange(connection.recv_bytes()))
+                except (EOFError, ConnectionError):
+                    pass  # The process has ended.
+
+        threading.Thread(target=serve, daemon=True).start()
+        return listener.address
+
+    def _serve(self, master: int, slave: int, plug: object) -> None:
+        while self.plug is plug:
+            if select.select([master], [], [], 0.02)[0]:
+                os.write(master, self.exchange(os.read(master, 1024)))
+        os.close(slave)
+        os.close(master)
 
     def _move(self, seconds: float) -> None:
-        self.time += seconds
         if seconds > 0.0:
             self.arm.advance(self.servos, seconds)
         for servo, angle, speed in zip(self.servos, self.arm.q, self.arm.qd, strict=True):
             servo.move(float(angle), float(speed))
-
-    def _serve(self) -> None:
-        while not self._stop.is_set():
-            master = self._master
-            if master < 0:
-                time.sleep(0.005)
-                continue
-            try:
-                if not select.select([master], [], [], 0.02)[0]:
-                    continue
-                received = os.read(master, 1024)
-            except (OSError, ValueError):
-                time.sleep(0.005)  # Nobody has the port open, or it was unplugged.
-                continue
-            with self.lock:
-                if not self.deaf:
-                    self._buffer += received
-                    self._packets()
 
     def _packets(self) -> None:
         while len(self._buffer) >= 6:
@@ -136,16 +130,13 @@ class Bus:
                 self._instruction(body[0], body[2], bytes(body[3:]))
 
     def _instruction(self, identity: int, instruction: int, parameters: bytes) -> None:
-        if self.step is None:
-            now = time.monotonic()
-            # After a pause the arm has stood still for most of it: a reply must not wait for long steps.
-            self._move(min(now - self._last, 0.02))
-            self._last = now
         by_identity = {servo.identity: servo for servo in self.servos}
         addressed = self.servos if identity == BROADCAST else [by_identity[identity]] if identity in by_identity else []
         if instruction == SYNC_READ:
-            if parameters[0] == PRESENT_POSITION and self.step is not None:
-                self._move(self.step)
+            if parameters[0] == PRESENT_POSITION:
+                now = self.clock.now()
+                self._move(min(now - self._last, self.step))
+                self._last = now
             for each in parameters[2:]:
                 if each in by_identity:
                     self._reply(by_identity[each], by_identity[each].read(parameters[0], parameters[1]))
@@ -186,7 +177,4 @@ class Bus:
         if servo.identity in self.corrupt:
             body = body[:3] + bytes([body[3] ^ 0x10]) + body[4:] if data else body
             total ^= 0 if data else 1
-        if self.delay:
-            time.sleep(self.delay)
-        with contextlib.suppress(OSError):
-            os.write(self._master, self.noise + HEADER + body + bytes([total]))
+        self._replies += self.noise + HEADER + body + bytes([total])

@@ -69,10 +69,12 @@ pub fn projects(context: &Context) -> Result<String> {
 
 /// The plug-in for LeRobot on a simulated bus.
 pub fn lerobot(context: &Context) -> Result<String> {
+    context.workspace.python()?;
     let folder = "python/lerobot_teleoperator_so101_floating";
     let script = context.workspace.root.join(folder).join("test.sh");
-    let said = shell::capture(&mut Command::new(script))?;
-    Ok(said.lines().last().unwrap_or_default().to_owned())
+    let test = |words: &[&str]| shell::capture(Command::new(&script).args(words));
+    test(&["--prepare"]).or_else(|error| skip(format!("LeRobot cannot be had: {error}")))?;
+    Ok(test(&[])?.lines().last().unwrap_or_default().to_owned())
 }
 
 pub fn debian(context: &Context) -> Result<String> {

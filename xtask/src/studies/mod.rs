@@ -141,7 +141,7 @@ pub const STUDIES: &[Study] = &[
         name: "accuracy", about: "Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration",
         files: &[
             "docs/accuracy.md", "docs/accuracy.json", "docs/accuracy-ur5e.svg", "docs/accuracy-panda.svg",
-            "docs/accuracy-a1_leg.svg", "docs/accuracy-simulation.svg",
+            "docs/accuracy-a1_leg.svg", "docs/accuracy-simulation.svg", "docs/accuracy-proven.json",
         ],
         held: Step(Target, Full, "docs/accuracy.md has today's costs and errors of single changes; what is printed as generated code keeps them"),
         form: Own(accuracy::Args::augment_args, |options, matches| accuracy::run(options, given(matches)?), accuracy::check),

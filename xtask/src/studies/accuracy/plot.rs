@@ -52,17 +52,17 @@ fn axes(
     [x, Axis::decades(names[1], [low[1], high[1] * above], 72)]
 }
 
-/// The front by the worst tick as a stair, from the cheapest down.
-fn stair(plot: &Plot, front: &[&Point]) -> Vec<(i32, i32)> {
+/// Points from the cheapest down as a stair.
+fn stair(plot: &Plot, points: impl Iterator<Item = (f64, f64)>) -> Vec<(i32, i32)> {
     let mut corners: Vec<(i32, i32)> = Vec::new();
-    for (x, y) in front.iter().map(|point| plot.at(point.place())) {
+    for (x, y) in points.map(|point| plot.at(point)) {
         corners.extend(corners.last().map(|&(_, above)| (x, above)));
         corners.push((x, y));
     }
     corners
 }
 
-/// The front by the worst tick, with names and yardsticks.
+/// The front by the worst tick, with what is proven of its points, names and yardsticks.
 pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
     let title = robot.names()[1];
     let head = format!("{title}: the cheapest inverse dynamics of each accuracy");
@@ -84,6 +84,7 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
         label(root, &head, (28, 22), TITLE, HPos::Left)?;
         let entries = [
             ("the front", BLUE, 4),
+            ("the front, proven", GREEN, 4),
             ("other single changes of the default", ORANGE, 4),
             ("errors of other causes", RED, 1),
         ];
@@ -94,7 +95,10 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
             "cycles of the worst tick (Cortex-M4F at zero wait states, modelled)",
             "largest torque error, N·m",
         ];
-        let both = axes(names, ends.map(|point| point.place()), [1.9, 1.4, 9.0]);
+        let proven = |point: &&Point| Some((point.cycles as f64, point.proven?));
+        let proven: Vec<(f64, f64)> = shown.iter().filter_map(proven).collect();
+        let ends = ends.map(|point| point.place()).chain(proven.clone());
+        let both = axes(names, ends, [1.9, 1.4, 9.0]);
         let plot = lines(root, 58, both.each_ref(), &[])?;
         let [x0, x1] = both[0].ends.map(|x| plot.at((x, 1.0)).0);
         let (mut dashed, mut said): (Vec<i32>, Vec<(i32, i32, i32)>) = Default::default();
@@ -116,8 +120,13 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
             dashed.push(y);
             said.push((x1 - 4 - wide(&words, TEXT), x1, beside));
         }
-        let corners = stair(&plot, &shown);
+        let twin = stair(&plot, proven.iter().copied());
+        let corners = stair(&plot, shown.iter().map(|point| point.place()));
+        path(root, &twin, GREEN, 2)?;
         path(root, &corners, BLUE, 2)?;
+        for place in proven {
+            dot(root, plot.at(place), 3, GREEN)?;
+        }
         // Left of a front that falls to the right there is room, and above what stands too far left; names keep clear of each
         // other and of dashed lines.
         let (mut last, mut above) = (i32::MIN / 2, 0);
@@ -149,7 +158,8 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
                     };
                     let clear = |&(from, to, y): &_| from > right || to < left || near(&y) > 14;
                     let clear = said.iter().all(clear) && dashed.iter().all(|y| near(y) > 8);
-                    right < x1 && clear && !corners.windows(2).any(meets)
+                    let mut steps = corners.windows(2).chain(twin.windows(2));
+                    right < x1 && clear && !steps.any(meets)
                 };
                 let (at, height) = choices.into_iter().find(is_free).unwrap_or((left, y + 13));
                 let (at, side) = if at < x {

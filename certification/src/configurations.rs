@@ -135,8 +135,8 @@ pub fn hashes(image: &Image, robot: &Robot) -> Result<BTreeMap<String, String>> 
     Ok(hashes)
 }
 
-/// See [`hashes`].
-fn inputs(robot: &Robot) -> String {
+/// The hash of the box and of the kernels' bits over it: see [`hashes`].
+pub fn inputs(robot: &Robot) -> String {
     let (kernels, mut hash) = (kernels(), Sha256::new());
     for joint in &robot.joints {
         let Interval { low, high } = joint.position;

@@ -60,6 +60,9 @@ pub struct Args {
     /// Prove the errors of the page's robots anew, and rewrite the page by its record with them: takes an hour of processor time
     #[arg(long, conflicts_with_all = ["chosen", "measure", "json"])]
     prove: bool,
+    /// Measure single changes anew and rewrite the rest of the page by its record
+    #[arg(long, conflicts_with_all = ["chosen", "measure", "json"])]
+    recorded: bool,
     /// Choose the most accurate configuration whose worst tick takes no more cycles than this
     #[arg(long, value_name = "CYCLES", requires = "chosen")]
     cycles: Option<u64>,
@@ -96,6 +99,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         let file = workspace.report(proven::FILE);
         workspace::write(&file, proven::prove(&workspace, &[])?)?;
     }
+    let by_record = args.prove || args.recorded;
     let mut points = recorded::read(&workspace)?;
     if let Some((budget, robot)) = choice
         && choice::shipped(&points, budget.group(robot)).is_empty()
@@ -106,15 +110,15 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     if choice.is_none() | args.measure {
         let plan = Plan {
             robots: args.robot.map_or(Robot::ALL.to_vec(), |robot| vec![robot]),
-            quick: args.prove,
+            quick: by_record,
             kind: choice.map(|(budget, robot)| budget.group(robot).1),
         };
         let mut measured = plan.run(&workspace, &setup::for_demo(options)?)?;
-        if args.prove {
+        if by_record {
             measured.points = points;
         }
         if choice.is_none() {
-            write(&workspace, &measured, args.robot, args.prove)?;
+            write(&workspace, &measured, args.robot, by_record)?;
         }
         points = measured.points;
     }

@@ -40,7 +40,7 @@ fn axes(
         low = [low[0].min(x), low[1].min(y)];
         high = [high[0].max(x), high[1].max(y)];
     }
-    let low = [low[0] / left, low[1].max(1e-9 * high[1]) / 2.0];
+    let low = [low[0] / left, low[1].max(1e-13 * high[1]) / 2.0];
     let mut x = Axis::decades(names[0], [low[0], high[0] * right], 46);
     if x.ticks.len() < 3 {
         let numbers =
@@ -80,7 +80,7 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
     let off = points
         .iter()
         .filter(|point| in_table(point) && is_off(point));
-    svg((860, 560), |root| {
+    svg((860, 720), |root| {
         label(root, &head, (28, 22), TITLE, HPos::Left)?;
         let entries = [
             ("the front", BLUE, 4),
@@ -97,7 +97,12 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
         ];
         let proven = |point: &&Point| Some((point.cycles as f64, point.proven?));
         let proven: Vec<(f64, f64)> = shown.iter().filter_map(proven).collect();
-        let ends = ends.map(|point| point.place()).chain(proven.clone());
+        // Names are pushed below their points.
+        let below = shown
+            .last()
+            .map(|last| (last.cycles as f64, last.error() / 4.0));
+        let ends = ends.map(|point| point.place());
+        let ends = ends.chain(proven.clone()).chain(below);
         let both = axes(names, ends, [1.9, 1.4, 9.0]);
         let plot = lines(root, 58, both.each_ref(), &[])?;
         let [x0, x1] = both[0].ends.map(|x| plot.at((x, 1.0)).0);
@@ -141,13 +146,14 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
                 said.push((x, x + room, y - above));
             } else if is_off {
                 let left = x + 2 - room;
-                let choices = [
-                    (x + 10, y),
-                    (x + 4, y + 13),
-                    (x + 4, y - 13),
-                    (left, y - 12),
-                ];
-                let is_free = |&(left, height): &(i32, i32)| {
+                let choices = [0, 13, -13, 22, -22, 31, -31].map(|off| {
+                    [
+                        (x + if off == 0 { 10 } else { 4 }, y + off),
+                        (left, y + off),
+                    ]
+                });
+                // Over a line if there is no other place.
+                let is_free = |beside_lines: bool, (left, height): (i32, i32)| {
                     let (right, near) = (left + room, |y: &i32| (height - y).abs());
                     let meets = |pair: &[(i32, i32)]| {
                         let [(a, b), (c, d)] = [pair[0], pair[1]];
@@ -159,15 +165,22 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
                     let clear = |&(from, to, y): &_| from > right || to < left || near(&y) > 14;
                     let clear = said.iter().all(clear) && dashed.iter().all(|y| near(y) > 8);
                     let mut steps = corners.windows(2).chain(twin.windows(2));
-                    right < x1 && clear && !steps.any(meets)
+                    right < x1 && clear && !(beside_lines && steps.any(meets))
                 };
-                let (at, height) = choices.into_iter().find(is_free).unwrap_or((left, y + 13));
+                let choices = choices.as_flattened().iter().copied();
+                let mut free = [true, false]
+                    .into_iter()
+                    .flat_map(|lines| choices.clone().filter(move |one| is_free(lines, *one)));
+                let (at, height) = free.next().unwrap_or((left, y + 13));
                 let (at, side) = if at < x {
                     (x - 8, HPos::Right)
                 } else {
                     (at, HPos::Left)
                 };
                 label(root, &words, (at, height), TEXT, side)?;
+                let from = if at < x { left } else { at };
+                drop(free);
+                said.push((from, from + room, height));
             } else {
                 let mut height = y.max(last + 17);
                 while let Some(line) = dashed.iter().find(|line| (height - **line).abs() < 10) {
@@ -178,6 +191,7 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
                     path(root, &[(x - 3, y + 3), (x - 10, height)], MUTED, 1)?;
                 }
                 last = height;
+                said.push((x - room, x, height));
             }
             dot(root, (x, y), 4, if is_off { ORANGE } else { BLUE })?;
         }

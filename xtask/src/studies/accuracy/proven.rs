@@ -19,16 +19,16 @@ pub const FILE: &str = "docs/accuracy-proven.json";
 #[group(skip)]
 pub struct StateBox {
     /// The greatest acceleration of each joint in the box, rad/s² or m/s²: 10 if not given
-    #[arg(long, value_name = "A", requires = "proven_error")]
+    #[arg(long, value_name = "A", requires = "proven_error", conflicts_with_all = ["error", "cycles"])]
     acceleration: Option<String>,
     /// The greatest speed of joints whose description has none, rad/s or m/s
-    #[arg(long, value_name = "V", requires = "proven_error")]
+    #[arg(long, value_name = "V", requires = "proven_error", conflicts_with_all = ["error", "cycles"])]
     speed: Option<String>,
     /// The greatest |q| of joints that slide and whose description has no limits, m
-    #[arg(long, value_name = "Q", requires = "proven_error")]
+    #[arg(long, value_name = "Q", requires = "proven_error", conflicts_with_all = ["error", "cycles"])]
     range: Option<String>,
     /// A narrower range of a joint, as `certify` takes it: 2:-1.5..1.5, 2:v:0.5 or 2:a:4
-    #[arg(long = "box", value_name = "RANGE", requires = "proven_error")]
+    #[arg(long = "box", value_name = "RANGE", requires = "proven_error", conflicts_with_all = ["error", "cycles"])]
     narrow: Vec<String>,
 }
 
@@ -144,7 +144,7 @@ impl Proven {
         let accelerations = self.joints.iter().map(|joint| joint.acceleration);
         let most = accelerations.fold(0.0, f64::max);
         format!(
-            "Errors are proven for every state of the joints' box: limits and rated speeds{narrower} and accelerations up to {most} rad/s². Nothing \
+            "Errors are proven for every state of the joints' box: limits, rated speeds{narrower} and accelerations up to {most} rad/s². Nothing \
              is proven of {}.",
             left_out.join("; ")
         )

@@ -12,7 +12,8 @@
 use std::collections::BTreeMap;
 
 use dynamics_core::trig::{Minimax, Table};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 
 use crate::bound::{Bounder, Enclosure, SineErrors};
 use crate::branch;
@@ -20,11 +21,12 @@ use crate::certificate::in_parallel;
 use crate::error::{Error, Result};
 use crate::graph::{Graph, Node};
 use crate::grid::{Counted, Program as Grid};
-use crate::image::Image;
+use crate::image::{self, Image};
+use crate::interval::Interval;
 use crate::program::Program;
 use crate::sines::{self, Kernel};
-use crate::state_box::Robot;
-use crate::walk::walk;
+use crate::state_box::{Joint, Robot};
+use crate::walk::{Walked, walk};
 
 /// The kernels by their names on the axis `trig`; the library's own has none.
 fn kernels() -> [(&'static str, Kernel); 9] {
@@ -59,23 +61,27 @@ const MODELS: [(&str, &str); 11] = [
 /// What has no bound here, and why.
 const LEFT_OUT: [(&str, &str); 5] = [
     (
-        "rate",
+        "reduced rates",
         "the ticks between depend on the path, not on a state",
     ),
-    ("trig=incremental", "its error depends on the ticks before"),
-    ("trig=libm, trig=micromath", "they are not the library's"),
-    (
-        "form=core",
-        "`cargo xtask certify --function core` bounds it",
-    ),
-    ("arith=f64", "its code calls routines for f64"),
+    ("carried sines", "their error depends on the ticks before"),
+    ("libm and micromath", "they are not the library's"),
+    ("core", "`cargo xtask certify --function core` bounds it"),
+    ("f64", "its code calls routines for f64"),
 ];
 
+/// The robots of `docs/accuracy.md`, and the accelerations that their paths there keep to: what is measured lies in the box.
+pub const PATHS: [(&str, f64); 3] = [("ur5e", 12.0), ("panda", 12.0), ("a1_leg", 300.0)];
+
 /// The proven errors of a robot's configurations.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Configurations {
     /// The robot's name.
     pub robot: String,
+    /// The box of states.
+    pub joints: Vec<Joint>,
+    /// What the proofs are of: see [`hashes`].
+    pub hashes: BTreeMap<String, String>,
     /// The greatest proven error of a joint, N·m or N, by the key of the configuration.
     pub proven: BTreeMap<String, f64>,
     /// What has no bound, and why.
@@ -104,37 +110,96 @@ fn key(kernel: &str, model: &str) -> String {
     }
 }
 
+/// The expression of each model, in their order.
+fn expressions(image: &Image) -> Result<Vec<Walked>> {
+    let (effects, _) = image.variable("CERTIFIED_EFFECTS")?;
+    let each = MODELS.iter().map(|(_, variable)| {
+        let address = image.variable(variable)?.1[0];
+        walk(image, address, [None, None, None, Some(effects)])
+    });
+    each.collect()
+}
+
+/// SHA-256 of what proofs are of: of the machine code of each model, by the variable that points to it, and of `inputs`, the box and the bits
+/// of each kernel's sines at some ten thousand angles.
+///
+/// # Errors
+/// [`Error::Declined`], [`Error::Missing`].
+pub fn hashes(image: &Image, robot: &Robot) -> Result<BTreeMap<String, String>> {
+    let walked = expressions(image)?;
+    let of_model = |((_, variable), walked): (&(_, &str), &Walked)| {
+        ((*variable).to_owned(), image.hash(&walked.visited))
+    };
+    let mut hashes: BTreeMap<_, _> = MODELS.iter().zip(&walked).map(of_model).collect();
+    hashes.insert("inputs".to_owned(), inputs(robot));
+    Ok(hashes)
+}
+
+/// The hash of the box and of the kernels' bits over it: see [`hashes`].
+pub fn inputs(robot: &Robot) -> String {
+    let (kernels, mut hash) = (kernels(), Sha256::new());
+    for joint in &robot.joints {
+        let Interval { low, high } = joint.position;
+        for x in [low, high, joint.speed, joint.acceleration] {
+            hash.update(x.to_le_bytes());
+        }
+        let most = joint.position.magnitude() as f32;
+        // A step that is no power of two, so that no digit of the angles stays the same.
+        let angles = (2.0_f32.powi(-30).to_bits()..=most.to_bits()).step_by(24_593);
+        for q in angles.map(f32::from_bits).filter(|_| joint.turns) {
+            for (sine, cosine) in kernels.iter().map(|(_, kernel)| kernel.pair(joint, q)) {
+                hash.update(sine.to_le_bytes());
+                hash.update(cosine.to_le_bytes());
+            }
+        }
+    }
+    image::hexadecimal(hash)
+}
+
+/// Fails unless a record is of what is there today.
+///
+/// # Errors
+/// [`Error::Unproven`], with the robot and what of it is other.
+pub fn check(
+    recorded: &[Configurations],
+    robot: &str,
+    today: &BTreeMap<String, String>,
+) -> Result<()> {
+    let recorded = recorded.iter().find(|one| one.robot == robot);
+    let is_known = |(what, hash): &(&String, &String)| {
+        recorded.is_some_and(|recorded| recorded.hashes.get(*what) == Some(*hash))
+    };
+    match today.iter().find(|one| !is_known(one)) {
+        None => Ok(()),
+        Some((what, _)) => Err(Error::Unproven {
+            robot: robot.to_owned(),
+            what: what.clone(),
+        }),
+    }
+}
+
 /// Proves them.
 ///
 /// # Errors
 /// [`Error::Declined`], [`Error::Missing`].
 pub fn prove(program: &Program, robot: &Robot, spent: Spent) -> Result<Configurations> {
     let image = Image::read(&program.elf)?;
-    let (effects, _) = image.variable("CERTIFIED_EFFECTS")?;
     let (names, kernels): (Vec<_>, Vec<_>) = kernels().into_iter().unzip();
     let errors = sines::enumerate_each(&robot.joints, &kernels);
     let mut all = Configurations {
         robot: program.robot.clone(),
+        joints: robot.joints.clone(),
+        hashes: hashes(&image, robot)?,
         left_out: LEFT_OUT
             .map(|(what, why)| (what.to_owned(), why.to_owned()))
             .into(),
         ..Configurations::default()
     };
-    let graph = |variable: &str| -> Result<Graph> {
-        let address = image.variable(variable)?.1[0];
-        Ok(walk(&image, address, [None, None, None, Some(effects)])?.graph)
-    };
-    let whole = graph(MODELS[0].1)?;
-    for (model, variable) in MODELS {
-        let own = graph(variable)?;
-        let of_whole = model.is_empty().then_some(&whole);
-        match each(
-            &own,
-            of_whole.is_none().then_some(&whole),
-            robot,
-            &errors,
-            spent,
-        ) {
+    let expressions = expressions(&image)?;
+    let whole = &expressions[0].graph;
+    for ((model, _), own) in MODELS.iter().zip(&expressions) {
+        let beside = (!model.is_empty()).then_some(whole);
+        match each(&own.graph, beside, robot, &errors, spent) {
             Some(bounds) => {
                 let keys = names.iter().map(|kernel| key(kernel, model));
                 all.proven.extend(keys.zip(bounds));

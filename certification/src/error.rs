@@ -18,6 +18,16 @@ pub enum Error {
     /// A page or file is of other machine code.
     #[error("{0} is not of today's machine code: run `cargo xtask certify --write-docs`")]
     Stale(String),
+    /// Recorded errors of configurations are of other machine code, kernels or ranges.
+    #[error(
+        "docs/accuracy-proven.json is not of today's {what} of {robot}: run `cargo xtask accuracy --prove`"
+    )]
+    Unproven {
+        /// The robot.
+        robot: String,
+        /// The variable that points to a function, or `inputs`.
+        what: String,
+    },
     /// The code does what is not proven.
     #[error("declined at {address:#010x}, instruction {instruction:#010x}: {reason}")]
     Declined {

@@ -167,9 +167,12 @@ impl Image {
                     .unwrap_or_default(),
             );
         }
-        hash.finalize()
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect()
+        hexadecimal(hash)
     }
+}
+
+/// The digits of a hash.
+pub(crate) fn hexadecimal(hash: Sha256) -> String {
+    let bytes = hash.finalize();
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

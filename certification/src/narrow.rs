@@ -20,6 +20,9 @@ pub struct Narrow {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NarrowError {
+    /// It is no greatest magnitude.
+    #[error("{0} is no magnitude: a finite number that is not negative")]
+    Magnitude(String),
     /// It is not written as one.
     #[error(
         "--box {0}: a range is JOINT:LOW..HIGH of its position, JOINT:v:MOST of its speed or JOINT:a:MOST of its acceleration"
@@ -55,6 +58,18 @@ pub enum NarrowError {
         /// From 1.
         joint: usize,
     },
+}
+
+/// The greatest magnitude of an acceleration, a speed or a position, as an option gives it.
+///
+/// # Errors
+/// [`NarrowError::Magnitude`].
+pub fn magnitude(text: &str) -> Result<f64, NarrowError> {
+    let number = text.parse().ok();
+    let is_one = |x: &f64| (0.0..f64::INFINITY).contains(x);
+    number
+        .filter(is_one)
+        .ok_or_else(|| NarrowError::Magnitude(text.to_owned()))
 }
 
 impl FromStr for Narrow {

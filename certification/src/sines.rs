@@ -20,11 +20,7 @@ const SMALL: f32 = 1.0 / 4096.0;
 
 /// The sines of a joint as the engine computes them: those for ±100 rad within two turns.
 pub fn pair(joint: &Joint, q: f32) -> (f32, f32) {
-    if is_near(joint) {
-        trig::sin_cos_near(q)
-    } else {
-        trig::sin_cos(q)
-    }
+    Kernel::NATIVE.pair(joint, q)
 }
 
 /// Whether the engine computes the sines of a joint by the kernel for two turns.
@@ -56,6 +52,12 @@ impl Kernel {
             near: K::sin_cos_near,
             far: K::sin_cos,
         }
+    }
+
+    /// As [`pair`], by this kernel.
+    pub(crate) fn pair(&self, joint: &Joint, q: f32) -> (f32, f32) {
+        let kernel = if is_near(joint) { self.near } else { self.far };
+        kernel(q)
     }
 }
 

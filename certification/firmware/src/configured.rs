@@ -2,6 +2,8 @@
 #![no_std]
 #![no_main]
 
+mod joints;
+
 use cortex_m_semihosting::debug;
 use dynamics_core::Engine;
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
@@ -15,8 +17,6 @@ include!(env!("CERTIFIED_ROBOT"));
 
 type Full = (Gravity, Inertia, Coriolis);
 type Inverse<E> = fn(StateWithTrig<'static, f32, N, N>, &E) -> [f32; N];
-
-const _: usize = B;
 
 /// The effects that each function is given; those of fewer begin as these do.
 #[used]

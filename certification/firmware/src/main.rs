@@ -5,13 +5,12 @@
 #![no_std]
 #![no_main]
 
+mod joints;
 mod measured;
-
-use core::mem::offset_of;
 
 use cortex_m_semihosting::debug;
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
-use dynamics_core::model::{BASE, JointCoordinate, JointKind, Robot as _};
+use dynamics_core::model::{BASE, JointKind, Robot as _};
 use dynamics_core::state::{JointTrig, StateWithTrig};
 use dynamics_core::{Core, Engine, MassMatrix};
 use firmware_demo::target;
@@ -22,35 +21,6 @@ include!(env!("CERTIFIED_ROBOT"));
 type Trig = JointTrig<f32, N>;
 type Full = (Gravity, Inertia, Coriolis);
 type Inverse<E> = fn(StateWithTrig<'static, f32, N, N>, &E) -> [f32; N];
-
-/// Of each joint: whether it turns, least and greatest position, greatest speed.
-#[used]
-static CERTIFIED_JOINTS: [[f32; 4]; N] = joints();
-
-const fn joints() -> [[f32; 4]; N] {
-    let (links, mut joints) = (Robot::MODEL.links, [[0.0; 4]; N]);
-    let mut i = 0;
-    while i < B {
-        let link = &links[i];
-        let turns = match link.joint.kind {
-            JointKind::Revolute | JointKind::Continuous => 1.0,
-            _ => 0.0,
-        };
-        let (_, coordinates) = link.joint.kind.coordinates();
-        assert!(coordinates < 2, "each joint has one coordinate at most");
-        if coordinates == 1 {
-            let limits = link.limits;
-            joints[link.idx_v] = [
-                turns,
-                limits.lower as f32,
-                limits.upper as f32,
-                limits.velocity as f32,
-            ];
-        }
-        i += 1;
-    }
-    joints
-}
 
 /// Of each body: its parent, its joint's kind and coordinate, placement, mass, first moment and second moments, for what is proven of
 /// the model itself.
@@ -106,15 +76,6 @@ const fn bodies() -> [[f64; 25]; B] {
     }
     bodies
 }
-
-/// Bytes between coordinates, and to sine, cosine and position in each.
-#[used]
-static CERTIFIED_TRIG: [u32; 4] = [
-    size_of::<JointCoordinate<f32>>() as u32,
-    offset_of!(JointCoordinate<f32>, sin) as u32,
-    offset_of!(JointCoordinate<f32>, cos) as u32,
-    offset_of!(JointCoordinate<f32>, q) as u32,
-];
 
 /// The effects that each function is given, which `certify` reads as they lie in memory.
 #[used]

@@ -6,10 +6,11 @@ use std::time::Instant;
 
 use certification::certificate::{self, Certificate, Function, Spent};
 use certification::check::Part;
+use certification::configurations::{Configurations, PATHS};
 use certification::error::{Error, Result};
 use certification::image::Image;
 use certification::limits::{self, Limits};
-use certification::narrow::Narrow;
+use certification::narrow::{Narrow, magnitude};
 use certification::program::{self, CLUSTERED, LIBRARY, Program};
 use certification::rows::{self, Measured, Report};
 use certification::search::Effort;
@@ -34,13 +35,13 @@ struct Args {
     )]
     function: Vec<Function>,
     /// The greatest acceleration of each joint, rad/s² or m/s²
-    #[arg(long, value_name = "A", default_value_t = 10.0)]
+    #[arg(long, value_name = "A", default_value = "10", value_parser = magnitude, allow_hyphen_values = true)]
     acceleration: f64,
     /// The greatest speed of joints whose description has none, rad/s or m/s
-    #[arg(long, value_name = "V")]
+    #[arg(long, value_name = "V", value_parser = magnitude, allow_hyphen_values = true)]
     speed: Option<f64>,
     /// The greatest |q| of joints that slide and whose description has no limits, m
-    #[arg(long, value_name = "Q")]
+    #[arg(long, value_name = "Q", value_parser = magnitude, allow_hyphen_values = true)]
     range: Option<f64>,
     /// A narrower range of a joint's position, JOINT:LOW..HIGH, speed, JOINT:v:MOST, or acceleration, JOINT:a:MOST, in rad or m and s; joints
     /// count from 1, and --box 2:-1.5..1.5,2:v:0.5 has two
@@ -78,8 +79,9 @@ struct Args {
     /// Only write each result as a benchmark in the form of FPBench into this directory: FUNCTION_ROBOT.fpcore
     #[arg(long, value_name = "DIR", conflicts_with_all = ["json", "gappa", "sampled", "write_docs", "hashes"])]
     fpcore: Option<PathBuf>,
-    /// Only prove the errors of the configurations of `cargo xtask accuracy`, and print them as JSON
-    #[arg(long, requires = "robot", conflicts_with_all = ["fpcore", "gappa", "sampled", "write_docs", "hashes"])]
+    /// Only prove the errors of the configurations of `cargo xtask accuracy`, and print them as JSON; of the robots of docs/accuracy.md, over boxes
+    /// that their paths lie in, if no robot is given
+    #[arg(long, conflicts_with_all = ["fpcore", "gappa", "sampled", "write_docs", "hashes"])]
     configurations: bool,
     /// Only let Gappa and Coq check a sample of parts of the box, and refuse wrong ones
     #[arg(long, conflicts_with_all = ["write_docs", "hashes"])]
@@ -143,6 +145,7 @@ const KEPT: [(&str, Function, &str); 3] = [
 ];
 const FOLDER: &str = "docs/fpbench";
 const PICTURE: &str = "docs/certificates.svg";
+const CONFIGURED: &str = "docs/accuracy-proven.json";
 
 fn main() -> ExitCode {
     match run(&Args::parse()) {
@@ -166,6 +169,16 @@ fn run(args: &Args) -> Result<String> {
     if let Some(path) = &args.rows {
         return rows(path);
     }
+    if args.configurations {
+        let spent = configurations::Spent {
+            points: args.points.unwrap_or(CONFIGURED_POINTS),
+            parts: args.parts.min(CONFIGURED_PARTS),
+        };
+        let prove = |(program, robot)| configurations::prove(&program, &robot, spent);
+        let all = configured(args)?.into_iter().map(prove);
+        let all = all.collect::<Result<Vec<_>>>()?;
+        return serde_json::to_string_pretty(&all).map_err(|e| Error::Robot(e.to_string()));
+    }
     let robots: Vec<&str> = match &args.robot {
         Some(robot) => vec![robot],
         None => {
@@ -177,22 +190,8 @@ fn run(args: &Args) -> Result<String> {
         .iter()
         .map(|robot| program::build(robot, &args.options))
         .collect::<Result<Vec<_>>>()?;
-    let boxed = |program: &Program| {
-        let mut robot = Robot::read(
-            &Image::read(&program.elf)?,
-            args.acceleration,
-            args.speed,
-            args.range,
-        )?;
-        for range in &args.narrow {
-            range.apply(&mut robot)?;
-        }
-        Ok(robot)
-    };
+    let boxed = |program: &Program| boxed(args, program, args.acceleration);
     let robots: Vec<Robot> = programs.iter().map(boxed).collect::<Result<_>>()?;
-    if args.configurations {
-        return configurations(args, &robots);
-    }
     if args.hashes {
         for program in &programs {
             let image = Image::read(&program.elf)?;
@@ -205,7 +204,15 @@ fn run(args: &Args) -> Result<String> {
                 return Err(Error::Stale(format!("{FOLDER}/{name}")));
             }
         }
-        return Ok(format!("{PAGE} and {FOLDER} are of today's machine code"));
+        let recorded = std::fs::read_to_string(docs.join(CONFIGURED)).unwrap_or_default();
+        let recorded: Vec<Configurations> = serde_json::from_str(&recorded).unwrap_or_default();
+        for (program, robot) in configured(args)? {
+            let today = configurations::hashes(&Image::read(&program.elf)?, &robot)?;
+            configurations::check(&recorded, &program.robot, &today)?;
+        }
+        return Ok(format!(
+            "{PAGE}, {FOLDER} and {CONFIGURED} are of today's machine code"
+        ));
     }
     if args.writes(Part::Certificates) || args.writes(Part::Clusters) {
         for (path, text) in kept(&docs, &programs, &robots)? {
@@ -263,19 +270,26 @@ fn run(args: &Args) -> Result<String> {
     finish(args, &docs, &certificates, limits.first(), written)
 }
 
-/// The proven errors of the configurations of a robot, as JSON.
-fn configurations(args: &Args, robots: &[Robot]) -> Result<String> {
-    let name = args.robot.as_deref().unwrap_or_default();
-    let program = program::configured(name, &args.options)?;
-    let spent = configurations::Spent {
-        points: args.points.unwrap_or(CONFIGURED_POINTS),
-        parts: CONFIGURED_PARTS,
-    };
-    let robot = robots
-        .first()
-        .ok_or_else(|| Error::Missing("robot".to_owned()))?;
-    let all = configurations::prove(&program, robot, spent)?;
-    serde_json::to_string_pretty(&all).map_err(|e| Error::Robot(e.to_string()))
+/// The box of a program's robot.
+fn boxed(args: &Args, program: &Program, acceleration: f64) -> Result<Robot> {
+    let image = Image::read(&program.elf)?;
+    let mut robot = Robot::read(&image, acceleration, args.speed, args.range)?;
+    for range in &args.narrow {
+        range.apply(&mut robot)?;
+    }
+    Ok(robot)
+}
+
+/// The programs of configurations, each with its robot's box.
+fn configured(args: &Args) -> Result<Vec<(Program, Robot)>> {
+    let chosen = args.robot.as_deref().map(|name| (name, args.acceleration));
+    let robots = chosen.map_or(PATHS.to_vec(), |chosen| vec![chosen]);
+    let each = robots.into_iter().map(|(name, acceleration)| {
+        let program = program::configured(name, &args.options)?;
+        let robot = boxed(args, &program, acceleration)?;
+        Ok((program, robot))
+    });
+    each.collect()
 }
 
 /// The part of the page that has a program's certificates.

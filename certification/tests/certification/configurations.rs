@@ -1,13 +1,19 @@
 //! The proven errors of other kernels of sines and of other models, against what is observed of them.
 
 use certification::bound::SineErrors;
-use certification::configurations::{Spent, each};
+use certification::certificate::{Function, expression};
+use certification::check;
+use certification::configurations::{self, Configurations, Spent, each};
+use certification::error::Error;
 use certification::graph::{Graph, Input};
 use certification::search::Evaluation;
 use certification::state_box::{Leaf, Robot};
 use dynamics_core::trig::{Kernel as _, Table};
 
-use super::recorded::{GRAVITY, RNEA, SINES, graph, robot};
+use certification::image::Image;
+use certification::narrow::{NarrowError, magnitude};
+
+use super::recorded::{BASE, EFFECTS, GRAVITY, RNEA, SINES, bytes, graph, robot};
 
 const SPENT: Spent = Spent {
     points: 20_000,
@@ -93,4 +99,84 @@ fn a_model_that_leaves_terms_out_needs_its_distance() {
     // The same model twice has no distance, and little more than its own bound.
     let twice = of(Some(&own));
     assert!(twice < 3.0 * alone, "{twice:e} {alone:e}");
+}
+
+/// A program whose variables point to this code and to its effects.
+fn program(mut code: Vec<u8>) -> Image {
+    let (size, effects) = (code.len() as u32, bytes(EFFECTS));
+    let pointer = size + effects.len() as u32;
+    code.extend(effects);
+    code.extend((BASE | 1).to_le_bytes());
+    Image::of(BASE, &code)
+        .with_function("gravity", BASE, size)
+        .with_function("CERTIFIED_EFFECTS", BASE + size, pointer - size)
+        .with_function("CERTIFIED_GRAVITY", BASE + pointer, 4)
+}
+
+#[test]
+fn a_page_of_other_machine_code_is_stale() {
+    let image = program(bytes(GRAVITY));
+    let walked = expression(&image, Function::Gravity).expect("it is straight-line");
+    let hash = image.hash(&walked.visited);
+    let stale = |image: &Image, page: &str| {
+        let checked = check::hashes(image, &[Function::Gravity], "ur5e", page);
+        checked.err().map(|error| error.to_string())
+    };
+    let page = format!("| gravity | `{hash}` |");
+    assert_eq!(stale(&image, &page), None);
+    // One digit of the page, and one bit of a literal behind the code.
+    let digit = if hash.starts_with('0') { "1" } else { "0" };
+    let said = stale(
+        &image,
+        &page.replace(&hash, &format!("{digit}{}", &hash[1..])),
+    );
+    assert!(said.is_some_and(|said| said.contains("ur5e") && said.contains("not of today's")));
+    let mut code = bytes(GRAVITY);
+    *code.last_mut().expect("a literal") ^= 1;
+    assert!(stale(&program(code), &page).is_some());
+}
+
+#[test]
+fn a_record_of_other_code_or_robots_is_refused() {
+    let today = [("CONFIGURED_FULL", "5a"), ("inputs", "c3")];
+    let today = today.map(|(what, hash)| (what.to_owned(), hash.to_owned()));
+    let today = std::collections::BTreeMap::from(today);
+    let record = |change: fn(&mut Configurations)| {
+        let mut one = Configurations {
+            robot: "ur5e".to_owned(),
+            hashes: today.clone(),
+            ..Configurations::default()
+        };
+        change(&mut one);
+        configurations::check(&[one], "ur5e", &today)
+    };
+    assert!(record(|_| ()).is_ok());
+    let other = record(|one| {
+        one.hashes
+            .insert("inputs".to_owned(), "c4".to_owned())
+            .map_or((), drop)
+    });
+    assert!(matches!(other, Err(Error::Unproven { what, .. }) if what == "inputs"));
+    assert!(record(|one| one.hashes.clear()).is_err());
+    assert!(record(|one| one.robot = "panda".to_owned()).is_err());
+    // The box is an input: another speed is another hash.
+    let (one, mut other) = (robot(2), robot(2));
+    assert_eq!(
+        configurations::inputs(&one),
+        configurations::inputs(&robot(2))
+    );
+    other.joints[1].speed += 1.0;
+    assert_ne!(configurations::inputs(&one), configurations::inputs(&other));
+}
+
+#[test]
+fn a_magnitude_is_finite_and_not_negative() {
+    assert_eq!(magnitude("4.5"), Ok(4.5));
+    assert_eq!(magnitude("0"), Ok(0.0));
+    for wrong in ["-1", "nan", "inf", "fast", ""] {
+        assert_eq!(
+            magnitude(wrong),
+            Err(NarrowError::Magnitude(wrong.to_owned()))
+        );
+    }
 }

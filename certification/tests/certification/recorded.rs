@@ -12,7 +12,7 @@ use certification::walk::walk;
 pub const RNEA: &str = include_str!("ur5e_rnea.hex");
 pub const GRAVITY: &str = include_str!("ur5e_gravity.hex");
 /// `RIGID_BODY` in memory.
-const EFFECTS: &str = "1f85eb51b89e2340c3f51c4100000000";
+pub const EFFECTS: &str = "1f85eb51b89e2340c3f51c4100000000";
 pub const BASE: u32 = 0x0800_0000;
 
 pub fn bytes(hex: &str) -> Vec<u8> {

@@ -55,6 +55,14 @@ pub struct Args {
     #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
     #[arg(requires = "chosen", conflicts_with_all = ["cycles", "error"])]
     proven_error: Option<Allowed>,
+    #[command(flatten)]
+    state_box: proven::StateBox,
+    /// Prove the errors of the page's robots anew, and rewrite the page by its record with them: takes an hour of processor time
+    #[arg(long, conflicts_with_all = ["chosen", "measure", "json"])]
+    prove: bool,
+    /// Measure single changes anew and rewrite the rest of the page by its record
+    #[arg(long, conflicts_with_all = ["chosen", "measure", "json"])]
+    recorded: bool,
     /// Choose the most accurate configuration whose worst tick takes no more cycles than this
     #[arg(long, value_name = "CYCLES", requires = "chosen")]
     cycles: Option<u64>,
@@ -76,7 +84,10 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         (None, cycles) => cycles.map(Budget::Cycles),
     };
     if let Some(robot) = args.own.robot(&Workspace::find()?, own::MOST_JOINTS)? {
-        let proven = args.proven_error.map(|_| args.own.words());
+        let words = args.own.words().into_iter().map(str::to_owned);
+        let words = [String::from("--robot")].into_iter().chain(words);
+        let proven = args.proven_error;
+        let proven = proven.map(|_| words.chain(args.state_box.words()).collect());
         return own::run(options, &robot, budget, proven, args.json);
     }
     let choice = budget.zip(args.robot);
@@ -84,6 +95,11 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         None => Workspace::for_reports()?,
         Some(_) => Workspace::find()?,
     };
+    if args.prove {
+        let file = workspace.report(proven::FILE);
+        workspace::write(&file, proven::prove(&workspace, &[])?)?;
+    }
+    let by_record = args.prove || args.recorded;
     let mut points = recorded::read(&workspace)?;
     if let Some((budget, robot)) = choice
         && choice::shipped(&points, budget.group(robot)).is_empty()
@@ -94,12 +110,15 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     if choice.is_none() | args.measure {
         let plan = Plan {
             robots: args.robot.map_or(Robot::ALL.to_vec(), |robot| vec![robot]),
-            quick: false,
+            quick: by_record,
             kind: choice.map(|(budget, robot)| budget.group(robot).1),
         };
-        let measured = plan.run(&workspace, &setup::for_demo(options)?)?;
+        let mut measured = plan.run(&workspace, &setup::for_demo(options)?)?;
+        if by_record {
+            measured.points = points;
+        }
         if choice.is_none() {
-            write(&workspace, &measured, args.robot)?;
+            write(&workspace, &measured, args.robot, by_record)?;
         }
         points = measured.points;
     }
@@ -112,9 +131,15 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     };
     let mut points = choice::shipped(&points, budget.group(robot));
     if args.proven_error.is_some() {
-        let proven = proven::Proven::of(&workspace, &[robot.name()])?;
-        points = proven.points(&points)?;
-        output::note(&proven.note());
+        let given = args.state_box.words();
+        let named = ["--robot", robot.name()].map(str::to_owned);
+        let proven = match given.is_empty() && !args.measure {
+            true => proven::recorded(&workspace)?,
+            false => proven::parsed(&proven::prove(&workspace, &[&named[..], &given].concat())?)?,
+        };
+        let (of_them, note) = proven::chosen(&proven, points)?;
+        points = of_them;
+        output::note(&note);
     }
     show(budget, &points, args.json)?;
     if !args.json && !args.measure {
@@ -151,6 +176,7 @@ pub fn check(bench: &Bench<'_>) -> Result<String> {
     page::README.check(workspace, &brief, Some(rustc))?;
     let recorded = recorded::read(workspace)?;
     recorded::check(&recorded, single)?;
+    let proven = proven::check(&recorded)?;
     // Parts and pictures of a whole run, by its record, and by the compiler that they name.
     page::NAMES.check(workspace, &names::glossary(), None)?;
     let text = workspace::read(&workspace.root.join(page::FILE))?;
@@ -171,13 +197,18 @@ pub fn check(bench: &Bench<'_>) -> Result<String> {
         .collect::<Result<Vec<String>>>()?
         .join("; ");
     Ok(format!(
-        "{} configurations, {generated} of them as printed; {pictures} pictures as recorded; {saved}",
+        "{} configurations, {generated} of them as printed; {proven} with a proven error; {pictures} pictures as recorded; {saved}",
         single.len()
     ))
 }
 
-/// Rewrites the page's parts that this run has all of, and their pictures; all of them or none.
-fn write(workspace: &Workspace, measured: &Measured, only: Option<Robot>) -> Result<()> {
+/// Rewrites the page's parts that this run has all of, and their pictures; all of them or none. What is recorded keeps its compiler.
+fn write(
+    workspace: &Workspace,
+    measured: &Measured,
+    only: Option<Robot>,
+    is_recorded: bool,
+) -> Result<()> {
     let (points, host, rustc) = (&measured.points, &measured.host, &measured.rustc);
     let mut text = workspace::read(&workspace.root.join(page::FILE))?;
     let mut files: Vec<(PathBuf, String)> = vec![recorded::replaced(workspace, points)?];
@@ -185,7 +216,10 @@ fn write(workspace: &Workspace, measured: &Measured, only: Option<Robot>) -> Res
     for robot in Robot::ALL.into_iter().filter(is_whole) {
         let pictures = page::pictures(points, host, robot)?.into_iter();
         files.extend(pictures.map(|(file, svg)| (workspace.report(&file), svg)));
-        text = page::page_of(robot).replaced(&text, &page::text(points, host, robot, rustc))?;
+        let part = page::page_of(robot);
+        let by = docs::rustc_of(part.written(&text)?).filter(|_| is_recorded);
+        let fresh = page::text(points, host, robot, by.unwrap_or(rustc));
+        text = part.replaced(&text, &fresh)?;
     }
     if only.is_none() {
         let single = &measured.single;

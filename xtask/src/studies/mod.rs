@@ -97,7 +97,7 @@ pub const STUDIES: &[Study] = &[
         files: &[
             "docs/certificates.md", "docs/certificates.svg", "docs/fpbench/four_bar.fpcore", "docs/fpbench/gravity_so101.fpcore", "docs/fpbench/rnea_ur5e.fpcore",
         ],
-        held: Step(Target, Full, "docs/certificates.md has the hashes of today's machine code; Gappa and Coq accept parts of the proofs, and refuse wrong ones"),
+        held: Step(Target, Full, "docs/certificates.md and docs/accuracy-proven.json have the hashes of today's machine code; Gappa and Coq accept parts of the proofs, and refuse wrong ones"),
         form: Demo(|bench| {
             setup::provers(bench.options.without_questions())?;
             let words = "--quiet --profile simulated --package certification --".split(' ');
@@ -136,7 +136,7 @@ pub const STUDIES: &[Study] = &[
         name: "accuracy", about: "Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration",
         files: &[
             "docs/accuracy.md", "docs/accuracy.json", "docs/accuracy-ur5e.svg", "docs/accuracy-panda.svg",
-            "docs/accuracy-a1_leg.svg", "docs/accuracy-simulation.svg",
+            "docs/accuracy-a1_leg.svg", "docs/accuracy-simulation.svg", "docs/accuracy-proven.json",
         ],
         held: Step(Target, Full, "docs/accuracy.md has today's costs and errors of single changes; what is printed as generated code keeps them"),
         form: Own(accuracy::Args::augment_args, |options, matches| accuracy::run(options, given(matches)?), accuracy::check),

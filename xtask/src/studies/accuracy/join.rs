@@ -5,6 +5,7 @@ use serde_json::json;
 
 use super::front;
 use super::point::{Kind, Point};
+use super::proven::Proven;
 use crate::kit::error::{Result, bail, check};
 use crate::kit::rows::Row;
 
@@ -15,7 +16,11 @@ const KNOWN: f64 = 1e-13;
 pub type Bin = (&'static str, &'static str, Row);
 
 #[derive(Default)]
-pub struct Host(Vec<Line>);
+pub struct Host {
+    lines: Vec<Line>,
+    /// The recorded proofs.
+    pub proven: Vec<Proven>,
+}
 
 /// A line: a configuration without its costs, and what lines of other kinds than these have.
 #[derive(Debug, Default, Deserialize)]
@@ -50,13 +55,16 @@ impl Host {
                 check!("the host's line {text:?} cannot be understood: {e}")
             })
         };
-        lines.lines().map(line).collect::<Result<_>>().map(Self)
+        Ok(Self {
+            lines: lines.lines().map(line).collect::<Result<_>>()?,
+            proven: Vec::new(),
+        })
     }
 
     /// The lines of a kind about a robot.
     pub fn of(&self, kind: Kind, robot: &str) -> impl Iterator<Item = &Line> {
         let of = move |line: &&Line| line.point.kind == kind && line.point.robot == robot;
-        self.0.iter().filter(of)
+        self.lines.iter().filter(of)
     }
 
     /// The error of a robot's default over states anywhere, as a share of full scale.
@@ -76,7 +84,7 @@ pub fn join(host: &Host, measured: &[Bin]) -> Result<Vec<Point>> {
             known && json!(line.point.kind) == **kind
         };
         let before = points.len();
-        let ways = host.0.iter().filter(of);
+        let ways = host.lines.iter().filter(of);
         points.extend(ways.map(|way| way.costing(row, opt)));
         if points.len() == before {
             bail!("the host knows no error of {robot} {kind} {key}");

@@ -5,6 +5,7 @@ use std::path::Path;
 use super::join::{self, Bin, Host};
 use super::point::{Kind, Point};
 use super::printed::{self, PRINTED};
+use super::proven;
 use crate::kit::bracket::{self, READINGS};
 use crate::kit::error::{Result, check};
 use crate::kit::progress::Spinner;
@@ -126,15 +127,18 @@ impl Plan {
             let lost = |_| Err(check!("the host's errors were not computed"));
             (rows, host.join().unwrap_or_else(lost))
         });
-        let ((mut rows, shares), host) = (rows?, Host::read(&lines?)?);
+        let ((mut rows, shares), mut host) = (rows?, Host::read(&lines?)?);
+        host.proven = proven::recorded(workspace)?;
         let single: Vec<_> = rows.extract_if(.., |(bin, ..)| *bin == QUICK_BIN).collect();
         let mut single = join::join(&host, &single)?;
         let is_generated = |point: &mut Point| point.kind == Kind::Generated;
         let generated = single.extract_if(.., is_generated).collect();
-        let points = match self.quick {
+        proven::attach(&host.proven, &mut single);
+        let mut points = match self.quick {
             true => single.clone(),
             false => join::join(&host, &rows)?,
         };
+        proven::attach(&host.proven, &mut points);
         let rustc = tools.toolchain.rustc_version()?;
         Ok(Measured {
             points,

@@ -8,7 +8,7 @@ use super::join::{Host, join};
 use super::measure::ACCURACY;
 use super::page;
 use super::point::{Kind, Point};
-use super::proven::Proven;
+use super::proven;
 use crate::kit::error::{Result, bail, check};
 use crate::kit::firmware::{OWN_ROBOTS, build_own, variable};
 use crate::kit::meter::MODEL;
@@ -29,7 +29,7 @@ pub fn run(
     options: Options,
     robot: &OwnRobot,
     budget: Option<Budget>,
-    proven: Option<Vec<&str>>,
+    proven: Option<Vec<String>>,
     json: bool,
 ) -> Result<ExitCode> {
     if let Some(Budget::Error(allowed)) = budget
@@ -38,18 +38,19 @@ pub fn run(
         bail!("of a robot from a file only torques are measured: --error 0.05Nm");
     }
     let workspace = Workspace::find()?;
+    // First, since it refuses what is no box.
+    let proven = proven.map(|words| proven::parsed(&proven::prove(&workspace, &words)?));
+    let proven = proven.transpose()?;
     let points = measure(&workspace, &setup::for_demo(options)?, robot)?;
     if let Some(budget) = budget {
         let mut points = shipped(&points, (&*robot.name, Kind::Inverse, ""));
-        if let Some(words) = &proven {
-            let proven = Proven::of(&workspace, words)?;
-            points = proven.points(&points)?;
-            output::note(&proven.note());
+        let mut errors = REFERENCE.to_owned();
+        if let Some(proven) = &proven {
+            (points, errors) = proven::chosen(proven, points)?;
         }
         super::show(budget, &points, json)?;
         output::note(&format!(
-            "\n`crate::robot` is the file of `cargo xtask import`. {}",
-            proven.map_or(REFERENCE, |_| "")
+            "\n`crate::robot` is the file of `cargo xtask import`. {errors}"
         ));
     } else if json {
         docs::print_json(&points)?;

@@ -7,6 +7,7 @@ use super::join::{Host, Line};
 use super::measure::Robot;
 use super::names::{cycles, digits, name, stated};
 use super::point::{Kind, Point, of_group};
+use super::proven::Proven;
 use super::{front, plot};
 use crate::kit::docs::Page;
 use crate::kit::error::{Result, check, refuse_if};
@@ -90,9 +91,11 @@ pub fn steps<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
 /// Rows by their names, with the columns of these numbers, each with what it is called.
 fn table(rows: &[(String, &Point)], first: &str, columns: &str) -> Table {
     let default = rows.iter().find(|(_, point)| point.is_default());
+    let is_proven = rows.iter().any(|(_, point)| point.proven.is_some());
     let columns = columns.split("; ").filter_map(|column| {
         let (number, head) = column.split_once(' ')?;
-        Some((number.parse::<usize>().ok()?, head))
+        let number = number.parse::<usize>().ok()?;
+        (number != PROVEN || is_proven).then_some((number, head))
     });
     let (numbers, heads): (Vec<_>, Vec<_>) = columns.unzip();
     let mut table = Table::new(&[&[first], &heads[..]].concat());
@@ -115,6 +118,7 @@ fn table(rows: &[(String, &Point)], first: &str, columns: &str) -> Table {
             relative,
             cycles(point.cycles as f64 * step),
             stated(point.drift),
+            stated(point.proven),
         ];
         let row = numbers.iter().map(|number| cells[*number].clone());
         table.row(std::iter::once(name.clone()).chain(row));
@@ -140,9 +144,12 @@ fn percent(ratio: f64) -> String {
     format!("{ratio:.0} ×")
 }
 
-const COSTS: &str = "0 insn; 1 worst tick; 3 mean; 5 max, N·m; 6 99 %; 7 RMS; 8 of full scale";
-const FRONTS: &str = "0 insn; 1 worst tick; 3 mean; 5 max error; 8 of full scale";
-const SHARES: &str = "1 worst tick; 2 of default's; 3 mean; 4 of default's; 5 max, N·m; 6 99 %; 7 RMS; 8 of full scale";
+/// The column that is left out of a robot of which nothing is proven.
+const PROVEN: usize = 11;
+const COSTS: &str =
+    "0 insn; 1 worst tick; 3 mean; 5 max, N·m; 11 proven, N·m; 6 99 %; 7 RMS; 8 of full scale";
+const FRONTS: &str = "0 insn; 1 worst tick; 3 mean; 5 max error; 11 proven; 8 of full scale";
+const SHARES: &str = "1 worst tick; 2 of default's; 3 mean; 4 of default's; 5 max, N·m; 11 proven, N·m; 6 99 %; 7 RMS; 8 of full scale";
 const BRIEF: &str = "1 worst tick, cycles; 3 mean; 5 largest error, N·m; 8 of full scale";
 const STEPS: &str = "1 cycles a second; 9 a step; 5 max, rad; 6 99 %; 7 RMS; 10 energy drift";
 const SPEEDS: &str = "5 max, N·m; 8 of full scale";
@@ -214,6 +221,12 @@ fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
         text += &format!(
             "Within {error} of full scale, the cheapest worst tick is {tick} of the default's (*{worst}*) and the \
              cheapest mean {ticks} (*{mean}*).\n\n"
+        );
+    }
+    if let Some(proven) = Proven::of(&host.proven, robot.name()) {
+        text += &format!(
+            "{} The path of the measured errors lies in the box.\n\n",
+            proven.note("")
         );
     }
     for (cost, which) in ["worst tick", "mean over ticks"].into_iter().enumerate() {

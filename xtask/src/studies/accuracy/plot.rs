@@ -40,7 +40,7 @@ fn axes(
         low = [low[0].min(x), low[1].min(y)];
         high = [high[0].max(x), high[1].max(y)];
     }
-    let low = [low[0] / left, low[1].max(1e-9 * high[1]) / 2.0];
+    let low = [low[0] / left, low[1].max(1e-13 * high[1]) / 2.0];
     let mut x = Axis::decades(names[0], [low[0], high[0] * right], 46);
     if x.ticks.len() < 3 {
         let numbers =
@@ -52,17 +52,17 @@ fn axes(
     [x, Axis::decades(names[1], [low[1], high[1] * above], 72)]
 }
 
-/// The front by the worst tick as a stair, from the cheapest down.
-fn stair(plot: &Plot, front: &[&Point]) -> Vec<(i32, i32)> {
+/// Points from the cheapest down as a stair.
+fn stair(plot: &Plot, points: impl Iterator<Item = (f64, f64)>) -> Vec<(i32, i32)> {
     let mut corners: Vec<(i32, i32)> = Vec::new();
-    for (x, y) in front.iter().map(|point| plot.at(point.place())) {
+    for (x, y) in points.map(|point| plot.at(point)) {
         corners.extend(corners.last().map(|&(_, above)| (x, above)));
         corners.push((x, y));
     }
     corners
 }
 
-/// The front by the worst tick, with names and yardsticks.
+/// The front by the worst tick, with what is proven of its points, names and yardsticks.
 pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
     let title = robot.names()[1];
     let head = format!("{title}: the cheapest inverse dynamics of each accuracy");
@@ -80,10 +80,11 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
     let off = points
         .iter()
         .filter(|point| in_table(point) && is_off(point));
-    svg((860, 560), |root| {
+    svg((860, 720), |root| {
         label(root, &head, (28, 22), TITLE, HPos::Left)?;
         let entries = [
             ("the front", BLUE, 4),
+            ("the front, proven", GREEN, 4),
             ("other single changes of the default", ORANGE, 4),
             ("errors of other causes", RED, 1),
         ];
@@ -94,7 +95,15 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
             "cycles of the worst tick (Cortex-M4F at zero wait states, modelled)",
             "largest torque error, N·m",
         ];
-        let both = axes(names, ends.map(|point| point.place()), [1.9, 1.4, 9.0]);
+        let proven = |point: &&Point| Some((point.cycles as f64, point.proven?));
+        let proven: Vec<(f64, f64)> = shown.iter().filter_map(proven).collect();
+        // Names are pushed below their points.
+        let below = shown
+            .last()
+            .map(|last| (last.cycles as f64, last.error() / 4.0));
+        let ends = ends.map(|point| point.place());
+        let ends = ends.chain(proven.clone()).chain(below);
+        let both = axes(names, ends, [1.9, 1.4, 9.0]);
         let plot = lines(root, 58, both.each_ref(), &[])?;
         let [x0, x1] = both[0].ends.map(|x| plot.at((x, 1.0)).0);
         let (mut dashed, mut said): (Vec<i32>, Vec<(i32, i32, i32)>) = Default::default();
@@ -116,8 +125,13 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
             dashed.push(y);
             said.push((x1 - 4 - wide(&words, TEXT), x1, beside));
         }
-        let corners = stair(&plot, &shown);
+        let twin = stair(&plot, proven.iter().copied());
+        let corners = stair(&plot, shown.iter().map(|point| point.place()));
+        path(root, &twin, GREEN, 2)?;
         path(root, &corners, BLUE, 2)?;
+        for place in proven {
+            dot(root, plot.at(place), 3, GREEN)?;
+        }
         // Left of a front that falls to the right there is room, and above what stands too far left; names keep clear of each
         // other and of dashed lines.
         let (mut last, mut above) = (i32::MIN / 2, 0);
@@ -132,13 +146,14 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
                 said.push((x, x + room, y - above));
             } else if is_off {
                 let left = x + 2 - room;
-                let choices = [
-                    (x + 10, y),
-                    (x + 4, y + 13),
-                    (x + 4, y - 13),
-                    (left, y - 12),
-                ];
-                let is_free = |&(left, height): &(i32, i32)| {
+                let choices = [0, 13, -13, 22, -22, 31, -31].map(|off| {
+                    [
+                        (x + if off == 0 { 10 } else { 4 }, y + off),
+                        (left, y + off),
+                    ]
+                });
+                // Over a line if there is no other place.
+                let is_free = |beside_lines: bool, (left, height): (i32, i32)| {
                     let (right, near) = (left + room, |y: &i32| (height - y).abs());
                     let meets = |pair: &[(i32, i32)]| {
                         let [(a, b), (c, d)] = [pair[0], pair[1]];
@@ -149,15 +164,23 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
                     };
                     let clear = |&(from, to, y): &_| from > right || to < left || near(&y) > 14;
                     let clear = said.iter().all(clear) && dashed.iter().all(|y| near(y) > 8);
-                    right < x1 && clear && !corners.windows(2).any(meets)
+                    let mut steps = corners.windows(2).chain(twin.windows(2));
+                    right < x1 && clear && !(beside_lines && steps.any(meets))
                 };
-                let (at, height) = choices.into_iter().find(is_free).unwrap_or((left, y + 13));
+                let choices = choices.as_flattened().iter().copied();
+                let mut free = [true, false]
+                    .into_iter()
+                    .flat_map(|lines| choices.clone().filter(move |one| is_free(lines, *one)));
+                let (at, height) = free.next().unwrap_or((left, y + 13));
                 let (at, side) = if at < x {
                     (x - 8, HPos::Right)
                 } else {
                     (at, HPos::Left)
                 };
                 label(root, &words, (at, height), TEXT, side)?;
+                let from = if at < x { left } else { at };
+                drop(free);
+                said.push((from, from + room, height));
             } else {
                 let mut height = y.max(last + 17);
                 while let Some(line) = dashed.iter().find(|line| (height - **line).abs() < 10) {
@@ -168,6 +191,7 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
                     path(root, &[(x - 3, y + 3), (x - 10, height)], MUTED, 1)?;
                 }
                 last = height;
+                said.push((x - room, x, height));
             }
             dot(root, (x, y), 4, if is_off { ORANGE } else { BLUE })?;
         }

@@ -44,6 +44,9 @@ pub struct Point {
     pub unit: String,
     /// `error_max` as a share of full scale.
     pub relative_max: Option<f64>,
+    /// What no joint's |error| exceeds in any state of the joints' box.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proven: Option<f64>,
     /// No other one is as accurate for less, in the worst tick or in the mean.
     pub front: bool,
     /// By less in the worst tick, by less in the mean.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::front;
 use super::page::COMMAND;
 use super::point::Point;
+use super::proven;
 use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::workspace::{self, Workspace};
 
@@ -19,6 +20,7 @@ pub fn read(workspace: &Workspace) -> Result<Vec<Point>> {
     let mut points: Vec<Point> = serde_json::from_str(&text)
         .map_err(|e| check!("{FILE}: {e}; `{COMMAND}` writes it anew"))?;
     front::mark(&mut points);
+    proven::attach(&proven::recorded(workspace)?, &mut points);
     Ok(points)
 }
 
@@ -28,6 +30,8 @@ pub fn replaced(workspace: &Workspace, measured: &[Point]) -> Result<(PathBuf, S
     points.retain(|old| !measured.iter().any(|new| new.group() == old.group()));
     points.extend_from_slice(measured);
     points.sort_by(|a, b| a.group().cmp(&b.group()));
+    // Proofs have a file of their own.
+    points.iter_mut().for_each(|point| point.proven = None);
     let line = |point| serde_json::to_string(point).map_err(|e| check!("cannot write {FILE}: {e}"));
     let lines = points.iter().map(line).collect::<Result<Vec<_>>>()?;
     let text = format!("[\n{}\n]\n", lines.join(",\n"));

@@ -1,5 +1,7 @@
 use super::{COMMAND, FILE, Host, NAMES, Robot, check_bars, page_of, text};
-use crate::kit::docs::{self, repository::read};
+use crate::kit::docs;
+use crate::kit::docs::repository::{read, root};
+use crate::kit::workspace::Workspace;
 use crate::studies::accuracy::front::{mark, tests::point};
 use crate::studies::accuracy::names::glossary;
 use crate::studies::accuracy::point::Point;
@@ -51,8 +53,7 @@ fn lacking(page: &str, points: &[Point]) -> Vec<String> {
 #[test]
 fn the_page_has_every_line_that_is_recorded() {
     let page = read(FILE);
-    let mut points: Vec<Point> = serde_json::from_str(&read(recorded::FILE)).expect("points");
-    mark(&mut points);
+    let mut points = recorded::read(&Workspace::at(&root())).expect("points");
     let nothing: [String; 0] = [];
     assert_eq!(
         lacking(&page, &points),

@@ -90,7 +90,7 @@ const STEPS: &[Step] = &[
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
     ("projects", Host, Full, "new projects in Rust and in C build, run in QEMU and compute the host's torques", others::projects),
     // By name only until runs under a load that was set are compared with one without.
-    ("lerobot", Host, Named, "an SO-101 floats in LeRobot with its scene's torques, and every fault of its bus ends without torque", others::lerobot),
+    ("lerobot", Host, Full, "an SO-101 floats in LeRobot with its scene's torques, and every fault of its bus ends without torque", others::lerobot),
     ("readme", Target, Everyday, "the tables of README.md and docs/scenes.md are those of this run, which repeats itself", scenes::readme),
     ("debian", Target, Full, "Debian's own compiler builds a scene that runs", others::debian),
     ("qemu-10", Target, Full, "QEMU 10 logs and measures what this machine's QEMU does, byte for byte", others::qemu_10),

@@ -73,12 +73,12 @@ where
     if E::VELOCITY_PRODUCTS
         && let Some(robot) = robot.as_revolute_chain()
     {
-        return chain::rnea::sweep(&robot, trig, state, effects);
+        return chain::rnea::sweep(&robot, trig, state, effects, true);
     }
     match robot.as_all_revolute() {
         Some(robot) => sweep(&robot, trig, state, effects),
         None if const { E::VELOCITY_PRODUCTS && D::CHAIN && D::KINDS.are_revolute() } => {
-            chain::rnea::sweep(robot, trig, state, effects)
+            chain::rnea::sweep(robot, trig, state, effects, false)
         }
         None => sweep(robot, trig, state, effects),
     }

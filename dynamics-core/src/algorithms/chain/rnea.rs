@@ -21,12 +21,15 @@ struct Body<R: Real> {
 }
 
 /// τ of a chain of revolute joints under velocity products: `D::CHAIN`, and `D::KINDS` are revolute.
+///
+/// `first_apart`: the first link has code of its own, with the same numbers; it takes fewer cycles, and more code.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(in crate::algorithms) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     effects: &E,
+    first_apart: bool,
 ) -> [R; V]
 where
     D: RobotModel<R, B, Q, V>,
@@ -40,7 +43,25 @@ where
     let mut poses = per_body(robot, Xform::IDENTITY);
     let mut bodies: Vec<Body<R>, B> = Vec::new();
     let mut rotor_tau = [R::ZERO; V];
-    for (i, link) in robot.links().enumerate() {
+    let mut links = robot.links().enumerate();
+    if first_apart
+        && const { !E::BASE_MOTION && V > 1 }
+        && let Some((i, link)) = links.next()
+    {
+        // Its axis stands still, and of the force on it only the couple about z is asked for. The rate of a single link would not be
+        // read at all, so that a NaN of it were lost.
+        let x = link.xform(turns);
+        v = link.plus_motion(Motion::ZERO, turns, &state.qd); // (3)
+        a = Motion::new(R::Vec3::ZERO, x.rot * a.lin); // (4)
+        if E::ACCELERATIONS {
+            a = link.plus_motion(a, turns, &state.qdd);
+        }
+        let mut f = body_inertia(effects, i, &link).couple_about_z(a); // (5)
+        f -= external_force(effects, i, &link, &x, &mut poses, v); // (6)
+        let rot = R::Mat3::IDENTITY; // not read
+        let _ = bodies.push(Body { rot, f });
+    }
+    for (i, link) in links {
         let x = link.xform(turns);
         let parent = AccelerationField::new(v.ang, a);
         let v_parent = if E::BODY_VELOCITY {

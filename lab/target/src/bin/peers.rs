@@ -236,6 +236,10 @@ fn compare<'a, X, F: Copy, O, const Q: usize, const V: usize>(
     let Some(&(_, textbook, _)) = ours.first() else {
         return;
     };
+    // Another firmware has the C of this function.
+    if peers.is_empty() {
+        return;
+    }
     let expected = |ask| flat(call(textbook, ask));
     let size = |numbers: Vec<f32, MOST>| numbers.iter().fold(0.0, |size, x| larger(size, x.abs()));
     let scale = asks

@@ -84,7 +84,7 @@ pub fn of_runs(all: Vec<Row>) -> Vec<Row> {
 
 impl Row {
     /// Whether it is of this code, and else of what `row` is.
-    fn is_of(&self, row: &Row, peer: &str) -> bool {
+    pub fn is_of(&self, row: &Row, peer: &str) -> bool {
         self.peer == peer
             && (self.target, &self.robot) == (row.target, &row.robot)
             && (&self.algorithm, &self.precision) == (&row.algorithm, &row.precision)

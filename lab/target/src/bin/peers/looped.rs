@@ -6,8 +6,8 @@
 use dynamics_core::clusters::{Clustered, ClusteredRobot};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::loops::{
-    BodyFrame, LoopJoint, LoopRobot, Loops, Stabilisation, coordinate_map, forward_dynamics,
-    inverse_dynamics,
+    BodyFrame, LoopJoint, LoopRobot, Loops, Moving, Stabilisation, assemble, coordinate_map,
+    forward_dynamics, inverse_dynamics,
 };
 use dynamics_core::model::{BASE, Joint, Model, Robot, Static};
 use dynamics_core::robots::A1Free;
@@ -20,12 +20,14 @@ use heapless::Vec;
 use crate::costs::row::numbers;
 use crate::{Ask, Of, Ours, Peer, STATES, Scene, both, closed, compare};
 
-/// The Unitree A1 with all feet held where they are.
+/// The Unitree A1 with all feet held.
 struct A1Held;
 
-const fn held(name: &'static str, foot: usize) -> LoopJoint {
-    let ends = [BodyFrame::new(BASE), BodyFrame::new(foot)];
-    LoopJoint::new(name, Joint::spherical(), ends)
+/// A foot, held where it is with thighs at 0.8 and calves at −1.6 rad under a level trunk at the origin.
+const fn held(name: &'static str, foot: usize, [ahead, left]: [f64; 2]) -> LoopJoint {
+    let below = -0.4 * 0.696_706_709_347_165_4; // cos 0.8
+    let place = BodyFrame::new(BASE).xyz([ahead * 0.1805, left * (0.047 + 0.0838), below]);
+    LoopJoint::new(name, Joint::spherical(), [place, BodyFrame::new(foot)])
 }
 
 impl Robot<17, 19, 18> for A1Held {
@@ -40,10 +42,10 @@ impl LoopRobot<17, 19, 18, 4, 12, 12> for A1Held {
     const LOOPS: Loops<4, 12, 12> = Loops::new(
         &Self::MODEL,
         [
-            held("front_right", 4),
-            held("front_left", 8),
-            held("rear_right", 12),
-            held("rear_left", 16),
+            held("front_right", 4, [1.0, -1.0]),
+            held("front_left", 8, [1.0, 1.0]),
+            held("rear_right", 12, [-1.0, -1.0]),
+            held("rear_left", 16, [-1.0, 1.0]),
         ],
         [6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
     );
@@ -81,20 +83,24 @@ pub fn a1_held(_: &[Peer], forward: &[Peer]) {
     let mut number = numbers();
     let states = [(); STATES].map(|()| {
         let mut q = [0.0; 19];
-        let attitude = [number(0.3), number(0.3), number(0.3), 1.0];
-        let length = libm::sqrtf(attitude.iter().map(|x| x * x).sum());
-        for (q, x) in q.iter_mut().zip(attitude) {
-            *q = x / length;
+        q[3] = 1.0;
+        for (k, q) in q.iter_mut().enumerate() {
+            *q += number(if k < 7 { 0.05 } else { 0.2 });
         }
         for hip in [7, 10, 13, 16] {
-            let leg = [number(0.4), 0.8 + number(0.4), -1.6 + number(0.4)];
-            q[hip..hip + 3].copy_from_slice(&leg);
+            q[hip + 1] += 0.8;
+            q[hip + 2] -= 1.6;
         }
-        State {
+        let robot = &Static::<A1Held>::NEW;
+        match assemble(robot, &A1Held::LOOPS, &q, Moving::All) {
+            Ok(closed) => q = closed.q,
+            Err(_) => defmt::panic!("a foot is not where it is held"),
+        }
+        moving::<A1Held, 17, 19, 18, 4, 12, 12>(State {
             q,
             qd: [(); 18].map(|()| number(2.0)),
             qdd: [(); 18].map(|()| number(10.0)),
-        }
+        })
     });
     forward_of::<A1Held, 17, 19, 18, 4, 12, 12>(&states, forward);
 }

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use crate::bound::{Bound, Bounder};
 use crate::interval::Interval;
-use crate::ways;
+use crate::paths;
 
 /// A part of the box, and the bound over it.
 #[derive(Clone, Debug)]
@@ -162,7 +162,7 @@ fn split(
 ) -> Option<[Part; 2]> {
     if part.bound.total().is_infinite() {
         // What has no bound has no gain either.
-        let halves = ways::halves(&part.states, ways::decisive(bounder, &part.states)?)?;
+        let halves = paths::halves(&part.states, paths::decisive(bounder, &part.states)?)?;
         return Some(halves.map(|states| bounded(bounder, states)));
     }
     let mut best: Option<(f64, [Part; 2])> = None;

@@ -11,12 +11,12 @@ use crate::graph::Node;
 use crate::grid;
 use crate::image::Image;
 use crate::interval::Interval;
+use crate::paths;
 use crate::program::Program;
 use crate::search::{Effort, search};
 use crate::sheet::Target;
 use crate::state_box::{Joint, Robot};
 use crate::walk::{Walked, walk};
-use crate::ways;
 
 /// A function that has a certificate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
@@ -75,7 +75,7 @@ pub struct Spent {
 }
 
 /// The parts by which it is proven of each branch that the whole box takes it.
-const WAYS: usize = 20_000;
+const PATHS: usize = 20_000;
 
 /// What holds of one output.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -193,7 +193,7 @@ pub fn expression(image: &Image, function: Function) -> Result<Walked> {
 /// Proves the bounds of a function, and searches the worst errors beside them.
 ///
 /// # Errors
-/// [`Error::Declined`] of code that is not followed, [`Error::Way`] of a branch that states of the box may take otherwise,
+/// [`Error::Declined`] of code that is not followed, [`Error::Branch`] of a branch that states of the box may take otherwise,
 /// [`Error::Contradicted`] if the search finds more than the bound, [`Error::Infinite`] if there is none.
 pub fn certify(
     program: &Program,
@@ -204,7 +204,7 @@ pub fn certify(
 ) -> Result<Certificate> {
     let image = Image::read(&program.elf)?;
     let walked = expression(&image, function)?;
-    ways::prove(&walked, robot, sines, WAYS)?;
+    paths::prove(&walked, robot, sines, PATHS)?;
     let n = robot.joints.len();
     let mut graph = walked.graph.clone();
     if function == Function::Crba {

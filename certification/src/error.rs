@@ -38,11 +38,11 @@ pub enum Error {
         /// What is not proven.
         reason: &'static str,
     },
-    /// The way that code takes at a branch depends on the state, or is not proven not to.
+    /// The direction of a branch depends on the state, or is not proven to be the same in the whole box.
     #[error(
-        "declined at {address:#010x}: the code branches on data, and that the compared numbers are {ordering:?}, as at the state zero, is not proven where q, q̇, q̈ are in {states:.3?}: a narrower --box may exclude it"
+        "declined at {address:#010x}: a branch depends on data; its comparison gives {ordering:?} at the zero state, which is not proven for q, q̇, q̈ in {states:.3?}: a narrower --box may exclude this part"
     )]
-    Way {
+    Branch {
         /// The address of the comparison.
         address: u32,
         /// The order of the numbers at the state zero.

@@ -8,7 +8,7 @@
 //! | [`bound`], [`branch`] | the error over a part of the box, and over the whole |
 //! | [`grid`] | the error over all angles, by a grid of them |
 //! | [`sines`], [`roots`] | the errors of sines and of reciprocal roots, by trying every number |
-//! | [`ways`] | that every state of the box takes the way that was followed at a branch |
+//! | [`paths`] | that every state of the box takes the path that was followed at a branch |
 //! | [`bodies`], [`taylor`] | the robot's bodies, in numbers and over parts of the box |
 //! | [`limits`]: [`floor`], [`peel`], [`speeds`] | the least eigenvalue of the inertia matrix, and the speeds of the links |
 //! | [`inertias`], `links` | the most that inertias known within some percent change torques |
@@ -50,6 +50,7 @@ mod machine;
 pub mod narrow;
 pub mod page;
 mod parts;
+pub mod paths;
 pub mod peel;
 pub mod picture;
 pub mod program;
@@ -63,5 +64,4 @@ pub mod stack;
 pub mod state_box;
 pub mod taylor;
 pub mod walk;
-pub mod ways;
 mod words;

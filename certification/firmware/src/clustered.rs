@@ -5,38 +5,42 @@
 #![no_std]
 #![no_main]
 
+mod coordinates;
+mod inputs;
+
 use core::hint::black_box;
-use core::mem::offset_of;
 
 use cortex_m_semihosting::{debug, hprintln};
 use dynamics_core::Engine;
 use dynamics_core::clusters::{ClusterError, Clustered};
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
-use dynamics_core::model::{JointCoordinate, Robot as _};
+use dynamics_core::model::Robot as _;
 use dynamics_core::state::{JointTrig, State};
 use dynamics_core::trig::{self, Kernel};
 use firmware_demo::marker::measured;
 use firmware_demo::robots::FourBarLeg;
 use firmware_demo::target;
 
-const Y: usize = 3;
-const STATES: usize = 32;
+use crate::inputs::{CERTIFIED_STATES, CERTIFIED_TRIGS};
 
-type Trig = JointTrig<f32, Y>;
+/// The independent coordinates.
+const N: usize = 3;
+
+type Trig = JointTrig<f32, N>;
 type Full = (Gravity, Inertia, Coriolis);
-type Inverse = fn(&Trig, &State<f32, Y, Y>, &Full) -> Result<[f32; Y], ClusterError>;
+type Inverse = fn(&Trig, &State<f32, N, N>, &Full) -> Result<[f32; N], ClusterError>;
 
 /// The tree's joint that each independent coordinate is: hip, crank, ankle.
-const JOINTS: [usize; Y] = [0, 1, 4];
+const JOINTS: [usize; N] = [0, 1, 4];
 /// The crank's range as in `docs/costs.md`: the loop does not close all around.
 const CRANK: f32 = 0.6;
 
 /// Of each joint: whether it turns, least and greatest position, greatest speed.
 #[used]
-static CERTIFIED_JOINTS: [[f32; 4]; Y] = {
-    let mut joints = [[0.0; 4]; Y];
+static CERTIFIED_JOINTS: [[f32; 4]; N] = {
+    let mut joints = [[0.0; 4]; N];
     let mut i = 0;
-    while i < Y {
+    while i < N {
         let limits = FourBarLeg::MODEL.links[JOINTS[i]].limits;
         let [lower, upper] = if i == 1 {
             [-CRANK, CRANK]
@@ -49,37 +53,8 @@ static CERTIFIED_JOINTS: [[f32; 4]; Y] = {
     joints
 };
 
-/// Bytes between coordinates, and to sine, cosine and position in each.
-#[used]
-static CERTIFIED_TRIG: [u32; 4] = [
-    size_of::<JointCoordinate<f32>>() as u32,
-    offset_of!(JointCoordinate<f32>, sin) as u32,
-    offset_of!(JointCoordinate<f32>, cos) as u32,
-    offset_of!(JointCoordinate<f32>, q) as u32,
-];
-
 #[used]
 static CERTIFIED_EFFECTS: Full = RIGID_BODY;
-
-#[used]
-static CERTIFIED_STATES: [State<f32, Y, Y>; STATES] = [const {
-    State {
-        q: [0.0; Y],
-        qd: [0.0; Y],
-        qdd: [0.0; Y],
-    }
-}; STATES];
-/// Not read: where the host writes sines for functions that take them.
-#[used]
-static CERTIFIED_TRIGS: [Trig; STATES] = [const {
-    Trig {
-        coordinates: [JointCoordinate {
-            q: 0.0,
-            sin: 0.0,
-            cos: 1.0,
-        }; Y],
-    }
-}; STATES];
 
 /// The kernel as a call.
 struct Apart;
@@ -100,12 +75,12 @@ fn sines(x: f32) -> (f32, f32) {
 static CERTIFIED_SINES: fn(f32) -> (f32, f32) = sines;
 
 #[inline(never)]
-fn apart(_: &Trig, y: &State<f32, Y, Y>, effects: &Full) -> Result<[f32; Y], ClusterError> {
+fn apart(_: &Trig, y: &State<f32, N, N>, effects: &Full) -> Result<[f32; N], ClusterError> {
     Clustered::<Engine<FourBarLeg, Apart>>::rnea(y, effects)
 }
 
 #[inline(never)]
-fn firmware(_: &Trig, y: &State<f32, Y, Y>, effects: &Full) -> Result<[f32; Y], ClusterError> {
+fn firmware(_: &Trig, y: &State<f32, N, N>, effects: &Full) -> Result<[f32; N], ClusterError> {
     Clustered::<Engine<FourBarLeg>>::rnea(y, effects)
 }
 
@@ -124,7 +99,7 @@ fn main() -> ! {
     {
         let result = measured::<0, _>(|| function(trig, state, &CERTIFIED_EFFECTS));
         // A cluster that does not close has no bits.
-        let bits = result.map_or([0; Y], |tau| tau.map(f32::to_bits));
+        let bits = result.map_or([0; N], |tau| tau.map(f32::to_bits));
         hprintln!("clustered {:x?}", bits);
     }
     target::leave(debug::EXIT_SUCCESS)

@@ -2,6 +2,7 @@
 #![no_std]
 #![no_main]
 
+mod coordinates;
 mod joints;
 
 use cortex_m_semihosting::debug;

@@ -1,8 +1,6 @@
-//! The box of the joints, and where a function finds their coordinates: data beside the code, for `certify`.
+//! The box of the joints: data beside the code, for `certify`.
 
-use core::mem::offset_of;
-
-use dynamics_core::model::{JointCoordinate, JointKind, Robot as _};
+use dynamics_core::model::{JointKind, Robot as _};
 
 use super::{B, N, Robot};
 
@@ -34,12 +32,3 @@ const fn joints() -> [[f32; 4]; N] {
     }
     joints
 }
-
-/// Bytes between coordinates, and to sine, cosine and position in each.
-#[used]
-static CERTIFIED_TRIG: [u32; 4] = [
-    size_of::<JointCoordinate<f32>>() as u32,
-    offset_of!(JointCoordinate<f32>, sin) as u32,
-    offset_of!(JointCoordinate<f32>, cos) as u32,
-    offset_of!(JointCoordinate<f32>, q) as u32,
-];

@@ -5,6 +5,8 @@
 #![no_std]
 #![no_main]
 
+mod coordinates;
+mod inputs;
 mod joints;
 mod measured;
 

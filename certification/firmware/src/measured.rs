@@ -4,35 +4,13 @@
 use core::hint::black_box;
 
 use cortex_m_semihosting::hprintln;
-use dynamics_core::model::JointCoordinate;
-use dynamics_core::state::{State, StateWithTrig};
+use dynamics_core::state::StateWithTrig;
 use firmware_demo::marker::measured;
 
+use crate::inputs::{CERTIFIED_STATES, CERTIFIED_TRIGS};
 use crate::{
-    CERTIFIED_CORE, CERTIFIED_CRBA, CERTIFIED_EFFECTS, CERTIFIED_GRAVITY, CERTIFIED_RNEA, N, Trig,
+    CERTIFIED_CORE, CERTIFIED_CRBA, CERTIFIED_EFFECTS, CERTIFIED_GRAVITY, CERTIFIED_RNEA, N,
 };
-
-const STATES: usize = 32;
-
-#[used]
-static CERTIFIED_STATES: [State<f32, N, N>; STATES] = [const {
-    State {
-        q: [0.0; N],
-        qd: [0.0; N],
-        qdd: [0.0; N],
-    }
-}; STATES];
-
-#[used]
-static CERTIFIED_TRIGS: [Trig; STATES] = [const {
-    Trig {
-        coordinates: [JointCoordinate {
-            q: 0.0,
-            sin: 0.0,
-            cos: 1.0,
-        }; N],
-    }
-}; STATES];
 
 /// Nothing is known of the function to the compiler, so that its code is that which is proven.
 pub fn run() {

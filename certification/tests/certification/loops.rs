@@ -15,7 +15,7 @@ use certification::roots::relative_error;
 use certification::search::{Evaluation, search};
 use certification::state_box::Robot;
 use certification::walk::{Walked, walk};
-use certification::{check, ways};
+use certification::{check, paths};
 use dynamics_core::Core;
 use dynamics_core::clusters::Clustered;
 use dynamics_core::effects::RIGID_BODY;
@@ -82,13 +82,13 @@ fn quotients_roots_and_comparisons_are_read() {
     assert_eq!((one.address, one.ordering), (BASE + 24, Ordering::Greater));
     // The least angle is -3, of which the quotient has no bound.
     let mut robot = robot(1);
-    let said = ways::prove(&walked, &robot, SINES, 50).expect_err("x + 3 may be zero");
+    let said = paths::prove(&walked, &robot, SINES, 50).expect_err("x + 3 may be zero");
     assert!(
-        matches!(said, Error::Way { address, .. } if address == BASE + 24),
+        matches!(said, Error::Branch { address, .. } if address == BASE + 24),
         "{said}"
     );
     robot.joints[0].position = Interval::new(-2.0, 1.0);
-    assert!(ways::prove(&walked, &robot, SINES, 50).is_ok());
+    assert!(paths::prove(&walked, &robot, SINES, 50).is_ok());
     let mut bounder = Bounder::new(&walked.graph, 0, &robot, SINES, Enclosure::Plain)
         .expect("its input is the robot's");
     for (x, root) in [(-2.0, 3.0_f64.sqrt()), (1.0, 0.75_f64.sqrt())] {
@@ -127,7 +127,7 @@ fn a_reciprocal_root_is_within_its_proven_error() {
 #[test]
 fn the_four_bar_is_that_of_the_core_within_its_bound() {
     let (walked, robot) = (four_bar(), leg(0.6));
-    assert!(ways::prove(&walked, &robot, SINES, 1000).is_ok());
+    assert!(paths::prove(&walked, &robot, SINES, 1000).is_ok());
     assert!(
         walked
             .graph
@@ -184,11 +184,11 @@ fn the_four_bar_is_that_of_the_core_within_its_bound() {
 #[test]
 fn a_box_with_a_singular_posture_is_declined() {
     let walked = four_bar();
-    let said = ways::prove(&walked, &leg(3.0), SINES, 1000).expect_err("it does not close");
+    let said = paths::prove(&walked, &leg(3.0), SINES, 1000).expect_err("it does not close");
     assert!(
         matches!(
             said,
-            Error::Way {
+            Error::Branch {
                 ordering: Ordering::Greater,
                 ..
             }
@@ -198,7 +198,7 @@ fn a_box_with_a_singular_posture_is_declined() {
     // The opposite of what the code has taken.
     let mut wrong = walked;
     wrong.comparisons[0].ordering = Ordering::Less;
-    assert!(ways::prove(&wrong, &leg(0.6), SINES, 1000).is_err());
+    assert!(paths::prove(&wrong, &leg(0.6), SINES, 1000).is_err());
 }
 
 #[test]

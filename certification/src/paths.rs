@@ -1,4 +1,4 @@
-//! That every state of the box takes the way that the walk has followed.
+//! The proof that every state of the box takes the execution path that the walk has followed.
 //!
 //! A branch depends on the order of two computed numbers. Intervals of their difference, over parts of the box, hold exact and computed
 //! values; where they exclude zero, the order is the same everywhere. Equal are only numbers that are the same constant, such as sums of
@@ -13,15 +13,15 @@ use crate::interval::Interval;
 use crate::state_box::Robot;
 use crate::walk::{Comparison, Walked};
 
-/// Proves it of all comparisons, each by at most so many parts.
+/// Proves of all comparisons that their order is the same in the whole box, each by at most so many parts.
 ///
 /// # Errors
-/// [`Error::Way`] of the first one that it is not proven of, [`Error::Missing`] of an input that the box does not bound.
+/// [`Error::Branch`] of the first comparison whose order is not proven, [`Error::Missing`] of an input that the box does not bound.
 pub fn prove(walked: &Walked, robot: &Robot, sines: SineErrors, parts: usize) -> Result<()> {
     for comparison in &walked.comparisons {
         let undecided = each(&walked.graph, comparison, robot, sines, parts)?;
         if let Some(states) = undecided {
-            return Err(Error::Way {
+            return Err(Error::Branch {
                 address: comparison.address,
                 ordering: comparison.ordering,
                 states,

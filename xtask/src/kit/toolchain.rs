@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use crate::kit::error::{Result, bail};
 use crate::kit::shell;
@@ -41,7 +42,11 @@ impl Toolchain {
     /// `cargo SUBCOMMAND … --target …`, to be completed.
     pub fn cargo(self, workspace: &Workspace, subcommand: &str) -> Command {
         let mut command = match self {
-            Self::Native => workspace.cargo(subcommand),
+            Self::Native => {
+                let mut command = workspace.cargo(subcommand);
+                command.args(native_paths().iter().flat_map(|paths| ["--config", paths]));
+                command
+            }
             Self::Debian => {
                 // Cargo would find rustup's `cargo-clippy` first.
                 let programs = [DEBIAN_CARGO, DEBIAN_CLIPPY];
@@ -85,6 +90,32 @@ impl Toolchain {
         };
         Ok(shell::capture(command.arg("--version"))?.trim().to_owned())
     }
+}
+
+/// What [`recorded_paths`] gives for the compiler that runs xtask.
+fn native_paths() -> Option<&'static str> {
+    static PATHS: OnceLock<Option<String>> = OnceLock::new();
+    let paths = PATHS.get_or_init(|| {
+        let says = |arguments: &[&str]| shell::capture(native_rustc().args(arguments)).ok();
+        let (sysroot, version) = (says(&["--print", "sysroot"])?, says(&["-vV"])?);
+        recorded_paths(Path::new(sysroot.trim()), &version)
+    });
+    paths.as_deref()
+}
+
+/// The setting of cargo by which a compiler that has the sources of core, rustup's component rust-src, writes their paths as one that
+/// has none: the firmware's messages name them, so that its size would depend on the component.
+fn recorded_paths(sysroot: &Path, version: &str) -> Option<String> {
+    let hash = version
+        .lines()
+        .find_map(|line| line.strip_prefix("commit-hash: "))?;
+    let sources = sysroot.join("lib/rustlib/src/rust");
+    has_sources(sysroot).then(|| {
+        format!(
+            "target.{TARGET}.rustflags=['--remap-path-prefix={}=/rustc/{hash}']",
+            sources.display()
+        )
+    })
 }
 
 fn native_rustc() -> Command {
@@ -189,7 +220,24 @@ pub fn release(text: &str) -> (u32, u32) {
 
 #[cfg(test)]
 mod tests {
-    use super::release;
+    use super::{SOURCES, recorded_paths, release};
+
+    #[test]
+    fn sources_of_core_change_no_path_in_the_firmware() {
+        let sysroot = tempfile::tempdir().expect("a folder");
+        let version = "rustc 1.95.0\ncommit-hash: 5980\n";
+        assert_eq!(recorded_paths(sysroot.path(), version), None);
+        let manifest = sysroot.path().join(SOURCES);
+        std::fs::create_dir_all(manifest.parent().expect("a folder")).expect("made");
+        std::fs::write(manifest, "").expect("written");
+        let setting = recorded_paths(sysroot.path(), version).expect("the sources are there");
+        let root = sysroot.path().display();
+        let flag = format!("--remap-path-prefix={root}/lib/rustlib/src/rust=/rustc/5980");
+        assert_eq!(
+            setting,
+            format!("target.thumbv7em-none-eabihf.rustflags=['{flag}']")
+        );
+    }
 
     #[test]
     fn a_release_is_read_from_what_programs_say_of_themselves() {

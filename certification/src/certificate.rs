@@ -75,7 +75,7 @@ pub struct Spent {
 }
 
 /// The parts by which it is proven of each branch that the whole box takes it.
-const PATHS: usize = 20_000;
+const PATH_PARTS: usize = 20_000;
 
 /// What holds of one output.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -204,7 +204,7 @@ pub fn certify(
 ) -> Result<Certificate> {
     let image = Image::read(&program.elf)?;
     let walked = expression(&image, function)?;
-    paths::prove(&walked, robot, sines, PATHS)?;
+    paths::prove(&walked, robot, sines, PATH_PARTS)?;
     let n = robot.joints.len();
     let mut graph = walked.graph.clone();
     if function == Function::Crba {

@@ -2,7 +2,7 @@
 //!
 //! The walk executes the code with real numbers as nodes of a graph and everything else, addresses and counters, as it is. So it follows
 //! calls and loops with constant bounds. At a branch by a comparison of real numbers it goes on as the state zero does, and notes the
-//! comparison, of which [`crate::ways`] proves that all states of the box decide it so. Calls of the function that the program names
+//! comparison, of which [`crate::paths`] proves that all states of the box decide it so. Calls of the function that the program names
 //! `CERTIFIED_SINES` are not followed: they are inputs, the sine and the cosine of a coordinate.
 
 use std::cmp::Ordering;

@@ -47,7 +47,7 @@ impl<T, K> Engine<T, K> {
     /// Torques τ_m, angles θ and rates θ̇ of the motors for a motion of the links, N·m or N, rad or m, rad/s or m/s, as
     /// [`elastic_inverse_dynamics`](super::elastic_inverse_dynamics()) computes them.
     ///
-    /// Effects as there, angles as in [`Engine::rnea`]. Robots of up to 16 moving bodies.
+    /// Effects as there, angles as in [`Engine::rnea`].
     ///
     /// # Cost
     /// About five times that of [`Engine::rnea`]: in `docs/scenes.md` in the repository the dynamics of `flexible_joint`. The same

@@ -15,7 +15,7 @@ use super::folding::{Folded, Mat3, Series, Sym3, Turn, Vec3};
 use super::folding::{constant_offset_cross, rotate_to_parent};
 use super::gate::EngineScene;
 use super::rnea::inertia;
-use super::{Engine, Specialised, has_subtree_functions, only_if};
+use super::{Engine, Specialised, only_if};
 use crate::effects::{Effect, JointState, add_joint_torque_rates};
 use crate::model::{JointCoordinate, Robot};
 use crate::scalar::Real;
@@ -68,10 +68,6 @@ impl<T, K> Engine<T, K> {
 
 /// A robot whose joints may be elastic here.
 const fn takes_elastic_joints<C: Compiled>() {
-    assert!(
-        !has_subtree_functions::<C>(true),
-        "the engine takes elastic joints of up to 16 moving bodies; use `Core`"
-    );
     let mut i = 0;
     while i < C::JOINTS.len() {
         assert!(

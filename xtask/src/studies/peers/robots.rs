@@ -92,7 +92,7 @@ impl Robot {
 
     /// What is compared of it.
     pub fn algorithms(&self) -> &'static [&'static str] {
-        match self.is_free() || self.has_subtree_functions() {
+        match self.is_free() || self.has_many_joints() {
             true => &DYNAMICS,
             false if self.is_chain() => &ALGORITHMS,
             // A tree has no tip.
@@ -102,7 +102,7 @@ impl Robot {
 
     /// The precisions on the host.
     pub fn precisions(&self) -> &'static [&'static str] {
-        if self.has_subtree_functions() {
+        if self.has_many_joints() {
             &PRECISIONS[1..]
         } else {
             &PRECISIONS
@@ -110,13 +110,13 @@ impl Robot {
     }
 
     /// Whether its joints are many.
-    pub fn has_subtree_functions(&self) -> bool {
+    pub fn has_many_joints(&self) -> bool {
         self.size()[2] - 5 * usize::from(self.is_free()) > MANY
     }
 
     /// Whether it is compared on the target, too: of many joints the harder case alone.
     pub fn is_on_target(&self) -> bool {
-        self.is_free() || !self.has_subtree_functions()
+        self.is_free() || !self.has_many_joints()
     }
 
     /// The functions of it that CasADi is to write: `cs` ones, which take cosines, are for the target.

@@ -96,6 +96,12 @@ fn motors_of_elastic_joints_are_those_of_the_core() {
     odd_tree::<f64>();
 }
 
+#[cfg(feature = "full")]
+#[test]
+fn a_humanoid_may_have_elastic_joints() {
+    agree::<f64, dynamics_core::robots::G1, _, _, 29, 29>(&RIGID_BODY, &RIGID_BODY);
+}
+
 #[test]
 fn loaded_base_parameters_move_elastic_joints_as_the_description_does() {
     let load = payload::<f64, 5>();

@@ -224,8 +224,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// The same controller for an arm that is on its brake when the firmware starts.
     ///
     /// It is stopped without a fault: its commands have zero torque and the brake set until [`Self::reset`], which
-    /// compares the measured position with the point of the trajectory at which the arm joins it: after any hold that
-    /// is 1/λ later than where it stopped, here than the first point. [`Self::approach`] joins at the first point.
+    /// compares the measured position with the first point of the trajectory.
     ///
     /// ```
     /// use motion_control::{Mode, MotionController, MotionControllerConfig, ResetError};
@@ -253,6 +252,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     #[must_use]
     pub fn on_brake(mut self) -> Self {
         self.supervisor = self.supervisor.on_brake();
+        // It does not leave its trajectory with a speed, so that it joins it at the first point.
+        self.resume.stand();
         self
     }
 

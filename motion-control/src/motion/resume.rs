@@ -86,6 +86,11 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
         self.active = true;
     }
 
+    /// The same for an arm that stands, at the start of its trajectory.
+    pub(crate) fn stand(&mut self) {
+        self.active = true;
+    }
+
     /// The tick from which a trajectory should continue for an arm that leaves it at the tick `clock` with a decaying
     /// speed: 1 / λ later the trajectory is near the point at which the arm comes to rest, so that the return does not
     /// lead backwards.

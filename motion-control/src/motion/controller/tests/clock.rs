@@ -27,6 +27,15 @@ fn returning(ticks: u32) -> Controller {
 }
 
 #[test]
+fn an_arm_on_its_brake_begins_at_the_first_point() {
+    let mut controller = Controller::new(CONFIG).on_brake();
+    for _ in 0..3 {
+        tick(&mut controller, 0.0);
+    }
+    assert_eq!(controller.trajectory_tick(), 0);
+}
+
+#[test]
 fn missed_ticks_end_with_the_reference_of_the_last() {
     let mut controller = following::<PreviousTick>(100, 1);
     controller.missed(4, &Cruise);

@@ -89,7 +89,6 @@ const STEPS: &[Step] = &[
     ("site", Host, Full, "every link of the site resolves, its pages are accessible, narrow and load nothing from elsewhere", |c| play::check_site(&c.workspace, c.options)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
     ("projects", Host, Full, "new projects in Rust and in C build, run in QEMU and compute the host's torques", others::projects),
-    // By name only until runs under a load that was set are compared with one without.
     ("lerobot", Host, Full, "an SO-101 floats in LeRobot with its scene's torques, and every fault of its bus ends without torque", others::lerobot),
     ("readme", Target, Everyday, "the tables of README.md and docs/scenes.md are those of this run, which repeats itself", scenes::readme),
     ("debian", Target, Full, "Debian's own compiler builds a scene that runs", others::debian),

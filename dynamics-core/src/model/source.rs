@@ -20,6 +20,9 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     const CHAIN: bool = false;
     /// Whether every body is known to have one coordinate.
     const SINGLE: bool = false;
+    /// Whether every joint is known to turn, and to stand in its parent's frame as Denavit & Hartenberg's parameters say: turned
+    /// about x, and shifted along x and along its own axis.
+    const SCREWS: bool = false;
 
     /// The robot's numbers.
     fn model(&self) -> &Model<R, B, Q, V>;
@@ -143,6 +146,7 @@ where
     const KINDS: JointKinds = T::MODEL.kinds();
     const CHAIN: bool = T::MODEL.is_chain();
     const SINGLE: bool = T::MODEL.kinds().are_single() && B == Q && B == V;
+    const SCREWS: bool = T::MODEL.has_screws();
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn model(&self) -> &Model<R, B, Q, V> {

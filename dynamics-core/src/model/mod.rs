@@ -257,7 +257,8 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     }
 
     /// Whether [`RobotModel::SCREWS`] holds, without a tolerance: what is left out is exactly zero.
-    const fn has_screws(&self) -> bool {
+    #[doc(hidden)]
+    pub const fn has_screws(&self) -> bool {
         let (mut all, mut i) = (self.kinds.are_revolute(), 0);
         while i < B {
             let Xform { rot, pos } = &self.links[i].placement;

@@ -245,3 +245,89 @@ impl<R: Real> Renamed for ArticulatedInertia<R> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{AxialScrews, Screw};
+    use crate::spatial::inertia::ArticulatedInertia;
+    use crate::spatial::symmetric::Symmetric;
+    use crate::spatial::{Force, Motion, Xform};
+    use glam::{DMat3, DVec3};
+
+    const ALPHA: f64 = 0.7;
+    const Q: f64 = -2.1;
+
+    fn screw(angle: f64, shift: f64) -> Screw<f64> {
+        let (sin, cos) = angle.sin_cos();
+        Screw { sin, cos, shift }
+    }
+
+    /// The two screws, and the same transform by a matrix and an origin.
+    fn both() -> (AxialScrews<f64>, Xform<f64>) {
+        let (about_x, about_z) = (screw(ALPHA, 0.3), screw(Q, -0.2));
+        let twist = DMat3::from_rotation_x(-ALPHA);
+        let x = Xform {
+            rot: DMat3::from_rotation_z(-Q) * twist,
+            pos: DVec3::X * 0.3 + twist.transpose() * DVec3::Z * -0.2,
+        };
+        (AxialScrews { about_x, about_z }, x)
+    }
+
+    /// Twenty-one numbers without a pattern.
+    fn articulated() -> ArticulatedInertia<f64> {
+        let symmetric = |a: f64| Symmetric {
+            xx: a,
+            xy: 0.2,
+            xz: -0.3 * a,
+            yy: 0.7,
+            yz: 0.1 * a,
+            zz: 1.1,
+        };
+        ArticulatedInertia {
+            inertia: symmetric(2.0),
+            coupling: DMat3::from_cols(
+                DVec3::new(0.1, -0.2, 0.3),
+                DVec3::new(0.4, 0.5, -0.6),
+                DVec3::new(0.7, 0.8, 0.9),
+            ),
+            mass: symmetric(3.0),
+        }
+    }
+
+    fn forces(ia: &ArticulatedInertia<f64>) -> [Force<f64>; 6] {
+        [0, 1, 2, 3, 4, 5].map(|k| {
+            let unit = |k| DVec3::new(f64::from(k == 0), f64::from(k == 1), f64::from(k == 2));
+            ia.times(Motion::new(unit(k), unit(k - 3)))
+        })
+    }
+
+    fn differ(a: &ArticulatedInertia<f64>, b: &ArticulatedInertia<f64>) -> f64 {
+        let pairs = forces(a).into_iter().zip(forces(b));
+        let each = pairs.map(|(a, b)| (a.ang - b.ang).length() + (a.lin - b.lin).length());
+        each.fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn two_screws_take_vectors_as_their_product_does() {
+        let (screws, x) = both();
+        let (a, b) = (DVec3::new(1.0, -2.0, 0.5), DVec3::new(0.3, 0.7, -1.1));
+        let (got, want) = (screws * Motion::new(a, b), x * Motion::new(a, b));
+        assert!((got.ang - want.ang).length() + (got.lin - want.lin).length() < 1e-15);
+        let f = Force::new(a, b);
+        let (got, want) = (screws.transpose_mul(f), x.transpose_mul(f));
+        assert!((got.ang - want.ang).length() + (got.lin - want.lin).length() < 1e-15);
+        assert!(screws.distance() >= x.pos.length());
+    }
+
+    #[test]
+    fn two_screws_take_inertias_as_their_product_does() {
+        let (screws, x) = both();
+        let ia = articulated();
+        let error = differ(&screws.articulated_at_parent(&ia), &ia.at_parent(&x));
+        assert!(error < 5e-15, "{error}");
+        let u = Force::new(ia.inertia.column_z(), DVec3::new(0.3, -0.6, 0.9));
+        let free = ia.free_about_z(u, 1.0 / 1.1);
+        let error = differ(&screws.free_at_parent(&free), &free.at_parent(&x));
+        assert!(error < 5e-15, "{error}");
+    }
+}

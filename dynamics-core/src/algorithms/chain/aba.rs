@@ -17,19 +17,37 @@ use crate::effects::{
     joint_torque, transmitted,
 };
 use crate::model::RobotModel;
-use crate::scalar::{Matrix, Real};
+use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::inertia::ArticulatedInertia;
-use crate::spatial::{Force, Motion, MotionSubspace, Xform};
+use crate::spatial::{Force, Motion, MotionSubspace, SpatialInertia, Xform};
 use crate::state::{JointTrig, State, entry};
 
 /// What the first pass leaves of a body: what it keeps of X, c, and pᴬ of the body alone.
 struct Body<R: Real, X: Across<R>> {
     x: X::Kept,
-    c: Motion<R>,
+    c: AcrossZ<R>,
     pa: Force<R>,
 }
 
-/// Iᵃ, pᵃ and the sizes of the bodies beyond a joint, at the parent's frame.
+/// A motion without components along z, as v × S q̇ is where S lies along z.
+#[derive(Clone, Copy)]
+struct AcrossZ<R>([[R; 2]; 2]);
+
+impl<R: Real> AcrossZ<R> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn of(m: Motion<R>) -> Self {
+        Self([m.ang, m.lin].map(|m| [m.array()[0], m.array()[1]]))
+    }
+
+    /// With −0 along z, which the compiler does not add.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn motion(self) -> Motion<R> {
+        let [ang, lin] = self.0.map(|[x, y]| R::Vec3::new(x, y, -R::ZERO));
+        Motion::new(ang, lin)
+    }
+}
+
+/// Iᵃ, pᵃ and the sizes of the bodies beyond a joint, at the parent's frame; beyond the last one all are zero.
 struct Beyond<R: Real> {
     ia: ArticulatedInertia<R>,
     pa: Force<R>,
@@ -64,20 +82,24 @@ where
     outward_velocities(robot, trig, state, effects, v_0, &mut bodies);
 
     let mut factors: Vec<JointFactor<R>, V> = Vec::new();
-    let mut beyond: Option<Beyond<R>> = None;
+    let mut beyond = Beyond {
+        ia: ArticulatedInertia::from(SpatialInertia::ZERO),
+        pa: Force::ZERO,
+        magnitude: Magnitude::from(&SpatialInertia::ZERO),
+    };
     for i in (0..V).rev() {
         let (Some(link), Some(body)) = (robot.link(i), bodies.get(i)) else {
             continue;
         };
         let inertia = body_inertia(effects, i, &link);
-        let mut ia = ArticulatedInertia::from(inertia);
-        let (mut pa, mut magnitude) = (body.pa, Magnitude::from(&inertia));
-        if let Some(beyond) = &beyond {
-            ia = beyond.ia;
-            ia += inertia;
-            pa += beyond.pa;
-            magnitude += beyond.magnitude;
-        }
+        let Beyond {
+            mut ia,
+            mut pa,
+            mut magnitude,
+        } = beyond;
+        ia += inertia;
+        pa += body.pa;
+        magnitude += Magnitude::from(&inertia);
         let s = link.subspace(turns, 0);
         let u_a = ia.along(&s);
         let mut d = s.dot(u_a);
@@ -96,16 +118,16 @@ where
         // Iᵃ c after the update of Iᴬ: pᵃ = pᴬ + Iᵃ c + U D⁻¹ u.
         let (ia_c, ia) = if matches!(s, MotionSubspace::RevoluteZ) && effects.inertia(i).is_none() {
             let free = ia.free_about_z(u_a, d_inv);
-            (free.times_across(body.c), x.free_back(&free))
+            (free.times_across(body.c.motion()), x.free_back(&free))
         } else {
             let rest = ia.minus_outer(u_a, d_inv);
-            (rest.times(body.c), x.inertia_back(&rest))
+            (rest.times(body.c.motion()), x.inertia_back(&rest))
         };
-        beyond = Some(Beyond {
+        beyond = Beyond {
             ia,
             pa: x.force_back(pa + ia_c),
             magnitude: magnitude.at_distance(x.distance()),
-        });
+        };
     }
     Ok(outward_accelerations(robot, &bodies, trig, a_0, &factors))
 }
@@ -130,7 +152,7 @@ fn outward_velocities<X: Across<R>, R: Real, D, E, const B: usize, const Q: usiz
         v = link.plus_motion(x * v, turns, &state.qd);
         let (mut c, mut pa) = (Motion::ZERO, Force::ZERO);
         if E::VELOCITY_PRODUCTS {
-            c = link.plus_velocity_product(Motion::ZERO, turns, &state.qd, v);
+            c = link.column_rate(turns, &state.qd, v, 0) * entry(&state.qd, i);
             pa = body_inertia(effects, i, &link).bias_force(v);
         }
         if E::WRENCH {
@@ -144,7 +166,8 @@ fn outward_velocities<X: Across<R>, R: Real, D, E, const B: usize, const Q: usiz
             let couple = gyroscopic(effects, &link, v.ang, rate, R::ZERO);
             parent.pa.ang += link.xform(turns).rot.transpose_mul(couple);
         }
-        if bodies.push(Body { x: x.kept(), c, pa }).is_err() {
+        let (x, c) = (x.kept(), AcrossZ::of(c));
+        if bodies.push(Body { x, c, pa }).is_err() {
             break;
         }
     }
@@ -166,7 +189,7 @@ where
     let (mut qdd, mut a) = ([R::ZERO; V], a_0);
     let bodies = robot.links().zip(bodies).zip(factors.iter().rev());
     for (((link, body), factor), qdd) in bodies.zip(&mut qdd) {
-        let a_parent = X::again(body.x, &link, turns) * a + body.c;
+        let a_parent = X::again(body.x, &link, turns) * a + body.c.motion();
         *qdd = (factor.u - a_parent.dot(factor.u_a)) * factor.d_inv;
         a = link.subspace(turns, 0).add_scaled_to(a_parent, *qdd);
     }

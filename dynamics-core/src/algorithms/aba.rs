@@ -23,7 +23,7 @@ use crate::effects::{
 use crate::model::{JointKind, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::inertia::ArticulatedInertia;
-use crate::spatial::{AxialScrews, Force, Motion, Xform};
+use crate::spatial::{Force, Motion, Xform};
 use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 
 /// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², under the effects of the scene.
@@ -97,20 +97,10 @@ where
     let (trig, state) = (trig.borrow(), state.state());
     let given = |joint| Prescribed::Torque(entry(tau, joint));
     let response = match (robot.as_revolute_chain(), robot.as_all_revolute()) {
-        (Some(robot), _) => {
-            return chain::aba::sweep::<Xform<R>, _, _, _, B, Q, V>(
-                &robot, trig, state, effects, tau,
-            );
-        }
+        (Some(robot), _) => return chain::aba::aba(&robot, trig, state, effects, tau),
         (_, Some(robot)) => sweep(&robot, trig, state, effects, given)?,
         _ if const { D::CHAIN && D::SINGLE } => {
-            return if const { D::SCREWS } {
-                chain::aba::sweep::<AxialScrews<R>, _, _, _, B, Q, V>(
-                    robot, trig, state, effects, tau,
-                )
-            } else {
-                chain::aba::sweep::<Xform<R>, _, _, _, B, Q, V>(robot, trig, state, effects, tau)
-            };
+            return chain::aba::aba(robot, trig, state, effects, tau);
         }
         _ => sweep(robot, trig, state, effects, given)?,
     };

@@ -256,15 +256,14 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
         self.chain
     }
 
-    /// Whether [`RobotModel::SCREWS`] holds, without a tolerance: what is left out is exactly zero.
-    #[doc(hidden)]
-    pub const fn has_screws(&self) -> bool {
+    /// Whether all joints turn, and each link [is placed by screws](LinkView::is_screwed).
+    pub(crate) const fn has_screws(&self) -> bool {
         let (mut all, mut i) = (self.kinds.are_revolute(), 0);
         while i < B {
             let Xform { rot, pos } = &self.links[i].placement;
             let (x, y, z) = (rot.x_axis, rot.y_axis, rot.z_axis);
-            let about_x = x.x == 1.0 && x.y == 0.0 && x.z == 0.0 && y.x == 0.0 && z.x == 0.0;
-            all &= about_x && y.y * pos.y + z.y * pos.z == 0.0;
+            all &=
+                x.x > 0.0 && x.y == 0.0 && x.z == 0.0 && y.y * pos.y == 0.0 && z.y * pos.z == 0.0;
             i += 1;
         }
         all

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use dynamics_core::algorithms::{aba, crba, forward_dynamics, rnea};
 use dynamics_core::effects::{Armature, Coriolis, GravityVector, Inertia};
-use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, RobotModel};
-use dynamics_core::scalar::{Native, Real, Vector};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
+use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::state::State;
 use host_tests::measured::larger;
 use serde::Deserialize;
@@ -101,8 +101,6 @@ pub struct Shares {
     pub crba: f64,
     pub forward: f64,
     pub aba: f64,
-    /// `aba` of a chain whose transforms are known to be two screws each.
-    pub screws: Option<f64>,
 }
 
 impl Shares {
@@ -111,27 +109,11 @@ impl Shares {
         crba: 0.0,
         forward: 0.0,
         aba: 0.0,
-        screws: None,
     };
 
     /// The largest of all.
     pub fn worst(&self) -> f64 {
-        let bodies = larger(self.aba, self.screws.unwrap_or(0.0));
-        larger(larger(self.rnea, self.crba), larger(self.forward, bodies))
-    }
-}
-
-/// A chain of a case, as one of which it is known at compile time that each transform is two screws.
-struct Screwed<'a, R: Real, const N: usize>(&'a ArmModel<R, N>);
-
-impl<R: Real, const N: usize> RobotModel<R, N, N, N> for Screwed<'_, R, N> {
-    type Kernel = Native;
-    const CHAIN: bool = true;
-    const SINGLE: bool = true;
-    const SCREWS: bool = true;
-
-    fn model(&self) -> &ArmModel<R, N> {
-        self.0
+        larger(larger(self.rnea, self.crba), larger(self.forward, self.aba))
     }
 }
 
@@ -166,13 +148,10 @@ impl SuiteCase {
 
     fn of<const N: usize>(&self) -> (Option<Shares>, Shares) {
         let (model, bound) = (self.robot.model::<N>(), &self.bound);
-        let parents = self.robot.links.iter().map(|link| link.parent);
-        let screws = parents.eq(-1..N as i64 - 1) && model.has_screws();
         let allowed = |name: &str, relative, underflow| Allowed {
             relative,
             underflow,
             refusal: bound.refusal.iter().any(|scalar| scalar == name),
-            screws,
         };
         let single = bound.f32.map(|relative| {
             let allowed = allowed("f32", relative, bound.underflow.f32);
@@ -188,9 +167,9 @@ impl SuiteCase {
         allowed: &Allowed,
     ) -> Shares {
         let rotors = std::array::from_fn(|i| R::from_f64(self.robot.links[i].armature));
-        let bare = rotors == [R::ZERO; N];
         let [x, y, z] = self.robot.gravity.map(R::from_f64);
         let gravity = GravityVector(R::Vec3::new(x, y, z));
+        let without_rotors = (gravity, Inertia, Coriolis);
         let scene = (gravity, Inertia, Coriolis, Armature(rotors));
         let mut worst = Shares::NONE;
         let states = std::iter::zip(&self.states, &self.answers);
@@ -217,16 +196,10 @@ impl SuiteCase {
             let known = truth.qdd.as_deref().zip(scales.qdd.as_deref());
             worst.forward = larger(worst.forward, allowed.of_accelerations(by_matrix, known));
             worst.aba = larger(worst.aba, allowed.of_accelerations(by_bodies, known));
-            if allowed.screws {
-                let robot = Screwed(model);
-                let found = aba(&robot, &state, &tau, &scene).ok();
-                let mut share = allowed.of_accelerations(found, known);
-                if bare {
-                    let scene = (gravity, Inertia, Coriolis);
-                    let found = aba(&robot, &state, &tau, &scene).ok();
-                    share = larger(share, allowed.of_accelerations(found, known));
-                }
-                worst.screws = Some(larger(worst.screws.unwrap_or(0.0), share));
+            // Joints that turn without an inertia of their own have a shorter form.
+            if rotors == [R::ZERO; N] {
+                let by_bodies = aba(model, &state, &tau, &without_rotors).ok();
+                worst.aba = larger(worst.aba, allowed.of_accelerations(by_bodies, known));
             }
         }
         worst
@@ -238,7 +211,6 @@ struct Allowed {
     relative: f64,
     underflow: Underflow,
     refusal: bool,
-    screws: bool,
 }
 
 impl Allowed {

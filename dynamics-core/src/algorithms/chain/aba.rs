@@ -19,7 +19,7 @@ use crate::effects::{
 use crate::model::RobotModel;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::inertia::ArticulatedInertia;
-use crate::spatial::{Force, Motion, MotionSubspace, SpatialInertia, Xform};
+use crate::spatial::{AxialScrews, Force, Motion, MotionSubspace, SpatialInertia, Xform};
 use crate::state::{JointTrig, State, entry};
 
 /// What the first pass leaves of a body: what it keeps of X, c, and pᴬ of the body alone.
@@ -56,15 +56,27 @@ struct Beyond<R: Real> {
 
 /// q̈ of a chain: `D::CHAIN` and `D::SINGLE` hold.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(in crate::algorithms) fn sweep<
-    X,
-    R: Real,
-    D,
-    E,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
->(
+pub(in crate::algorithms) fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    trig: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    effects: &E,
+    tau: &[R; V],
+) -> Result<[R; V], NotPositiveDefinite>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    if const { D::KINDS.are_revolute() } && robot.has_screws() {
+        sweep::<AxialScrews<R>, _, _, _, B, Q, V>(robot, trig, state, effects, tau)
+    } else {
+        sweep::<Xform<R>, _, _, _, B, Q, V>(robot, trig, state, effects, tau)
+    }
+}
+
+/// The three passes, with the transforms across links in the form X.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn sweep<X, R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,

@@ -164,7 +164,8 @@ where
 /// A robot with the structure of `T`, known at compile time, and run-time parameters: identified masses and inertias,
 /// measured lengths.
 ///
-/// It is as fast and as small as [`Static`], while a [`Model`] at run time has a branch on the kind of each joint.
+/// It is as fast and as small as [`Static`], while a [`Model`] at run time has a branch on the kind of each joint; but forward
+/// dynamics of a chain by [`aba`](crate::algorithms::aba()) asks at each call how its links are placed, and has code for either answer.
 ///
 /// ```
 /// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::Calibrated, robots::Ur5e, state::State};

@@ -1,11 +1,12 @@
 //! Forward dynamics of a chain of joints with one coordinate each: the articulated-body algorithm where nothing branches.
 //!
 //! The passes of [`aba`](crate::algorithms::aba()), Featherstone, RBDA (2008), table 7.1. One articulated inertia runs from the tip to the
-//! base, of which the row that a free turn about z cannot feel is left out; of the first body only its pivot is computed.
+//! base, of which the row that a free turn about z cannot feel is left out; of the first body only its pivot is computed. A link that is
+//! placed by Denavit & Hartenberg's parameters is crossed by two screws: McMillan & Orin (1995).
 
 use heapless::Vec;
 
-use super::across::Across;
+use super::across::{Across, AcrossZ};
 use crate::algorithms::NotPositiveDefinite;
 use crate::algorithms::aba::JointFactor;
 use crate::algorithms::pivot_check::{Magnitude, PivotCheck};
@@ -17,7 +18,7 @@ use crate::effects::{
     joint_torque, transmitted,
 };
 use crate::model::RobotModel;
-use crate::scalar::{Matrix, Real, Vector};
+use crate::scalar::{Matrix, Real};
 use crate::spatial::inertia::ArticulatedInertia;
 use crate::spatial::{AxialScrews, Force, Motion, MotionSubspace, SpatialInertia, Xform};
 use crate::state::{JointTrig, State, entry};
@@ -27,24 +28,6 @@ struct Body<R: Real, X: Across<R>> {
     x: X::Kept,
     c: AcrossZ<R>,
     pa: Force<R>,
-}
-
-/// A motion without components along z, as v × S q̇ is where S lies along z.
-#[derive(Clone, Copy)]
-struct AcrossZ<R>([[R; 2]; 2]);
-
-impl<R: Real> AcrossZ<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn of(m: Motion<R>) -> Self {
-        Self([m.ang, m.lin].map(|m| [m.array()[0], m.array()[1]]))
-    }
-
-    /// With −0 along z, which the compiler does not add.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn motion(self) -> Motion<R> {
-        let [ang, lin] = self.0.map(|[x, y]| R::Vec3::new(x, y, -R::ZERO));
-        Motion::new(ang, lin)
-    }
 }
 
 /// Iᵃ, pᵃ and the sizes of the bodies beyond a joint, at the parent's frame; beyond the last one all are zero.

@@ -1,10 +1,10 @@
-//! ⁱX_λ(i) across a link of a chain, in the form that its robot has.
+//! ⁱX_λ(i) across a link of a chain, in the form that its robot has, and motions across its joint's axis.
 
 use core::ops::Mul;
 
 use crate::algorithms::pivot_check::length;
 use crate::model::{JointCoordinate, LinkView};
-use crate::scalar::Real;
+use crate::scalar::{Real, Vector};
 use crate::spatial::inertia::{ArticulatedInertia, FreeAboutZ};
 use crate::spatial::{AxialScrews, Force, Motion, Xform};
 
@@ -88,5 +88,23 @@ impl<R: Real> Across<R> for AxialScrews<R> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn free_back(&self, ia: &FreeAboutZ<R>) -> ArticulatedInertia<R> {
         self.free_at_parent(ia)
+    }
+}
+
+/// A motion without components along z, as v × S q̇ is where S lies along z.
+#[derive(Clone, Copy)]
+pub(super) struct AcrossZ<R>([[R; 2]; 2]);
+
+impl<R: Real> AcrossZ<R> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn of(m: Motion<R>) -> Self {
+        Self([m.ang, m.lin].map(|m| [m.array()[0], m.array()[1]]))
+    }
+
+    /// With −0 along z, which the compiler does not add.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn motion(self) -> Motion<R> {
+        let [ang, lin] = self.0.map(|[x, y]| R::Vec3::new(x, y, -R::ZERO));
+        Motion::new(ang, lin)
     }
 }

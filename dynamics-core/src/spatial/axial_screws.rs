@@ -107,7 +107,7 @@ impl<R: Real> AxialScrews<R> {
 }
 
 impl<R: Real> Screw<R> {
-    /// 64 flops.
+    /// The inertia of a body that turns freely about z, before the screw about z. 64 flops.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn free_back_about_z(&self, ia: &FreeAboutZ<R>) -> FreeAboutZ<R> {
         let mass = self.symmetric_back(&ia.mass);
@@ -129,7 +129,7 @@ impl<R: Real> Screw<R> {
         }
     }
 
-    /// 64 flops.
+    /// The same before the screw about x, in which rows y and z are shares of what was row y. 64 flops.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn free_back_about_x(&self, ia: &FreeAboutZ<R>) -> ArticulatedInertia<R> {
         let (s, c) = (self.sin, self.cos);
@@ -162,7 +162,7 @@ impl<R: Real> Screw<R> {
         }
     }
 
-    /// 110 flops both ways.
+    /// An articulated inertia before the screw, about z. 80 flops.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn articulated_back_about_z(&self, ia: &ArticulatedInertia<R>) -> ArticulatedInertia<R> {
         let (i, mass) = (

@@ -1,11 +1,13 @@
 //! Calibration in the frames of the description: numbers that the description was made from give the same model.
 
-use dynamics_core::algorithms::rnea;
+use dynamics_core::algorithms::{aba, forward_dynamics, rnea};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{
     BASE, Body, BodyInertia, Calibrated, Joint, Model, ModelError, Problem, Robot, RobotModel,
+    Static, model,
 };
-use dynamics_core::robots::{Panda, Ur5e};
+use dynamics_core::robots::{Iiwa14, Panda, Ur5e};
+use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
 /// Axes along none of x, y, z, a body that is welded on, and one without mass.
@@ -185,4 +187,58 @@ fn an_impossible_inertia_is_named_and_not_taken_over() {
         "body `odd`: the robot has no body of this number: 4"
     );
     assert_eq!(arm.inertia(4), None);
+}
+
+/// A state in which everything moves.
+fn moving<R: Real, const N: usize>() -> (State<R, N, N>, [R; N]) {
+    let rows = [1.0, 0.7, -2.0]
+        .map(|scale| std::array::from_fn(|i| R::from_f64(scale * (1.3 * i as f64 + scale).sin())));
+    let [q, qd, qdd] = rows;
+    (State { q, qd, qdd }, qdd)
+}
+
+/// Whether ABA of T crosses its links by screws.
+fn screws_alike<R: Real, T: Robot<N, N, N>, const N: usize>() -> Option<bool> {
+    let (state, tau) = moving::<R, N>();
+    let (read, calibrated) = (
+        model::<R, T, N, N, N>(),
+        Calibrated::<T, R, N, N, N>::nominal(),
+    );
+    let known = aba(&Static::<T>::NEW, &state, &tau, &RIGID_BODY);
+    assert!(known.is_ok());
+    assert_eq!(known, aba(read, &state, &tau, &RIGID_BODY));
+    assert_eq!(known, aba(&calibrated, &state, &tau, &RIGID_BODY));
+    <Static<T> as RobotModel<R, N, N, N>>::SCREWS
+}
+
+#[test]
+fn aba_has_the_same_bits_however_its_robot_is_known() {
+    let screws = [
+        screws_alike::<f32, Ur5e, 6>(),
+        screws_alike::<f64, Ur5e, 6>(),
+        screws_alike::<f32, Panda, 7>(),
+        screws_alike::<f64, Iiwa14, 7>(),
+    ];
+    assert_eq!(screws, [Some(true), Some(true), Some(true), Some(false)]);
+}
+
+#[test]
+fn aba_asks_anew_how_a_link_is_placed() {
+    let (state, tau) = moving::<f64, 6>();
+    let turn = glam::DMat3::from_rotation_y(0.01);
+    let moves: [fn(&mut dynamics_core::spatial::Xform<f64>, glam::DMat3); 2] =
+        [|x, _| x.pos.y += 0.01, |x, turn| x.rot *= turn];
+    for moved in moves {
+        let mut arm = Ur5e::MODEL;
+        let before = aba(&arm, &state, &tau, &RIGID_BODY).expect("M > 0");
+        moved(&mut arm.links[2].placement, turn);
+        let by_bodies = aba(&arm, &state, &tau, &RIGID_BODY).expect("M > 0");
+        let by_matrix = forward_dynamics(&arm, &state, &tau, &RIGID_BODY).expect("M > 0");
+        let largest = |other: &[f64; 6]| {
+            let apart = std::iter::zip(by_bodies, other).map(|(a, b)| (a - b).abs());
+            apart.fold(0.0, f64::max)
+        };
+        assert!(largest(&by_matrix) < 1e-9, "{by_bodies:?} {by_matrix:?}");
+        assert!(largest(&before) > 1e-3);
+    }
 }

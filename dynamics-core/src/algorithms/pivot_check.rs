@@ -58,7 +58,12 @@ impl<R: Real> Magnitude<R> {
     /// The same about the origin of the parent's frame, from which the body's is at `pos`. 10 flops.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn at_parent(&self, pos: R::Vec3) -> Self {
-        let r = length::<R>(pos);
+        self.at_distance(length::<R>(pos))
+    }
+
+    /// The same about a point at most `r` away. 7 flops.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn at_distance(&self, r: R) -> Self {
         let moment = self.first_moment + r * self.mass;
         Self {
             mass: self.mass,
@@ -82,7 +87,7 @@ impl<R: Real> Magnitude<R> {
 
 /// |x| + |y| + |z|, a bound of the length without a root.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn length<R: Real>(v: R::Vec3) -> R {
+pub(super) fn length<R: Real>(v: R::Vec3) -> R {
     let [x, y, z] = v.array();
     x.abs() + y.abs() + z.abs()
 }

@@ -8,7 +8,7 @@ use super::joint_coordinate::{JointCoordinate, near_unit, rotation};
 use super::joint_kind::JointKind;
 use crate::math::entry;
 use crate::scalar::{Matrix, Real, Vector};
-use crate::spatial::{Force, Motion, MotionSubspace, Xform, raised};
+use crate::spatial::{AxialScrews, Force, Motion, MotionSubspace, Screw, Xform, raised};
 use crate::trig::Kernel;
 
 use JointKind::*;
@@ -59,6 +59,45 @@ impl<R: Real> LinkView<'_, R> {
     pub(crate) fn xform_of(&self, rot: R::Mat3, turns: &[JointCoordinate<R>]) -> Xform<R> {
         let pos = self.origin(turns);
         Xform { rot, pos }
+    }
+
+    /// Whether the link is turned from its parent about x, and shifted along x and along its own axis, exactly.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn is_screwed(&self) -> bool {
+        let ([x, y, z], [_, r_y, r_z]) = (
+            self.placement.rot.cols().map(Vector::array),
+            self.placement.pos.array(),
+        );
+        let across = (y[1] * r_y).abs() + (z[1] * r_z).abs();
+        x[0] > R::ZERO && x[1].abs() + x[2].abs() + across == R::ZERO
+    }
+
+    /// The same transform of a link that [is placed by screws](Self::is_screwed).
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn screws(&self, turns: &[JointCoordinate<R>]) -> AxialScrews<R> {
+        let [[_, cos, _], [_, sin, _]] = [1, 2].map(|k| self.placement.rot.cols()[k].array());
+        let [_, y, z] = self.placement.pos.array();
+        self.screws_of(cos * z - sin * y, turns)
+    }
+
+    /// The same, of which the shift along z is given.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn screws_of(&self, along_z: R, turns: &[JointCoordinate<R>]) -> AxialScrews<R> {
+        let [_, y, z] = self.placement.rot.cols().map(Vector::array);
+        let [along_x, _, _] = self.placement.pos.array();
+        let turn = entry(turns, self.idx_q);
+        AxialScrews {
+            about_x: Screw {
+                sin: z[1],
+                cos: y[1],
+                shift: along_x,
+            },
+            about_z: Screw {
+                sin: turn.sin,
+                cos: turn.cos,
+                shift: along_z,
+            },
+        }
     }
 
     /// The origin of the body in its parent's aligned frame, m.

@@ -256,6 +256,19 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
         self.chain
     }
 
+    /// Whether all joints turn, and each link [is placed by screws](LinkView::is_screwed).
+    pub(crate) const fn has_screws(&self) -> bool {
+        let (mut all, mut i) = (self.kinds.are_revolute(), 0);
+        while i < B {
+            let Xform { rot, pos } = &self.links[i].placement;
+            let (x, y, z) = (rot.x_axis, rot.y_axis, rot.z_axis);
+            all &=
+                x.x > 0.0 && x.y == 0.0 && x.z == 0.0 && y.y * pos.y == 0.0 && z.y * pos.z == 0.0;
+            i += 1;
+        }
+        all
+    }
+
     /// Placement and inertia of link `i` in the frames of its description, as in a URDF; up to rounding where an axis
     /// is none of x, y, z.
     pub fn in_link_frame(&self, i: usize) -> (Xform<f64>, SpatialInertia<f64>) {

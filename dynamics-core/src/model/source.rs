@@ -20,6 +20,9 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     const CHAIN: bool = false;
     /// Whether every body is known to have one coordinate.
     const SINGLE: bool = false;
+    /// Whether every joint turns, and each link stands in its parent's frame as Denavit & Hartenberg's parameters say: turned about x,
+    /// and shifted along x and along its own axis. None if that is not known at compile time.
+    const SCREWS: Option<bool> = None;
 
     /// The robot's numbers.
     fn model(&self) -> &Model<R, B, Q, V>;
@@ -36,6 +39,13 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn as_revolute_chain(&self) -> Option<RevoluteChain<'_, R, B, Q, V>> {
         None
+    }
+
+    /// Whether [`RobotModel::SCREWS`] holds, of a robot whose joints turn.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn has_screws(&self) -> bool {
+        let asked = || self.links().all(|link| link.is_screwed());
+        const { Self::SCREWS }.unwrap_or_else(asked)
     }
 
     /// The links, parents first, each with the properties of its joint that are known at compile time.
@@ -143,6 +153,7 @@ where
     const KINDS: JointKinds = T::MODEL.kinds();
     const CHAIN: bool = T::MODEL.is_chain();
     const SINGLE: bool = T::MODEL.kinds().are_single() && B == Q && B == V;
+    const SCREWS: Option<bool> = Some(T::MODEL.has_screws());
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn model(&self) -> &Model<R, B, Q, V> {
@@ -153,7 +164,8 @@ where
 /// A robot with the structure of `T`, known at compile time, and run-time parameters: identified masses and inertias,
 /// measured lengths.
 ///
-/// It is as fast and as small as [`Static`], while a [`Model`] at run time has a branch on the kind of each joint.
+/// It is as fast and as small as [`Static`], while a [`Model`] at run time has a branch on the kind of each joint; but forward
+/// dynamics of a chain by [`aba`](crate::algorithms::aba()) asks at each call how its links are placed, and has code for either answer.
 ///
 /// ```
 /// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::Calibrated, robots::Ur5e, state::State};

@@ -123,9 +123,9 @@ impl<R: Real> CompositeInertia<R> {
 /// The blocks of [Ī H; Hᵀ M], RBDA (2.72), in 21 numbers: the force per acceleration of its handle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ArticulatedInertia<R: Real> {
-    inertia: Symmetric<R>,
-    coupling: R::Mat3,
-    mass: Symmetric<R>,
+    pub(super) inertia: Symmetric<R>,
+    pub(super) coupling: R::Mat3,
+    pub(super) mass: Symmetric<R>,
 }
 
 impl<R: Real> From<SpatialInertia<R>> for ArticulatedInertia<R> {
@@ -263,13 +263,13 @@ impl<R: Real> ArticulatedInertia<R> {
 /// and row z of H are zero and left out.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FreeAboutZ<R: Real> {
-    xx: R,
-    xy: R,
-    yy: R,
+    pub(super) xx: R,
+    pub(super) xy: R,
+    pub(super) yy: R,
     /// Rows x and y of H.
-    coupling_x: R::Vec3,
-    coupling_y: R::Vec3,
-    mass: Symmetric<R>,
+    pub(super) coupling_x: R::Vec3,
+    pub(super) coupling_y: R::Vec3,
+    pub(super) mass: Symmetric<R>,
 }
 
 impl<R: Real> FreeAboutZ<R> {

@@ -12,6 +12,7 @@
 //! ```
 
 mod acceleration_field;
+mod axial_screws;
 mod body_coriolis;
 pub(crate) mod inertia;
 mod motion_subspace;
@@ -19,6 +20,7 @@ pub(crate) mod rotation;
 pub(crate) mod symmetric;
 
 pub(crate) use acceleration_field::AccelerationField;
+pub(crate) use axial_screws::{AxialScrews, Screw};
 pub(crate) use body_coriolis::BodyCoriolis;
 pub(crate) use motion_subspace::{MotionSubspace, raised};
 

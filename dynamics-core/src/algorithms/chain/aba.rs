@@ -1,10 +1,12 @@
 //! Forward dynamics of a chain of joints with one coordinate each: the articulated-body algorithm where nothing branches.
 //!
 //! The passes of [`aba`](crate::algorithms::aba()), Featherstone, RBDA (2008), table 7.1. One articulated inertia runs from the tip to the
-//! base, of which the row that a free turn about z cannot feel is left out; of the first body only its pivot is computed.
+//! base, of which the row that a free turn about z cannot feel is left out; of the first body only its pivot is computed. A link that is
+//! placed by Denavit & Hartenberg's parameters is crossed by two screws: McMillan & Orin (1995).
 
 use heapless::Vec;
 
+use super::across::{Across, AcrossZ};
 use crate::algorithms::NotPositiveDefinite;
 use crate::algorithms::aba::JointFactor;
 use crate::algorithms::pivot_check::{Magnitude, PivotCheck};
@@ -18,17 +20,17 @@ use crate::effects::{
 use crate::model::RobotModel;
 use crate::scalar::{Matrix, Real};
 use crate::spatial::inertia::ArticulatedInertia;
-use crate::spatial::{Force, Motion, MotionSubspace, Xform};
+use crate::spatial::{AxialScrews, Force, Motion, MotionSubspace, SpatialInertia, Xform};
 use crate::state::{JointTrig, State, entry};
 
-/// What the first pass leaves of a body: its rotation from its parent, c and pᴬ of the body alone.
-struct Body<R: Real> {
-    rot: R::Mat3,
-    c: Motion<R>,
+/// What the first pass leaves of a body: what it keeps of X, c, and pᴬ of the body alone.
+struct Body<R: Real, X: Across<R>> {
+    x: X::Kept,
+    c: AcrossZ<R>,
     pa: Force<R>,
 }
 
-/// Iᵃ, pᵃ and the sizes of the bodies beyond a joint, at the parent's frame.
+/// Iᵃ, pᵃ and the sizes of the bodies beyond a joint, at the parent's frame; beyond the last one all are zero.
 struct Beyond<R: Real> {
     ia: ArticulatedInertia<R>,
     pa: Force<R>,
@@ -37,7 +39,7 @@ struct Beyond<R: Real> {
 
 /// q̈ of a chain: `D::CHAIN` and `D::SINGLE` hold.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(in crate::algorithms) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+pub(in crate::algorithms) fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
@@ -48,26 +50,51 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
+    if const { D::KINDS.are_revolute() } && robot.has_screws() {
+        sweep::<AxialScrews<R>, _, _, _, B, Q, V>(robot, trig, state, effects, tau)
+    } else {
+        sweep::<Xform<R>, _, _, _, B, Q, V>(robot, trig, state, effects, tau)
+    }
+}
+
+/// The three passes, with the transforms across links in the form X.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn sweep<X, R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    trig: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    effects: &E,
+    tau: &[R; V],
+) -> Result<[R; V], NotPositiveDefinite>
+where
+    X: Across<R>,
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
     let turns = &trig.coordinates;
     let (v_0, a_0) = base_motion(effects);
-    let mut bodies = Vec::new();
+    let mut bodies: Vec<Body<R, X>, V> = Vec::new();
     outward_velocities(robot, trig, state, effects, v_0, &mut bodies);
 
     let mut factors: Vec<JointFactor<R>, V> = Vec::new();
-    let mut beyond: Option<Beyond<R>> = None;
+    let mut beyond = Beyond {
+        ia: ArticulatedInertia::from(SpatialInertia::ZERO),
+        pa: Force::ZERO,
+        magnitude: Magnitude::from(&SpatialInertia::ZERO),
+    };
     for i in (0..V).rev() {
         let (Some(link), Some(body)) = (robot.link(i), bodies.get(i)) else {
             continue;
         };
         let inertia = body_inertia(effects, i, &link);
-        let mut ia = ArticulatedInertia::from(inertia);
-        let (mut pa, mut magnitude) = (body.pa, Magnitude::from(&inertia));
-        if let Some(beyond) = &beyond {
-            ia = beyond.ia;
-            ia += inertia;
-            pa += beyond.pa;
-            magnitude += beyond.magnitude;
-        }
+        let Beyond {
+            mut ia,
+            mut pa,
+            mut magnitude,
+        } = beyond;
+        ia += inertia;
+        pa += body.pa;
+        magnitude += Magnitude::from(&inertia);
         let s = link.subspace(turns, 0);
         let u_a = ia.along(&s);
         let mut d = s.dot(u_a);
@@ -82,33 +109,33 @@ where
             break;
         }
         pa += u_a * (u * d_inv);
-        let x = link.xform_of(body.rot, turns);
+        let x = X::again(body.x, &link, turns);
         // Iᵃ c after the update of Iᴬ: pᵃ = pᴬ + Iᵃ c + U D⁻¹ u.
         let (ia_c, ia) = if matches!(s, MotionSubspace::RevoluteZ) && effects.inertia(i).is_none() {
             let free = ia.free_about_z(u_a, d_inv);
-            (free.times_across(body.c), free.at_parent(&x))
+            (free.times_across(body.c.motion()), x.free_back(&free))
         } else {
             let rest = ia.minus_outer(u_a, d_inv);
-            (rest.times(body.c), rest.at_parent(&x))
+            (rest.times(body.c.motion()), x.inertia_back(&rest))
         };
-        beyond = Some(Beyond {
+        beyond = Beyond {
             ia,
-            pa: x.transpose_mul(pa + ia_c),
-            magnitude: magnitude.at_parent(x.pos),
-        });
+            pa: x.force_back(pa + ia_c),
+            magnitude: magnitude.at_distance(x.distance()),
+        };
     }
     Ok(outward_accelerations(robot, &bodies, trig, a_0, &factors))
 }
 
 /// vᵢ, cᵢ = v × S q̇, and pᴬ = v ×* I v − fˣ of each body alone.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn outward_velocities<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+fn outward_velocities<X: Across<R>, R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     effects: &E,
     v_0: Motion<R>,
-    bodies: &mut Vec<Body<R>, V>,
+    bodies: &mut Vec<Body<R, X>, V>,
 ) where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
@@ -116,15 +143,15 @@ fn outward_velocities<R: Real, D, E, const B: usize, const Q: usize, const V: us
     let turns = &trig.coordinates;
     let (mut v, mut poses) = (v_0, per_body(robot, Xform::IDENTITY));
     for (i, link) in robot.links().enumerate() {
-        let x = link.xform(turns);
+        let x = X::of(&link, turns);
         v = link.plus_motion(x * v, turns, &state.qd);
         let (mut c, mut pa) = (Motion::ZERO, Force::ZERO);
         if E::VELOCITY_PRODUCTS {
-            c = link.plus_velocity_product(Motion::ZERO, turns, &state.qd, v);
+            c = link.column_rate(turns, &state.qd, v, 0) * entry(&state.qd, i);
             pa = body_inertia(effects, i, &link).bias_force(v);
         }
         if E::WRENCH {
-            pa -= external_force(effects, i, &link, &x, &mut poses, v);
+            pa -= external_force(effects, i, &link, &link.xform(turns), &mut poses, v);
         }
         if E::GYROSCOPIC_ROTORS
             && E::VELOCITY_PRODUCTS
@@ -132,9 +159,10 @@ fn outward_velocities<R: Real, D, E, const B: usize, const Q: usize, const V: us
         {
             let rate = entry(&state.qd, i);
             let couple = gyroscopic(effects, &link, v.ang, rate, R::ZERO);
-            parent.pa.ang += x.rot.transpose_mul(couple);
+            parent.pa.ang += link.xform(turns).rot.transpose_mul(couple);
         }
-        if bodies.push(Body { rot: x.rot, c, pa }).is_err() {
+        let (x, c) = (x.kept(), AcrossZ::of(c));
+        if bodies.push(Body { x, c, pa }).is_err() {
             break;
         }
     }
@@ -142,9 +170,9 @@ fn outward_velocities<R: Real, D, E, const B: usize, const Q: usize, const V: us
 
 /// q̈ᵢ = D⁻¹ (u − Uᵀ a′) with a′ = X a + c, and aᵢ = a′ + S q̈.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn outward_accelerations<R: Real, D, const B: usize, const Q: usize, const V: usize>(
+fn outward_accelerations<X: Across<R>, R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    bodies: &[Body<R>],
+    bodies: &[Body<R, X>],
     trig: &JointTrig<R, Q>,
     a_0: Motion<R>,
     factors: &[JointFactor<R>],
@@ -156,7 +184,7 @@ where
     let (mut qdd, mut a) = ([R::ZERO; V], a_0);
     let bodies = robot.links().zip(bodies).zip(factors.iter().rev());
     for (((link, body), factor), qdd) in bodies.zip(&mut qdd) {
-        let a_parent = link.xform_of(body.rot, turns) * a + body.c;
+        let a_parent = X::again(body.x, &link, turns) * a + body.c.motion();
         *qdd = (factor.u - a_parent.dot(factor.u_a)) * factor.d_inv;
         a = link.subspace(turns, 0).add_scaled_to(a_parent, *qdd);
     }

@@ -4,5 +4,6 @@
 //! they share stays in registers, and links are visited anew rather than stored.
 
 pub(super) mod aba;
+mod across;
 pub(super) mod crba;
 pub(super) mod rnea;

@@ -245,27 +245,20 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
         for (i, (joint, [frame_p, frame_s])) in loops.ends::<R>().enumerate() {
             let [p, s] = joint.bodies();
             let ancestor = entry(&self.ancestors, i);
-            let from_p = bodies.of_frame(robot, (p, frame_p), ancestor);
-            let x = bodies.of_frame(robot, (s, frame_s), ancestor) * inverse(&from_p);
             let mut columns: Vec<(usize, Motion<R>), V> = Vec::new();
-            bodies.columns(
-                robot,
-                turns,
-                (s, frame_s),
-                ancestor,
-                |coordinate, column| {
-                    let _ = columns.push((coordinate, column.motion()));
-                },
-            );
-            bodies.columns(
-                robot,
-                turns,
-                (p, frame_p),
-                ancestor,
-                |coordinate, column| {
-                    let _ = columns.push((coordinate, column.opposite(&x)));
-                },
-            );
+            let on_s = (s, frame_s);
+            let from_s = bodies.of_frame(robot, turns, on_s, ancestor, |coordinate, column| {
+                let _ = columns.push((coordinate, column.motion()));
+            });
+            let from_p = bodies.of_frame(robot, turns, (p, frame_p), ancestor, |_, _| ());
+            let x = from_s * inverse(&from_p);
+            if p != ancestor {
+                // What moves the predecessor, in the axes of the successor.
+                let on_p = (p, x * frame_p);
+                bodies.columns(robot, turns, on_p, ancestor, |coordinate, column| {
+                    let _ = columns.push((coordinate, -column.motion()));
+                });
+            }
 
             let constraint = loops.constraint(joint, x);
             let rows = loops.rows(i);
@@ -327,11 +320,14 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
         for (i, ((joint, [frame_p, frame_s]), &x)) in ends {
             let [p, s] = joint.bodies();
             let ancestor = entry(&self.ancestors, i);
-            let [v_p, a_p] = bodies.motion(robot, (turns, qd), (p, frame_p), ancestor);
             let [v_s, a_s] = bodies.motion(robot, (turns, qd), (s, frame_s), ancestor);
-            let v_p = x * v_p;
-            let v = v_s - v_p;
-            let a = a_s - x * a_p + v.cross(v_p);
+            let (mut v, mut a) = (v_s, a_s);
+            if p != ancestor {
+                let on_p = (p, x * frame_p);
+                let [v_p, a_p] = bodies.motion(robot, (turns, qd), on_p, ancestor);
+                v = v_s - v_p;
+                a = a_s - a_p + v.cross(v_p);
+            }
             let constraint = loops.constraint(joint, x);
             let velocity = constraint.across(v);
             let (known, apparent) = (constraint.across(a), constraint.apparent(v));

@@ -153,7 +153,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         let passive = loops.passive();
         self.size = closing.size;
         let elimination = &mut self.elimination;
-        elimination.eliminate::<true, L, A>(closing, loops, &passive);
+        elimination.eliminate(closing, loops, |joint| entry(&passive, joint));
         self.rows = elimination.loop_rows();
         for joint in elimination.free().filter(|&joint| entry(&passive, joint)) {
             let bias = |qd| {

@@ -61,11 +61,26 @@ pub fn ltdl<R: Real, D, const B: usize, const Q: usize, const V: usize>(
 where
     D: RobotModel<R, B, Q, V>,
 {
+    let (mut factors, mut d_inv) = (*m, [R::ZERO; V]);
+    ltdl_in_place(robot, &mut factors, &mut d_inv)?;
+    let rows = factors.rows;
+    Ok(Ltdl { rows, d_inv })
+}
+
+/// The same in the place of M: L below the diagonal, D on it, and the reciprocals of D.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn ltdl_in_place<R: Real, D, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    m: &mut MassMatrix<R, V>,
+    d_inv: &mut [R; V],
+) -> Result<(), NotPositiveDefinite>
+where
+    D: RobotModel<R, B, Q, V>,
+{
     let lambda = &robot.model().lambda;
-    let (mut rows, mut d_inv) = (m.rows, [R::ZERO; V]);
     let mut sizes = Sizes::of(robot, m);
     for k in (0..V).rev() {
-        let (ancestors, at) = rows.split_at_mut(k);
+        let (ancestors, at) = m.rows.split_at_mut(k);
         let (Some(row), Some(d_inv)) = (at.first_mut(), d_inv.get_mut(k)) else {
             break;
         };
@@ -89,7 +104,7 @@ where
             i = parent(lambda, i);
         }
     }
-    Ok(Ltdl { rows, d_inv })
+    Ok(())
 }
 
 /// The solution x of M x = τ: accelerations of torques, rad/s² or m/s² of N·m or N.

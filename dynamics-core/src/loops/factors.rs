@@ -1,0 +1,170 @@
+//! Solutions of forward dynamics: K x = b, and Kᵀ λ = τ in the coordinates with a pivot.
+//!
+//! By the factors of K, which solve with a few right-hand sides in fewer products than T of [`Elimination`] takes to form;
+//! by T where pivots are not found loop by loop. Golub & Van Loan, *Matrix Computations*, section 3.2.
+
+use super::Constraints;
+use super::description::Loops;
+use super::elimination::{Elimination, LoopRows, Order, dot, subtract};
+use crate::scalar::Real;
+use crate::state::entry;
+
+/// The factors of K, or T. Of the factors `rows` are those of K over their pivots, without the columns of earlier ones;
+/// `transform` has in the row of a pivot its reciprocal, and how many times the row was subtracted from each row after it.
+pub(super) struct Factors<'a, R, const V: usize, const C: usize> {
+    k: &'a mut Elimination<R, V, C>,
+    /// The right-hand side b, eliminated with the rows.
+    right: [R; C],
+    /// The pivots; none if there is T.
+    order: Order<C>,
+}
+
+impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
+    /// Those of K and b, in a place for them.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn of<const L: usize, const A: usize>(
+        k: &'a mut Elimination<R, V, C>,
+        closing: &Constraints<R, V, L, C>,
+        loops: &Loops<L, C, A>,
+        right: [R; C],
+    ) -> Self {
+        let scale = closing.size.map(|size| R::ONE / size);
+        let mut factors = Self {
+            k,
+            right,
+            order: Order::new(),
+        };
+        if L > 1 && C <= V {
+            let more = (&mut factors.order, &mut factors.right);
+            let all = |_| true;
+            if (factors.k).loop_by_loop::<true, L, A>(closing, loops, all, &scale, more) {
+                return factors;
+            }
+            factors.order.clear();
+            factors.right = right;
+        }
+        (factors.k).completely::<false, L>(closing, |_| true, &scale);
+        factors
+    }
+
+    /// Which rows of K have a pivot.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn loop_rows(&self) -> LoopRows<C> {
+        self.k.loop_rows()
+    }
+
+    /// The coordinates without a pivot, which the others depend on.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn free(&self) -> impl DoubleEndedIterator<Item = usize> {
+        self.k.free()
+    }
+
+    /// x with K x = b, of free coordinates that are zero.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn solution(&self) -> [R; V] {
+        if self.order.is_empty() {
+            self.k.particular(&self.right)
+        } else {
+            self.solve(&self.right, [R::ZERO; V])
+        }
+    }
+
+    /// The column of G of a free coordinate: the motion of all at its unit rate.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn motion(&self, free: usize) -> [R; V] {
+        let mut x = [R::ZERO; V];
+        if let Some(x) = x.get_mut(free) {
+            *x = R::ONE;
+        }
+        if !self.order.is_empty() {
+            return self.solve(&[R::ZERO; C], x);
+        }
+        for (row, &column) in self.k.rows.iter().zip(&self.k.column_of) {
+            if let Some(x) = x.get_mut(column) {
+                *x = -entry(row, free);
+            }
+        }
+        x
+    }
+
+    /// λ with Kᵀ λ = `torque` in the coordinates with a pivot.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn force(&self, mut torque: [R; V]) -> [R; C] {
+        if self.order.is_empty() {
+            return self.k.lambda(&torque);
+        }
+        let mut lambda = [R::ZERO; C];
+        for &(row, column) in &self.order {
+            if let (Some(of_row), Some(lambda)) = (self.k.rows.get(row), lambda.get_mut(row)) {
+                *lambda = entry(&torque, column);
+                subtract(&mut torque, *lambda, of_row);
+            }
+        }
+        for &(row, _) in self.order.iter().rev() {
+            if let (Some(multiples), Some(own)) = (self.k.transform.get(row), lambda.get_mut(row)) {
+                let torque = core::mem::take(own);
+                let own = (torque - dot(multiples, &lambda)) * entry(multiples, row);
+                if let Some(lambda) = lambda.get_mut(row) {
+                    *lambda = own;
+                }
+            }
+        }
+        lambda
+    }
+
+    /// x with K x = `right`, eliminated as the rows are, of given free coordinates, the others zero.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn solve(&self, right: &[R; C], free: [R; V]) -> [R; V] {
+        let mut x = free;
+        for &(row, column) in self.order.iter().rev() {
+            if let (Some(of_row), Some(&right)) = (self.k.rows.get(row), right.get(row)) {
+                // The coordinates of this pivot and of earlier ones are zero as yet.
+                let own = right - dot(of_row, &x);
+                if let Some(x) = x.get_mut(column) {
+                    *x = own;
+                }
+            }
+        }
+        x
+    }
+}
+
+impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
+    /// Divides the row of a pivot by it, and subtracts it from those that are open, the right-hand side likewise.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn subtract_scaled(
+        &mut self,
+        (row, column): (usize, usize),
+        open: &[usize],
+        right: &mut [R; C],
+    ) {
+        let (Some(pivot_row), Some(own), Some(multiples)) = (
+            self.rows.get_mut(row),
+            right.get_mut(row),
+            self.transform.get_mut(row),
+        ) else {
+            return;
+        };
+        let reciprocal = R::ONE / entry(pivot_row, column);
+        let scaled = pivot_row.map(|x| x * reciprocal);
+        *pivot_row = scaled;
+        *own *= reciprocal;
+        let own = *own;
+        if let Some(kept) = multiples.get_mut(row) {
+            *kept = reciprocal;
+        }
+        for &i in open {
+            let (Some(other), Some(right), Some(kept)) =
+                (self.rows.get_mut(i), right.get_mut(i), multiples.get_mut(i))
+            else {
+                continue;
+            };
+            let factor = entry(other, column);
+            if factor != R::ZERO {
+                subtract(other, factor, &scaled);
+                *right -= factor * own;
+                *kept = factor;
+            }
+        }
+    }
+}

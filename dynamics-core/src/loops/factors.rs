@@ -3,6 +3,8 @@
 //! By the factors of K, which solve with a few right-hand sides in fewer products than T of [`Elimination`] takes to form;
 //! by T where pivots are not found loop by loop. Golub & Van Loan, *Matrix Computations*, section 3.2.
 
+use heapless::Vec;
+
 use super::Constraints;
 use super::description::Loops;
 use super::elimination::{Elimination, LoopRows, Order, dot, subtract};
@@ -38,6 +40,7 @@ impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
             let more = (&mut factors.order, &mut factors.right);
             let all = |_| true;
             if (factors.k).loop_by_loop::<true, L, A>(closing, loops, all, &scale, more) {
+                factors.substitute_back();
                 return factors;
             }
             factors.order.clear();
@@ -45,6 +48,38 @@ impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
         }
         (factors.k).completely::<false, L>(closing, |_| true, &scale);
         factors
+    }
+
+    /// Makes b and the columns without a pivot those of unit columns for the pivots, from the last pivot to the first.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn substitute_back(&mut self) {
+        let mut order: &[(usize, usize)] = &self.order;
+        while let Some((&(row, column), before)) = order.split_last() {
+            order = before;
+            let Some(pivot_row) = self.k.rows.get(row) else {
+                break;
+            };
+            let mut of_free: Vec<(usize, R), V> = Vec::new();
+            for free in self.k.free() {
+                let _ = of_free.push((free, entry(pivot_row, free)));
+            }
+            let right = entry(&self.right, row);
+            for &(i, _) in before {
+                let (Some(other), Some(of_other)) = (self.k.rows.get_mut(i), self.right.get_mut(i))
+                else {
+                    continue;
+                };
+                let factor = entry(other, column);
+                if factor != R::ZERO {
+                    *of_other -= factor * right;
+                    for &(free, x) in &of_free {
+                        if let Some(other) = other.get_mut(free) {
+                            *other -= factor * x;
+                        }
+                    }
+                }
+            }
+        }
     }
 
     /// Which rows of K have a pivot.
@@ -63,26 +98,28 @@ impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn solution(&self) -> [R; V] {
         if self.order.is_empty() {
-            self.k.particular(&self.right)
-        } else {
-            self.solve(&self.right, [R::ZERO; V])
+            return self.k.particular(&self.right);
         }
+        let mut x = [R::ZERO; V];
+        for (&right, &column) in self.right.iter().zip(&self.k.column_of) {
+            if let Some(x) = x.get_mut(column) {
+                *x = right;
+            }
+        }
+        x
     }
 
     /// The column of G of a free coordinate: the motion of all at its unit rate.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn motion(&self, free: usize) -> [R; V] {
         let mut x = [R::ZERO; V];
-        if let Some(x) = x.get_mut(free) {
-            *x = R::ONE;
-        }
-        if !self.order.is_empty() {
-            return self.solve(&[R::ZERO; C], x);
-        }
         for (row, &column) in self.k.rows.iter().zip(&self.k.column_of) {
             if let Some(x) = x.get_mut(column) {
                 *x = -entry(row, free);
             }
+        }
+        if let Some(x) = x.get_mut(free) {
+            *x = R::ONE;
         }
         x
     }
@@ -110,22 +147,6 @@ impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
             }
         }
         lambda
-    }
-
-    /// x with K x = `right`, eliminated as the rows are, of given free coordinates, the others zero.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn solve(&self, right: &[R; C], free: [R; V]) -> [R; V] {
-        let mut x = free;
-        for &(row, column) in self.order.iter().rev() {
-            if let (Some(of_row), Some(&right)) = (self.k.rows.get(row), right.get(row)) {
-                // The coordinates of this pivot and of earlier ones are zero as yet.
-                let own = right - dot(of_row, &x);
-                if let Some(x) = x.get_mut(column) {
-                    *x = own;
-                }
-            }
-        }
-        x
     }
 }
 

@@ -188,6 +188,15 @@ impl<R: Real> Column<R> {
             Self::Slide(along) => Motion::new(R::Vec3::ZERO, along),
         }
     }
+
+    /// −X S, the motion of the other side.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn opposite(self, x: &Xform<R>) -> Motion<R> {
+        match self {
+            Self::Turn(motion) => -(*x * motion),
+            Self::Slide(along) => Motion::new(R::Vec3::ZERO, -(x.rot * along)),
+        }
+    }
 }
 
 /// The columns of X S.

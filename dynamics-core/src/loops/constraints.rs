@@ -56,12 +56,17 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
         worst
     }
 
+    /// One over the size of the loop of each row.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn scale(&self) -> [R; C] {
+        self.size.map(|size| R::ONE / size)
+    }
+
     /// The rows of K over the sizes of their loops.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn scaled(&self) -> [[R; V]; C] {
         let mut rows = self.jacobian;
-        for (row, &size) in rows.iter_mut().zip(&self.size) {
-            let by = R::ONE / size;
+        for (row, by) in rows.iter_mut().zip(self.scale()) {
             row.iter_mut().for_each(|entry| *entry *= by);
         }
         rows
@@ -70,13 +75,13 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
     /// The errors of position over the sizes of their loops.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn error(&self) -> [R; C] {
-        over(self.position, &self.size)
+        scaled(self.position, &self.scale())
     }
 
     /// k over the sizes of the loops.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn scaled_bias(&self) -> [R; C] {
-        over(self.bias, &self.size)
+        scaled(self.bias, &self.scale())
     }
 
     /// Row `row` of K q̈, with what stabilises it.
@@ -140,11 +145,11 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
     }
 }
 
-/// Numbers of rows over the sizes of their loops.
+/// Numbers of rows times those of the scale.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn over<R: Real, const C: usize>(mut rows: [R; C], size: &[R; C]) -> [R; C] {
-    for (x, &size) in rows.iter_mut().zip(size) {
-        *x *= R::ONE / size;
+pub(super) fn scaled<R: Real, const C: usize>(mut rows: [R; C], scale: &[R; C]) -> [R; C] {
+    for (x, &scale) in rows.iter_mut().zip(scale) {
+        *x *= scale;
     }
     rows
 }
@@ -252,13 +257,15 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
             });
             let from_p = bodies.of_frame(robot, turns, (p, frame_p), ancestor, |_, _| ());
             let x = from_s * inverse(&from_p);
-            if p != ancestor {
-                // What moves the predecessor, in the axes of the successor.
-                let on_p = (p, x * frame_p);
-                bodies.columns(robot, turns, on_p, ancestor, |coordinate, column| {
-                    let _ = columns.push((coordinate, -column.motion()));
-                });
-            }
+            bodies.columns(
+                robot,
+                turns,
+                (p, frame_p),
+                ancestor,
+                |coordinate, column| {
+                    let _ = columns.push((coordinate, column.opposite(&x)));
+                },
+            );
 
             let constraint = loops.constraint(joint, x);
             let rows = loops.rows(i);
@@ -320,14 +327,11 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
         for (i, ((joint, [frame_p, frame_s]), &x)) in ends {
             let [p, s] = joint.bodies();
             let ancestor = entry(&self.ancestors, i);
+            let [v_p, a_p] = bodies.motion(robot, (turns, qd), (p, frame_p), ancestor);
             let [v_s, a_s] = bodies.motion(robot, (turns, qd), (s, frame_s), ancestor);
-            let (mut v, mut a) = (v_s, a_s);
-            if p != ancestor {
-                let on_p = (p, x * frame_p);
-                let [v_p, a_p] = bodies.motion(robot, (turns, qd), on_p, ancestor);
-                v = v_s - v_p;
-                a = a_s - a_p + v.cross(v_p);
-            }
+            let v_p = x * v_p;
+            let v = v_s - v_p;
+            let a = a_s - x * a_p + v.cross(v_p);
             let constraint = loops.constraint(joint, x);
             let velocity = constraint.across(v);
             let (known, apparent) = (constraint.across(a), constraint.apparent(v));

@@ -6,7 +6,7 @@
 use core::borrow::Borrow;
 
 use super::chain::LoopBodies;
-use super::constraints::over;
+use super::constraints::scaled;
 use super::description::Loops;
 use super::elimination::{Elimination, LoopRows, dot, subtract};
 use super::error::LoopError;
@@ -44,7 +44,8 @@ pub enum Drive {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
     elimination: Elimination<R, V, C>,
-    size: [R; C],
+    /// One over the sizes of the loops.
+    scale: [R; C],
     rows: LoopRows<C>,
     /// The loop and the coordinate that are damped most.
     singular: Option<(&'static str, usize)>,
@@ -126,7 +127,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         Self {
             rows: elimination.loop_rows(),
             elimination,
-            size: [R::ONE; C],
+            scale: [R::ONE; C],
             singular: None,
             actuated: loops.actuated,
             independent: [false; A],
@@ -151,9 +152,9 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
             return Err(LoopError::Open { name, error });
         }
         let passive = loops.passive();
-        self.size = closing.size;
+        self.scale = closing.scale();
         let elimination = &mut self.elimination;
-        elimination.eliminate(closing, loops, |joint| entry(&passive, joint));
+        elimination.eliminate(closing, loops, |joint| entry(&passive, joint), &self.scale);
         self.rows = elimination.loop_rows();
         for joint in elimination.free().filter(|&joint| entry(&passive, joint)) {
             let bias = |qd| {
@@ -218,7 +219,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     /// q̈ = G ÿ + ġ from the accelerations of the actuated coordinates and the k of [`Constraints::bias`].
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn acceleration(&self, accelerations: &[R; A], bias: &[R; C]) -> [R; V] {
-        let mut qdd = self.elimination.particular(&over(*bias, &self.size));
+        let mut qdd = self.elimination.particular(&scaled(*bias, &self.scale));
         subtract(&mut qdd, -R::ONE, &self.velocity(accelerations));
         qdd
     }
@@ -258,7 +259,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     /// The λ that takes the place of the torques `rest` = τ − τ_a.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn lambda(&self, rest: &[R; V]) -> [R; C] {
-        over(self.elimination.lambda(rest), &self.size)
+        scaled(self.elimination.lambda(rest), &self.scale)
     }
 
     /// Numbers of the independent coordinates in their places of all coordinates.

@@ -107,8 +107,8 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         closing: &Constraints<R, V, L, C>,
         loops: &Loops<L, C, A>,
         first: impl Fn(usize) -> bool + Copy,
+        scale: &[R; C],
     ) {
-        let scale = closing.size.map(|size| R::ONE / size);
         if L > 1 && C <= V {
             for (i, (transform, &size)) in self.transform.iter_mut().zip(&closing.size).enumerate()
             {
@@ -117,12 +117,12 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
             }
             let (mut order, mut right) = (Vec::new(), [R::ZERO; C]);
             let more = (&mut order, &mut right);
-            if self.loop_by_loop::<false, L, A>(closing, loops, first, &scale, more) {
+            if self.loop_by_loop::<false, L, A>(closing, loops, first, scale, more) {
                 self.substitute_back(&order);
                 return;
             }
         }
-        self.completely::<true, L>(closing, first, &scale);
+        self.completely::<true, L>(closing, first, scale);
     }
 
     /// With complete pivoting, from the start; `SCALED`: of rows over the sizes of their loops. Those of forward dynamics are

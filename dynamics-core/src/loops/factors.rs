@@ -15,39 +15,42 @@ use crate::state::entry;
 /// `transform` has in the row of a pivot its reciprocal, and how many times the row was subtracted from each row after it.
 pub(super) struct Factors<'a, R, const V: usize, const C: usize> {
     k: &'a mut Elimination<R, V, C>,
-    /// The right-hand side b, eliminated with the rows.
+    /// The right-hand side b, eliminated with the rows: x at the pivots.
     right: [R; C],
     /// The pivots; none if there is T.
     order: Order<C>,
 }
 
 impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
-    /// Those of K and b, in a place for them.
+    /// Nothing, to be filled in this place.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn of<const L: usize, const A: usize>(
-        k: &'a mut Elimination<R, V, C>,
+    pub(super) fn blank(k: &'a mut Elimination<R, V, C>) -> Self {
+        Self {
+            k,
+            right: [R::ZERO; C],
+            order: Order::new(),
+        }
+    }
+
+    /// Those of K and b.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn set<const L: usize, const A: usize>(
+        &mut self,
         closing: &Constraints<R, V, L, C>,
         loops: &Loops<L, C, A>,
-        right: [R; C],
-    ) -> Self {
-        let scale = closing.size.map(|size| R::ONE / size);
-        let mut factors = Self {
-            k,
-            right,
-            order: Order::new(),
-        };
+        right: &[R; C],
+    ) {
+        let (scale, all) = (closing.scale(), |_| true);
         if L > 1 && C <= V {
-            let more = (&mut factors.order, &mut factors.right);
-            let all = |_| true;
-            if (factors.k).loop_by_loop::<true, L, A>(closing, loops, all, &scale, more) {
-                factors.substitute_back();
-                return factors;
+            self.right = *right;
+            let more = (&mut self.order, &mut self.right);
+            if (self.k).loop_by_loop::<true, L, A>(closing, loops, all, &scale, more) {
+                return self.substitute_back();
             }
-            factors.order.clear();
-            factors.right = right;
+            self.order.clear();
         }
-        (factors.k).completely::<false, L>(closing, |_| true, &scale);
-        factors
+        (self.k).completely::<false, L>(closing, all, &scale);
+        self.right = self.k.transform.each_ref().map(|row| dot(row, right));
     }
 
     /// Makes b and the columns without a pivot those of unit columns for the pivots, from the last pivot to the first.
@@ -97,9 +100,6 @@ impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
     /// x with K x = b, of free coordinates that are zero.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn solution(&self) -> [R; V] {
-        if self.order.is_empty() {
-            return self.k.particular(&self.right);
-        }
         let mut x = [R::ZERO; V];
         for (&right, &column) in self.right.iter().zip(&self.k.column_of) {
             if let Some(x) = x.get_mut(column) {

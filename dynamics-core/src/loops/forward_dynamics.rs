@@ -125,7 +125,8 @@ where
     closing.check(loops)?;
     let right = core::array::from_fn(|row| closing.wanted(row, stabilisation));
     let mut elimination = Elimination::blank();
-    let factors = Factors::of(&mut elimination, &closing, loops, right);
+    let mut factors = Factors::blank(&mut elimination);
+    factors.set(&closing, loops, &right);
     let rows = factors.loop_rows();
 
     let mut rest = rnea(robot, trig.with(state), &Bias(effects)).map(|bias| -bias);
@@ -135,7 +136,7 @@ where
         }
     }
     let mut m = crba(robot, trig, effects);
-    ltdl_in_place(robot, &mut m, &mut [R::ZERO; V])?;
+    ltdl_in_place(robot, &mut m)?;
     // q̈ = G ÿ + ġ with the ÿ of least constraint.
     let mut qdd = factors.solution();
     let metric = Metric::of(robot, &m.rows);

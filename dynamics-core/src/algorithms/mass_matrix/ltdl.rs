@@ -61,26 +61,11 @@ pub fn ltdl<R: Real, D, const B: usize, const Q: usize, const V: usize>(
 where
     D: RobotModel<R, B, Q, V>,
 {
-    let (mut factors, mut d_inv) = (*m, [R::ZERO; V]);
-    ltdl_in_place(robot, &mut factors, &mut d_inv)?;
-    let rows = factors.rows;
-    Ok(Ltdl { rows, d_inv })
-}
-
-/// The same in the place of M: L below the diagonal, D on it, and the reciprocals of D.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn ltdl_in_place<R: Real, D, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    m: &mut MassMatrix<R, V>,
-    d_inv: &mut [R; V],
-) -> Result<(), NotPositiveDefinite>
-where
-    D: RobotModel<R, B, Q, V>,
-{
     let lambda = &robot.model().lambda;
+    let (mut rows, mut d_inv) = (m.rows, [R::ZERO; V]);
     let mut sizes = Sizes::of(robot, m);
     for k in (0..V).rev() {
-        let (ancestors, at) = m.rows.split_at_mut(k);
+        let (ancestors, at) = rows.split_at_mut(k);
         let (Some(row), Some(d_inv)) = (at.first_mut(), d_inv.get_mut(k)) else {
             break;
         };
@@ -90,6 +75,46 @@ where
         let mut i = parent(lambda, k);
         while let Some(row_i) = ancestors.get_mut(i) {
             let l = row.get(i).copied().unwrap_or_default() * *d_inv;
+            if !D::SINGLE {
+                sizes.add_error_of(k, i, l);
+            }
+            let mut j = i;
+            while let (Some(m_ij), Some(&m_kj)) = (row_i.get_mut(j), row.get(j)) {
+                *m_ij -= l * m_kj;
+                j = parent(lambda, j);
+            }
+            if let Some(entry) = row.get_mut(i) {
+                *entry = l;
+            }
+            i = parent(lambda, i);
+        }
+    }
+    Ok(Ltdl { rows, d_inv })
+}
+
+/// The same in the place of M, D on its diagonal: without copies of the matrix, which take as long as the factors of a tree
+/// with many branches. [`ltdl`] by this function is other machine code on trees that have been measured.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn ltdl_in_place<R: Real, D, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    m: &mut MassMatrix<R, V>,
+) -> Result<(), NotPositiveDefinite>
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    let lambda = &robot.model().lambda;
+    let mut sizes = Sizes::of(robot, m);
+    for k in (0..V).rev() {
+        let (ancestors, at) = m.rows.split_at_mut(k);
+        let Some(row) = at.first_mut() else {
+            break;
+        };
+        let pivot = entry(row, k);
+        check(pivot, sizes.noise(k), k)?;
+        let d_inv = R::ONE / pivot;
+        let mut i = parent(lambda, k);
+        while let Some(row_i) = ancestors.get_mut(i) {
+            let l = entry(row, i) * d_inv;
             if !D::SINGLE {
                 sizes.add_error_of(k, i, l);
             }

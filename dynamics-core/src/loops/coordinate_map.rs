@@ -5,17 +5,17 @@
 
 use core::borrow::Borrow;
 
+use super::Constraints;
 use super::chain::LoopBodies;
 use super::constraints::scaled;
 use super::description::Loops;
 use super::elimination::{Elimination, LoopRows, dot, subtract};
 use super::error::LoopError;
 use super::status::OPEN;
-use super::{Constraints, constraints};
 use crate::algorithms::{Damping, damped_inverse};
-use crate::model::RobotModel;
+use crate::model::{JointCoordinate, RobotModel};
 use crate::scalar::Real;
-use crate::state::{Configuration, JointTrig, State, entry};
+use crate::state::{Configuration, entry};
 
 /// Whether the motion determines the torques.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,7 +60,7 @@ pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
 /// V × the number of degrees of freedom.
 ///
 /// # Cost
-/// That of [`constraints()`], and 2 C (V + C) r flops for a rank r of K.
+/// That of [`constraints()`](super::constraints()), and 2 C (V + C) r flops for a rank r of K.
 ///
 /// # Source
 /// Featherstone, RBDA (2008), section 8.11.
@@ -113,9 +113,10 @@ where
     let trig = q.trig_of(robot);
     let mut closing = Constraints::blank();
     let turns = &trig.borrow().coordinates;
-    closing.set_positions(robot, loops, turns, &mut LoopBodies::blank());
+    let mut bodies = LoopBodies::blank();
+    closing.set_positions(robot, loops, turns, &mut bodies);
     let mut map = CoordinateMap::blank(loops);
-    map.set(robot, loops, trig.borrow(), &closing)?;
+    map.set(robot, loops, (turns, &bodies), &closing)?;
     Ok(map)
 }
 
@@ -139,7 +140,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         &mut self,
         robot: &D,
         loops: &Loops<L, C, A>,
-        trig: &JointTrig<R, Q>,
+        (turns, bodies): (&[JointCoordinate<R>; Q], &LoopBodies<R, B>),
         closing: &Constraints<R, V, L, C>,
     ) -> Result<(), LoopError>
     where
@@ -158,11 +159,9 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         self.rows = elimination.loop_rows();
         for joint in elimination.free().filter(|&joint| entry(&passive, joint)) {
             let bias = |qd| {
-                let moving = State {
-                    qd,
-                    ..State::at([R::ZERO; Q])
-                };
-                constraints(robot, loops, trig.with(&moving)).scaled_bias()
+                let mut moving = *closing;
+                moving.set_rates(robot, loops, bodies, (turns, &qd));
+                moving.scaled_bias()
             };
             if !elimination.is_isolated(&passive, joint, bias) {
                 let name = closing.name_of(loops, joint);

@@ -37,11 +37,11 @@ pub use joint_result::{JointResult, Prescribed};
 pub use kinematics::{
     Frame, Kinematics, Pose, bias_acceleration, classical, frame, jacobian, kinematics, poses,
 };
-pub(crate) use mass_matrix::MATRIX_ROUNDINGS;
 pub use mass_matrix::{
     Cholesky, Ltdl, MassMatrix, cholesky, inverse, ltdl, solve, spatial_operator_inverse,
     spatial_operator_ltdl,
 };
+pub(crate) use mass_matrix::{MATRIX_ROUNDINGS, ltdl_in_place};
 pub use momentum::{
     CenterOfMass, MomentumAndCoriolis, MomentumAndDrift, base_velocity_from_momentum,
     center_of_mass, centroidal_matrix, centroidal_momentum, momentum, momentum_and_coriolis,

@@ -95,18 +95,22 @@ impl<R: Real, const B: usize> LoopBodies<R, B> {
         }
     }
 
-    /// From the aligned frame of `ancestor` to a frame on body `at`.
+    /// From the aligned frame of `ancestor` to a frame on body `at`; puts the columns of its Jacobian relative to `ancestor`
+    /// with their coordinates.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of_frame<D, const Q: usize, const V: usize>(
         &self,
         robot: &D,
+        turns: &[JointCoordinate<R>; Q],
         (at, mut frame): (usize, Xform<R>),
         ancestor: usize,
+        mut put: impl FnMut(usize, Column<R>),
     ) -> Xform<R>
     where
         D: RobotModel<R, B, Q, V>,
     {
-        for (i, _) in inward(robot, at, ancestor) {
+        for (i, link) in inward(robot, at, ancestor) {
+            subspace(&link, turns, &frame, &mut put);
             if let Some(x) = self.xforms.get(i) {
                 frame = frame * *x;
             }
@@ -114,7 +118,7 @@ impl<R: Real, const B: usize> LoopBodies<R, B> {
         frame
     }
 
-    /// The columns of the Jacobian of a frame on body `at` relative to `ancestor`, with their coordinates.
+    /// The columns alone.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn columns<D, const Q: usize, const V: usize>(
         &self,

@@ -56,12 +56,17 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
         worst
     }
 
+    /// One over the size of the loop of each row.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn scale(&self) -> [R; C] {
+        self.size.map(|size| R::ONE / size)
+    }
+
     /// The rows of K over the sizes of their loops.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn scaled(&self) -> [[R; V]; C] {
         let mut rows = self.jacobian;
-        for (row, &size) in rows.iter_mut().zip(&self.size) {
-            let by = R::ONE / size;
+        for (row, by) in rows.iter_mut().zip(self.scale()) {
             row.iter_mut().for_each(|entry| *entry *= by);
         }
         rows
@@ -70,13 +75,13 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
     /// The errors of position over the sizes of their loops.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn error(&self) -> [R; C] {
-        over(self.position, &self.size)
+        scaled(self.position, &self.scale())
     }
 
     /// k over the sizes of the loops.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn scaled_bias(&self) -> [R; C] {
-        over(self.bias, &self.size)
+        scaled(self.bias, &self.scale())
     }
 
     /// Row `row` of K q̈, with what stabilises it.
@@ -140,11 +145,11 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
     }
 }
 
-/// Numbers of rows over the sizes of their loops.
+/// Numbers of rows times those of the scale.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn over<R: Real, const C: usize>(mut rows: [R; C], size: &[R; C]) -> [R; C] {
-    for (x, &size) in rows.iter_mut().zip(size) {
-        *x *= R::ONE / size;
+pub(super) fn scaled<R: Real, const C: usize>(mut rows: [R; C], scale: &[R; C]) -> [R; C] {
+    for (x, &scale) in rows.iter_mut().zip(scale) {
+        *x *= scale;
     }
     rows
 }
@@ -245,18 +250,13 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
         for (i, (joint, [frame_p, frame_s])) in loops.ends::<R>().enumerate() {
             let [p, s] = joint.bodies();
             let ancestor = entry(&self.ancestors, i);
-            let from_p = bodies.of_frame(robot, (p, frame_p), ancestor);
-            let x = bodies.of_frame(robot, (s, frame_s), ancestor) * inverse(&from_p);
             let mut columns: Vec<(usize, Motion<R>), V> = Vec::new();
-            bodies.columns(
-                robot,
-                turns,
-                (s, frame_s),
-                ancestor,
-                |coordinate, column| {
-                    let _ = columns.push((coordinate, column.motion()));
-                },
-            );
+            let on_s = (s, frame_s);
+            let from_s = bodies.of_frame(robot, turns, on_s, ancestor, |coordinate, column| {
+                let _ = columns.push((coordinate, column.motion()));
+            });
+            let from_p = bodies.of_frame(robot, turns, (p, frame_p), ancestor, |_, _| ());
+            let x = from_s * inverse(&from_p);
             bodies.columns(
                 robot,
                 turns,

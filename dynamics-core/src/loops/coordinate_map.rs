@@ -5,17 +5,17 @@
 
 use core::borrow::Borrow;
 
+use super::Constraints;
 use super::chain::LoopBodies;
-use super::constraints::over;
+use super::constraints::scaled;
 use super::description::Loops;
 use super::elimination::{Elimination, LoopRows, dot, subtract};
 use super::error::LoopError;
 use super::status::OPEN;
-use super::{Constraints, constraints};
 use crate::algorithms::{Damping, damped_inverse};
-use crate::model::RobotModel;
+use crate::model::{JointCoordinate, RobotModel};
 use crate::scalar::Real;
-use crate::state::{Configuration, JointTrig, State, entry};
+use crate::state::{Configuration, entry};
 
 /// Whether the motion determines the torques.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +44,8 @@ pub enum Drive {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
     elimination: Elimination<R, V, C>,
-    size: [R; C],
+    /// One over the sizes of the loops.
+    scale: [R; C],
     rows: LoopRows<C>,
     /// The loop and the coordinate that are damped most.
     singular: Option<(&'static str, usize)>,
@@ -59,7 +60,7 @@ pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
 /// V × the number of degrees of freedom.
 ///
 /// # Cost
-/// That of [`constraints()`], and 2 C (V + C) r flops for a rank r of K.
+/// That of [`constraints()`](super::constraints()), and 2 C (V + C) r flops for a rank r of K.
 ///
 /// # Source
 /// Featherstone, RBDA (2008), section 8.11.
@@ -112,9 +113,10 @@ where
     let trig = q.trig_of(robot);
     let mut closing = Constraints::blank();
     let turns = &trig.borrow().coordinates;
-    closing.set_positions(robot, loops, turns, &mut LoopBodies::blank());
+    let mut bodies = LoopBodies::blank();
+    closing.set_positions(robot, loops, turns, &mut bodies);
     let mut map = CoordinateMap::blank(loops);
-    map.set(robot, loops, trig.borrow(), &closing)?;
+    map.set(robot, loops, (turns, &bodies), &closing)?;
     Ok(map)
 }
 
@@ -126,7 +128,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         Self {
             rows: elimination.loop_rows(),
             elimination,
-            size: [R::ONE; C],
+            scale: [R::ONE; C],
             singular: None,
             actuated: loops.actuated,
             independent: [false; A],
@@ -138,7 +140,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         &mut self,
         robot: &D,
         loops: &Loops<L, C, A>,
-        trig: &JointTrig<R, Q>,
+        (turns, bodies): (&[JointCoordinate<R>; Q], &LoopBodies<R, B>),
         closing: &Constraints<R, V, L, C>,
     ) -> Result<(), LoopError>
     where
@@ -151,17 +153,15 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
             return Err(LoopError::Open { name, error });
         }
         let passive = loops.passive();
-        self.size = closing.size;
+        self.scale = closing.scale();
         let elimination = &mut self.elimination;
-        elimination.eliminate::<true, L, A>(closing, loops, &passive);
+        elimination.eliminate(closing, loops, |joint| entry(&passive, joint), &self.scale);
         self.rows = elimination.loop_rows();
         for joint in elimination.free().filter(|&joint| entry(&passive, joint)) {
             let bias = |qd| {
-                let moving = State {
-                    qd,
-                    ..State::at([R::ZERO; Q])
-                };
-                constraints(robot, loops, trig.with(&moving)).scaled_bias()
+                let mut moving = *closing;
+                moving.set_rates(robot, loops, bodies, (turns, &qd));
+                moving.scaled_bias()
             };
             if !elimination.is_isolated(&passive, joint, bias) {
                 let name = closing.name_of(loops, joint);
@@ -218,7 +218,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     /// q̈ = G ÿ + ġ from the accelerations of the actuated coordinates and the k of [`Constraints::bias`].
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn acceleration(&self, accelerations: &[R; A], bias: &[R; C]) -> [R; V] {
-        let mut qdd = self.elimination.particular(&over(*bias, &self.size));
+        let mut qdd = self.elimination.particular(&scaled(*bias, &self.scale));
         subtract(&mut qdd, -R::ONE, &self.velocity(accelerations));
         qdd
     }
@@ -258,7 +258,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     /// The λ that takes the place of the torques `rest` = τ − τ_a.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn lambda(&self, rest: &[R; V]) -> [R; C] {
-        over(self.elimination.lambda(rest), &self.size)
+        scaled(self.elimination.lambda(rest), &self.scale)
     }
 
     /// Numbers of the independent coordinates in their places of all coordinates.

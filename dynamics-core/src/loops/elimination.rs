@@ -44,6 +44,9 @@ const LARGE: f64 = 0.0625;
 /// threshold of the rank in f32.
 const REGULAR: f64 = 3.0 * SINGULAR;
 
+/// Rows and columns of pivots, in the order in which they were found.
+pub(super) type Order<const C: usize> = Vec<(usize, usize), C>;
+
 /// No row, or no column.
 pub(super) const NONE: usize = usize::MAX;
 
@@ -96,31 +99,43 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         }
     }
 
-    /// The elimination of K, pivots in the coordinates `first` before those in others; `SCALED`: of rows over the sizes
-    /// of their loops. Those of forward dynamics are not, whose digits depend on every rounding of K.
+    /// The elimination of K, pivots in the coordinates `first` before those in others, of rows over the sizes of their
+    /// loops.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn eliminate<const SCALED: bool, const L: usize, const A: usize>(
+    pub(super) fn eliminate<const L: usize, const A: usize>(
         &mut self,
         closing: &Constraints<R, V, L, C>,
         loops: &Loops<L, C, A>,
-        first: &[bool; V],
+        first: impl Fn(usize) -> bool + Copy,
+        scale: &[R; C],
     ) {
-        let scale = closing.size.map(|size| R::ONE / size);
-        // With more rows than coordinates some depend on others.
         if L > 1 && C <= V {
-            self.rows = closing.jacobian;
             for (i, (transform, &size)) in self.transform.iter_mut().zip(&closing.size).enumerate()
             {
                 // T of rows as they are times the sizes is T of rows over the sizes.
-                transform[i] = if SCALED { size } else { R::ONE };
+                transform[i] = size;
             }
-            let own = |i, column| closing.is_own(column, i);
-            if self.loop_by_loop(loops, first, own, &scale) {
+            let (mut order, mut right) = (Vec::new(), [R::ZERO; C]);
+            let more = (&mut order, &mut right);
+            if self.loop_by_loop::<false, L, A>(closing, loops, first, scale, more) {
+                self.substitute_back(&order);
                 return;
             }
         }
+        self.completely::<true, L>(closing, first, scale);
+    }
+
+    /// With complete pivoting, from the start; `SCALED`: of rows over the sizes of their loops. Those of forward dynamics are
+    /// not, whose digits depend on every rounding of K.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn completely<const SCALED: bool, const L: usize>(
+        &mut self,
+        closing: &Constraints<R, V, L, C>,
+        first: impl Fn(usize) -> bool + Copy,
+        scale: &[R; C],
+    ) {
         let rows = self.rows.iter_mut().zip(&mut self.transform);
-        let rows = rows.zip(closing.jacobian.iter().zip(&scale)).enumerate();
+        let rows = rows.zip(closing.jacobian.iter().zip(scale)).enumerate();
         for (i, ((row, transform), (of_k, &scale))) in rows {
             *transform = [R::ZERO; C];
             transform[i] = R::ONE;
@@ -129,26 +144,21 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
             }
         }
         (self.column_of, self.row_of) = ([NONE; C], [NONE; V]);
-        let weights = if SCALED { [R::ONE; C] } else { scale };
-        self.completely(first, &weights);
-    }
-
-    /// With complete pivoting.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn completely(&mut self, first: &[bool; V], weights: &[R; C]) {
+        let weights = if SCALED { &[R::ONE; C] } else { scale };
         for stage in [true, false] {
-            for _ in 0..C {
-                let largest = self.largest(|column| entry(first, column) == stage, weights);
-                let Some((row, column)) = largest else {
-                    break;
-                };
+            let allowed = |column: usize| first(column) == stage;
+            let mut left = (0..V).filter(|&column| allowed(column)).count();
+            while left > 0
+                && let Some((row, column)) = self.largest(allowed, weights)
+            {
                 self.pivot(row, column);
+                left -= 1;
             }
         }
         self.find_free();
     }
 
-    /// The largest entry of the rows and columns without a pivot.
+    /// The largest entry of the rows without a pivot in the columns allowed. Those with a pivot are zero there.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn largest(&self, allowed: impl Fn(usize) -> bool, weights: &[R; C]) -> Option<(usize, usize)> {
         let (mut largest, mut place) = (R::select(RANK_TOLERANCE.0, RANK_TOLERANCE.1), None);
@@ -157,9 +167,8 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
                 continue;
             }
             for (j, entry_ij) in row.iter().enumerate() {
-                let free = entry(&self.row_of, j) == NONE && allowed(j);
                 let size = entry_ij.abs() * weight;
-                if free && size > largest {
+                if size > largest && allowed(j) {
                     (largest, place) = (size, Some((i, j)));
                 }
             }
@@ -198,54 +207,43 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         }
     }
 
-    /// Pivots in each loop's own coordinates first; whether every row, or every coordinate of `first`, has a pivot that
-    /// is not near to singular: there complete pivoting decides.
+    /// Pivots in each loop's own coordinates first, listed in their order; whether every row, or every coordinate of `first`,
+    /// has a pivot that is not near to singular: there complete pivoting decides. `FACTORS`: for the factors of
+    /// [`Factors`](super::factors::Factors), with a right-hand side, in place of T.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn loop_by_loop<const L: usize, const A: usize>(
+    pub(super) fn loop_by_loop<const FACTORS: bool, const L: usize, const A: usize>(
         &mut self,
+        closing: &Constraints<R, V, L, C>,
         loops: &Loops<L, C, A>,
-        first: &[bool; V],
-        is_own: impl Fn(usize, usize) -> bool,
+        first: impl Fn(usize) -> bool + Copy,
         weights: &[R; C],
+        (order, right): (&mut Order<C>, &mut [R; C]),
     ) -> bool {
-        let mut order: Vec<(usize, usize), C> = Vec::new();
+        self.rows = closing.jacobian;
         for i in 0..L {
-            let own = |column| is_own(i, column) && entry(first, column);
-            self.forward(loops.rows(i), own, R::from_f64(LARGE), weights, &mut order);
+            let own = |column| closing.is_own(column, i) && first(column);
+            let (rows, least) = (loops.rows(i), R::from_f64(LARGE));
+            self.forward::<FACTORS>(rows, own, least, weights, (order, right));
         }
         let regular = R::from_f64(REGULAR);
-        self.forward(
-            0..C,
-            |column| entry(first, column),
-            regular,
-            weights,
-            &mut order,
-        );
-        if order.len() < C {
-            let columns = first.iter().filter(|first| **first).count();
-            if order.len() < columns {
-                return false;
-            }
-            self.forward(0..C, |_| true, regular, weights, &mut order);
-            if order.len() < C {
-                return false;
-            }
+        self.forward::<FACTORS>(0..C, first, regular, weights, (order, right));
+        if order.len() < C && order.len() >= (0..V).filter(|&column| first(column)).count() {
+            self.forward::<FACTORS>(0..C, |_| true, regular, weights, (order, right));
         }
         self.find_free();
-        self.substitute_back(&order);
-        true
+        order.len() == C
     }
 
     /// Pivots of more than `least` in some rows and the columns allowed, the largest first. Makes the rest of their
     /// columns zero in the rows without a pivot.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn forward(
+    fn forward<const FACTORS: bool>(
         &mut self,
         rows: Range<usize>,
         allowed: impl Fn(usize) -> bool,
         least: R,
         weights: &[R; C],
-        order: &mut Vec<(usize, usize), C>,
+        (order, right): (&mut Order<C>, &mut [R; C]),
     ) {
         if order.len() == C {
             return;
@@ -256,6 +254,19 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
                 let _ = columns.push(column);
             }
         }
+        self.forward_in::<FACTORS>(rows, &mut columns, least, weights, (order, right));
+    }
+
+    /// The same in listed columns.
+    #[inline(never)]
+    fn forward_in<const FACTORS: bool>(
+        &mut self,
+        rows: Range<usize>,
+        columns: &mut Vec<usize, V>,
+        least: R,
+        weights: &[R; C],
+        (order, right): (&mut Order<C>, &mut [R; C]),
+    ) {
         let mut open: Vec<usize, C> = Vec::new();
         for i in rows.clone() {
             if entry(&self.column_of, i) == NONE {
@@ -278,7 +289,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
             let Some((of_row, of_column)) = place else {
                 break;
             };
-            let taken = (take(&mut open, of_row), take(&mut columns, of_column));
+            let taken = (take(&mut open, of_row), take(columns, of_column));
             let (Some(row), Some(column)) = taken else {
                 break;
             };
@@ -288,62 +299,78 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
                 (*of_row, *of_column) = (column, row);
             }
             let _ = order.push((row, column));
-            let pivot = self.rows.get(row).map(|row| entry(row, column));
-            let reciprocal = R::ONE / pivot.unwrap_or_default();
-            for &i in &open {
-                let Ok([pivot_row, other]) = self.rows.get_disjoint_mut([row, i]) else {
-                    continue;
-                };
-                let factor = entry(other, column) * reciprocal;
-                if factor != R::ZERO {
-                    subtract(other, factor, pivot_row);
-                    if let Ok([pivot, other]) = self.transform.get_disjoint_mut([row, i]) {
-                        // The transform of a loop's rows is of these alone.
-                        let pivot = pivot.get(rows.clone()).unwrap_or_default();
-                        let other = other.get_mut(rows.clone()).unwrap_or_default();
-                        for (other, &pivot) in other.iter_mut().zip(pivot) {
-                            *other -= factor * pivot;
-                        }
+            if FACTORS {
+                self.subtract_scaled((row, column), &open, right);
+            } else {
+                self.subtract_row((row, column), &open, rows.clone());
+            }
+        }
+    }
+
+    /// Subtracts the row of a pivot from those that are open.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn subtract_row(&mut self, (row, column): (usize, usize), open: &[usize], rows: Range<usize>) {
+        let pivot = self.rows.get(row).map(|row| entry(row, column));
+        let reciprocal = R::ONE / pivot.unwrap_or_default();
+        for &i in open {
+            let Ok([pivot_row, other]) = self.rows.get_disjoint_mut([row, i]) else {
+                continue;
+            };
+            let factor = entry(other, column) * reciprocal;
+            if factor != R::ZERO {
+                subtract(other, factor, pivot_row);
+                if let Ok([pivot, other]) = self.transform.get_disjoint_mut([row, i]) {
+                    // The transform of a loop's rows is of these alone.
+                    let pivot = pivot.get(rows.clone()).unwrap_or_default();
+                    let other = other.get_mut(rows.clone()).unwrap_or_default();
+                    for (other, &pivot) in other.iter_mut().zip(pivot) {
+                        *other -= factor * pivot;
                     }
                 }
             }
         }
     }
 
-    /// Makes the columns with a pivot unit columns, from the last pivot to the first.
+    /// T, and unit columns for the pivots, from the last pivot to the first.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn substitute_back(&mut self, mut order: &[(usize, usize)]) {
+    fn substitute_back(&mut self, order: &[(usize, usize)]) {
         let free = self.free.get(..self.freedom).unwrap_or_default();
-        while let Some((&(row, column), before)) = order.split_last() {
-            order = before;
-            let (Some(pivot_row), Some(pivot_transform)) =
-                (self.rows.get_mut(row), self.transform.get_mut(row))
-            else {
+        let mut earlier = order;
+        while let Some((&(row, column), before)) = earlier.split_last() {
+            let later = order.get(earlier.len()..).unwrap_or_default();
+            earlier = before;
+            let Some(own) = self.rows.get(row) else {
                 break;
             };
-            let reciprocal = R::ONE / entry(pivot_row, column);
-            let mut of_free: Vec<(usize, R), V> = Vec::new();
+            let reciprocal = R::ONE / entry(own, column);
+            // Sums of their own stay in registers.
+            let (mut sums, mut of_free) = ([R::ZERO; C], Vec::<R, V>::new());
             for &free in free {
-                if let Some(entry) = pivot_row.get_mut(free) {
-                    *entry *= reciprocal;
-                    let _ = of_free.push((free, *entry));
+                let _ = of_free.push(entry(own, free));
+            }
+            for &(other, column) in later {
+                let factor = entry(own, column);
+                if let (true, Some(of_other), Some(transform)) = (
+                    factor != R::ZERO,
+                    self.rows.get(other),
+                    self.transform.get(other),
+                ) {
+                    subtract(&mut sums, factor, transform);
+                    for (x, &free) in of_free.iter_mut().zip(free) {
+                        *x -= factor * entry(of_other, free);
+                    }
                 }
             }
-            pivot_transform.iter_mut().for_each(|x| *x *= reciprocal);
-            for &(i, _) in before {
-                let Some(other) = self.rows.get_mut(i) else {
-                    continue;
-                };
-                let factor = entry(other, column);
-                if factor != R::ZERO {
-                    for &(free, x) in &of_free {
-                        if let Some(other) = other.get_mut(free) {
-                            *other -= factor * x;
-                        }
+            if let (Some(own), Some(transform)) =
+                (self.rows.get_mut(row), self.transform.get_mut(row))
+            {
+                for (&x, &free) in of_free.iter().zip(free) {
+                    if let Some(own) = own.get_mut(free) {
+                        *own = x * reciprocal;
                     }
-                    if let Ok([pivot, other]) = self.transform.get_disjoint_mut([row, i]) {
-                        subtract(other, factor, pivot);
-                    }
+                }
+                for (own, sum) in transform.iter_mut().zip(sums) {
+                    *own = (*own + sum) * reciprocal;
                 }
             }
         }
@@ -386,11 +413,14 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn complete(&self, free: &[R; V]) -> [R; V] {
         let mut x = *free;
+        let mut given: Vec<(usize, R), V> = Vec::new();
+        for column in self.free() {
+            let _ = given.push((column, entry(free, column)));
+        }
         for (row, &column) in self.rows.iter().zip(&self.column_of) {
             if let Some(x) = x.get_mut(column) {
-                *x = self
-                    .free()
-                    .fold(R::ZERO, |sum, j| sum - entry(row, j) * entry(free, j));
+                let products = given.iter().map(|&(free, x)| entry(row, free) * x);
+                *x = products.fold(R::ZERO, |sum, product| sum - product);
             }
         }
         x
@@ -404,21 +434,6 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
             if let Some(x) = x.get_mut(column) {
                 *x = dot(transform, right);
             }
-        }
-        x
-    }
-
-    /// The column of G of a free coordinate: the motion of all at its unit rate.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn motion(&self, free: usize) -> [R; V] {
-        let mut x = [R::ZERO; V];
-        for (row, &column) in self.rows.iter().zip(&self.column_of) {
-            if let Some(x) = x.get_mut(column) {
-                *x = -entry(row, free);
-            }
-        }
-        if let Some(x) = x.get_mut(free) {
-            *x = R::ONE;
         }
         x
     }

@@ -9,9 +9,10 @@ use super::chain::LoopBodies;
 use super::description::Loops;
 use super::elimination::{Elimination, LoopRows, subtract};
 use super::error::LoopError;
-use super::least_constraint::{Metric, Orthogonal, reaction};
+use super::factors::Factors;
+use super::least_constraint::{Metric, Orthogonal};
 use super::{Constraints, Stabilisation};
-use crate::algorithms::{crba, ltdl, rnea};
+use crate::algorithms::{crba, ltdl_in_place, rnea};
 use crate::effects::{Bias, Effect, no_load_friction};
 use crate::model::RobotModel;
 use crate::scalar::Real;
@@ -122,9 +123,11 @@ where
     closing.set_positions(robot, loops, turns, &mut bodies);
     closing.set_rates(robot, loops, &bodies, (turns, &state.qd));
     closing.check(loops)?;
+    let right = core::array::from_fn(|row| closing.wanted(row, stabilisation));
     let mut elimination = Elimination::blank();
-    elimination.eliminate::<false, L, A>(&closing, loops, &[true; V]);
-    let rows = elimination.loop_rows();
+    let mut factors = Factors::blank(&mut elimination);
+    factors.set(&closing, loops, &right);
+    let rows = factors.loop_rows();
 
     let mut rest = rnea(robot, trig.with(state), &Bias(effects)).map(|bias| -bias);
     for (&joint, &tau) in loops.actuated().iter().zip(tau) {
@@ -132,36 +135,23 @@ where
             *rest += tau;
         }
     }
-    let m = crba(robot, trig, effects);
-    // Matched where it stands: a move of the factors takes as long as the factors do.
-    let factors = ltdl(robot, &m);
-    let factors = match &factors {
-        Ok(factors) => factors,
-        Err(error) => return Err((*error).into()),
-    };
+    let mut m = crba(robot, trig, effects);
+    ltdl_in_place(robot, &mut m)?;
     // q̈ = G ÿ + ġ with the ÿ of least constraint.
-    let wanted = core::array::from_fn(|row| closing.wanted(row, stabilisation));
-    let mut qdd = elimination.particular(&wanted);
-    let metric = Metric::of(robot, factors);
+    let mut qdd = factors.solution();
+    let metric = Metric::of(robot, &m.rows);
     let mut apart = metric.of_torque(&rest);
     subtract(
         &mut apart,
         R::ONE,
         &metric.weigh(metric.of_acceleration(&qdd)),
     );
-    let motions = elimination.free().rev();
-    let motions = motions.map(|free| metric.of_acceleration(&elimination.motion(free)));
     let mut orthogonal = Orthogonal::blank();
-    orthogonal.set(&metric, motions);
-    let nearest = orthogonal.nearest(apart);
-    let mut independent = [R::ZERO; V];
-    for (free, ydd) in elimination.free().rev().zip(nearest) {
-        if let Some(place) = independent.get_mut(free) {
-            *place = ydd;
-        }
-    }
-    subtract(&mut qdd, -R::ONE, &elimination.complete(&independent));
-    let lambda = elimination.lambda(&reaction(robot, &m, &qdd, &rest));
+    let motions = factors.free().rev();
+    orthogonal.set(&metric, motions.map(|free| factors.motion(free)));
+    orthogonal.approach(&mut apart, &mut qdd);
+    // What M q̈ lacks of the torques is what the motion lacks of its own without loops.
+    let lambda = factors.force(metric.to_torque(&apart.map(|x| -x)));
     if !(all_finite(&qdd) & all_finite(&lambda)) {
         let name = loops.robot;
         return Err(LoopError::NotFinite { name });

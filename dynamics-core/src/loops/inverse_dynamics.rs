@@ -111,7 +111,7 @@ where
     let mut bodies = LoopBodies::blank();
     closing.set_positions(robot, loops, turns, &mut bodies);
     let mut map = CoordinateMap::blank(loops);
-    map.set(robot, loops, trig, &closing)?;
+    map.set(robot, loops, (turns, &bodies), &closing)?;
     state.qd = map.velocity(&loops.of_actuated(&given.qd));
     closing.set_rates(robot, loops, &bodies, (turns, &state.qd));
     closing.check(loops)?;

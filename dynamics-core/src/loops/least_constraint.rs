@@ -8,7 +8,6 @@
 use heapless::Vec;
 
 use super::elimination::{dot, subtract};
-use crate::algorithms::{Ltdl, MassMatrix};
 use crate::model::{BASE, RobotModel};
 use crate::scalar::Real;
 use crate::state::entry;
@@ -18,7 +17,8 @@ const ROUNDINGS: f64 = 16.0;
 
 /// L and D.
 pub(super) struct Metric<'a, R, const V: usize> {
-    factors: &'a Ltdl<R, V>,
+    /// L below the diagonal, D on it.
+    factors: &'a [[R; V]; V],
     lambda: &'a [usize; V],
     d: [R; V],
 }
@@ -27,7 +27,7 @@ impl<'a, R: Real, const V: usize> Metric<'a, R, V> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of<D, const B: usize, const Q: usize>(
         robot: &'a D,
-        factors: &'a Ltdl<R, V>,
+        factors: &'a [[R; V]; V],
     ) -> Self
     where
         D: RobotModel<R, B, Q, V>,
@@ -35,7 +35,7 @@ impl<'a, R: Real, const V: usize> Metric<'a, R, V> {
         Self {
             factors,
             lambda: &robot.model().lambda,
-            d: factors.d_inv().map(|d_inv| R::ONE / d_inv),
+            d: core::array::from_fn(|i| factors.get(i).map_or(R::ZERO, |row| entry(row, i))),
         }
     }
 
@@ -48,7 +48,7 @@ impl<'a, R: Real, const V: usize> Metric<'a, R, V> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of_torque(&self, tau: &[R; V]) -> [R; V] {
         let mut x = *tau;
-        for (i, row) in self.factors.rows.iter().enumerate().rev() {
+        for (i, row) in self.factors.iter().enumerate().rev() {
             let (ancestors, at) = x.split_at_mut(i);
             let x_i = at.first().copied().unwrap_or_default();
             let mut j = self.parent(i);
@@ -64,7 +64,7 @@ impl<'a, R: Real, const V: usize> Metric<'a, R, V> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of_acceleration(&self, qdd: &[R; V]) -> [R; V] {
         let mut x = *qdd;
-        for (i, (row, x)) in self.factors.rows.iter().zip(&mut x).enumerate() {
+        for (i, (row, x)) in self.factors.iter().zip(&mut x).enumerate() {
             let mut j = self.parent(i);
             while let (Some(&x_j), Some(&l)) = (qdd.get(j), row.get(j)) {
                 *x += l * x_j;
@@ -72,6 +72,20 @@ impl<'a, R: Real, const V: usize> Metric<'a, R, V> {
             }
         }
         x
+    }
+
+    /// Lᵀ x. V² flops on a chain, less on a tree.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn to_torque(&self, x: &[R; V]) -> [R; V] {
+        let mut tau = *x;
+        for (i, (row, &x_i)) in self.factors.iter().zip(x).enumerate() {
+            let mut j = self.parent(i);
+            while let (Some(tau_j), Some(&l)) = (tau.get_mut(j), row.get(j)) {
+                *tau_j += l * x_i;
+                j = self.parent(j);
+            }
+        }
+        tau
     }
 
     /// D x
@@ -84,44 +98,46 @@ impl<'a, R: Real, const V: usize> Metric<'a, R, V> {
     }
 }
 
-/// W = Q R by columns: those of Q orthogonal by the weights D, or zero where one of W depends on those before it; R
-/// upper triangular, with ones on its diagonal.
+/// The motions that loops allow, made orthogonal by the weights D in coordinates L q̈.
 pub(super) struct Orthogonal<R, const V: usize> {
-    columns: Vec<Column<R, V>, V>,
+    motions: Vec<Motion<R, V>, V>,
 }
 
-struct Column<R, const V: usize> {
+struct Motion<R, const V: usize> {
+    qdd: [R; V],
+    /// q = L q̈, and D q.
     q: [R; V],
-    /// D q.
     weighed: [R; V],
-    /// R above its diagonal.
-    r: [R; V],
-    /// 1 / qᵀ D q; zero for a column that depends on others.
+    /// 1 / qᵀ D q; zero for a motion that depends on those before it.
     inverse: R,
 }
 
 impl<R: Real, const V: usize> Orthogonal<R, V> {
-    /// No columns, to be filled where it stands: it is large.
+    /// No motions, to be filled where it stands: it is large.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) const fn blank() -> Self {
         Self {
-            columns: Vec::new(),
+            motions: Vec::new(),
         }
     }
 
-    /// The columns of W, by the modified method of Gram and Schmidt, twice for each column.
+    /// By the modified method of Gram and Schmidt, twice for each motion.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn set(&mut self, metric: &Metric<'_, R, V>, columns: impl Iterator<Item = [R; V]>) {
+    pub(super) fn set(&mut self, metric: &Metric<'_, R, V>, motions: impl Iterator<Item = [R; V]>) {
         let least = R::EPSILON * R::from_f64(ROUNDINGS);
-        for mut q in columns {
-            let mut r = [R::ZERO; V];
+        for mut qdd in motions {
+            let mut q = metric.of_acceleration(&qdd);
             let size = dot(&q, &metric.weigh(q)) * (least * least);
+            let mut along = [R::ZERO; V];
             for _ in 0..2 {
-                for (before, r) in self.columns.iter().zip(&mut r) {
-                    let along = dot(&before.weighed, &q) * before.inverse;
-                    subtract(&mut q, along, &before.q);
-                    *r += along;
+                for (before, along) in self.motions.iter().zip(&mut along) {
+                    let rest = dot(&before.weighed, &q) * before.inverse;
+                    subtract(&mut q, rest, &before.q);
+                    *along += rest;
                 }
+            }
+            for (before, along) in self.motions.iter().zip(along) {
+                subtract(&mut qdd, along, &before.qdd);
             }
             let weighed = metric.weigh(q);
             let squared = dot(&q, &weighed);
@@ -130,66 +146,26 @@ impl<R: Real, const V: usize> Orthogonal<R, V> {
             } else {
                 R::ZERO
             };
-            let column = Column {
+            let motion = Motion {
+                qdd,
                 q,
                 weighed,
-                r,
                 inverse,
             };
-            let _ = self.columns.push(column);
+            let _ = self.motions.push(motion);
         }
     }
 
-    /// The x with the least distance of W x from z, given as D z: an entry for each column.
+    /// Adds to q̈ the motion that takes L q̈ nearest to a goal at the distance z, given as D z. Leaves of it what no motion
+    /// reaches.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn nearest(&self, mut weighed: [R; V]) -> [R; V] {
-        let mut x = [R::ZERO; V];
-        for (column, x) in self.columns.iter().zip(&mut x) {
-            *x = dot(&column.q, &weighed) * column.inverse;
-            subtract(&mut weighed, *x, &column.weighed);
-        }
-        for (i, column) in self.columns.iter().enumerate().rev() {
-            let Some((before, [own, ..])) = x.split_at_mut_checked(i) else {
-                break;
-            };
-            let own = *own;
-            for (before, &r) in before.iter_mut().zip(&column.r) {
-                *before -= r * own;
-            }
-        }
-        x
-    }
-}
-
-/// M x − τ, of the entries of M between joints of one branch.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn reaction<R: Real, D, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    m: &MassMatrix<R, V>,
-    x: &[R; V],
-    tau: &[R; V],
-) -> [R; V]
-where
-    D: RobotModel<R, B, Q, V>,
-{
-    let lambda = &robot.model().lambda;
-    let mut reaction = [R::ZERO; V];
-    for (i, (row, &x_i)) in m.rows.iter().zip(x).enumerate() {
-        let mut sum = entry(row, i) * x_i;
-        let mut j = parent_of(lambda, i);
-        while let (Some(sum_j), Some(&x_j), Some(&m_ij)) =
-            (reaction.get_mut(j), x.get(j), row.get(j))
-        {
-            *sum_j += m_ij * x_i;
-            sum += m_ij * x_j;
-            j = parent_of(lambda, j);
-        }
-        if let Some(sum_i) = reaction.get_mut(i) {
-            *sum_i = sum;
+    pub(super) fn approach(&self, weighed: &mut [R; V], qdd: &mut [R; V]) {
+        for motion in &self.motions {
+            let along = dot(&motion.q, weighed) * motion.inverse;
+            subtract(weighed, along, &motion.weighed);
+            subtract(qdd, -along, &motion.qdd);
         }
     }
-    subtract(&mut reaction, R::ONE, tau);
-    reaction
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]

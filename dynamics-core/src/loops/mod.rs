@@ -63,6 +63,7 @@ mod coordinate_map;
 mod description;
 mod elimination;
 mod error;
+mod factors;
 mod forward_dynamics;
 mod inverse_dynamics;
 mod joint_constraint;

@@ -197,13 +197,13 @@ where
     }
     let freedoms = |closing: &Constraints<R, V, L, C>| {
         let mut elimination = Elimination::blank();
-        elimination.eliminate::<true, L, A>(closing, loops, &[true; V]);
+        elimination.eliminate(closing, loops, |_| true, &closing.scale());
         V - elimination.loop_rows().rank()
     };
     let here = freedoms(&closing);
     let mut usual = here;
     let mut elimination = Elimination::blank();
-    elimination.eliminate::<true, L, A>(&closing, loops, &[true; V]);
+    elimination.eliminate(&closing, loops, |_| true, &closing.scale());
     for free in elimination.free() {
         let mut unit = [R::ZERO; V];
         if let Some(unit) = unit.get_mut(free) {

@@ -92,6 +92,46 @@ where
     Ok(Ltdl { rows, d_inv })
 }
 
+/// The same in the place of M, D on its diagonal: without copies of the matrix, which take as long as the factors of a tree
+/// with many branches. [`ltdl`] by this function is other machine code on trees that have been measured.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn ltdl_in_place<R: Real, D, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    m: &mut MassMatrix<R, V>,
+) -> Result<(), NotPositiveDefinite>
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    let lambda = &robot.model().lambda;
+    let mut sizes = Sizes::of(robot, m);
+    for k in (0..V).rev() {
+        let (ancestors, at) = m.rows.split_at_mut(k);
+        let Some(row) = at.first_mut() else {
+            break;
+        };
+        let pivot = entry(row, k);
+        check(pivot, sizes.noise(k), k)?;
+        let d_inv = R::ONE / pivot;
+        let mut i = parent(lambda, k);
+        while let Some(row_i) = ancestors.get_mut(i) {
+            let l = entry(row, i) * d_inv;
+            if !D::SINGLE {
+                sizes.add_error_of(k, i, l);
+            }
+            let mut j = i;
+            while let (Some(m_ij), Some(&m_kj)) = (row_i.get_mut(j), row.get(j)) {
+                *m_ij -= l * m_kj;
+                j = parent(lambda, j);
+            }
+            if let Some(entry) = row.get_mut(i) {
+                *entry = l;
+            }
+            i = parent(lambda, i);
+        }
+    }
+    Ok(())
+}
+
 /// The solution x of M x = τ: accelerations of torques, rad/s² or m/s² of N·m or N.
 ///
 /// $$

@@ -5,7 +5,7 @@ mod ltdl;
 mod spatial_operator;
 
 pub use cholesky::{Cholesky, cholesky};
-pub(crate) use ltdl::MATRIX_ROUNDINGS;
+pub(crate) use ltdl::{MATRIX_ROUNDINGS, ltdl_in_place};
 pub(super) use ltdl::{Sizes, check, parent};
 pub use ltdl::{inverse, ltdl, solve};
 pub use spatial_operator::{spatial_operator_inverse, spatial_operator_ltdl};

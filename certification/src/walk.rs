@@ -53,13 +53,16 @@ struct Sines {
     trig: [u32; 4],
 }
 
+fn trig(image: &Image) -> Option<[u32; 4]> {
+    image.variable("CERTIFIED_TRIG").ok()?.1.try_into().ok()
+}
+
 impl Sines {
     fn of(image: &Image) -> Option<Self> {
         let (_, words) = image.variable("CERTIFIED_SINES").ok()?;
-        let trig = image.variable("CERTIFIED_TRIG").ok()?.1;
         Some(Self {
             address: words.first()? & !1,
-            trig: trig.try_into().ok()?,
+            trig: trig(image)?,
         })
     }
 }
@@ -87,6 +90,8 @@ struct Walk<'a> {
     memory: HashMap<u32, Word>,
     /// Negative, zero, carry, overflow of the last comparison of integers.
     flags: Option<[bool; 4]>,
+    /// The conditions of the next instructions: ITSTATE.
+    conditions: u8,
     sines: Option<Sines>,
     /// The real numbers that were compared last.
     compared: Option<[usize; 2]>,
@@ -98,11 +103,15 @@ struct Walk<'a> {
 }
 
 /// Walks the function at an address. An argument is a pointer to inputs, or to what lies at an address of the program; the first
-/// one is where results go.
+/// one is where results go. From the fifth on they are on the stack.
 ///
 /// # Errors
 /// [`Error::Declined`].
-pub fn walk(image: &Image, function: u32, arguments: [Option<u32>; 4]) -> Result<Walked> {
+pub fn walk<const N: usize>(
+    image: &Image,
+    function: u32,
+    arguments: [Option<u32>; N],
+) -> Result<Walked> {
     let mut walk = Walk {
         image,
         graph: Graph::default(),
@@ -112,6 +121,7 @@ pub fn walk(image: &Image, function: u32, arguments: [Option<u32>; 4]) -> Result
         real: [None; 32],
         memory: HashMap::new(),
         flags: None,
+        conditions: 0,
         sines: Sines::of(image),
         compared: None,
         comparisons: Vec::new(),
@@ -120,7 +130,13 @@ pub fn walk(image: &Image, function: u32, arguments: [Option<u32>; 4]) -> Result
         code: 0,
     };
     for (i, given) in (0..).zip(arguments) {
-        walk.core[i as usize] = Some(Word::Bits(given.unwrap_or(ARGUMENTS + i * RANGE)));
+        let word = Word::Bits(given.unwrap_or(ARGUMENTS + i * RANGE));
+        match i {
+            0..4 => walk.core[i as usize] = Some(word),
+            _ => {
+                walk.memory.insert(STACK + 4 * (i - 4), word);
+            }
+        }
     }
     // Registers that a function must keep hold what its caller left there, of which nothing is known but that it is kept.
     for (i, kept) in (4..13).enumerate() {
@@ -278,13 +294,39 @@ impl Walk<'_> {
         };
         let instruction = instruction
             .ok_or_else(|| self.declined("an instruction of which nothing is proven"))?;
-        self.execute(instruction)
+        if self.conditions & 15 == 0 {
+            return self.execute(instruction);
+        }
+        let condition = self.conditions >> 4;
+        self.conditions = match self.conditions & 7 {
+            0 => 0,
+            _ => self.conditions & 0xe0 | self.conditions << 1 & 0x1f,
+        };
+        if !self.holds(condition)? {
+            return Ok(());
+        }
+        let flags = self.flags;
+        self.execute(instruction)?;
+        // Short instructions set no flags in an IT block, comparisons apart.
+        use Instruction::{Integer, Sub, TakeFlags};
+        let is_comparison = matches!(
+            instruction,
+            Sub { d: NOWHERE, .. } | Integer { d: NOWHERE, .. } | TakeFlags
+        );
+        if !decode::is_long(first) && !is_comparison {
+            self.flags = flags;
+        }
+        Ok(())
     }
 
     fn execute(&mut self, instruction: Instruction) -> Result<()> {
         use Instruction as I;
         match instruction {
             I::Nop => Ok(()),
+            I::IfThen { state } => {
+                self.conditions = state;
+                Ok(())
+            }
             I::Add { d, n, by, flags } => {
                 let (a, b) = (self.bits(n)?, self.operand(by)?);
                 self.note(flags, a, b, false);
@@ -391,6 +433,20 @@ impl Walk<'_> {
                     Word::Guess(..) => Err(self.declined("a guess of a guess")),
                 }
             }
+            I::Integer {
+                op,
+                d,
+                n,
+                by,
+                flags,
+            } => {
+                let result = op.of(self.bits(n)?, self.operand(by)?);
+                if flags {
+                    // Carry and overflow are those of no sum.
+                    self.flags = None;
+                }
+                self.set(d, Word::Bits(result))
+            }
             I::Copy { d, m } => {
                 self.real[usize::from(d)] = Some(self.real(m)?);
                 Ok(())
@@ -449,7 +505,7 @@ impl Walk<'_> {
 
     /// The flags of the comparison of real numbers: those of the state zero.
     fn take_flags(&mut self) -> Result<()> {
-        let trig = self.sines.as_ref().map(|sines| sines.trig);
+        let trig = trig(self.image);
         // Cosines are one, all else is zero.
         let zero = |input: Input| match trig {
             Some([stride, _, cosine, _]) if input.argument == 1 => {

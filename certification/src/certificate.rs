@@ -206,6 +206,7 @@ pub fn expression(image: &Image, function: Function) -> Result<Walked> {
 /// What is proven of a function of a program.
 #[derive(Clone, Debug)]
 pub struct Subject {
+    function: Function,
     /// Its expression.
     pub walked: Walked,
     /// The expression whose results have bounds: of a symmetric matrix the upper triangle, of forward dynamics that of [`Factored`].
@@ -233,10 +234,92 @@ impl Subject {
             factored = Some(apart);
         }
         Ok(Self {
+            function,
             walked,
             graph,
             factored,
         })
+    }
+
+    /// What a result is called, by its place among the function's.
+    fn name(&self, place: usize, joints: usize) -> String {
+        let entry = |at: usize| format!("{},{}", at / joints + 1, at % joints + 1);
+        match self.function {
+            Function::Crba => entry(place),
+            Function::ForwardDynamics if place < joints => format!("bias {}", place + 1),
+            Function::ForwardDynamics => format!("M {}", entry(place - joints)),
+            _ => (place + 1).to_string(),
+        }
+    }
+
+    /// Of an effort, what is spent on each result.
+    fn effort(&self, effort: Effort) -> Effort {
+        match self.factored {
+            Some(_) => Effort {
+                children: effort.children / SHARE,
+                ..effort
+            },
+            None => effort,
+        }
+    }
+
+    /// Bounds the results, and searches the worst errors beside them.
+    ///
+    /// # Errors
+    /// [`Error::Contradicted`], [`Error::Infinite`], [`Error::Missing`] of an input that the box does not bound.
+    pub fn outputs(&self, robot: &Robot, sines: SineErrors, spent: Spent) -> Result<Vec<Output>> {
+        let graph = &self.graph;
+        let observed = search(graph, robot, self.effort(spent.search), 1);
+        let proven = in_parallel(graph.outputs.len(), |output| {
+            let mut bounder = Bounder::new(graph, output, robot, sines, Enclosure::WrittenOut)?;
+            let one = graph.of_output(output);
+            let by_grid = grid::Program::new(&one, robot)
+                .and_then(|program| program.prove(&one, robot, sines, spent.points));
+            Some((prove(&mut bounder, &robot.whole(), spent.parts), by_grid))
+        });
+        let mut outputs = Vec::new();
+        for (output, ((offset, _), (observed, proven))) in graph
+            .outputs
+            .iter()
+            .zip(observed.into_iter().zip(proven))
+            .enumerate()
+        {
+            let name = self.name(*offset as usize / 4, robot.joints.len());
+            let (proven, by_grid) =
+                proven.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
+            let Proven {
+                bound,
+                range,
+                parts,
+                ..
+            } = proven;
+            let (bound, proof) = match by_grid {
+                Some(other) if other.total() < bound.total() => (other, Proof::Grid),
+                _ => (bound, Proof::Parts),
+            };
+            let total = bound.total();
+            if !total.is_finite() {
+                return Err(Error::Infinite { output: output + 1 });
+            }
+            if total < observed.error {
+                return Err(Error::Contradicted {
+                    output: output + 1,
+                    bound: total,
+                    observed: observed.error,
+                });
+            }
+            outputs.push(Output {
+                name,
+                bound: total,
+                of: bound,
+                observed: observed.error,
+                state: observed.state,
+                range,
+                parts: parts.len(),
+                proof,
+            });
+        }
+        Ok(outputs)
     }
 }
 
@@ -258,80 +341,18 @@ pub fn certify(
     spent: Spent,
 ) -> Result<Certificate> {
     let image = Image::read(&program.elf)?;
-    let Subject {
-        walked,
-        graph,
-        factored,
-    } = Subject::of(&image, function)?;
-    let mut effort = spent.search;
-    match &factored {
-        // That its pivots are as the code wants them is a part of what is proven.
-        Some(_) => effort.children /= SHARE,
-        None => paths::prove(&walked, robot, sines, PATH_PARTS)?,
+    let subject = Subject::of(&image, function)?;
+    let walked = &subject.walked;
+    // Forward dynamics has comparisons of pivots alone, of which the certificate itself says what they are.
+    if subject.factored.is_none() {
+        paths::prove(walked, robot, sines, PATH_PARTS)?;
     }
-    let n = robot.joints.len();
-    let observed = search(&graph, robot, effort, 1);
-    let proven = in_parallel(graph.outputs.len(), |output| {
-        let mut bounder = Bounder::new(&graph, output, robot, sines, Enclosure::WrittenOut)?;
-        let one = graph.of_output(output);
-        let by_grid = grid::Program::new(&one, robot)
-            .and_then(|program| program.prove(&one, robot, sines, spent.points));
-        Some((prove(&mut bounder, &robot.whole(), spent.parts), by_grid))
-    });
-    let mut outputs = Vec::new();
-    for (output, ((offset, _), (observed, proven))) in graph
-        .outputs
-        .iter()
-        .zip(observed.into_iter().zip(proven))
-        .enumerate()
-    {
-        let place = *offset as usize / 4;
-        let entry = |place: usize| format!("{},{}", place / n + 1, place % n + 1);
-        let name = match function {
-            Function::Crba => entry(place),
-            Function::ForwardDynamics if place < n => format!("bias {}", place + 1),
-            Function::ForwardDynamics => format!("M {}", entry(place - n)),
-            _ => (place + 1).to_string(),
-        };
-        let (proven, by_grid) =
-            proven.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
-        let Proven {
-            bound,
-            range,
-            parts,
-            ..
-        } = proven;
-        let (bound, proof) = match by_grid {
-            Some(other) if other.total() < bound.total() => (other, Proof::Grid),
-            _ => (bound, Proof::Parts),
-        };
-        let total = bound.total();
-        if !total.is_finite() {
-            return Err(Error::Infinite { output: output + 1 });
-        }
-        if total < observed.error {
-            return Err(Error::Contradicted {
-                output: output + 1,
-                bound: total,
-                observed: observed.error,
-            });
-        }
-        outputs.push(Output {
-            name,
-            bound: total,
-            of: bound,
-            observed: observed.error,
-            state: observed.state,
-            range,
-            parts: parts.len(),
-            proof,
-        });
-    }
-    let forward = factored.map(|factored| -> Result<Forward> {
+    let outputs = subject.outputs(robot, sines, spent)?;
+    let forward = subject.factored.as_ref().map(|factored| {
         let bodies = bodies::read(&image)?;
-        let mut forward = Forward::prove(&factored, &outputs, &bodies, robot, FLOOR_PARTS)?;
+        let mut forward = Forward::prove(factored, &outputs, &bodies, robot, FLOOR_PARTS)?;
         forward.search(&walked.graph, &bodies, robot, spent.search)?;
-        Ok(forward)
+        Ok::<_, Error>(forward)
     });
     Ok(Certificate {
         robot: program.robot.clone(),
@@ -342,7 +363,7 @@ pub fn certify(
         operations: walked.graph.operations(),
         joints: robot.joints.clone(),
         sines,
-        states: effort.states(outputs.len()),
+        states: subject.effort(spent.search).states(outputs.len()),
         outputs,
         target: None,
         forward: forward.transpose()?,

@@ -15,6 +15,8 @@ pub enum Part {
     All,
     /// The proven errors.
     Certificates,
+    /// Those of forward dynamics.
+    Forward,
     /// Those of the robot with a kinematic loop.
     Clusters,
     /// What is proven of the robots themselves.

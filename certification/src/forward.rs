@@ -287,7 +287,7 @@ fn norm(of: &Matrix) -> f64 {
 }
 
 /// The inverse of a symmetric positive definite matrix, of which the lower triangle is given: by Gauss and Jordan, in place.
-fn inverse(of: &Matrix) -> Option<Matrix> {
+pub fn inverse(of: &Matrix) -> Option<Matrix> {
     let n = of.len();
     let mut a: Matrix = (0..n)
         .map(|i| (0..n).map(|j| of[i.max(j)][i.min(j)]).collect())

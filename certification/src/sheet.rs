@@ -11,7 +11,7 @@ use crate::emulation::Emulation;
 use crate::error::{Error, Result};
 use crate::image::Image;
 use crate::limits::Limits;
-use crate::page::{ranges, short};
+use crate::page::{accelerations, ranges, short};
 use crate::rows::{PRECONDITIONS, Preconditions};
 use crate::search::Evaluation;
 use crate::stack::{self, INTERRUPT_FRAME};
@@ -294,6 +294,7 @@ fn function(entry: &Entry<'_>) -> String {
     }
     let (what, unit) = match one.function {
         Function::Crba => ("entry", "kg·m² or kg"),
+        Function::ForwardDynamics => ("result", "SI units"),
         _ => ("joint", "N·m or N"),
     };
     let _ = writeln!(
@@ -311,6 +312,12 @@ fn function(entry: &Entry<'_>) -> String {
             output.range.low,
             output.range.high
         );
+    }
+    if let Some(forward) = &one.forward {
+        let rows = forward.roundings.iter().map(|row| format!("{row:?}"));
+        let rows: Vec<String> = rows.collect();
+        let _ = writeln!(text, "\nRoundings m, by rows: {}.\n", rows.join(", "));
+        text += &accelerations(one, forward);
     }
     text
 }

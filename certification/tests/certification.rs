@@ -2,6 +2,8 @@
 
 #[path = "certification/configurations.rs"]
 mod configurations;
+#[path = "certification/forward.rs"]
+mod forward;
 #[path = "certification/fpcore.rs"]
 mod fpcore;
 #[path = "certification/grid.rs"]

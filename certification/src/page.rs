@@ -87,7 +87,7 @@ fn table(one: &Certificate) -> String {
 /// What is proven of forward dynamics, joint by joint, and of all joints together.
 pub(crate) fn accelerations(one: &Certificate, forward: &Forward) -> String {
     let n = forward.bias.len();
-    let mut text = "| joint | bias b: proven error β, N·m or N | worst observed | M_ii: proven error μ, kg·m² or kg | worst observed | greatest M_ii | roundings m of \
+    let mut text = "| joint | bias b: proven error β, N·m or N | worst observed | M_ii: proven error μ, kg·m² or kg | worst observed | greatest h | roundings m of \
                     its row | bound of q̈ / error, at least |\n|---|---|---|---|---|---|---|---|\n"
         .to_owned();
     for (i, bias) in one.outputs.iter().take(n).enumerate() {
@@ -96,13 +96,13 @@ pub(crate) fn accelerations(one: &Certificate, forward: &Forward) -> String {
         let (least, most) = (row.clone().min().unwrap_or(&0), row.max().unwrap_or(&0));
         let _ = writeln!(
             text,
-            "| {} | {} | {} | {} | {} | {:.3e} | {least} to {most} | {:.1} |",
+            "| {} | {} | {} | {} | {} | {} | {least} to {most} | {:.1} |",
             i + 1,
             short(bias.bound),
             short(bias.observed),
             short(own.bound),
             short(own.observed),
-            forward.scales[i],
+            short(forward.scales[i]),
             1.0 / forward.shares[i].error,
         );
     }

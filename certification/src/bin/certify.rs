@@ -437,10 +437,11 @@ fn spent(args: &Args, function: Function) -> Spent {
     let children = states / 3 * 2 / 96;
     Spent {
         parts: args.parts,
-        points: args.points.unwrap_or(if args.write_docs.is_some() {
-            PAGE_POINTS
-        } else {
-            POINTS
+        points: args.points.unwrap_or(match function {
+            // It has the most results, and its bound is not the nearer for more points.
+            Function::ForwardDynamics => POINTS,
+            _ if args.write_docs.is_some() => PAGE_POINTS,
+            _ => POINTS,
         }),
         search: Effort {
             random: states / 3,

@@ -110,7 +110,7 @@ pub const STUDIES: &[Study] = &[
     Study {
         name: "python", about: "",
         files: &["docs/python.md", "docs/python.svg"],
-        held: Step(Host, Full, "the Python wheel builds, runs its notebook in a bare environment, agrees with Pinocchio and has the bits of Core; docs/python.md is of today's code"),
+        held: Step(Host, Full, "the Python wheel builds, runs its notebook in a bare environment, agrees with Pinocchio and has the bits of Core; docs/python.md is of today's code, and the suite of hard cases is that of its scripts"),
         form: Demo(|bench| {
             let mut python = bench.workspace.python()?;
             shell::capture(python.arg("python/test.py"))

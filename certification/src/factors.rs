@@ -160,15 +160,15 @@ fn solve(terms: &mut Terms, mut m: Vec<Vec<Term>>, mut x: Vec<Term>) -> Solved {
     for k in (0..n).rev() {
         pivots[k] = m[k][k];
         inverse[k] = terms.quotient(one, m[k][k]);
-        for i in (0..k)
-            .rev()
-            .filter(|i| !terms.is_zero(m[k][*i]))
-            .collect::<Vec<_>>()
-        {
+        for i in (0..k).rev() {
+            if terms.is_zero(m[k][i]) {
+                continue;
+            }
             let l = terms.product(m[k][i], inverse[k]);
-            for j in 0..=i {
-                let share = terms.product(l, m[k][j]);
-                m[i][j] = terms.difference(m[i][j], share);
+            let of_k = m[k].clone();
+            for (entry, other) in m[i].iter_mut().zip(of_k) {
+                let share = terms.product(l, other);
+                *entry = terms.difference(*entry, share);
             }
             m[k][i] = l;
             subtracted[i] += 1;
@@ -198,11 +198,12 @@ fn solve(terms: &mut Terms, mut m: Vec<Vec<Term>>, mut x: Vec<Term>) -> Solved {
 /// f + s of each entry, the most of any k.
 fn roundings(turns: &[Vec<Option<u32>>], subtracted: &[u32]) -> Vec<Vec<u32>> {
     let n = subtracted.len();
-    // The subtractions and products that l_ki has part in, of which the last subtraction is that of its product.
+    // The product with l_ki and the subtractions from row i, or from torque i, before its own; without such a product all of them.
     let inward = |k: usize, i: usize| match k == i {
         true => Some(subtracted[i]),
         false => turns[k][i],
     };
+    // The same of acceleration k, from which products with the accelerations of its ancestors are subtracted.
     let outward = |k: usize, j: usize| {
         let last = if k == j { n } else { j + 1 };
         inward(k, j)?;

@@ -76,6 +76,84 @@ fn the_machine_code_solves_with_the_factors_and_its_roundings_are_counted() {
     assert_eq!((second, third), (None, None));
 }
 
+/// The recursion on M and torques less biases, each operation of which is off by a share of its own, and Σ_k d_k |l_ki l_kj| of its factors.
+fn solved(m: &[[f64; 3]; 3], rest: [f64; 3], shares: &[f64]) -> ([f64; 3], [[f64; 3]; 3]) {
+    let mut shares = shares.iter();
+    let mut off = |x: f64| x * (1.0 + shares.next().expect("a share for each operation"));
+    let (mut l, mut inverse, mut x) = (*m, [0.0; 3], rest.map(&mut off));
+    for k in (0..3).rev() {
+        inverse[k] = off(1.0 / l[k][k]);
+        for i in (0..k).rev() {
+            let factor = off(l[k][i] * inverse[k]);
+            for j in 0..=i {
+                let share = off(factor * l[k][j]);
+                l[i][j] = off(l[i][j] - share);
+            }
+            l[k][i] = factor;
+        }
+        l[k][k] = 1.0;
+    }
+    for (k, i) in [(2, 0), (2, 1), (1, 0)] {
+        let share = off(l[k][i] * x[k]);
+        x[i] = off(x[i] - share);
+    }
+    for k in 0..3 {
+        x[k] = off(x[k] * inverse[k]);
+        for i in 0..k {
+            let share = off(l[k][i] * x[i]);
+            x[k] = off(x[k] - share);
+        }
+    }
+    let entry = |i: usize, j: usize| {
+        let all = (i.max(j)..3).map(|k| (l[k][i] * l[k][j]).abs() / inverse[k]);
+        all.sum::<f64>()
+    };
+    let sizes = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+    (x, sizes)
+}
+
+/// Shares of ± u are chosen by climbing: what remains of the torques is within the count.
+#[test]
+fn the_counted_roundings_are_enough_and_one_less_is_not() {
+    let counts = subject()
+        .factored
+        .expect("it is forward dynamics")
+        .roundings;
+    let (mut rng, unit) = (fastrand::Rng::with_seed(5), 2.0_f64.powi(-24));
+    let mut most = 0.0_f64;
+    for trial in 0..60 {
+        // L of entries of any size, D of any sizes.
+        let mut number = |low: f64| low + (1.0 - low) * rng.f64();
+        let l: [[f64; 3]; 3] = std::array::from_fn(|_| std::array::from_fn(|_| 3.0 * number(-1.0)));
+        let d: [f64; 3] = std::array::from_fn(|_| 100.0_f64.powf(number(-1.0)));
+        let at = |k: usize, i: usize| if k == i { 1.0 } else { l[k][i] };
+        let entry = |i: usize, j: usize| (i.max(j)..3).map(|k| d[k] * at(k, i) * at(k, j)).sum();
+        let m: [[f64; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+        let rest: [f64; 3] = std::array::from_fn(|_| number(-1.0));
+        let ratio = |shares: &[f64], row: usize| {
+            let (x, sizes) = solved(&m, rest, shares);
+            let product: f64 = (0..3).map(|j| m[row][j] * x[j]).sum();
+            let allowed = (0..3).map(|j| f64::from(counts[row][j]) * sizes[row][j] * x[j].abs());
+            (rest[row] - product).abs() / (allowed.sum::<f64>() * unit)
+        };
+        let row = trial % 3;
+        let mut shares: Vec<f64> = (0..60)
+            .map(|_| if rng.bool() { unit } else { -unit })
+            .collect();
+        for _ in 0..600 {
+            let before = ratio(&shares, row);
+            let k = rng.usize(..shares.len());
+            shares[k] = -shares[k];
+            if ratio(&shares, row) < before {
+                shares[k] = -shares[k];
+            }
+        }
+        most = most.max(ratio(&shares, row));
+    }
+    // Of at most eight roundings one less would be contradicted.
+    assert!(most <= 1.0 + 1e-5 && most > 0.95, "{most}");
+}
+
 /// The nodes that some others depend on.
 fn below(graph: &Graph, of: impl Iterator<Item = usize>) -> Vec<bool> {
     let mut used = vec![false; graph.nodes.len()];

@@ -85,9 +85,10 @@ fn solved(m: &[[f64; 3]; 3], rest: [f64; 3], shares: &[f64]) -> ([f64; 3], [[f64
         inverse[k] = off(1.0 / l[k][k]);
         for i in (0..k).rev() {
             let factor = off(l[k][i] * inverse[k]);
-            for j in 0..=i {
-                let share = off(factor * l[k][j]);
-                l[i][j] = off(l[i][j] - share);
+            let of_k = l[k];
+            for (entry, other) in l[i].iter_mut().zip(of_k).take(i + 1) {
+                let share = off(factor * other);
+                *entry = off(*entry - share);
             }
             l[k][i] = factor;
         }

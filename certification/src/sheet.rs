@@ -21,9 +21,10 @@ use crate::state_box::Robot;
 const CONFIG: &str = include_str!("../../.cargo/config.toml");
 const WORKSPACE: &str = include_str!("../../Cargo.toml");
 /// What the proven errors assume; cycles and stack have preconditions of their own.
-const ASSUMED: [&str; 4] = [
+const ASSUMED: [&str; 5] = [
     "the processor rounds to nearest, even, and keeps subnormal numbers, as after a reset",
     "positions, speeds and accelerations are numbers of f32 within the box",
+    "torques of forward dynamics are numbers of f32 with which no result overflows",
     "the exact function is that of the model in f64",
     "the host's `sin` and `cos` in f64 are off by less than 10⁻¹⁵",
 ];
@@ -212,7 +213,7 @@ pub struct Sheet<'a> {
     flags: Vec<&'static str>,
     profile: Vec<&'static str>,
     preconditions: Preconditions,
-    assumed: [&'static str; 4],
+    assumed: [&'static str; 5],
     functions: Vec<Entry<'a>>,
     limits: &'a Limits,
 }

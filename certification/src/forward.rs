@@ -107,21 +107,16 @@ impl Forward {
         let phi = forward.backward(&forward.scales);
         let scaled =
             |i: usize, j: usize| phi[i][j] / (forward.scales[i] * forward.scales[j]).sqrt();
-        forward.epsilon = norm(
-            &(0..n)
-                .map(|i| (0..n).map(|j| scaled(i, j)).collect())
-                .collect(),
-        );
+        let row = |i: usize| (0..n).map(|j| scaled(i, j)).collect();
+        forward.epsilon = norm(&(0..n).map(row).collect());
         let squares = forward.bias.iter().zip(&forward.scales);
         forward.beta = squares.map(|(b, h)| b * b / h).sum::<f64>().sqrt() * UP;
         let positions = &robot.whole()[..n];
         forward.floor = floor::prove(bodies, positions, &forward.scales, parts);
         let above = (forward.floor.floor - forward.epsilon) * (1.0 - 4.0 * UNIT);
-        let pivots = factored.noise.iter().zip(&forward.scales);
-        forward.is_total = above > 0.0
-            && pivots
-                .clone()
-                .all(|(noise, h)| noise.is_none_or(|noise| above * h > noise));
+        let exceeds = |(noise, h): (&Option<f64>, &f64)| above * h > noise.unwrap_or(0.0);
+        let mut pivots = factored.noise.iter().zip(&forward.scales);
+        forward.is_total = pivots.all(exceeds);
         Ok(forward)
     }
 

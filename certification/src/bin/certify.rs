@@ -438,7 +438,7 @@ fn spent(args: &Args, function: Function) -> Spent {
     Spent {
         parts: args.parts,
         points: args.points.unwrap_or(match function {
-            // It has the most results, and its bound is not the nearer for more points.
+            // It has the most results: 27 of six joints, 35 of seven.
             Function::ForwardDynamics => POINTS,
             _ if args.write_docs.is_some() => PAGE_POINTS,
             _ => POINTS,

@@ -19,7 +19,7 @@ import venv
 
 HERE = pathlib.Path(__file__).resolve().parent
 TARGET = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", HERE.parent / "target")).resolve() / "python"
-TOOLS = ["maturin>=1.9,<2", "numpy", "pin>=3,<5", "pytest", "mypy"]
+TOOLS = ["maturin>=1.9,<2", "mpmath>=1.3,<2", "numpy", "pin>=3,<5", "pytest", "mypy"]
 # From an empty environment to the end of the notebook.
 SECONDS = 60
 
@@ -84,6 +84,8 @@ def main() -> None:
     run(python, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests", *more, env=settings)
     run(python, "-m", "mypy.stubtest", "--ignore-disjoint-bases", "robot_dynamics", env=settings)
     run(python, "bench.py", "--check")
+    # Nothing of the wheel, but here is a Python with packages.
+    run(python, HERE.parent / "host-tests/suite/write.py", "--check")
     print(f"installed and notebook run in {seconds:.0f} s")
 
 

@@ -4,10 +4,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use serde::{Deserialize, Serialize};
 
+use crate::bodies;
 use crate::bound::{Bound, Bounder, Enclosure, SineErrors};
 use crate::branch::{Proven, prove};
 use crate::error::{Error, Result};
-use crate::graph::Node;
+use crate::factors::Factored;
+use crate::forward::Forward;
+use crate::graph::{Graph, Node};
 use crate::grid;
 use crate::image::Image;
 use crate::interval::Interval;
@@ -30,6 +33,10 @@ pub enum Function {
     Crba,
     /// Inverse dynamics of the core
     Core,
+    /// Forward dynamics of the engine, whose error is relative to the condition of the inertia matrix
+    #[serde(rename = "forward_dynamics")]
+    #[value(name = "forward_dynamics")]
+    ForwardDynamics,
     /// Inverse dynamics of the engine for a robot with a kinematic loop: the program of `four_bar_leg` has no other
     Clustered,
 }
@@ -42,6 +49,7 @@ impl Function {
             Self::Gravity => "engine `rnea`, gravity alone",
             Self::Crba => "engine `crba`",
             Self::Core => "core `rnea`",
+            Self::ForwardDynamics => "engine `forward_dynamics`",
             Self::Clustered => "engine `rnea` with a four-bar",
         }
     }
@@ -53,6 +61,7 @@ impl Function {
             Self::Gravity => "CERTIFIED_GRAVITY",
             Self::Crba => "CERTIFIED_CRBA",
             Self::Core => "CERTIFIED_CORE",
+            Self::ForwardDynamics => "CERTIFIED_FORWARD",
             Self::Clustered => "CERTIFIED_CLUSTERED",
         }
     }
@@ -151,6 +160,9 @@ pub struct Certificate {
     /// What a call takes on the target.
     #[serde(default)]
     pub target: Option<Target>,
+    /// Of forward dynamics, of which the outputs are the biases and the inertia matrix.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub forward: Option<Forward>,
 }
 
 /// The address of a function of a program, as firmware calls it.
@@ -172,16 +184,17 @@ pub fn address(image: &Image, function: Function) -> Result<u32> {
 pub fn expression(image: &Image, function: Function) -> Result<Walked> {
     let address = image.variable(function.variable())?.1[0];
     let (effects, _) = image.variable("CERTIFIED_EFFECTS")?;
-    let arguments = match function {
-        Function::Crba => [None, None, Some(effects), None],
-        _ => [None, None, None, Some(effects)],
+    let effects = Some(effects);
+    let mut walked = match function {
+        Function::Crba => walk(image, address, [None, None, effects])?,
+        Function::ForwardDynamics => walk(image, address, [None, None, None, None, effects])?,
+        _ => walk(image, address, [None, None, None, effects])?,
     };
-    let mut walked = walk(image, address, arguments)?;
-    if function == Function::Clustered {
-        // The first word says that there are torques, which are the next ones.
+    if matches!(function, Function::Clustered | Function::ForwardDynamics) {
+        // The first word says that there are results, which are the next ones.
         let (_, status) = walked.graph.outputs.remove(0);
         if walked.graph.nodes[status] != Node::Literal(0.0) {
-            return Err(Error::Missing("torques at the state zero".to_owned()));
+            return Err(Error::Missing("results at the state zero".to_owned()));
         }
         for output in &mut walked.graph.outputs {
             output.0 -= 4;
@@ -189,6 +202,131 @@ pub fn expression(image: &Image, function: Function) -> Result<Walked> {
     }
     Ok(walked)
 }
+
+/// What is proven of a function of a program.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    function: Function,
+    /// Its expression.
+    pub walked: Walked,
+    /// The expression whose results have bounds: of a symmetric matrix the upper triangle, of forward dynamics that of [`Factored`].
+    pub graph: Graph,
+    /// Forward dynamics, taken apart.
+    pub factored: Option<Factored>,
+}
+
+impl Subject {
+    /// Of a function of a program.
+    ///
+    /// # Errors
+    /// As [`expression`], and [`Error::Factors`].
+    pub fn of(image: &Image, function: Function) -> Result<Self> {
+        let walked = expression(image, function)?;
+        let mut graph = walked.graph.clone();
+        let mut factored = None;
+        if function == Function::Crba {
+            let n = graph.outputs.len().isqrt();
+            let is_upper = |place: usize| place / n <= place % n;
+            graph.outputs.retain(|(at, _)| is_upper(*at as usize / 4));
+        } else if function == Function::ForwardDynamics {
+            let apart = Factored::of(&walked, &expression(image, Function::Crba)?.graph)?;
+            graph = apart.graph.clone();
+            factored = Some(apart);
+        }
+        Ok(Self {
+            function,
+            walked,
+            graph,
+            factored,
+        })
+    }
+
+    /// What a result is called, by its place among the function's.
+    fn name(&self, place: usize, joints: usize) -> String {
+        let entry = |at: usize| format!("{},{}", at / joints + 1, at % joints + 1);
+        match self.function {
+            Function::Crba => entry(place),
+            Function::ForwardDynamics if place < joints => format!("bias {}", place + 1),
+            Function::ForwardDynamics => format!("M {}", entry(place - joints)),
+            _ => (place + 1).to_string(),
+        }
+    }
+
+    /// Of an effort, what is spent on each result.
+    fn effort(&self, effort: Effort) -> Effort {
+        match self.factored {
+            Some(_) => Effort {
+                children: effort.children / SHARE,
+                ..effort
+            },
+            None => effort,
+        }
+    }
+
+    /// Bounds the results, and searches the worst errors beside them.
+    ///
+    /// # Errors
+    /// [`Error::Contradicted`], [`Error::Infinite`], [`Error::Missing`] of an input that the box does not bound.
+    pub fn outputs(&self, robot: &Robot, sines: SineErrors, spent: Spent) -> Result<Vec<Output>> {
+        let graph = &self.graph;
+        let observed = search(graph, robot, self.effort(spent.search), 1);
+        let proven = in_parallel(graph.outputs.len(), |output| {
+            let mut bounder = Bounder::new(graph, output, robot, sines, Enclosure::WrittenOut)?;
+            let one = graph.of_output(output);
+            let by_grid = grid::Program::new(&one, robot)
+                .and_then(|program| program.prove(&one, robot, sines, spent.points));
+            Some((prove(&mut bounder, &robot.whole(), spent.parts), by_grid))
+        });
+        let mut outputs = Vec::new();
+        for (output, ((offset, _), (observed, proven))) in graph
+            .outputs
+            .iter()
+            .zip(observed.into_iter().zip(proven))
+            .enumerate()
+        {
+            let name = self.name(*offset as usize / 4, robot.joints.len());
+            let (proven, by_grid) =
+                proven.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
+            let Proven {
+                bound,
+                range,
+                parts,
+                ..
+            } = proven;
+            let (bound, proof) = match by_grid {
+                Some(other) if other.total() < bound.total() => (other, Proof::Grid),
+                _ => (bound, Proof::Parts),
+            };
+            let total = bound.total();
+            if !total.is_finite() {
+                return Err(Error::Infinite { output: output + 1 });
+            }
+            if total < observed.error {
+                return Err(Error::Contradicted {
+                    output: output + 1,
+                    bound: total,
+                    observed: observed.error,
+                });
+            }
+            outputs.push(Output {
+                name,
+                bound: total,
+                of: bound,
+                observed: observed.error,
+                state: observed.state,
+                range,
+                parts: parts.len(),
+                proof,
+            });
+        }
+        Ok(outputs)
+    }
+}
+
+/// The parts of the floor of the scaled inertia matrix.
+const FLOOR_PARTS: usize = 20_000;
+/// Of the states of the search, the share for each result that forward dynamics solves with.
+const SHARE: usize = 8;
 
 /// Proves the bounds of a function, and searches the worst errors beside them.
 ///
@@ -203,71 +341,19 @@ pub fn certify(
     spent: Spent,
 ) -> Result<Certificate> {
     let image = Image::read(&program.elf)?;
-    let walked = expression(&image, function)?;
-    paths::prove(&walked, robot, sines, PATH_PARTS)?;
-    let n = robot.joints.len();
-    let mut graph = walked.graph.clone();
-    if function == Function::Crba {
-        // Symmetric: the upper triangle.
-        graph
-            .outputs
-            .retain(|(offset, _)| (*offset as usize / 4) / n <= (*offset as usize / 4) % n);
+    let subject = Subject::of(&image, function)?;
+    let walked = &subject.walked;
+    // Forward dynamics has comparisons of pivots alone, of which the certificate itself says what they are.
+    if subject.factored.is_none() {
+        paths::prove(walked, robot, sines, PATH_PARTS)?;
     }
-    let observed = search(&graph, robot, spent.search, 1);
-    let proven = in_parallel(graph.outputs.len(), |output| {
-        let mut bounder = Bounder::new(&graph, output, robot, sines, Enclosure::WrittenOut)?;
-        let one = graph.of_output(output);
-        let by_grid = grid::Program::new(&one, robot)
-            .and_then(|program| program.prove(&one, robot, sines, spent.points));
-        Some((prove(&mut bounder, &robot.whole(), spent.parts), by_grid))
+    let outputs = subject.outputs(robot, sines, spent)?;
+    let forward = subject.factored.as_ref().map(|factored| {
+        let bodies = bodies::read(&image)?;
+        let mut forward = Forward::prove(factored, &outputs, &bodies, robot, FLOOR_PARTS)?;
+        forward.search(&walked.graph, &bodies, robot, spent.search)?;
+        Ok::<_, Error>(forward)
     });
-    let mut outputs = Vec::new();
-    for (output, ((offset, _), (observed, proven))) in graph
-        .outputs
-        .iter()
-        .zip(observed.into_iter().zip(proven))
-        .enumerate()
-    {
-        let place = *offset as usize / 4;
-        let name = if function == Function::Crba {
-            format!("{},{}", place / n + 1, place % n + 1)
-        } else {
-            (place + 1).to_string()
-        };
-        let (proven, by_grid) =
-            proven.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
-        let Proven {
-            bound,
-            range,
-            parts,
-            ..
-        } = proven;
-        let (bound, proof) = match by_grid {
-            Some(other) if other.total() < bound.total() => (other, Proof::Grid),
-            _ => (bound, Proof::Parts),
-        };
-        let total = bound.total();
-        if !total.is_finite() {
-            return Err(Error::Infinite { output: output + 1 });
-        }
-        if total < observed.error {
-            return Err(Error::Contradicted {
-                output: output + 1,
-                bound: total,
-                observed: observed.error,
-            });
-        }
-        outputs.push(Output {
-            name,
-            bound: total,
-            of: bound,
-            observed: observed.error,
-            state: observed.state,
-            range,
-            parts: parts.len(),
-            proof,
-        });
-    }
     Ok(Certificate {
         robot: program.robot.clone(),
         function,
@@ -277,9 +363,10 @@ pub fn certify(
         operations: walked.graph.operations(),
         joints: robot.joints.clone(),
         sines,
-        states: spent.search.states(outputs.len()),
+        states: subject.effort(spent.search).states(outputs.len()),
         outputs,
         target: None,
+        forward: forward.transpose()?,
     })
 }
 

@@ -1,7 +1,7 @@
 //! Checks of certificates: by Gappa, and of the page against today's machine code.
 
 use crate::bound::{Bounder, Enclosure, SineErrors};
-use crate::certificate::{Certificate, Function, expression};
+use crate::certificate::{Certificate, Function, Subject};
 use crate::error::{Error, Result};
 use crate::gappa;
 use crate::image::Image;
@@ -15,6 +15,8 @@ pub enum Part {
     All,
     /// The proven errors.
     Certificates,
+    /// Those of forward dynamics.
+    Forward,
     /// Those of the robot with a kinematic loop.
     Clusters,
     /// What is proven of the robots themselves.
@@ -44,7 +46,7 @@ pub fn page(written: &str, part: Part, text: &str) -> Result<String> {
 /// [`Error::Stale`], [`Error::Missing`] of a function that the program does not have.
 pub fn hashes(image: &Image, functions: &[Function], robot: &str, page: &str) -> Result<()> {
     for function in functions {
-        let hash = image.hash(&expression(image, *function)?.visited);
+        let hash = image.hash(&Subject::of(image, *function)?.walked.visited);
         if !page.contains(&hash) {
             let what = format!("the certificate of {robot}, {},", function.name());
             return Err(Error::Stale(what));
@@ -67,7 +69,7 @@ pub fn by_gappa(
     share: f64,
     coq: bool,
 ) -> Result<()> {
-    let graph = expression(image, function)?.graph;
+    let graph = Subject::of(image, function)?.graph;
     for (number, output) in of
         .outputs
         .iter()
@@ -113,7 +115,7 @@ pub fn sampled(
     robot: &Robot,
     rng: &mut fastrand::Rng,
 ) -> Result<()> {
-    let graph = expression(image, function)?.graph;
+    let graph = Subject::of(image, function)?.graph;
     let whole = robot.whole();
     let state: Vec<f64> = whole
         .iter()

@@ -61,6 +61,23 @@ pub enum Integer {
     Right,
 }
 
+impl Integer {
+    /// Of two words.
+    pub fn of(self, n: u32, m: u32) -> u32 {
+        match self {
+            Self::Sub => n.wrapping_sub(m),
+            Self::ReverseSub => m.wrapping_sub(n),
+            Self::And => n & m,
+            Self::Or => n | m,
+            Self::Xor => n ^ m,
+            Self::Clear => n & !m,
+            Self::Multiply => n.wrapping_mul(m),
+            Self::Left => n.checked_shl(m & 0xff).unwrap_or(0),
+            Self::Right => n.checked_shr(m & 0xff).unwrap_or(0),
+        }
+    }
+}
+
 /// One decoded instruction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Instruction {
@@ -151,8 +168,8 @@ pub enum Instruction {
     },
     /// d = ¬m
     Not { d: u8, m: u8, flags: bool },
-    /// Makes the next instructions conditional.
-    IfThen,
+    /// Makes the next instructions conditional: ITSTATE, A7.3.3.
+    IfThen { state: u8 },
     /// d = n m + a
     MultiplyAdd { d: u8, n: u8, m: u8, a: u8 },
     /// Memory of any size at n + offset.

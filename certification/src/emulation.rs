@@ -103,7 +103,7 @@ pub fn run(program: &Program, robot: &Robot) -> Result<Emulation> {
 /// A line of the program: a name and words in hexadecimal.
 fn call(line: &str, sample: Sample) -> (String, Sample, Vec<u32>) {
     let mut words = line
-        .split(|c: char| !c.is_ascii_alphanumeric())
+        .split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
         .filter(|word| !word.is_empty());
     let name = words.next().unwrap_or_default().to_owned();
     let bits = words.filter_map(|word| u32::from_str_radix(word, 16).ok());

@@ -15,6 +15,12 @@ pub enum Error {
     /// The program has no such variable.
     #[error("the program has no {0}")]
     Missing(String),
+    /// Machine code of forward dynamics is not that of the factors of M.
+    #[error("forward dynamics: {what} is not as the recursion of LᵀDL has it")]
+    Factors {
+        /// What differs.
+        what: String,
+    },
     /// A page or file is of other machine code.
     #[error("{0} is not of today's machine code: run `cargo xtask certify --write-docs`")]
     Stale(String),

@@ -47,9 +47,9 @@ const KEPT: [f64; 2] = [0.6, 0.85];
 /// Joints of an arm whose floor is proven directly before further joints are added.
 const FIRST: [usize; 3] = [1, 3, 4];
 
-/// Proves a floor over these positions, with at most so many parts for each value that is tried: joint by joint from the base on by
+/// Proves a floor x over these positions, M ⪰ x diag(scales), with at most so many parts for each value that is tried: joint by joint from the base on by
 /// [`crate::peel`], and directly.
-pub fn prove(bodies: &[Body], positions: &[Interval], most: usize) -> Floor {
+pub fn prove(bodies: &[Body], positions: &[Interval], scales: &[f64], most: usize) -> Floor {
     let mut arms = vec![peel::welded(bodies)];
     while let Some(next) = arms.last().filter(|arm| arm.len() > 1) {
         arms.push(peel::without_last(next));
@@ -63,21 +63,37 @@ pub fn prove(bodies: &[Body], positions: &[Interval], most: usize) -> Floor {
         let (first, rest) = arms.split_at(first);
         let known = first
             .last()
-            .map(|arm| directly(arm, &positions[..arm.len()], 0.0, most));
-        let floors = known.map_or_else(Vec::new, |known| vec![known.floor; first.len()]);
+            .map(|arm| directly(arm, &positions[..arm.len()], scales, 0.0, most).floor);
+        let known = known
+            .into_iter()
+            .flat_map(|floor| scales.iter().map(move |x| x * floor));
+        let floors: Vec<f64> = known.take(first.len()).collect();
         for kept in KEPT {
-            floor = floor.max(by_joints(rest, floors.clone(), positions, kept, most));
+            floor = floor.max(by_joints(
+                rest,
+                floors.clone(),
+                positions,
+                (kept, scales),
+                most,
+            ));
         }
     }
-    directly(arm, positions, floor, most)
+    directly(arm, positions, scales, floor, most)
 }
 
 /// The floor of an arm by parts of its positions, above one that is known.
-fn directly(arm: &[Body], positions: &[Interval], known: f64, most: usize) -> Floor {
-    let (least, q) = search(arm, positions);
+fn directly(
+    arm: &[Body],
+    positions: &[Interval],
+    scales: &[f64],
+    known: f64,
+    most: usize,
+) -> Floor {
+    let (least, q) = search(arm, positions, scales);
     let (mut floor, mut parts) = (known, 0);
     for share in SHARES.into_iter().filter(|share| share * least > known) {
-        let tried = vec![share * least; arm.len()];
+        let tried = scales[..arm.len()].iter().map(|x| x * share * least);
+        let tried: Vec<f64> = tried.collect();
         let Some(taken) = is_above(arm, positions, &tried, most) else {
             break;
         };
@@ -96,7 +112,7 @@ fn by_joints(
     arms: &[Vec<Body>],
     mut floors: Vec<f64>,
     positions: &[Interval],
-    kept: f64,
+    (kept, scales): (f64, &[f64]),
     parts: usize,
 ) -> f64 {
     // Nothing follows from joints of which nothing is known.
@@ -106,8 +122,9 @@ fn by_joints(
     for (number, arm) in arms.iter().enumerate() {
         let own = peel::own(arm) * (1.0 - 1e-12);
         let coupling = peel::coupling(arm, &positions[..arm.len()], &floors, parts);
-        let before = floors.iter().copied().fold(f64::MAX, f64::min);
-        let lowest = |share: f64| (share * before).min(peel::least(own, coupling, share));
+        let before = scaled(&floors, scales);
+        let last = scales[floors.len()];
+        let lowest = |share: f64| (share * before).min(peel::least(own, coupling, share) / last);
         let shares = (1..100).map(|percent| 0.01 * f64::from(percent));
         // The last joint added is to have as much as the others.
         let best = shares.max_by(|a, b| lowest(*a).total_cmp(&lowest(*b)));
@@ -118,7 +135,13 @@ fn by_joints(
         floors.iter_mut().for_each(|floor| *floor *= share);
         floors.push(peel::least(own, coupling, share));
     }
-    floors.into_iter().fold(f64::MAX, f64::min)
+    scaled(&floors, scales)
+}
+
+/// The least of some numbers by their scales.
+fn scaled(of: &[f64], scales: &[f64]) -> f64 {
+    let each = of.iter().zip(scales).map(|(x, scale)| x / scale);
+    each.fold(f64::MAX, f64::min)
 }
 
 /// The number of parts by which it is proven that M is above the diagonal matrix of these numbers; none if they are not enough.
@@ -327,20 +350,22 @@ fn direction(factors: &Matrix, row: usize) -> Vec<f64> {
     x
 }
 
-/// The least eigenvalue of M at a position, to about ten digits: by halving.
-pub fn least_eigenvalue(bodies: &[Body], q: &[f64]) -> f64 {
+/// The least eigenvalue of M at a position, scaled as for [`prove`], to about ten digits: by halving.
+pub fn least_eigenvalue(bodies: &[Body], q: &[f64], scales: &[f64]) -> f64 {
     let at: Vec<Position<f64>> = q.iter().map(|q| Position::at(*q)).collect();
     let matrix = inertia_matrix(bodies, q.len(), &at);
     let is_above = |x: f64| {
         let mut shifted = matrix.clone();
         for (i, row) in shifted.iter_mut().enumerate() {
-            row[i] -= x;
+            row[i] -= x * scales[i];
         }
         not_positive(&mut shifted).is_none()
     };
     let (mut low, mut high) = (
         0.0,
-        (0..q.len()).map(|i| matrix[i][i]).fold(f64::MAX, f64::min),
+        (0..q.len())
+            .map(|i| matrix[i][i] / scales[i])
+            .fold(f64::MAX, f64::min),
     );
     for _ in 0..40 {
         let middle = 0.5 * (low + high);
@@ -356,11 +381,11 @@ pub fn least_eigenvalue(bodies: &[Body], q: &[f64]) -> f64 {
 /// Positions that are tried at random, and steps from the least of them.
 const TRIED: usize = 20_000;
 
-fn search(bodies: &[Body], positions: &[Interval]) -> (f64, Vec<f64>) {
+fn search(bodies: &[Body], positions: &[Interval], scales: &[f64]) -> (f64, Vec<f64>) {
     let mut rng = Rng::with_seed(1);
     let mut best = (f64::INFINITY, Vec::new());
     let keep = |q: Vec<f64>, best: &mut (f64, Vec<f64>)| {
-        let value = least_eigenvalue(bodies, &q);
+        let value = least_eigenvalue(bodies, &q, scales);
         if value < best.0 {
             *best = (value, q);
         }

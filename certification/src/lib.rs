@@ -12,6 +12,7 @@
 //! | [`bodies`], [`taylor`] | the robot's bodies, in numbers and over parts of the box |
 //! | [`limits`]: [`floor`], [`peel`], [`speeds`] | the least eigenvalue of the inertia matrix, and the speeds of the links |
 //! | [`inertias`], `links` | the most that inertias known within some percent change torques |
+//! | [`factors`], [`forward`] | that forward dynamics solves with factors of the inertia matrix, and its error relative to the condition of that |
 //! | [`configurations`] | the errors of other kernels of sines and of other models |
 //! | [`search`] | the worst error that is found |
 //! | [`certificate`], [`page`], [`picture`] | what was proven, as data, text and picture |
@@ -33,10 +34,12 @@ pub mod cycles;
 mod decode;
 pub mod emulation;
 pub mod error;
+pub mod factors;
 mod flags;
 pub mod floor;
 mod flow;
 pub mod forms;
+pub mod forward;
 pub mod fpcore;
 pub mod gappa;
 pub mod graph;

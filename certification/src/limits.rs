@@ -55,7 +55,12 @@ impl Limits {
             bands: bands.transpose()?,
             robot: program.robot.clone(),
             speeds: speeds::prove(&bodies, positions, &most, effort.speeds),
-            floor: floor::prove(&bodies, positions, effort.floor),
+            floor: floor::prove(
+                &bodies,
+                positions,
+                &vec![1.0; positions.len()],
+                effort.floor,
+            ),
         };
         limits.check()?;
         Ok(limits)

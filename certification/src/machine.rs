@@ -324,21 +324,11 @@ impl Machine {
         (a, b): (Word, Word),
         sets: bool,
     ) -> Word {
-        let of = |a: u32, b: u32| match op {
-            Integer::And => a & b,
-            Integer::Or => a | b,
-            Integer::Xor => a ^ b,
-            Integer::Clear => a & !b,
-            Integer::Multiply => a.wrapping_mul(b),
-            Integer::Left => a.checked_shl(b & 0xff).unwrap_or(0),
-            Integer::Right => a.checked_shr(b & 0xff).unwrap_or(0),
-            Integer::Sub | Integer::ReverseSub => unreachable!("they are differences"),
-        };
         let result = match op {
             Integer::Sub => return self.subtract(names, a, b, sets),
             Integer::ReverseSub => return self.subtract(names, b, a, sets),
             _ => match (a.number(), b.number()) {
-                (Some(a), Some(b)) => number(of(a, b)),
+                (Some(a), Some(b)) => number(op.of(a, b)),
                 (None, Some(1)) if op == Integer::Multiply => a,
                 (None, Some(mask)) if op == Integer::And => match a.aligned(mask) {
                     Some(bits) => number(bits),
@@ -369,7 +359,7 @@ impl Machine {
     ) -> bool {
         use Instruction as I;
         match instruction {
-            I::Nop | I::IfThen => {}
+            I::Nop | I::IfThen { .. } => {}
             I::Add { d, n, by, flags } => {
                 let by = self.operand(names, by);
                 let sum = self.add(names, self.core(n), by, flags);

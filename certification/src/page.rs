@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::certificate::{Certificate, Function};
+use crate::forward::Forward;
 
 /// A number in three digits, its power of ten written out.
 pub(crate) fn short(x: f64) -> String {
@@ -53,6 +54,9 @@ fn table(one: &Certificate) -> String {
     if let Some(target) = &one.target {
         let _ = write!(text, "{}\n\n", target.sentence());
     }
+    if let Some(forward) = &one.forward {
+        return text + &accelerations(one, forward) + "\n";
+    }
     let _ = writeln!(
         text,
         "| {what} | proven error, {unit} | worst observed | ratio | proof | of it: operations | literals | sines | range of the result |\n|---|---|---|---|---|---|---|---|---|"
@@ -80,12 +84,61 @@ fn table(one: &Certificate) -> String {
     text + "\n"
 }
 
+/// What is proven of forward dynamics, joint by joint, and of all joints together.
+pub(crate) fn accelerations(one: &Certificate, forward: &Forward) -> String {
+    let n = forward.bias.len();
+    let mut text = "| joint | bias b: proven error β, N·m or N | worst observed | M_ii: proven error μ, kg·m² or kg | worst observed | greatest h | roundings m of \
+                    its row | bound of q̈ / error, at least |\n|---|---|---|---|---|---|---|---|\n"
+        .to_owned();
+    for (i, bias) in one.outputs.iter().take(n).enumerate() {
+        let own = &one.outputs[n + i * (i + 3) / 2];
+        let row = forward.roundings[i].iter();
+        let (least, most) = (row.clone().min().unwrap_or(&0), row.max().unwrap_or(&0));
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {} | {} | {least} to {most} | {:.1} |",
+            i + 1,
+            short(bias.bound),
+            short(bias.observed),
+            short(own.bound),
+            short(own.observed),
+            short(forward.scales[i]),
+            1.0 / forward.shares[i].error,
+        );
+    }
+    let [rho, found] = [forward.floor.floor, forward.floor.least].map(|floor| 1.0 / floor);
+    let positive = match (rho * forward.epsilon, forward.is_total) {
+        (share, true) => format!(
+            "ρ ε ≤ {}, so that no state of the box is refused",
+            short(share)
+        ),
+        (share, false) if share < 1.0 => format!(
+            "ρ ε ≤ {}, so that all pivots are positive; of some it is not proven that they exceed what the code wants of them, and a state may be refused",
+            short(share)
+        ),
+        _ => "where ρ ε ≥ 1, nothing is proven".to_owned(),
+    };
+    let _ = writeln!(
+        text,
+        "\nβ_S = {}, ε = {}. ρ is at most {rho:.0} at every position, and the most that was found is {found:.0}: {positive}. At {} states that a search tried \
+         no error was above its bound; that of the norm is at least {:.1} times the error.",
+        short(forward.beta),
+        short(forward.epsilon),
+        forward.states,
+        1.0 / forward.shares[n].error,
+    );
+    text
+}
+
 /// The box in words, joints of the same ranges together.
 pub(crate) fn ranges(one: &Certificate) -> String {
     let of = |i: usize| {
         let joint = one.joints[i];
         let (q, unit) = (joint.position, if joint.turns { "rad" } else { "m" });
         let mut text = format!("q from {:.2} to {:.2} {unit}", q.low, q.high);
+        if one.function == Function::ForwardDynamics {
+            let _ = write!(text, ", |q̇| ≤ {:.2} {unit}/s", joint.speed);
+        }
         if one.function.is_inverse_dynamics() {
             let _ = write!(
                 text,

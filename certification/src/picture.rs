@@ -56,6 +56,7 @@ pub fn svg(certificates: &[Certificate]) -> String {
             Function::Gravity => ("Gravity alone", "N·m", "joint"),
             Function::Crba => ("Inertia matrix", "kg·m²", "entry"),
             Function::Core => ("Inverse dynamics of the core", "N·m", "joint"),
+            Function::ForwardDynamics => ("Biases and inertia matrix", "SI units", "result"),
             Function::Clustered => ("Inverse dynamics with a loop", "N·m", "joint"),
         };
         let _ = writeln!(

@@ -4,6 +4,7 @@
 //! less.
 
 use fastrand::Rng;
+use serde::{Deserialize, Serialize};
 
 use crate::graph::{Graph, Input};
 use crate::sines;
@@ -28,7 +29,7 @@ impl Effort {
 }
 
 /// The worst error of one output that was found, and where.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Observed {
     /// |f32 − f64|
     pub error: f64,
@@ -123,10 +124,24 @@ const KEPT: usize = 100;
 
 /// Searches the worst error of each output.
 pub fn search(graph: &Graph, robot: &Robot, effort: Effort, seed: u64) -> Vec<Observed> {
-    let ranges = ranges(robot);
     let mut evaluation = Evaluation::new(graph, robot);
+    let error = |(a, b): (f32, f64)| (f64::from(a) - b).abs();
+    worst(robot, graph.outputs.len(), effort, seed, |state| {
+        evaluation.at(state).map(error).collect()
+    })
+}
+
+/// Searches the states at which each of so many numbers is the greatest.
+pub fn worst(
+    robot: &Robot,
+    numbers: usize,
+    effort: Effort,
+    seed: u64,
+    mut errors: impl FnMut(&[f64]) -> Vec<f64>,
+) -> Vec<Observed> {
+    let ranges = ranges(robot);
     let mut rng = Rng::with_seed(seed);
-    let mut kept: Vec<Vec<(f64, Vec<f64>)>> = vec![Vec::new(); graph.outputs.len()];
+    let mut kept: Vec<Vec<(f64, Vec<f64>)>> = vec![Vec::new(); numbers];
     for number in 0..effort.random {
         // Every other state has speeds and accelerations at their limits, where errors are largest.
         let draw = |(axis, (low, high)): (usize, &(f64, f64))| {
@@ -138,16 +153,12 @@ pub fn search(graph: &Graph, robot: &Robot, effort: Effort, seed: u64) -> Vec<Ob
             on_grid(low + share * (high - low), *low, *high)
         };
         let state: Vec<f64> = ranges.iter().enumerate().map(draw).collect();
-        let errors: Vec<f64> = evaluation
-            .at(&state)
-            .map(|(a, b)| (f64::from(a) - b).abs())
-            .collect();
-        for (kept, error) in kept.iter_mut().zip(errors) {
+        for (kept, error) in kept.iter_mut().zip(errors(&state)) {
             keep(kept, error, &state);
         }
     }
     for (output, kept) in kept.iter_mut().enumerate() {
-        evolve(kept, output, &mut evaluation, &ranges, effort, &mut rng);
+        evolve(kept, output, &mut errors, &ranges, effort, &mut rng);
     }
     let best = |kept: Vec<(f64, Vec<f64>)>| kept.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
     kept.into_iter()
@@ -163,7 +174,7 @@ pub fn search(graph: &Graph, robot: &Robot, effort: Effort, seed: u64) -> Vec<Ob
 fn evolve(
     kept: &mut Vec<(f64, Vec<f64>)>,
     output: usize,
-    evaluation: &mut Evaluation<'_>,
+    errors: &mut impl FnMut(&[f64]) -> Vec<f64>,
     ranges: &[(f64, f64)],
     effort: Effort,
     rng: &mut Rng,
@@ -180,11 +191,7 @@ fn evolve(
                     *x = on_grid(*x + step, *low, *high);
                 }
             }
-            let error = evaluation
-                .at(&state)
-                .nth(output)
-                .map_or(0.0, |(a, b)| (f64::from(a) - b).abs());
-            keep(kept, error, &state);
+            keep(kept, errors(&state)[output], &state);
         }
     }
 }

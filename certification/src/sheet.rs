@@ -11,7 +11,7 @@ use crate::emulation::Emulation;
 use crate::error::{Error, Result};
 use crate::image::Image;
 use crate::limits::Limits;
-use crate::page::{ranges, short};
+use crate::page::{accelerations, ranges, short};
 use crate::rows::{PRECONDITIONS, Preconditions};
 use crate::search::Evaluation;
 use crate::stack::{self, INTERRUPT_FRAME};
@@ -21,9 +21,10 @@ use crate::state_box::Robot;
 const CONFIG: &str = include_str!("../../.cargo/config.toml");
 const WORKSPACE: &str = include_str!("../../Cargo.toml");
 /// What the proven errors assume; cycles and stack have preconditions of their own.
-const ASSUMED: [&str; 4] = [
+const ASSUMED: [&str; 5] = [
     "the processor rounds to nearest, even, and keeps subnormal numbers, as after a reset",
     "positions, speeds and accelerations are numbers of f32 within the box",
+    "torques of forward dynamics are numbers of f32 with which no result overflows",
     "the exact function is that of the model in f64",
     "the host's `sin` and `cos` in f64 are off by less than 10⁻¹⁵",
 ];
@@ -212,7 +213,7 @@ pub struct Sheet<'a> {
     flags: Vec<&'static str>,
     profile: Vec<&'static str>,
     preconditions: Preconditions,
-    assumed: [&'static str; 4],
+    assumed: [&'static str; 5],
     functions: Vec<Entry<'a>>,
     limits: &'a Limits,
 }
@@ -294,6 +295,7 @@ fn function(entry: &Entry<'_>) -> String {
     }
     let (what, unit) = match one.function {
         Function::Crba => ("entry", "kg·m² or kg"),
+        Function::ForwardDynamics => ("result", "SI units"),
         _ => ("joint", "N·m or N"),
     };
     let _ = writeln!(
@@ -311,6 +313,12 @@ fn function(entry: &Entry<'_>) -> String {
             output.range.low,
             output.range.high
         );
+    }
+    if let Some(forward) = &one.forward {
+        let rows = forward.roundings.iter().map(|row| format!("{row:?}"));
+        let rows: Vec<String> = rows.collect();
+        let _ = writeln!(text, "\nRoundings m, by rows: {}.\n", rows.join(", "));
+        text += &accelerations(one, forward);
     }
     text
 }

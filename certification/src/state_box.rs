@@ -136,6 +136,11 @@ impl Robot {
                 let axis = input.offset as usize / 4;
                 (axis < 3 * n).then_some(Leaf::Axis(axis))
             }
+            // Torques, of forward dynamics, in place of accelerations.
+            3 => {
+                let joint = input.offset as usize / 4;
+                (joint < n).then_some(Leaf::Axis(2 * n + joint))
+            }
             _ => None,
         }
     }

@@ -17,6 +17,10 @@ use crate::graph::{Graph, Guess, Input, Node};
 use crate::image::Image;
 use crate::roots;
 
+mod sines;
+
+use sines::Sines;
+
 /// Addresses at which nothing lies: of what the arguments point to, a range for each; of the stack; and of the caller.
 const ARGUMENTS: u32 = 0x9000_0000;
 const RANGE: u32 = 0x0100_0000;
@@ -47,23 +51,6 @@ pub struct Comparison {
     pub ordering: Ordering,
 }
 
-/// The function that computes sine and cosine, and where they lie among inputs: [`crate::state_box::Robot::trig`].
-struct Sines {
-    address: u32,
-    trig: [u32; 4],
-}
-
-impl Sines {
-    fn of(image: &Image) -> Option<Self> {
-        let (_, words) = image.variable("CERTIFIED_SINES").ok()?;
-        let trig = image.variable("CERTIFIED_TRIG").ok()?.1;
-        Some(Self {
-            address: words.first()? & !1,
-            trig: trig.try_into().ok()?,
-        })
-    }
-}
-
 /// A function's expression, and where its code lies.
 #[derive(Clone, Debug)]
 pub struct Walked {
@@ -87,6 +74,8 @@ struct Walk<'a> {
     memory: HashMap<u32, Word>,
     /// Negative, zero, carry, overflow of the last comparison of integers.
     flags: Option<[bool; 4]>,
+    /// The conditions of the next instructions: ITSTATE.
+    conditions: u8,
     sines: Option<Sines>,
     /// The real numbers that were compared last.
     compared: Option<[usize; 2]>,
@@ -98,11 +87,15 @@ struct Walk<'a> {
 }
 
 /// Walks the function at an address. An argument is a pointer to inputs, or to what lies at an address of the program; the first
-/// one is where results go.
+/// one is where results go. From the fifth on they are on the stack.
 ///
 /// # Errors
 /// [`Error::Declined`].
-pub fn walk(image: &Image, function: u32, arguments: [Option<u32>; 4]) -> Result<Walked> {
+pub fn walk<const N: usize>(
+    image: &Image,
+    function: u32,
+    arguments: [Option<u32>; N],
+) -> Result<Walked> {
     let mut walk = Walk {
         image,
         graph: Graph::default(),
@@ -112,6 +105,7 @@ pub fn walk(image: &Image, function: u32, arguments: [Option<u32>; 4]) -> Result
         real: [None; 32],
         memory: HashMap::new(),
         flags: None,
+        conditions: 0,
         sines: Sines::of(image),
         compared: None,
         comparisons: Vec::new(),
@@ -120,7 +114,13 @@ pub fn walk(image: &Image, function: u32, arguments: [Option<u32>; 4]) -> Result
         code: 0,
     };
     for (i, given) in (0..).zip(arguments) {
-        walk.core[i as usize] = Some(Word::Bits(given.unwrap_or(ARGUMENTS + i * RANGE)));
+        let word = Word::Bits(given.unwrap_or(ARGUMENTS + i * RANGE));
+        match i {
+            0..4 => walk.core[i as usize] = Some(word),
+            _ => {
+                walk.memory.insert(STACK + 4 * (i - 4), word);
+            }
+        }
     }
     // Registers that a function must keep hold what its caller left there, of which nothing is known but that it is kept.
     for (i, kept) in (4..13).enumerate() {
@@ -278,13 +278,39 @@ impl Walk<'_> {
         };
         let instruction = instruction
             .ok_or_else(|| self.declined("an instruction of which nothing is proven"))?;
-        self.execute(instruction)
+        if self.conditions & 15 == 0 {
+            return self.execute(instruction);
+        }
+        let condition = self.conditions >> 4;
+        self.conditions = match self.conditions & 7 {
+            0 => 0,
+            _ => self.conditions & 0xe0 | self.conditions << 1 & 0x1f,
+        };
+        if !self.holds(condition)? {
+            return Ok(());
+        }
+        let flags = self.flags;
+        self.execute(instruction)?;
+        // Short instructions set no flags in an IT block, comparisons apart.
+        use Instruction::{Integer, Sub, TakeFlags};
+        let is_comparison = matches!(
+            instruction,
+            Sub { d: NOWHERE, .. } | Integer { d: NOWHERE, .. } | TakeFlags
+        );
+        if !decode::is_long(first) && !is_comparison {
+            self.flags = flags;
+        }
+        Ok(())
     }
 
     fn execute(&mut self, instruction: Instruction) -> Result<()> {
         use Instruction as I;
         match instruction {
             I::Nop => Ok(()),
+            I::IfThen { state } => {
+                self.conditions = state;
+                Ok(())
+            }
             I::Add { d, n, by, flags } => {
                 let (a, b) = (self.bits(n)?, self.operand(by)?);
                 self.note(flags, a, b, false);
@@ -391,6 +417,20 @@ impl Walk<'_> {
                     Word::Guess(..) => Err(self.declined("a guess of a guess")),
                 }
             }
+            I::Integer {
+                op,
+                d,
+                n,
+                by,
+                flags,
+            } => {
+                let result = op.of(self.bits(n)?, self.operand(by)?);
+                if flags {
+                    // Carry and overflow are those of no sum.
+                    self.flags = None;
+                }
+                self.set(d, Word::Bits(result))
+            }
             I::Copy { d, m } => {
                 self.real[usize::from(d)] = Some(self.real(m)?);
                 Ok(())
@@ -445,66 +485,6 @@ impl Walk<'_> {
             I::Access(one) if one.bytes == 4 => self.access(one),
             _ => Err(self.declined("an instruction of which nothing is proven")),
         }
-    }
-
-    /// The flags of the comparison of real numbers: those of the state zero.
-    fn take_flags(&mut self) -> Result<()> {
-        let trig = self.sines.as_ref().map(|sines| sines.trig);
-        // Cosines are one, all else is zero.
-        let zero = |input: Input| match trig {
-            Some([stride, _, cosine, _]) if input.argument == 1 => {
-                f32::from(u8::from(input.offset % stride == cosine))
-            }
-            _ => 0.0,
-        };
-        let mut values = Vec::new();
-        self.graph.evaluate(zero, &mut values);
-        let nodes = self
-            .compared
-            .ok_or_else(|| self.declined("no comparison"))?;
-        let [a, b] = nodes.map(|k| values[k]);
-        let ordering = a
-            .partial_cmp(&b)
-            .ok_or_else(|| self.declined("a comparison with what is no number"))?;
-        self.comparisons.push(Comparison {
-            address: self.here,
-            nodes,
-            ordering,
-        });
-        self.flags = Some(match ordering {
-            Ordering::Less => [true, false, false, false],
-            Ordering::Equal => [false, true, true, false],
-            Ordering::Greater => [false, false, true, false],
-        });
-        Ok(())
-    }
-
-    /// A call of the function for sines: of a position, the first numbers of the state.
-    fn sine_and_cosine(&mut self) -> Result<()> {
-        let of = match self.real(0)? {
-            Word::Real(node) => match self.graph.nodes[node] {
-                Node::Input(Input {
-                    argument: 2,
-                    offset,
-                }) => Some(offset / 4),
-                _ => None,
-            },
-            _ => None,
-        };
-        let (Some(joint), Some(sines)) = (of, &self.sines) else {
-            return Err(self.declined("a sine of what is no coordinate"));
-        };
-        let [stride, sine, cosine, _] = sines.trig;
-        let at = [sine, cosine].map(|within| ARGUMENTS + RANGE + stride * joint + within);
-        // What a call need not keep.
-        self.core[..4].fill(None);
-        self.core[12] = None;
-        self.real[..16].fill(None);
-        self.flags = None;
-        for (register, at) in at.into_iter().enumerate() {
-            self.real[register] = Some(self.load(at)?);
-        }
-        Ok(())
     }
 
     /// One word or two.

@@ -2,6 +2,8 @@
 
 #[path = "certification/configurations.rs"]
 mod configurations;
+#[path = "certification/forward.rs"]
+mod forward;
 #[path = "certification/fpcore.rs"]
 mod fpcore;
 #[path = "certification/grid.rs"]
@@ -72,6 +74,17 @@ fn the_graph_is_that_of_the_instructions() {
 fn a_loop_of_constant_length_is_followed() {
     let graph = function(0x30).expect("it is straight-line");
     assert_eq!(graph.operations(), 3);
+}
+
+#[test]
+fn an_it_block_executes_what_its_conditions_let() {
+    // Compares 1 with 2: itete lt of vadd, vmul, mov 4 and mov 2; then whether that with its last bit set is 5: it eq of vneg.
+    let code =
+        "91ed010ad1ed020a0123022bb5bf30ee200a20ee200a0423022343f00103052b08bfb1ee400a80ed000a7047";
+    let image = Image::of(BASE, &bytes(code));
+    let graph = walk(&image, BASE, [None; 4]).expect("it is followed").graph;
+    let nodes = [Node::Add(0, 1), Node::Neg(2)];
+    assert_eq!((&graph.nodes[2..], graph.outputs[0].1), (&nodes[..], 3));
 }
 
 #[test]

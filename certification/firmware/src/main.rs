@@ -11,6 +11,7 @@ mod joints;
 mod measured;
 
 use cortex_m_semihosting::debug;
+use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::{BASE, JointKind, Robot as _};
 use dynamics_core::state::{JointTrig, StateWithTrig};
@@ -23,6 +24,11 @@ include!(env!("CERTIFIED_ROBOT"));
 type Trig = JointTrig<f32, N>;
 type Full = (Gravity, Inertia, Coriolis);
 type Inverse<E> = fn(StateWithTrig<'static, f32, N, N>, &E) -> [f32; N];
+type Forward = fn(
+    StateWithTrig<'static, f32, N, N>,
+    &[f32; N],
+    &Full,
+) -> Result<[f32; N], NotPositiveDefinite>;
 
 /// Of each body: its parent, its joint's kind and coordinate, placement, mass, first moment and second moments, for what is proven of
 /// the model itself.
@@ -93,6 +99,8 @@ static CERTIFIED_GRAVITY: Inverse<(Gravity,)> = Engine::<Robot>::rnea;
 static CERTIFIED_CORE: Inverse<Full> = Core::<Robot>::rnea;
 #[used]
 static CERTIFIED_CRBA: fn(&Trig, &Full) -> MassMatrix<f32, N> = Engine::<Robot>::crba;
+#[used]
+static CERTIFIED_FORWARD: Forward = Engine::<Robot>::forward_dynamics;
 
 #[cortex_m_rt::entry]
 fn main() -> ! {

@@ -4,21 +4,26 @@
 use core::hint::black_box;
 
 use cortex_m_semihosting::hprintln;
-use dynamics_core::state::StateWithTrig;
+use dynamics_core::state::{RobotState as _, StateWithTrig};
 use firmware_demo::marker::measured;
 
 use crate::inputs::{CERTIFIED_STATES, CERTIFIED_TRIGS};
 use crate::{
-    CERTIFIED_CORE, CERTIFIED_CRBA, CERTIFIED_EFFECTS, CERTIFIED_GRAVITY, CERTIFIED_RNEA, N,
+    CERTIFIED_CORE, CERTIFIED_CRBA, CERTIFIED_EFFECTS, CERTIFIED_FORWARD, CERTIFIED_GRAVITY,
+    CERTIFIED_RNEA, N,
 };
 
 /// Nothing is known of the function to the compiler, so that its code is that which is proven.
 pub fn run() {
     let (rnea, gravity, core) = black_box((CERTIFIED_RNEA, CERTIFIED_GRAVITY, CERTIFIED_CORE));
-    let crba = black_box(CERTIFIED_CRBA);
+    let (crba, forward) = black_box((CERTIFIED_CRBA, CERTIFIED_FORWARD));
     each("rnea", |state| rnea(state, &CERTIFIED_EFFECTS));
     each("gravity", |state| gravity(state, &(CERTIFIED_EFFECTS.0,)));
     each("core", |state| core(state, &CERTIFIED_EFFECTS));
+    // Torques are where the state has accelerations. A matrix that is refused has no bits.
+    each("forward_dynamics", |state| {
+        forward(state, &state.state().qdd, &CERTIFIED_EFFECTS).unwrap_or([0.0; N])
+    });
     for trig in black_box(&CERTIFIED_TRIGS) {
         let m = measured::<0, _>(|| crba(trig, &CERTIFIED_EFFECTS));
         let rows: [[u32; N]; N] =

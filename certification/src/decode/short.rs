@@ -245,7 +245,7 @@ fn other(one: Code) -> Option<Instruction> {
             if_not: one.is_load(),
         },
         0xbf if byte == 0 => Nop,
-        0xbf if byte & 15 != 0 => IfThen,
+        0xbf if byte & 15 != 0 => IfThen { state: byte as u8 },
         0xd0..=0xdd => Branch {
             offset: signed(byte << 1, 9),
             condition: one.field(8, 4) as u8,

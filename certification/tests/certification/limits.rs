@@ -142,12 +142,12 @@ fn numbers_over_a_part_keep_their_operations() {
 #[test]
 fn no_position_has_an_eigenvalue_below_the_floor() {
     let (bodies, positions) = (bodies(&A1Leg::MODEL), positions(3));
-    let floor = prove(&bodies, &positions, 20_000);
+    let floor = prove(&bodies, &positions, &[1.0; 3], 20_000);
     assert!(floor.ratio() > 0.8 && floor.ratio() < 1.0, "{floor:?}");
     let mut rng = fastrand::Rng::with_seed(7);
     for _ in 0..100_000 {
         let q = within(&mut rng, &positions);
-        assert!(least_eigenvalue(&bodies, &q) > floor.floor);
+        assert!(least_eigenvalue(&bodies, &q, &[1.0; 3]) > floor.floor);
     }
     assert!(is_above(&bodies, &positions, &[floor.floor; 3], 20_000).is_some());
     // A floor above what was found is not proven, however many parts it is given.
@@ -166,7 +166,11 @@ fn taking_the_last_body_off_is_below_and_needs_the_coupling() {
     let mut rng = fastrand::Rng::with_seed(1);
     let mut least = f64::INFINITY;
     for _ in 0..100_000 {
-        least = least.min(least_eigenvalue(arm, &within(&mut rng, &positions)));
+        least = least.min(least_eigenvalue(
+            arm,
+            &within(&mut rng, &positions),
+            &[1.0; 2],
+        ));
     }
     assert!(
         0.05 * least < floor && floor <= least,
@@ -180,7 +184,7 @@ fn taking_the_last_body_off_is_below_and_needs_the_coupling() {
             &mut rng,
             &[positions.clone(), positions.clone()].concat()[..3],
         );
-        let [a, b] = [all, &whole].map(|bodies| least_eigenvalue(bodies, &q));
+        let [a, b] = [all, &whole].map(|bodies| least_eigenvalue(bodies, &q, &[1.0; 3]));
         assert!((a / b - 1.0).abs() < 1e-8, "{a} {b}");
     }
 }

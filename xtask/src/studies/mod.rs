@@ -97,7 +97,7 @@ pub const STUDIES: &[Study] = &[
         files: &[
             "docs/certificates.md", "docs/certificates.svg", "docs/fpbench/four_bar.fpcore", "docs/fpbench/gravity_so101.fpcore", "docs/fpbench/rnea_ur5e.fpcore",
         ],
-        held: Step(Target, Full, "docs/certificates.md and docs/accuracy-proven.json have the hashes of today's machine code; Gappa and Coq accept parts of the proofs, and refuse wrong ones"),
+        held: Step(Target, Full, "docs/certificates.md and docs/accuracy-proven.json have the hashes of today's machine code, whose forward dynamics is the recursion of LᵀDL; Gappa and Coq accept parts of the proofs, and refuse wrong ones"),
         form: Demo(|bench| {
             setup::provers(bench.options.without_questions())?;
             let words = "--quiet --profile simulated --package certification --".split(' ');
@@ -110,7 +110,7 @@ pub const STUDIES: &[Study] = &[
     Study {
         name: "python", about: "",
         files: &["docs/python.md", "docs/python.svg"],
-        held: Step(Host, Full, "the Python wheel builds, runs its notebook in a bare environment, agrees with Pinocchio and has the bits of Core; docs/python.md is of today's code"),
+        held: Step(Host, Full, "the Python wheel builds, runs its notebook in a bare environment, agrees with Pinocchio and has the bits of Core; docs/python.md is of today's code, and the suite of hard cases is that of its scripts"),
         form: Demo(|bench| {
             let mut python = bench.workspace.python()?;
             shell::capture(python.arg("python/test.py"))

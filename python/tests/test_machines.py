@@ -79,6 +79,21 @@ def test_forward_dynamics_of_loops_is_that_of_their_kkt_system(kind):
     near(robot.crba(q) @ qdd + robot.bias(q, v) - tau, found.T @ force, 1e-9)
 
 
+def test_a_humanoid_stands_on_its_ankles():
+    robot = rd.Robot("g1_free")
+    q, v, _, tau = (x[0] for x in states(robot, 1))
+    at = dict(zip(robot.bodies, robot.poses(q)[1]))
+    feet = [rd.LoopJoint(foot, "spherical", (None, foot), (at[foot], Z3)) for foot in at if "ankle_roll" in foot]
+    loops = rd.Loops(robot, feet, range(6, robot.nv))
+    k, bias, *_ = loops.constraints(q, 0.0 * v)
+    kkt = np.block([[robot.crba(q), k.T], [k, np.zeros((6, 6))]])
+    tau[:6] = 0.0
+    expected = np.linalg.solve(kkt, np.concatenate([tau - robot.bias(q, 0.0 * v), bias]))[: robot.nv]
+    qdd, _, rank = loops.forward_dynamics(q, 0.0 * v, tau[6:])
+    near(qdd, expected, 1e-10)
+    assert rank == 6 and k.shape == (6, 35)
+
+
 @pytest.mark.parametrize("kind", ["revolute", "spherical"])
 def test_inverse_dynamics_of_loops_returns_the_motion(kind):
     robot, joint, (q, v, a, _), _ = closed(kind)

@@ -8,11 +8,24 @@ use pyo3::types::PyDict;
 
 use crate::error::Exception;
 
-/// An argument of a call: its name, the array, and the numbers of a row.
+/// An argument of a call: its name, the array, and its last axes: of a vector one, of a matrix two.
 pub struct Argument<'a, 'py> {
     pub name: &'static str,
     pub given: &'a Bound<'py, PyAny>,
-    pub width: usize,
+    pub axes: [usize; 2],
+    pub matrix: bool,
+}
+
+impl Argument<'_, '_> {
+    /// The shape of a state's numbers.
+    fn own(&self) -> &[usize] {
+        &self.axes[usize::from(!self.matrix)..]
+    }
+
+    /// How many numbers a state has.
+    pub fn width(&self) -> usize {
+        self.own().iter().product()
+    }
 }
 
 /// The scalar of a call.
@@ -95,12 +108,9 @@ pub fn leading<'s>(
 ) -> PyResult<&'s [usize]> {
     let mut found: Option<(&'static str, &'s [usize])> = None;
     for (argument, shape) in arguments.iter().zip(shapes) {
-        let Some((&last, leading)) = shape.split_last() else {
+        let Some(leading) = shape.strip_suffix(argument.own()) else {
             return Err(wrong_shape(argument, shape, String::new()));
         };
-        if last != argument.width {
-            return Err(wrong_shape(argument, shape, String::new()));
-        }
         match found {
             Some((name, other)) if other != leading => {
                 let text = format!(", and the leading axes {other:?} of `{name}`");
@@ -114,7 +124,10 @@ pub fn leading<'s>(
 }
 
 fn wrong_shape(argument: &Argument<'_, '_>, shape: &[usize], more: String) -> PyErr {
-    let expected = format!("{} numbers on the last axis{more}", argument.width);
+    let expected = match argument.own() {
+        [width] => format!("{width} numbers on the last axis{more}"),
+        own => format!("{own:?} as the last axes{more}"),
+    };
     let text = format!(
         "`{}` has the shape {shape:?}: expected {expected}",
         argument.name

@@ -9,7 +9,7 @@ use robot_dynamics_kernels::spec::{BodyRef, Spec, fit};
 use robot_dynamics_kernels::{Scalar, Setting, Which};
 
 use crate::arrays::{Argument, Dtype, array, dtype, leading};
-use crate::error::Exception;
+use crate::error::{Exception, of_failure};
 use crate::robot::Robot;
 
 /// A scalar with numpy's arrays.
@@ -32,15 +32,15 @@ impl Numbers for f64 {
 
 /// What computes the rows.
 #[derive(Clone, Copy)]
-pub enum By {
+pub enum By<'a> {
     /// An algorithm over the robot's model.
-    Model(Which),
+    Model(Which<'a>),
     /// The engine of a robot of the library.
     Engine(Scene),
 }
 
-impl From<Which> for By {
-    fn from(which: Which) -> Self {
+impl<'a> From<Which<'a>> for By<'a> {
+    fn from(which: Which<'a>) -> Self {
         Self::Model(which)
     }
 }
@@ -50,6 +50,8 @@ pub struct Request<'a, 'py> {
     pub effects: &'a [Spec],
     pub arguments: &'a [Argument<'a, 'py>],
     pub results: &'a [&'a [usize]],
+    /// The names of a machine's loops or linkages, which the library knows by their numbers.
+    pub names: &'a [String],
 }
 
 /// Batches of fewer states are computed with Python's lock, which takes longer to release.
@@ -57,10 +59,10 @@ const ROWS_WITH_LOCK: usize = 64;
 
 impl Robot {
     /// The results of an algorithm.
-    pub fn compute<'py>(
+    pub fn compute<'a, 'py>(
         &self,
         py: Python<'py>,
-        by: impl Into<By>,
+        by: impl Into<By<'a>>,
         request: &Request<'_, 'py>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let by = by.into();
@@ -73,7 +75,7 @@ impl Robot {
     fn compute_in<'py, R: Numbers>(
         &self,
         py: Python<'py>,
-        by: By,
+        by: By<'_>,
         request: &Request<'_, 'py>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let number = |body: &BodyRef| self.body_number(body);
@@ -108,7 +110,7 @@ impl Robot {
             let inputs = arrays.iter().zip(request.arguments);
             let inputs: PyResult<Vec<_>> = inputs
                 .map(|(array, argument)| {
-                    let (data, width) = (array.as_slice()?, argument.width);
+                    let (data, width) = (array.as_slice()?, argument.width());
                     Ok(Input { data, width })
                 })
                 .collect();
@@ -150,18 +152,7 @@ impl Robot {
                 py.detach(work)
             }
         };
-        done.map_err(|singular| {
-            let joint = self.joint_of(singular.coordinate);
-            let text = format!(
-                "joint `{joint}` moves no inertia, or a coordinate or an inertia is not a number (state {})",
-                singular.row
-            );
-            Exception::new(py, "NotPositiveDefinite", text)
-                .with("joint", joint)
-                .with("coordinate", singular.coordinate)
-                .with("state", singular.row)
-                .build()
-        })?;
+        done.map_err(|failure| of_failure(py, self, request.names, &failure))?;
         Ok(results.into_iter().map(Bound::into_any).collect())
     }
 }

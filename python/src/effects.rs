@@ -150,7 +150,7 @@ fn finite(py: Python<'_>, scene: PyScene, values: &[&[f64]]) -> PyResult<PyScene
 }
 
 /// Refuses a width of zero, which would divide by it.
-fn wide(py: Python<'_>, effect: &'static str, widths: &[f64]) -> PyResult<()> {
+pub fn wide(py: Python<'_>, effect: &'static str, widths: &[f64]) -> PyResult<()> {
     if widths
         .iter()
         .all(|&width| width.is_finite() && width != 0.0)

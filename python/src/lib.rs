@@ -5,7 +5,10 @@ mod compute;
 mod costs;
 mod effects;
 mod error;
+mod flexible;
 mod library;
+mod linkages;
+mod loops;
 mod robot;
 
 use pyo3::prelude::*;
@@ -26,7 +29,11 @@ fn threads() -> usize {
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<robot::Robot>()?;
     module.add_class::<costs::Cost>()?;
+    module.add_class::<loops::PyLoopJoint>()?;
+    module.add_class::<loops::PyLoops>()?;
     module.add_function(wrap_pyfunction!(robots, module)?)?;
     module.add_function(wrap_pyfunction!(threads, module)?)?;
+    linkages::register(module)?;
+    flexible::register(module)?;
     effects::register(module)
 }

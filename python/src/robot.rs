@@ -1,14 +1,19 @@
 //! A robot as Python sees it: where it comes from, and what it is. What it computes is in the files of its own folder.
 
+mod drivetrain;
 mod dynamics;
+mod factors;
+mod given;
 mod kinematics;
 mod momentum;
+mod regressors;
 
 use std::path::PathBuf;
 
 use dynamics_core::model::JointKind;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
+use robot_import::loops::{self, Closed, Motors};
 use robot_import::selection::Selection;
 use robot_import::source;
 use robot_import::tree::{Numbers, Tree};
@@ -19,9 +24,11 @@ use crate::costs::{self, Cost};
 use crate::error::{Exception, of_import, of_model};
 use crate::library;
 use robot_dynamics_engines::{InEngine, Scene as EngineScene};
+use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::model::{Bodies, Counts, Models};
 use robot_dynamics_kernels::spec::{BodyRef, Spec};
-use robot_dynamics_kernels::{AnyFrame, Which};
+
+use given::{frame_of, with_inertia, without_rotors};
 
 /// A robot: a tree of bodies on joints.
 ///
@@ -44,6 +51,12 @@ pub struct Robot {
     name: String,
     library: Option<&'static str>,
     bodies: Vec<BodyInfo>,
+    /// The bodies as the library describes them.
+    pub described: Bodies,
+    /// The loops of the file.
+    pub closed: Vec<Closed>,
+    /// The coordinates that its motors drive, of a robot with loops.
+    pub actuated: Vec<usize>,
 }
 
 /// The properties of a body, its joint's among them.
@@ -63,7 +76,7 @@ impl Robot {
         py: Python<'_>,
         name: String,
         library: Option<&'static str>,
-        described: &Bodies,
+        described: Bodies,
         mut bodies: Vec<BodyInfo>,
     ) -> PyResult<Self> {
         let names: Vec<String> = bodies.iter().map(|body| body.name.clone()).collect();
@@ -82,6 +95,9 @@ impl Robot {
             name,
             library,
             bodies,
+            described,
+            closed: Vec::new(),
+            actuated: Vec::new(),
         })
     }
 
@@ -91,8 +107,13 @@ impl Robot {
         selection: &Selection,
         numbers: Numbers,
     ) -> PyResult<Self> {
-        let tree = described.and_then(|robot| Tree::of(&robot, &selection.of(&robot)?, numbers));
-        let tree = tree.map_err(|error| of_import(py, &error))?;
+        let read = described.and_then(|robot| {
+            let tree = Tree::of(&robot, &selection.of(&robot)?, numbers)?;
+            let (closed, _) = loops::closed(&robot, &tree);
+            let motors = Motors::of(&tree, &closed, &[])?;
+            Ok((tree, closed, motors.actuated))
+        });
+        let (tree, closed, actuated) = read.map_err(|error| of_import(py, &error))?;
         let bodies = tree.bodies.iter().map(|body| {
             let [lower, upper] = body
                 .limits
@@ -112,7 +133,38 @@ impl Robot {
             }
         });
         let bodies = bodies.collect();
-        Self::of(py, tree.name.clone(), None, &Bodies::of(&tree), bodies)
+        let robot = Self::of(py, tree.name.clone(), None, Bodies::of(&tree), bodies)?;
+        Ok(Self {
+            closed,
+            actuated,
+            ..robot
+        })
+    }
+
+    /// Its name, for errors.
+    pub fn label(&self) -> &str {
+        &self.name
+    }
+
+    /// A velocity coordinate by its number, or all of a joint by its name.
+    pub fn coordinates_of(&self, given: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
+        let found: Vec<usize> = match (given.extract(), given.extract::<String>()) {
+            (Ok(number), _) if number < self.counts.v => vec![number],
+            (_, Ok(name)) => (0..self.counts.v)
+                .filter(|&coordinate| self.joint_of(coordinate) == name)
+                .collect(),
+            _ => Vec::new(),
+        };
+        if !found.is_empty() {
+            return Ok(found);
+        }
+        let text = format!(
+            "the robot has no velocity coordinate {given}: it has {}",
+            self.counts.v
+        );
+        Err(Exception::new(given.py(), "UnknownCoordinate", text)
+            .with("coordinate", given)
+            .build())
     }
 
     /// The number of a body.
@@ -137,13 +189,33 @@ impl Robot {
         self.moved_by(coordinate).map_or("", |body| &body.joint)
     }
 
+    /// The name of a body.
+    pub fn body_name(&self, body: usize) -> Option<&str> {
+        self.bodies.get(body).map(|body| &*body.name)
+    }
+
+    /// The name of a body's joint.
+    pub fn joint(&self, body: usize) -> &str {
+        self.bodies.get(body).map_or("", |body| &body.joint)
+    }
+
+    /// The name of the joint of a position coordinate.
+    pub fn joint_at(&self, position: usize) -> &str {
+        let mut first = 0;
+        let found = self.bodies.iter().find(|body| {
+            first += body.kind.coordinates().0;
+            position < first
+        });
+        found.map_or("", |body| &body.joint)
+    }
+
     /// Whether a velocity coordinate is its joint's only one.
     pub fn is_alone(&self, coordinate: usize) -> bool {
         let body = self.moved_by(coordinate);
         body.is_some_and(|body| body.kind.coordinates().1 == 1)
     }
 
-    fn body(&self, given: &Bound<'_, PyAny>) -> PyResult<usize> {
+    pub fn body(&self, given: &Bound<'_, PyAny>) -> PyResult<usize> {
         let body = match given.extract::<usize>() {
             Ok(number) => Some(BodyRef::Number(number)),
             Err(_) => given.extract().map(BodyRef::Name).ok(),
@@ -166,10 +238,10 @@ impl Robot {
         &self,
         py: Python<'_>,
         form: &str,
-        which: Which,
+        which: Which<'static>,
         scene: EngineScene,
         effects: &[Spec],
-    ) -> PyResult<By> {
+    ) -> PyResult<By<'static>> {
         if form == "core" {
             return Ok(which.into());
         }
@@ -212,70 +284,46 @@ impl Robot {
     }
 }
 
-fn frame_of(py: Python<'_>, name: &str) -> PyResult<AnyFrame> {
-    match name {
-        "local" => Ok(AnyFrame::Local),
-        "world" => Ok(AnyFrame::World),
-        "local_world_aligned" => Ok(AnyFrame::LocalWorldAligned),
-        _ => {
-            let text = format!(
-                "there is no frame `{name}`: \"local\", \"world\" or \"local_world_aligned\""
-            );
-            Err(Exception::new(py, "UnknownFrame", text)
-                .with("frame", name)
-                .build())
-        }
-    }
-}
-
-/// Refuses a scene without `Inertia`, which forward dynamics needs.
-fn with_inertia(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
-    if effects.contains(&Spec::Inertia) {
-        return Ok(());
-    }
-    let text = "forward dynamics needs Inertia in the scene";
-    Err(Exception::new(py, "EffectError", text)
-        .with("effect", "Inertia")
-        .build())
-}
-
-/// Refuses rotors that spin, which some algorithms of the library do not have.
-fn without_rotors(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
-    let spins = |effect: &Spec| matches!(effect, Spec::GyroscopicRotors { .. });
-    if !effects.iter().any(spins) {
-        return Ok(());
-    }
-    let text = "GyroscopicRotors: this algorithm has no rotors that spin: name Armature";
-    Err(Exception::new(py, "EffectError", text)
-        .with("effect", "GyroscopicRotors")
-        .build())
-}
-
-fn argument<'a, 'py>(
+pub fn argument<'a, 'py>(
     name: &'static str,
     given: &'a Bound<'py, PyAny>,
     width: usize,
 ) -> Argument<'a, 'py> {
-    Argument { name, given, width }
+    Argument {
+        name,
+        given,
+        axes: [1, width],
+        matrix: false,
+    }
 }
 
 /// The methods of the files below: an algorithm, effects, arguments, and the shape of a row of each result.
 impl Robot {
     /// The configuration, an argument.
-    fn q<'a, 'py>(&self, given: &'a Array<'py>) -> Argument<'a, 'py> {
+    pub fn q<'a, 'py>(&self, given: &'a Array<'py>) -> Argument<'a, 'py> {
         argument("q", given, self.counts.q)
     }
 
     /// An argument of one number for each velocity coordinate.
-    fn v<'a, 'py>(&self, name: &'static str, given: &'a Array<'py>) -> Argument<'a, 'py> {
+    pub fn v<'a, 'py>(&self, name: &'static str, given: &'a Array<'py>) -> Argument<'a, 'py> {
         argument(name, given, self.counts.v)
     }
 
+    /// An argument of a square matrix of the velocity coordinates.
+    fn matrix<'a, 'py>(&self, name: &'static str, given: &'a Array<'py>) -> Argument<'a, 'py> {
+        Argument {
+            name,
+            given,
+            axes: [self.counts.v; 2],
+            matrix: true,
+        }
+    }
+
     /// The results of an algorithm that has several.
-    fn several<'py>(
+    pub fn several<'a, 'py>(
         &self,
         py: Python<'py>,
-        by: impl Into<By>,
+        by: impl Into<By<'a>>,
         effects: &[Spec],
         arguments: &[Argument<'_, 'py>],
         results: &[&[usize]],
@@ -284,15 +332,16 @@ impl Robot {
             effects,
             arguments,
             results,
+            names: &[],
         };
         PyTuple::new(py, self.compute(py, by, &request)?)
     }
 
     /// The result of an algorithm that has one.
-    fn one<'py>(
+    fn one<'a, 'py>(
         &self,
         py: Python<'py>,
-        by: impl Into<By>,
+        by: impl Into<By<'a>>,
         effects: &[Spec],
         arguments: &[Argument<'_, 'py>],
         result: &[usize],
@@ -301,12 +350,13 @@ impl Robot {
             effects,
             arguments,
             results: &[result],
+            names: &[],
         };
         Ok(self.compute(py, by, &request)?.swap_remove(0))
     }
 }
 
-type Array<'py> = Bound<'py, PyAny>;
+pub type Array<'py> = Bound<'py, PyAny>;
 
 #[pymethods]
 impl Robot {
@@ -335,7 +385,7 @@ impl Robot {
                 armature: 0.0,
             });
         let bodies = bodies.collect();
-        Self::of(py, found.to_owned(), Some(found), &known.bodies, bodies)
+        Self::of(py, found.to_owned(), Some(found), known.bodies, bodies)
     }
 
     /// A robot from a URDF or MJCF.

@@ -18,7 +18,11 @@ METHODS = [
     ("centroidal_momentum", "q v"), ("centroidal_matrix", "q"), ("center_of_mass", "q v"),
     ("momentum_and_coriolis", "q v"), ("momentum_and_drift", "q v"), ("coriolis_matrix", "q v"),
     ("base_velocity_from_momentum", "q v h"), ("osim_inverse", "q b"), ("operational_space", "q b"),
-    ("regressor", "q v a"), ("integrate", "q v"), ("difference", "q q"),
+    ("regressor", "q v a"), ("integrate", "q v"), ("difference", "q q"), ("normalise", "q"),
+    ("crba_jacobian", "q b"), ("ltdl", "M"), ("solve", "L D t"), ("inverse", "L D"), ("cholesky", "M"),
+    ("cholesky_solve", "L D t"), ("spatial_operator_ltdl", "q"), ("spatial_operator_inverse", "q"),
+    ("acceleration_error", "M L D a t"), ("forward_dynamics_with_error", "q v t"), ("regressor_columns", "q v a b"),
+    ("regressor_row", "q v a c"), ("friction_regressor", "v w"), ("elastic_inverse_dynamics", "q v a t t s s s"),
 ]  # fmt: skip
 
 
@@ -26,12 +30,15 @@ def arguments(robot, names, count, dtype):
     q, v, a, t = (x.astype(dtype) for x in states(robot, count))
     mask = np.broadcast_to(np.arange(robot.nv) % 2, v.shape).astype(dtype)
     momentum = np.ones((count, 6), dtype)
-    table = {"q": q, "v": v, "a": a, "t": t, "m": mask, "h": momentum, "b": robot.bodies[-1]}
+    table = {"q": q, "v": v, "a": a, "t": t, "m": mask, "h": momentum, "b": robot.bodies[-1], "c": 1, "w": 0.3}
+    table["M"] = robot.crba(q)
+    table["L"], table["D"] = robot.ltdl(table["M"])
+    table["s"] = [7.0] * robot.nv
     return [table[name] for name in names.split()]
 
 
 def row(argument, i):
-    return argument if isinstance(argument, str) else argument[i]
+    return argument[i] if isinstance(argument, np.ndarray) else argument
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
@@ -40,6 +47,8 @@ def row(argument, i):
 def test_batches_are_their_states_to_the_bit(method, names, name, dtype):
     if method == "base_velocity_from_momentum" and name != "a1_free":
         pytest.skip("of a free base")
+    if method == "elastic_inverse_dynamics" and name == "a1_free":
+        pytest.skip("of joints of one coordinate")
     robot = rd.Robot(name)
     count = 37
     given = arguments(robot, names, count, dtype)
@@ -126,6 +135,12 @@ def test_wrong_shapes_are_named():
         robot.rnea(np.zeros((3, 6)), np.zeros((4, 6)), np.zeros((3, 6)))
     with pytest.raises(rd.ShapeError):
         robot.gravity(np.ones(()))
+    for wrong in (np.eye(5), np.ones(36), np.ones((2, 6))):
+        with pytest.raises(rd.ShapeError, match=r"\[6, 6\] as the last axes") as error:
+            robot.ltdl(wrong)
+        assert error.value.argument == "m" and error.value.shape == wrong.shape
+    with pytest.raises(rd.ShapeError, match="leading axes"):
+        robot.solve(np.ones((3, 6, 6)), np.ones((2, 6)), np.ones((3, 6)))
 
 
 def test_unknown_names_are_named():
@@ -137,9 +152,24 @@ def test_unknown_names_are_named():
         with pytest.raises(rd.UnknownBody) as error:
             robot.jacobian(np.zeros(6), body)
         assert error.value.body == body
+    with pytest.raises(rd.UnknownCoordinate, match="it has 6") as error:
+        robot.regressor_row(*[np.zeros(6)] * 3, 6)
+    assert error.value.coordinate == 6
     with pytest.raises(rd.UnknownFrame) as error:
         robot.jacobian(np.zeros(6), 0, "tool")
     assert error.value.frame == "tool"
+
+
+def test_joints_that_have_no_transmission_or_attitude_are_named():
+    robot = rd.Robot("a1_free")
+    q, v, a, tau = states(robot, 3)
+    with pytest.raises(rd.MultiDofJoint, match="several degrees of freedom") as error:
+        robot.elastic_inverse_dynamics(q, v, a, tau, tau, *[[1.0] * 18] * 3)
+    assert error.value.joint == robot.joints[0] and error.value.state == 0
+    q[2, :4] = 0.0
+    with pytest.raises(rd.NoAttitude) as error:
+        robot.normalise(q)
+    assert error.value.joint == robot.joints[0] and error.value.state == 2
 
 
 def test_all_errors_have_one_base_and_their_text():
@@ -164,6 +194,10 @@ def test_singular_inertia_names_joint_and_state():
         with pytest.raises(rd.NotPositiveDefinite, match="elbow") as error:
             method(np.zeros(2), np.zeros(2), np.zeros(2))
         assert (error.value.joint, error.value.coordinate, error.value.state) == ("elbow", 1, 0)
+    m = np.array([[1.0, 0.0], [0.5, 0.0]])
+    for method in (robot.ltdl, robot.cholesky):
+        with pytest.raises(rd.NotPositiveDefinite, match="elbow"):
+            method(m)
     good = rd.Robot("ur5e")
     q, v, _, tau = states(good, 3000)
     q[2071, 3] = np.nan
@@ -173,13 +207,25 @@ def test_singular_inertia_names_joint_and_state():
 
 
 @pytest.mark.parametrize("lane", range(8))
-def test_a_singular_state_among_eight_is_named(lane):
+@pytest.mark.parametrize("pivot", ["nan", "negative"])
+def test_a_singular_state_among_eight_is_named(pivot, lane):
     """float32 computes eight states at once, and those of a block with a singular one again one by one."""
-    robot, state = rd.Robot("ur5e"), 16 + lane
+    robot, state, scene = rd.Robot("ur5e"), 16 + lane, rd.RIGID_BODY
     q, v, _, tau = (x.astype(np.float32) for x in states(robot, 40))
-    q[state, 3] = np.nan
+    if pivot == "nan":
+        q[state, 3] = np.nan
+    else:
+        # All but one stretch out, and have more inertia about the vertical axis than the upright one.
+        q[:, 1:3] = 0.0
+        q[state, 1] = -np.pi / 2
+        inertia = 1.0 / robot.spatial_operator_ltdl(q)[1][:, 0]
+        least = np.delete(inertia, state).min()
+        assert inertia[state] < 0.5 * least
+        scene += rd.Armature([-0.75 * float(least)] + [0.0] * 5)
     with pytest.raises(rd.NotPositiveDefinite) as alone:
-        robot.aba(q[state], v[state], tau[state])
+        robot.aba(q[state], v[state], tau[state], scene)
     with pytest.raises(rd.NotPositiveDefinite) as among:
-        robot.aba(q, v, tau)
+        robot.aba(q, v, tau, scene)
     assert among.value.state == state and among.value.coordinate == alone.value.coordinate
+    q[state], v[state], tau[state] = q[0], v[0], tau[0]
+    assert np.isfinite(robot.aba(q, v, tau, scene)).all()

@@ -108,6 +108,14 @@ def test_impossible_effects_are_refused():
     for wrong in (1.0, "Gravity", [1.0]):
         with pytest.raises(rd.EffectError):
             robot.rnea(q, v, a, wrong)
+    for wrong in (rd.RIGID_BODY + rd.BodyWrench(0, ONES), rd.RIGID_BODY + rd.LoadFriction(ONES, ONES, 0.1), rd.Inertia()):
+        with pytest.raises(rd.EffectError):
+            robot.elastic_inverse_dynamics(q, v, a, a, a, ONES, ONES, ONES, wrong)
+    for wrong in ([0.0] * 6, [1.0] * 5, [float("inf")] * 6):
+        with pytest.raises(rd.EffectError, match="stiffness needs 6"):
+            robot.elastic_inverse_dynamics(q, v, a, a, a, wrong, ONES, ONES)
+    with pytest.raises(rd.EffectError, match="width"):
+        robot.friction_regressor(v, 0.0)
     with pytest.raises(rd.EffectError, match="length 1"):
         rd.Gravity(direction=[0.0, 0.0, -2.0])
     with pytest.raises(rd.EffectError, match="not finite"):

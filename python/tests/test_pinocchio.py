@@ -67,6 +67,63 @@ def test_inertia_matrix_is_pinocchios(pair):
         near(robot.inverse_mass(x) @ m, np.eye(robot.nv), 1e-9)
 
 
+def test_factors_and_solutions_are_numpys(pair):
+    robot, _, (q, _, _, tau) = pair
+    for x, t in zip(q[:5], tau):
+        m = robot.crba(x)
+        share = np.linalg.cond(m) * 2.0**-50
+        (l, d_inv), (root, l_inv) = robot.ltdl(m), robot.cholesky(m)
+        assert np.array_equal(l, np.tril(l)) and np.array_equal(root, np.tril(root))
+        near(l.T @ np.diag(1.0 / d_inv) @ l, m)
+        near(root.T @ root, m)
+        near(1.0 / l_inv, np.diag(root))
+        for found in (robot.solve(l, d_inv, t), robot.cholesky_solve(root, l_inv, t)):
+            near(found, np.linalg.solve(m, t), share)
+        for found in (robot.inverse(l, d_inv), robot.inverse_mass(x), robot.spatial_operator_inverse(x)):
+            near(found, np.linalg.inv(m), share)
+        again, d_again = robot.spatial_operator_ltdl(x)
+        near(again, l, share)
+        near(d_again, d_inv, share)
+        both, jacobian = robot.crba_jacobian(x, robot.bodies[-1])
+        near(both, m)
+        near(jacobian, robot.jacobian(x, robot.bodies[-1]))
+
+
+def test_estimated_errors_bound_those_of_float32(pair):
+    robot, _, (q, v, _, tau) = pair
+    single = [x.astype(np.float32) for x in (q, v, tau)]
+    found, estimate = robot.forward_dynamics_with_error(*single)
+    assert np.array_equal(found, robot.forward_dynamics(*single))
+    m = robot.crba(single[0])
+    terms = np.abs(single[2]) + np.abs(robot.bias(*single[:2]))
+    assert np.array_equal(robot.acceleration_error(m, *robot.ltdl(m), found, terms), estimate)
+    exact = robot.forward_dynamics(*(x.astype(float) for x in single))
+    off, most = np.abs(found - exact).max(axis=1), estimate.max(axis=1)
+    assert (off <= most).all() and off.max() > 1e-3 * most.max()
+
+
+def test_elastic_joints_are_the_derivatives_of_torque(pair):
+    """θ = q + τ/k and τ_m = J θ̈ + b θ̇ + τ, with τ̇ and τ̈ by differences along a polynomial."""
+    robot, _, (q, v, a, jerk) = pair
+    if robot.joint_kinds[0] == "free":
+        pytest.skip("of joints of one coordinate")
+    snap, k, rotor, b = 0.5 * jerk[0], *(np.full(robot.nv, x) for x in (1e3, 0.3, 2.0))
+    scene = rd.RIGID_BODY + rd.Viscous([0.4] * robot.nv) + rd.Payload(robot.bodies[-1], 0.3)
+    found = robot.elastic_inverse_dynamics(q[0], v[0], a[0], jerk[0], snap, k, rotor, b, scene)
+
+    def torque(t):
+        path = [q[0], v[0], a[0], jerk[0], snap]
+        at = [sum(x * t**n / np.prod(range(1, n + 1)) for n, x in enumerate(path[i:])) for i in range(3)]
+        return robot.rnea(*at, scene)
+
+    h = 1e-3
+    before, now, after = (torque(t) for t in (-h, 0.0, h))
+    rate, second = (after - before) / (2 * h), (after - 2 * now + before) / h**2
+    near(found[1], q[0] + now / k, 1e-14)
+    near(found[2], v[0] + rate / k, 1e-4)
+    near(found[0], rotor * (a[0] + second / k) + b * (v[0] + rate / k) + now, 1e-4)
+
+
 def test_forward_dynamics_is_pinocchios(pair):
     robot, peer, (q, v, _, tau) = pair
     for x, y, t in zip(q, v, tau):
@@ -143,6 +200,11 @@ def test_regressor_times_parameters_is_torque(pair):
     robot, _, (q, v, a, _) = pair
     y = robot.regressor(q[0], v[0], a[0])
     assert y.shape == (robot.nv, len(robot.bodies), 10)
+    near(np.tensordot(y, robot.inertial_parameters(), 2), robot.rnea(q[0], v[0], a[0]), 1e-11)
+    assert np.array_equal(robot.regressor_columns(q[0], v[0], a[0], robot.bodies[-1]), y[:, -1])
+    near(robot.regressor_row(q[0], v[0], a[0], robot.nv - 1), y[-1], 1e-11)
+    friction = rd.Viscous([0.5] * robot.nv) + rd.Coulomb([2.0] * robot.nv, 0.3)
+    near(robot.friction_regressor(v[0], 0.3) @ [0.5, 2.0], robot.rnea(q[0], v[0], a[0], friction))
     # Of a load only the mass column of its body changes torque: the regressor's first column.
     load = robot.rnea(q[0], v[0], a[0], rd.RIGID_BODY + rd.Payload(robot.bodies[-1], 1.0))
     near(load - robot.rnea(q[0], v[0], a[0]), y[:, -1, 0], 1e-10)
@@ -216,3 +278,7 @@ def test_configurations_integrate_and_differ(pair):
     near(robot.difference(q, there), 0.3 * v, 1e-11)
     assert np.abs(robot.difference(q, q)).max() < 1e-15
     assert robot.neutral().shape == (robot.nq,)
+    per_joint = [7 if kind == "free" else 1 for kind in robot.joint_kinds]
+    far = q + 2 * np.pi * np.repeat([kind == "continuous" for kind in robot.joint_kinds], per_joint)
+    far[:, : 4 * (robot.joint_kinds[0] == "free")] *= 3.0
+    near(robot.normalise(far), q, 1e-14)

@@ -50,6 +50,8 @@ pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
     /// The loop and the coordinate that are damped most.
     singular: Option<(&'static str, usize)>,
     actuated: [usize; A],
+    /// How many there are.
+    motors: usize,
     /// Which of the actuated coordinates are independent.
     independent: [bool; A],
 }
@@ -131,6 +133,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
             scale: [R::ONE; C],
             singular: None,
             actuated: loops.actuated,
+            motors: V.saturating_sub(loops.undriven),
             independent: [false; A],
         }
     }
@@ -203,7 +206,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         if let Some((name, joint)) = self.singular {
             return Drive::Singular { name, joint };
         }
-        match A.saturating_sub(self.degrees_of_freedom()) {
+        match self.motors.saturating_sub(self.degrees_of_freedom()) {
             0 => Drive::Determined,
             redundancy => Drive::LeastNorm { redundancy },
         }

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use glam::DMat3;
 
-use super::elimination::{SINGULAR, thresholds};
+use super::elimination::{NONE, SINGULAR, thresholds};
 use super::error::{LoopModelError, LoopProblem};
 use super::joint_constraint::{JointConstraint, MOST, counts};
 use super::loop_frame::{Both, Frame, both, select};
@@ -140,12 +140,65 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
         joints: [LoopJoint; L],
         actuated: [usize; A],
     ) -> Result<Self, LoopModelError> {
+        Self::described(model, &joints, &actuated, true)
+    }
+
+    /// The same of up to L loops and A actuated coordinates, which constrain up to C directions: for programs that learn
+    /// at run time what a robot's loops are.
+    ///
+    /// Rows beyond those of the loops are zero, and redundant. Several loops whose rows are no more than the coordinates
+    /// are eliminated in another order than by [`Loops::new`], so that last digits differ.
+    ///
+    /// ```
+    /// use dynamics_core::effects::RIGID_BODY;
+    /// use dynamics_core::loops::{self, BodyFrame, LoopJoint, Loops};
+    /// use dynamics_core::model::{BASE, Joint, Robot};
+    /// use dynamics_core::{robots::Ur5e, state::State};
+    /// const TABLE: LoopJoint = LoopJoint::new("table", Joint::planar(), [BodyFrame::new(BASE), BodyFrame::new(5)]);
+    /// let exact: Loops<1, 3, 6> = Loops::try_new(&Ur5e::MODEL, [TABLE], [0, 1, 2, 3, 4, 5])?;
+    /// let filled: Loops<2, 9, 8> = Loops::try_filled(&Ur5e::MODEL, &[TABLE], &[0, 1, 2, 3, 4, 5])?;
+    /// let at = State::at(loops::assemble(&Ur5e::MODEL, &exact, &[0.1_f64; 6], loops::Moving::All)?.q);
+    /// let tau = loops::inverse_dynamics(&Ur5e::MODEL, &exact, &at, &RIGID_BODY)?;
+    /// let same = loops::inverse_dynamics(&Ur5e::MODEL, &filled, &at, &RIGID_BODY)?;
+    /// assert_eq!(tau.drive, same.drive);
+    /// assert!(tau.tau.iter().zip(same.tau).all(|(a, b)| (a - b).abs() < 1e-9));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Loops::try_new`]; [`LoopProblem::Rows`] of more than C, and of more than L loops or A coordinates.
+    pub const fn try_filled<const B: usize, const Q: usize, const V: usize>(
+        model: &Model<f64, B, Q, V>,
+        joints: &[LoopJoint],
+        actuated: &[usize],
+    ) -> Result<Self, LoopModelError> {
+        if joints.len() > L || actuated.len() > A {
+            let (expected, given) = if joints.len() > L {
+                (joints.len(), L)
+            } else {
+                (actuated.len(), A)
+            };
+            let problem = LoopProblem::Rows { expected, given };
+            let name = model.name;
+            return Err(LoopModelError { name, problem });
+        }
+        Self::described(model, joints, actuated, false)
+    }
+
+    const fn described<const B: usize, const Q: usize, const V: usize>(
+        model: &Model<f64, B, Q, V>,
+        given: &[LoopJoint],
+        motors: &[usize],
+        exact: bool,
+    ) -> Result<Self, LoopModelError> {
         const NOWHERE: Frame = Frame::of(DMat3::IDENTITY, &Joint::fixed(), &BodyFrame::new(BASE));
+        const FILLER: LoopJoint = LoopJoint::new("", Joint::free(), [BodyFrame::new(BASE); 2]);
         let (mut frames, mut first_rows) = ([[NOWHERE; 2]; L], [0; L]);
-        let mut axes = [NOWHERE.rot; L];
+        let (mut axes, mut joints) = ([NOWHERE.rot; L], [FILLER; L]);
         let (mut rows, mut i) = (0, 0);
-        while i < L {
-            let joint = &joints[i];
+        while i < given.len() {
+            let joint = &given[i];
+            joints[i] = *joint;
             let problem = match joint.problem(B) {
                 None => reach::problem(joint, model),
                 problem => problem,
@@ -175,10 +228,22 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
             rows += rotations + translations;
             i += 1;
         }
-        if let Some(problem) = whole(V, [C, rows], &actuated) {
+        while i < L {
+            first_rows[i] = rows;
+            i += 1;
+        }
+        let most = if exact || rows > C { C } else { rows };
+        if let Some(problem) = whole(V, [most, rows], motors) {
             let name = model.name;
             return Err(LoopModelError { name, problem });
         }
+        let mut actuated = [NONE; A];
+        i = 0;
+        while i < motors.len() {
+            actuated[i] = motors[i];
+            i += 1;
+        }
+        let undriven = V.saturating_sub(motors.len());
         Ok(Self {
             robot: model.name,
             joints,
@@ -186,8 +251,8 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
             axes,
             first_rows,
             actuated,
-            undriven: V.saturating_sub(A),
-            threshold: thresholds(SINGULAR, C, V.saturating_sub(A)),
+            undriven,
+            threshold: thresholds(SINGULAR, rows, undriven),
         })
     }
 
@@ -199,6 +264,11 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     /// The actuated coordinates, as indices in q̇.
     pub const fn actuated(&self) -> &[usize; A] {
         &self.actuated
+    }
+
+    /// How many directions the loops constrain: C where they are not filled up.
+    pub(super) const fn constrained(&self) -> usize {
+        self.rows(L.saturating_sub(1)).end
     }
 
     /// The rows of loop `i` in K; none of a loop that there is not.
@@ -265,16 +335,16 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
 }
 
 /// What is wrong with the robot as a whole: C, and the actuated coordinates.
-const fn whole<const A: usize>(
+const fn whole(
     coordinates: usize,
     [given, expected]: [usize; 2],
-    actuated: &[usize; A],
+    actuated: &[usize],
 ) -> Option<LoopProblem> {
     if expected != given {
         return Some(LoopProblem::Rows { expected, given });
     }
     let mut i = 0;
-    while i < A {
+    while i < actuated.len() {
         if actuated[i] >= coordinates {
             return Some(LoopProblem::NoCoordinate(actuated[i]));
         }
@@ -287,9 +357,10 @@ const fn whole<const A: usize>(
         }
         i += 1;
     }
-    let needed = coordinates.saturating_sub(given);
-    if A < needed {
-        return Some(LoopProblem::TooFewActuated { needed, given: A });
+    let needed = coordinates.saturating_sub(expected);
+    let given = actuated.len();
+    if given < needed {
+        return Some(LoopProblem::TooFewActuated { needed, given });
     }
     None
 }

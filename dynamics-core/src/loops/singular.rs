@@ -56,7 +56,7 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
             threshold >= 0.0 && threshold <= 1.0,
             "a threshold of damping is not within 0 and 1"
         );
-        self.threshold = thresholds(threshold, C, self.undriven);
+        self.threshold = thresholds(threshold, self.constrained(), self.undriven);
         self
     }
 }

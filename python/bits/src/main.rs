@@ -5,10 +5,14 @@
 //! robot-dynamics-bits ur5e "core rnea" < states > results
 //! ```
 
+mod machines;
+
 use std::io::{Read as _, Write as _};
 
-use dynamics_core::effects::{Coriolis, Gravity, GyroscopicRotors, RIGID_BODY};
-use dynamics_core::model::Robot;
+use dynamics_core::algorithms;
+use dynamics_core::drivetrain::{ElasticJoints, ElasticReference, elastic_inverse_dynamics};
+use dynamics_core::effects::{Coriolis, Gravity, GyroscopicRotors, RIGID_BODY, Width};
+use dynamics_core::model::{Robot, Static};
 use dynamics_core::robots::{
     A1, A1Free, A1Leg, G1, G1Free, Gen3, Iiwa14, Panda, So101, Ur5e, XArm7, Z1,
 };
@@ -48,10 +52,84 @@ fn rows<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
             "core forward_dynamics" => {
                 found.extend(Core::<T>::forward_dynamics(&state, &tau, &RIGID_BODY).ok()?);
             }
-            _ => found.extend(engine::<T, B, Q, V>(quantity, &state)?),
+            _ => match quantity.strip_prefix("algorithms ") {
+                Some(quantity) => found.extend(algorithm::<T, B, Q, V>(quantity, &state, &tau)?),
+                None => found.extend(engine::<T, B, Q, V>(quantity, &state)?),
+            },
         }
     }
     Some(found)
+}
+
+/// What an algorithm computes that `Core` does not list.
+fn algorithm<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
+    quantity: &str,
+    state: &State<f32, Q, V>,
+    tau: &[f32; V],
+) -> Option<Vec<f32>> {
+    let (robot, q) = (&Static::<T>::NEW, &state.q);
+    let mut out = Vec::new();
+    let m = || algorithms::crba(robot, q, &RIGID_BODY);
+    match quantity {
+        "ltdl" => {
+            let factors = algorithms::ltdl(robot, &m()).ok()?;
+            square::<V>(&mut out, |i, j| factors.get(i, j));
+            out.extend(factors.d_inv());
+            out.extend(algorithms::solve(robot, &factors, tau));
+            let inverse = algorithms::inverse(robot, &factors);
+            square::<V>(&mut out, |i, j| inverse.get(i, j));
+        }
+        "cholesky" => {
+            let factor = algorithms::cholesky(robot, &m()).ok()?;
+            out.extend(factor.l_inv());
+            out.extend(factor.solve(robot, tau));
+        }
+        "spatial_operator" => {
+            let factors = algorithms::spatial_operator_ltdl(robot, q, &RIGID_BODY).ok()?;
+            square::<V>(&mut out, |i, j| factors.get(i, j));
+            out.extend(factors.d_inv());
+            let inverse = algorithms::spatial_operator_inverse(robot, q, &RIGID_BODY).ok()?;
+            square::<V>(&mut out, |i, j| inverse.get(i, j));
+        }
+        "crba_jacobian" => {
+            let (m, columns) = algorithms::crba_jacobian(robot, q, B - 1, &RIGID_BODY);
+            square::<V>(&mut out, |i, j| m.get(i, j));
+            out.extend_from_slice(algorithms::jacobian_rows(&columns).as_flattened());
+        }
+        "forward_dynamics_with_error" => {
+            let found = algorithms::forward_dynamics_with_error(robot, state, tau, &RIGID_BODY);
+            let found = found.ok()?;
+            out.extend(found.qdd.iter().chain(&found.error));
+        }
+        "regressor_row" => {
+            let row = algorithms::regressor_row(robot, state, &RIGID_BODY, V - 1);
+            out.extend_from_slice(row.as_flattened());
+        }
+        "friction_regressor" => {
+            let found = algorithms::friction_regressor(&state.qd, Width::new(0.3));
+            out.extend_from_slice(found.as_flattened());
+        }
+        "elastic_inverse_dynamics" => {
+            let reference = ElasticReference {
+                state: *state,
+                jerk: *tau,
+                snap: *tau,
+            };
+            let joints = ElasticJoints {
+                stiffness: [1e4; V],
+                rotor: [0.7; V],
+                friction: [3.0; V],
+            };
+            let found = elastic_inverse_dynamics(robot, &joints, &reference, &RIGID_BODY).ok()?;
+            out.extend([found.torque, found.position, found.velocity].as_flattened());
+        }
+        _ => return None,
+    }
+    Some(out)
+}
+
+fn square<const V: usize>(out: &mut Vec<f32>, of: impl Fn(usize, usize) -> f32) {
+    (0..V).for_each(|i| out.extend((0..V).map(|j| of(i, j))));
 }
 
 /// What the engine computes; of a humanoid the compiler would take minutes for it.
@@ -94,6 +172,9 @@ fn main() -> std::io::Result<()> {
         "z1" => rows::<Z1, 7, 7, 7>(quantity, &numbers),
         "g1" => rows::<G1, 29, 29, 29>(quantity, &numbers),
         "g1_free" => rows::<G1Free, 30, 36, 35>(quantity, &numbers),
+        "bars" => machines::bars(quantity, &numbers),
+        "wrist" => machines::wrist(&numbers),
+        "boom" => machines::boom(quantity, &numbers),
         _ => None,
     };
     let found = found.ok_or_else(|| std::io::Error::other("no such robot or quantity"))?;

@@ -4,13 +4,13 @@ use dynamics_core::model::RobotModel;
 use dynamics_core::scalar::Real;
 
 use crate::algorithms::Algorithm;
-use crate::job::{Job, One, Row, Singular};
+use crate::job::{Failure, Job, One, Row};
 use crate::model::Counts;
 use crate::scene::Parts;
 use crate::spec::Spec;
 
 /// Nothing, or where it cannot be computed.
-pub type Done = Result<(), Singular>;
+pub type Done = Result<(), Failure>;
 
 /// Rows that are computed one after the other.
 pub trait Rows<R> {
@@ -93,7 +93,7 @@ fn go<
                 call.parts,
                 &mut call.rows.at(row),
             )
-            .map_err(|coordinate| Singular { row, coordinate })?;
+            .map_err(|problem| Failure { row, problem })?;
     }
     Ok(())
 }
@@ -171,11 +171,18 @@ pub mod terms {
         rigid_one, terms =>
         _ => [true, true, false]
     }
+    /// As [`machine`], of an algorithm with forms for some kinds of robots.
+    pub use machine as linked;
     /// As [`rigid`], of an algorithm without rotors that spin.
     pub use rigid as unspun;
     /// As [`rigid`], of an algorithm with forms for some kinds of robots.
     pub use rigid as matrix;
 
+    scenes! {
+        /// None: effects at bodies act where there are any, which saves copies of large algorithms.
+        machine, terms =>
+        _ => [true, true, true]
+    }
     scenes! {
         /// None.
         none, terms =>

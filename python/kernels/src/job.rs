@@ -4,6 +4,13 @@ use std::num::NonZero;
 use std::sync::LazyLock;
 use std::thread;
 
+use dynamics_core::algorithms::NotPositiveDefinite;
+use dynamics_core::clusters::ClusterProblem;
+use dynamics_core::drivetrain::MultiDofJoint;
+use dynamics_core::flexible::FlexibleError;
+use dynamics_core::loops::LoopError;
+use dynamics_core::state::manifold::NoAttitude;
+
 /// A row-major array.
 #[derive(Clone, Copy)]
 pub struct Input<'a, R> {
@@ -31,16 +38,60 @@ pub struct Job<'a, R> {
     pub rows: usize,
 }
 
-/// Where M of a state is not positive definite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Singular {
-    /// The state.
-    pub row: usize,
-    /// The velocity coordinate.
-    pub coordinate: usize,
+/// Why a state has no result.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Problem {
+    /// M is not positive definite at a velocity coordinate.
+    Singular(NotPositiveDefinite),
+    /// An algorithm for joints of one coordinate, and a body on another joint.
+    Joint(MultiDofJoint),
+    /// A quaternion without a direction.
+    Attitude(NoAttitude),
+    /// Loops; M not positive definite is [`Problem::Singular`].
+    Loop(LoopError),
+    /// A linkage by its number, or none.
+    Linkage(usize, ClusterProblem),
+    /// A robot with links that bend.
+    Flexible(FlexibleError),
 }
 
-impl Singular {
+macro_rules! problems {
+    ($($name:ident $of:ident),*) => {$(
+        impl From<$of> for Problem {
+            fn from(error: $of) -> Self {
+                Self::$name(error)
+            }
+        }
+    )*};
+}
+
+problems!(Singular NotPositiveDefinite, Joint MultiDofJoint, Attitude NoAttitude, Flexible FlexibleError);
+
+impl From<LoopError> for Problem {
+    fn from(error: LoopError) -> Self {
+        match error {
+            LoopError::NotPositiveDefinite(error) => Self::Singular(error),
+            error => Self::Loop(error),
+        }
+    }
+}
+
+impl From<(usize, ClusterProblem)> for Problem {
+    fn from((linkage, problem): (usize, ClusterProblem)) -> Self {
+        Self::Linkage(linkage, problem)
+    }
+}
+
+/// A state without a result.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Failure {
+    /// The state.
+    pub row: usize,
+    /// Why it has none.
+    pub problem: Problem,
+}
+
+impl Failure {
     /// The same row of a job that begins so many rows later.
     pub(crate) fn after(self, rows: usize) -> Self {
         Self {
@@ -87,11 +138,11 @@ impl<R: Copy + Send + Sync> Job<'_, R> {
     /// Computes all rows, on all cores if there are many. `part` computes the rows of a part of the job.
     ///
     /// # Errors
-    /// The first row that cannot be computed, with its coordinate.
+    /// The first row that cannot be computed.
     pub fn compute(
         mut self,
-        part: impl Fn(&mut Job<'_, R>) -> Result<(), Singular> + Sync,
-    ) -> Result<(), Singular> {
+        part: impl Fn(&mut Job<'_, R>) -> Result<(), Failure> + Sync,
+    ) -> Result<(), Failure> {
         let most = self.rows / ROWS_PER_THREAD;
         let threads = if most > 1 { most.min(cores()) } else { 1 };
         if threads == 1 {

@@ -5,12 +5,16 @@
 
 mod algorithms;
 mod dispatch;
+pub mod flexible;
 pub mod job;
 mod lanes;
+pub mod linkages;
+pub mod loops;
 pub mod model;
 mod scene;
 pub mod spec;
 
+use dynamics_core::loops::Moving;
 use dynamics_core::model::RobotModel;
 use dynamics_core::scalar::Real;
 
@@ -18,8 +22,11 @@ pub use algorithms::AnyFrame;
 
 use algorithms::Algorithm;
 use dispatch::{Call, Terms};
-use job::{Job, Singular};
+use flexible::AnyModes;
+use job::{Failure, Job};
 use lanes::{Blocks, LANES, Lanes};
+use linkages::Linkages;
+use loops::AnyLoops;
 use model::{Counts, Cut, Fast, General, Models};
 use spec::{BodyRef, Spec};
 
@@ -39,13 +46,13 @@ pub trait Scalar: Real {
     /// Computes the rows of a job by an algorithm, one after the other.
     ///
     /// # Errors
-    /// The row and the coordinate where M is not positive definite.
+    /// The row that has no result, and why.
     fn compute(
-        which: &Which,
+        which: &Which<'_>,
         models: &Models<Self>,
         setting: Setting<'_>,
         rows: &mut Job<'_, Self>,
-    ) -> Result<(), Singular>;
+    ) -> Result<(), Failure>;
 }
 
 macro_rules! which {
@@ -53,7 +60,7 @@ macro_rules! which {
         /// An algorithm.
         #[derive(Clone, Copy, Debug)]
         #[allow(missing_docs, reason = "their documentation is that of `algorithms`")]
-        pub enum Which {
+        pub enum Which<'a> {
             $($name $({ $($field: $type),* })?),*
         }
 
@@ -61,11 +68,11 @@ macro_rules! which {
             ($r:ty) => {
                 impl Scalar for $r {
                     fn compute(
-                        which: &Which,
+                        which: &Which<'_>,
                         models: &Models<Self>,
                         setting: Setting<'_>,
                         rows: &mut Job<'_, Self>,
-                    ) -> Result<(), Singular> {
+                    ) -> Result<(), Failure> {
                         match *which {
                             $(Which::$name $({ $($field),* })? => {
                                 let algorithm = algorithms::$name { $($($field),*)? };
@@ -83,7 +90,18 @@ which! {
     Rnea { given: usize },
     RneaTwoVelocities,
     Crba,
+    CrbaJacobian { body: usize },
+    LtdlOf,
+    Solve,
+    Inverse,
+    CholeskyOf,
+    CholeskySolve,
+    SpatialOperatorLtdl,
+    SpatialOperatorInverse,
     InverseMass,
+    ForwardWithError,
+    AccelerationError,
+    ElasticInverseDynamics { joints: [&'a [f64]; 3] },
     Aba,
     ForwardDynamics,
     Hybrid,
@@ -104,8 +122,28 @@ which! {
     BaseVelocity,
     OsimInverse { body: usize, frame: AnyFrame },
     OperationalSpaceOf { body: usize, frame: AnyFrame, damping: f64 },
-    Regressor,
+    Regressor { first: usize, end: usize },
+    RegressorRow { coordinate: usize },
+    InertialParameters,
+    FrictionRegressor { width: f64 },
+    Assemble { loops: &'a AnyLoops, moving: Moving },
+    LoopConstraints { loops: &'a AnyLoops },
+    CoordinateMapOf { loops: &'a AnyLoops },
+    MobilityOf { loops: &'a AnyLoops },
+    LoopInverse { loops: &'a AnyLoops },
+    LoopForward { loops: &'a AnyLoops, stabilisation: [f64; 2] },
+    LinkageMotion { linkages: &'a Linkages },
+    LinkageRnea { linkages: &'a Linkages },
+    LinkageForward { linkages: &'a Linkages },
+    FlexibleRnea { modes: &'a AnyModes },
+    FlexibleCrba { modes: &'a AnyModes },
+    Frequencies { modes: &'a AnyModes },
+    FlexibleForward { modes: &'a AnyModes },
+    ModalDynamics { modes: &'a AnyModes },
+    ModesAtRest { modes: &'a AnyModes },
+    FeedforwardTick { modes: &'a AnyModes, h: f64 },
     Integrate,
+    Normalise,
     Difference,
     Neutral,
 }
@@ -120,7 +158,7 @@ trait WithLanes: Real {
         models: &Models<Self>,
         setting: Setting<'_>,
         rows: &mut Job<'_, Self>,
-    ) -> Result<(), Singular>;
+    ) -> Result<(), Failure>;
 }
 
 impl WithLanes for f64 {
@@ -129,7 +167,7 @@ impl WithLanes for f64 {
         models: &Models<Self>,
         setting: Setting<'_>,
         rows: &mut Job<'_, Self>,
-    ) -> Result<(), Singular> {
+    ) -> Result<(), Failure> {
         over(algorithm, models, setting, rows)
     }
 }
@@ -140,7 +178,7 @@ impl WithLanes for f32 {
         models: &Models<Self>,
         setting: Setting<'_>,
         rows: &mut Job<'_, Self>,
-    ) -> Result<(), Singular> {
+    ) -> Result<(), Failure> {
         let count = rows.rows / LANES;
         if !O::LANES || count == 0 || dispatch::terms_of(setting.effects).extra {
             return over(algorithm, models, setting, rows);
@@ -157,7 +195,7 @@ impl WithLanes for f32 {
                 count: count - first,
             };
             let done = in_lanes(algorithm, lanes, setting, &mut blocks);
-            let Err(Singular { row: block, .. }) = done else {
+            let Err(Failure { row: block, .. }) = done else {
                 break;
             };
             let at = (first + block) * LANES;
@@ -177,7 +215,7 @@ fn in_lanes<O: Algorithm>(
     model: &Fast<Lanes>,
     setting: Setting<'_>,
     rows: &mut Blocks<'_, '_>,
-) -> Result<(), Singular> {
+) -> Result<(), Failure> {
     let Setting {
         counts,
         effects,
@@ -213,23 +251,28 @@ fn over<O: Algorithm, R: Real>(
     models: &Models<R>,
     setting: Setting<'_>,
     rows: &mut Job<'_, R>,
-) -> Result<(), Singular> {
+) -> Result<(), Failure> {
     let Setting {
         counts,
         effects,
         body,
     } = setting;
     let terms: Terms = dispatch::terms_of(effects);
+    let bodies = if O::WHOLE { usize::MAX } else { counts.bodies };
     macro_rules! run {
-        ($robot:expr) => {
+        ($robot:expr) => {{
+            let mut parts = spec::parts(effects, &body);
+            if O::WHOLE {
+                parts.fill(counts.v);
+            }
             algorithm.all(Call {
-                robot: &Cut($robot, counts.bodies),
+                robot: &Cut($robot, bodies),
                 counts,
                 terms,
-                parts: &spec::parts(effects, &body),
+                parts: &parts,
                 rows,
             })
-        };
+        }};
     }
     if O::FAST {
         match &models.fast {

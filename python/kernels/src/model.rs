@@ -184,8 +184,8 @@ impl Bodies {
     pub fn models<R: Real>(&self) -> Result<Models<R>, NoModel> {
         let Counts { bodies, v, .. } = self.counts();
         let general = match v.max(bodies) {
-            0..=16 => General::Small(self.filled(false)?),
-            17..=MOST_COORDINATES => General::Large(self.filled(false)?),
+            _ if self.is_small() => General::Small(self.filled(false)?),
+            0..=MOST_COORDINATES => General::Large(self.filled(false)?),
             found => {
                 return Err(NoModel::TooLarge {
                     what: "velocity coordinates or bodies",
@@ -206,6 +206,12 @@ impl Bodies {
         })
     }
 
+    /// Whether the smaller of the general models is large enough.
+    pub(crate) fn is_small(&self) -> bool {
+        let Counts { bodies, v, .. } = self.counts();
+        v.max(bodies) <= 16
+    }
+
     /// The model of revolute joints, if it has no others.
     fn fast<R: Real>(&self) -> Result<Fast<R>, NoModel> {
         let bodies = self.bodies.len();
@@ -220,7 +226,7 @@ impl Bodies {
     }
 
     /// The model filled up to N bodies and velocity coordinates, and Q position coordinates.
-    fn filled<R: Real, const N: usize, const Q: usize>(
+    pub(crate) fn filled<R: Real, const N: usize, const Q: usize>(
         &self,
         chain: bool,
     ) -> Result<Box<Model<R, N, Q, N>>, NoModel> {
@@ -260,7 +266,7 @@ impl Bodies {
 }
 
 /// A body's number as its name, of which the library's errors have no other.
-fn number(i: usize) -> &'static str {
+pub fn number(i: usize) -> &'static str {
     DIGITS.get(2 * i..2 * i + 2).unwrap_or("")
 }
 

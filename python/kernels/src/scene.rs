@@ -54,7 +54,7 @@ pub struct Parts<R: Real, const V: usize> {
 }
 
 /// A scene: whether it has the products of accelerations (A), of velocities (C), effects at bodies or gears (X), and
-/// rotors that spin (X and S): some algorithms of the library have none.
+/// friction of gears and rotors that spin (X and S): some algorithms of the library have none.
 ///
 /// The second field is whether the friction of gears acts: forward dynamics takes the motors' torques through the gears
 /// and then computes its bias without them.
@@ -89,10 +89,12 @@ impl<
         false => hook::Wrench::NONE,
     };
     const ADDED_INERTIA: hook::Inertia<Self, R, B> = match X {
-        true => hook::Inertia::on([true; B], Self::add_payloads),
+        true => hook::Inertia::on([true; B], |scene, body, inertia| {
+            scene.0.add_payloads(body, inertia);
+        }),
         false => hook::Inertia::NONE,
     };
-    const LOAD_FRICTION: hook::LoadFriction<Self, R> = match X {
+    const LOAD_FRICTION: hook::LoadFriction<Self, R> = match X && S {
         true => hook::LoadFriction::new(Self::load_factors::<B>, Self::load_slopes::<B>),
         false => hook::LoadFriction::NONE,
     };
@@ -154,14 +156,6 @@ impl<R: Real, const V: usize, const A: bool, const C: bool, const X: bool, const
         }
     }
 
-    fn add_payloads(&self, body: usize, inertia: &mut SpatialInertia<R>) {
-        for (on, payload) in &self.0.payloads {
-            if *on == body {
-                *inertia = *inertia + *payload;
-            }
-        }
-    }
-
     fn load_factors<const B: usize>(
         &self,
         joint: usize,
@@ -183,6 +177,32 @@ impl<R: Real, const V: usize, const A: bool, const C: bool, const X: bool, const
         let add = const { <LoadFriction<R, V> as Effect<R, B, V>>::LOAD_FRICTION.slopes };
         if let (true, Some(gears), Some(add)) = (self.1, &self.0.gears, add) {
             add(gears, joint, at, slopes);
+        }
+    }
+}
+
+/// The loads alone, for algorithms that have no other effects at bodies.
+pub struct Loads<'a, R: Real, const V: usize>(pub &'a Parts<R, V>);
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Loads<'_, R, V> {
+    const ADDED_INERTIA: hook::Inertia<Self, R, B> =
+        hook::Inertia::on([true; B], |loads, body, inertia| {
+            loads.0.add_payloads(body, inertia);
+        });
+}
+
+impl<R: Real, const V: usize> Parts<R, V> {
+    /// Gives what fills the model up the inertia 1.
+    pub fn fill(&mut self, own: usize) {
+        let armature = self.armature.get_or_insert([R::ZERO; V]);
+        armature[own..].fill(R::ONE);
+    }
+
+    fn add_payloads(&self, body: usize, inertia: &mut SpatialInertia<R>) {
+        for (on, payload) in &self.payloads {
+            if *on == body {
+                *inertia = *inertia + *payload;
+            }
         }
     }
 }

@@ -178,7 +178,7 @@ impl Spec {
     }
 
     /// Whether it acts at bodies, at the base, in gears or by rotors that spin.
-    pub(crate) fn is_extra(&self) -> bool {
+    pub fn is_extra(&self) -> bool {
         matches!(
             self,
             Self::MovingBase { .. }

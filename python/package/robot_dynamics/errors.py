@@ -8,13 +8,22 @@ __all__ = [
     "DescriptionError",
     "DtypeError",
     "EffectError",
+    "LinkageError",
+    "LoopModelError",
+    "LoopOpen",
+    "ModeError",
     "ModelError",
+    "MultiDofJoint",
+    "NoAttitude",
     "NoEngine",
+    "NotFinite",
     "NotPositiveDefinite",
     "NotRecorded",
     "RobotDynamicsError",
     "ShapeError",
+    "UnderActuated",
     "UnknownBody",
+    "UnknownCoordinate",
     "UnknownFrame",
     "UnknownRobot",
     "UnreadableFile",
@@ -117,6 +126,89 @@ class NotPositiveDefinite(RobotDynamicsError, ArithmeticError):
     """The velocity coordinate."""
     state: int
     """The state's index in the batch; 0 of a single state."""
+
+
+class MultiDofJoint(RobotDynamicsError, ValueError):
+    """A joint of several degrees of freedom, of which no transmission is known."""
+
+    joint: str
+    """The joint's name."""
+    state: int
+    """The state's index in the batch; 0 of a single state."""
+
+
+class NoAttitude(RobotDynamicsError, ValueError):
+    """A quaternion of length zero, or one that is not finite."""
+
+    joint: str
+    """The joint's name."""
+    state: int
+    """The state's index in the batch; 0 of a single state."""
+
+
+class UnknownCoordinate(RobotDynamicsError, LookupError):
+    """The robot has no velocity coordinate of this number."""
+
+    coordinate: int
+    """The number."""
+
+
+class LoopModelError(RobotDynamicsError, ValueError):
+    """Loops that cannot be described so."""
+
+    loop: str
+    """The loop's name; the robot's, where the whole is concerned."""
+
+
+class LoopOpen(RobotDynamicsError, ArithmeticError):
+    """A loop is open: its ends are not where its joint would have them."""
+
+    loop: str
+    """The loop's name."""
+    error: float
+    """By how much, relative to the loop's size."""
+    state: int
+    """The state's index in the batch; 0 of a single state."""
+
+
+class UnderActuated(RobotDynamicsError, ArithmeticError):
+    """A coordinate moves although all motors are held."""
+
+    loop: str
+    """The loop that it moves in; the robot, if it moves in none."""
+    joint: str
+    """The joint's name."""
+    state: int
+    """The state's index in the batch; 0 of a single state."""
+
+
+class NotFinite(RobotDynamicsError, ArithmeticError):
+    """A number that is infinite or NaN reaches a loop."""
+
+    loop: str
+    """The loop's name."""
+    state: int
+    """The state's index in the batch; 0 of a single state."""
+
+
+class LinkageError(RobotDynamicsError, ValueError):
+    """A linkage that cannot be described so, or that has no motion in a state."""
+
+    linkage: str
+    """The linkage's name."""
+    state: int | None
+    """The state's index in the batch; none where the description is concerned."""
+
+
+class ModeError(RobotDynamicsError, ValueError):
+    """Modes of a link that cannot be used, or that have no motion in a state."""
+
+    link: str | None
+    """The link's name; the robot's, where no link is concerned."""
+    mode: int | None
+    """The mode's number: among those of the link, in a state among all."""
+    state: int | None
+    """The state's index in the batch; none where the description is concerned."""
 
 
 class NotRecorded(RobotDynamicsError, LookupError):

@@ -143,24 +143,6 @@ impl Robot {
         )
     }
 
-    /// M(q)⁻¹ (…, nv, nv); q (…, nq).
-    #[pyo3(signature = (q, effects = None))]
-    fn inverse_mass<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Array<'py>,
-        effects: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Array<'py>> {
-        let effects = effects_of(effects)?;
-        self.one(
-            py,
-            Which::InverseMass,
-            &effects,
-            &[self.q(q)],
-            &[self.counts.v, self.counts.v],
-        )
-    }
-
     /// Forward dynamics by articulated bodies: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ (…, nv).
     #[pyo3(signature = (q, qd, tau, effects = None))]
     fn aba<'py>(
@@ -200,6 +182,28 @@ impl Robot {
             &effects,
             &[self.q(q), self.v("qd", qd), self.v("tau", tau)],
             &[self.counts.v],
+        )
+    }
+
+    /// Forward dynamics by M and its factors, with the error that rounding leaves: q̈ and its estimated error, each
+    /// (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ (…, nv). It says whether float32 serves for a robot and a state.
+    #[pyo3(signature = (q, qd, tau, effects = None))]
+    fn forward_dynamics_with_error<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        qd: &Array<'py>,
+        tau: &Array<'py>,
+        effects: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyTuple>> {
+        let effects = effects_of(effects)?;
+        with_inertia(py, &effects)?;
+        self.several(
+            py,
+            Which::ForwardWithError,
+            &effects,
+            &[self.q(q), self.v("qd", qd), self.v("tau", tau)],
+            &[&[self.counts.v], &[self.counts.v]],
         )
     }
 
@@ -318,27 +322,6 @@ impl Robot {
             &effects,
             &[self.q(q)],
             &[&[6, self.counts.v], &[6, self.counts.v], &[6, 6], &[6, 6]],
-        )
-    }
-
-    /// Y (…, nv, bodies, 10) with τ = Y φ, φ of a body: m, m c (3), then Ixx, Ixy, Iyy, Ixz, Iyz, Izz about the
-    /// origin of its frame whose z is the joint's axis; q (…, nq), q̇ and q̈ (…, nv).
-    #[pyo3(signature = (q, qd, qdd, effects = None))]
-    fn regressor<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Array<'py>,
-        qd: &Array<'py>,
-        qdd: &Array<'py>,
-        effects: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Array<'py>> {
-        let effects = effects_of(effects)?;
-        self.one(
-            py,
-            Which::Regressor,
-            &effects,
-            &[self.q(q), self.v("qd", qd), self.v("qdd", qdd)],
-            &[self.counts.v, self.counts.bodies, 10],
         )
     }
 }

@@ -135,6 +135,13 @@ impl Robot {
         )
     }
 
+    /// q (…, nq) with quaternions of unit length, and angles of continuous joints within half a turn.
+    ///
+    /// Raises NoAttitude for a quaternion of length zero.
+    fn normalise<'py>(&self, py: Python<'py>, q: &Array<'py>) -> PyResult<Array<'py>> {
+        self.one(py, Which::Normalise, &[], &[self.q(q)], &[self.counts.q])
+    }
+
     /// q₁ ⊖ q₀ (…, nv): the velocity that leads from q₀ to q₁ (…, nq) in a unit of time.
     #[pyo3(signature = (q0, q1))]
     fn difference<'py>(

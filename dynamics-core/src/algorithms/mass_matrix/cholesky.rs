@@ -88,6 +88,34 @@ where
 }
 
 impl<R: Real, const V: usize> Cholesky<R, V> {
+    /// The factor of these rows of L, of which the entries below the diagonal are read, and the reciprocals of its
+    /// diagonal.
+    #[must_use]
+    pub const fn from_rows(rows: [[R; V]; V], l_inv: [R; V]) -> Self {
+        Self { rows, l_inv }
+    }
+
+    /// L_ij below the diagonal; zero elsewhere.
+    pub fn get(&self, i: usize, j: usize) -> R {
+        let row = self.rows.get(i).filter(|_| j < i);
+        row.and_then(|row| row.get(j)).copied().unwrap_or_default()
+    }
+
+    /// The reciprocals of L's diagonal.
+    ///
+    /// ```
+    /// use dynamics_core::algorithms::{Cholesky, cholesky, crba};
+    /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
+    /// let factor = cholesky(&Ur5e::MODEL, &crba(&Ur5e::MODEL, &[0.3; 6], &RIGID_BODY))?;
+    /// let rows = core::array::from_fn(|i| core::array::from_fn(|j| factor.get(i, j)));
+    /// let same = Cholesky::from_rows(rows, *factor.l_inv());
+    /// assert_eq!(same.solve(&Ur5e::MODEL, &[1.0; 6]), factor.solve(&Ur5e::MODEL, &[1.0; 6]));
+    /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+    /// ```
+    pub fn l_inv(&self) -> &[R; V] {
+        &self.l_inv
+    }
+
     /// x with M x = τ: L⁻¹ L⁻ᵀ τ. Cost: 2 V² flops on a chain, less on a tree.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn solve<D, const B: usize, const Q: usize>(&self, robot: &D, tau: &[R; V]) -> [R; V]

@@ -39,6 +39,18 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
         rows: [[R::ZERO; V]; V],
     };
 
+    /// A matrix of these rows, of which the entries up to the diagonal are read: kg·m² or kg.
+    ///
+    /// ```
+    /// use dynamics_core::algorithms::MassMatrix;
+    /// let m = MassMatrix::from_rows([[2.0, 0.0], [0.5, 1.0]]);
+    /// assert_eq!(m.get(0, 1), 0.5);
+    /// ```
+    #[must_use]
+    pub fn from_rows(rows: [[R; V]; V]) -> Self {
+        Self { rows }.mirrored()
+    }
+
     /// M_ij; zero beyond the matrix.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn get(&self, i: usize, j: usize) -> R {
@@ -159,6 +171,21 @@ pub struct Ltdl<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> Ltdl<R, V> {
+    /// The factors of these rows of L, of which the entries below the diagonal are read, and the reciprocals of D.
+    ///
+    /// ```
+    /// use dynamics_core::{Core, Ltdl, effects::RIGID_BODY, robots::Ur5e};
+    /// let factors = Core::<Ur5e>::ltdl(&Core::<Ur5e>::crba(&[0.3_f64; 6], &RIGID_BODY))?;
+    /// let rows = core::array::from_fn(|i| core::array::from_fn(|j| factors.get(i, j)));
+    /// let same = Ltdl::from_rows(rows, *factors.d_inv());
+    /// assert_eq!(Core::<Ur5e>::solve(&same, &[1.0; 6]), Core::<Ur5e>::solve(&factors, &[1.0; 6]));
+    /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+    /// ```
+    #[must_use]
+    pub const fn from_rows(rows: [[R; V]; V], d_inv: [R; V]) -> Self {
+        Self { rows, d_inv }
+    }
+
     /// L_ij: one on the diagonal, zero above it and beyond the matrix.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn get(&self, i: usize, j: usize) -> R {

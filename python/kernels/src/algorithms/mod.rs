@@ -6,10 +6,10 @@ use dynamics_core::algorithms::{
 use dynamics_core::model::RobotModel;
 use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
-use dynamics_core::state::{State, manifold};
+use dynamics_core::state::State;
 
 use crate::dispatch::{Call, Done, Rows, terms};
-use crate::job::Row;
+use crate::job::{Problem, Row};
 use crate::lanes::Lanes;
 use crate::model::Counts;
 use crate::scene::{Parts, Scene};
@@ -18,13 +18,15 @@ use crate::scene::{Parts, Scene};
 pub trait Algorithm: Sync {
     /// Whether the library has a form of it for some kinds of robots.
     const FAST: bool = false;
+    /// Whether it computes what fills the model up, too, with the inertia 1: M then has its factors.
+    const WHOLE: bool = false;
     /// Whether it computes several states at once: its only comparisons are those of pivots.
     const LANES: bool = false;
 
     /// Computes one row, of a scene with the products of accelerations (A), of velocities (C) and effects at bodies (X).
     ///
     /// # Errors
-    /// The coordinate that moves no inertia.
+    /// Why this state has no result.
     fn row<
         R: Real,
         D: RobotModel<R, B, Q, V>,
@@ -40,12 +42,12 @@ pub trait Algorithm: Sync {
         counts: Counts,
         parts: &Parts<R, V>,
         row: &mut impl Row<R>,
-    ) -> Result<(), usize>;
+    ) -> Result<(), Problem>;
 
     /// Computes all blocks of rows in the scene of the call, which has no effects at bodies.
     ///
     /// # Errors
-    /// The block and the coordinate.
+    /// The block and why it has none.
     fn blocks<D, P, const B: usize, const Q: usize, const V: usize>(
         &self,
         call: Call<'_, D, P, Lanes, V>,
@@ -57,7 +59,7 @@ pub trait Algorithm: Sync {
     /// Computes all rows in the scene of the call.
     ///
     /// # Errors
-    /// The row and the coordinate.
+    /// The row and why it has none.
     fn all<R: Real, D, P, const B: usize, const Q: usize, const V: usize>(
         &self,
         call: Call<'_, D, P, R, V>,
@@ -80,18 +82,31 @@ macro_rules! algorithm {
     (@lanes Crba) => { true };
     (@lanes Aba) => { true };
     (@lanes $other:ident) => { false };
+    (@whole LoopForward) => { true };
+    (@whole FlexibleRnea) => { true };
+    (@whole FlexibleCrba) => { true };
+    (@whole Frequencies) => { true };
+    (@whole FlexibleForward) => { true };
+    (@whole ModalDynamics) => { true };
+    (@whole ModesAtRest) => { true };
+    (@whole FeedforwardTick) => { true };
+    (@whole $other:ident) => { false };
     (@spins unspun) => { false };
+    (@spins linked) => { false };
+    (@spins machine) => { false };
     (@spins $other:ident) => { true };
     (@fast all) => { true };
     (@fast moving) => { true };
     (@fast matrix) => { true };
+    (@fast linked) => { true };
     (@fast $other:ident) => { false };
-    ($(#[$doc:meta])* $name:ident $({ $($field:ident: $type:ty),* })?, $scenes:ident,
+    ($(#[$doc:meta])* $name:ident $(<$life:lifetime>)? $({ $($field:ident: $type:ty),* })?, $scenes:ident,
      |$this:ident, $robot:ident, $counts:ident, $scene:ident, $row:ident| $body:expr) => {
         $(#[$doc])*
-        pub struct $name { $($(#[doc = stringify!($field)] pub $field: $type),*)? }
-        impl Algorithm for $name {
+        pub struct $name $(<$life>)? { $($(#[doc = stringify!($field)] pub $field: $type),*)? }
+        impl $(<$life>)? Algorithm for $name $(<$life>)? {
             const FAST: bool = algorithm!(@fast $scenes);
+            const WHOLE: bool = algorithm!(@whole $name);
             const LANES: bool = algorithm!(@lanes $name);
 
             #[inline(always)]
@@ -110,10 +125,10 @@ macro_rules! algorithm {
                 $counts: Counts,
                 parts: &Parts<R, V>,
                 $row: &mut impl Row<R>,
-            ) -> Result<(), usize> {
+            ) -> Result<(), Problem> {
                 let $this = self;
                 let $scene = &Scene::<R, V, A, C, X, { algorithm!(@spins $scenes) }>(parts, true);
-                let _ = ($this, $scene);
+                let _ = ($this, $robot, $counts, $scene);
                 $body
             }
 
@@ -204,7 +219,13 @@ fn put_matrix<R: Real, const V: usize>(
     }
 }
 
-/// The factors of M: what fills the model up has the inertia 1.
+/// The inertia of what fills the model up: 1.
+#[inline(always)]
+fn fillers<R: Real, const V: usize>(counts: Counts) -> [R; V] {
+    std::array::from_fn(|i| if i < counts.v { R::ZERO } else { R::ONE })
+}
+
+/// The factors of M.
 #[inline(always)]
 fn factors<
     R: Real,
@@ -218,13 +239,11 @@ fn factors<
     q: &[R; Q],
     parts: &Parts<R, V>,
     counts: Counts,
-) -> Result<algorithms::Ltdl<R, V>, usize> {
+) -> Result<algorithms::Ltdl<R, V>, Problem> {
     let scene = Scene::<R, V, true, true, X, true>(parts, true);
-    let mut unit = [R::ZERO; V];
-    unit[counts.v..].fill(R::ONE);
     let m = algorithms::crba(robot, q, &scene);
     // x + 0 would change the sign of no pivot; the robot's own diagonal stays as it is.
-    algorithms::ltdl(robot, &m.plus_diagonal(&unit)).map_err(|error| error.joint)
+    Ok(algorithms::ltdl(robot, &m.plus_diagonal(&fillers(counts)))?)
 }
 
 /// A frame that is known at run time.
@@ -258,6 +277,22 @@ macro_rules! in_frame {
     };
 }
 
+mod drivetrain;
+mod factors;
+mod flexible;
+mod linkages;
+mod loops;
+mod manifold;
+mod regressors;
+
+pub use drivetrain::*;
+pub use factors::*;
+pub use flexible::*;
+pub use linkages::*;
+pub use loops::*;
+pub use manifold::*;
+pub use regressors::*;
+
 algorithm! {
     /// τ of q, q̇ and q̈.
     Rnea { given: usize }, all, |this, robot, counts, scene, row| {
@@ -288,28 +323,10 @@ algorithm! {
 }
 
 algorithm! {
-    /// M⁻¹ of q.
-    InverseMass, matrix, |this, robot, counts, scene, row| {
-        let q = filled::<R, Q>(row, 0, counts.q);
-        let factors = factors::<R, D, B, Q, V, X>(robot, &q, parts_of(scene), counts)?;
-        for j in 0..counts.v {
-            let mut unit = [R::ZERO; V];
-            unit[j] = R::ONE;
-            let column = algorithms::solve(robot, &factors, &unit);
-            for (i, &x) in column.iter().enumerate().take(counts.v).skip(j) {
-                row.put(0, i * counts.v + j, x);
-                row.put(0, j * counts.v + i, x);
-            }
-        }
-        Ok(())
-    }
-}
-
-algorithm! {
     /// q̈ of q, q̇ and τ, by articulated bodies.
     Aba, moving, |this, robot, counts, scene, row| {
         let (state, tau) = (state(row, counts, 2), filled(row, 2, counts.v));
-        let qdd = algorithms::aba(robot, &state, &tau, scene).map_err(|error| error.joint)?;
+        let qdd = algorithms::aba(robot, &state, &tau, scene)?;
         put(row, 0, 0, &qdd[..counts.v]);
         Ok(())
     }
@@ -342,7 +359,7 @@ algorithm! {
             false => Prescribed::Acceleration(values[i]),
         });
         let found = algorithms::hybrid_dynamics(robot, &state, &given, scene);
-        let found = found.map_err(|error| error.joint)?;
+        let found = found?;
         put(row, 0, 0, &found.tau[..counts.v]);
         put(row, 1, 0, &found.qdd[..counts.v]);
         Ok(())
@@ -508,7 +525,7 @@ algorithm! {
         let h = Force::new(R::Vec3::new(a, b, c), R::Vec3::new(d, e, f));
         let state = state(row, counts, 2);
         let found = algorithms::base_velocity_from_momentum(robot, &state, h, scene);
-        put(row, 0, 0, &found.map_err(|error| error.joint)?[..counts.v]);
+        put(row, 0, 0, &found?[..counts.v]);
         Ok(())
     }
 }
@@ -520,7 +537,7 @@ algorithm! {
         let found = in_frame!(this.frame, frame => {
             algorithms::osim_inverse(robot, &q, this.body, frame, scene)
         });
-        let found = found.map_err(|error| error.joint)?;
+        let found = found?;
         for j in 0..6 {
             let unit: [R; 6] = std::array::from_fn(|i| if i == j { R::ONE } else { R::ZERO });
             let [a, b, c, d, e, f] = unit;
@@ -547,48 +564,6 @@ algorithm! {
         put_rows(row, 1, &found.response, counts.v);
         put_rows(row, 2, &found.mobility, 6);
         put_rows(row, 3, &found.inertia, 6);
-        Ok(())
-    }
-}
-
-algorithm! {
-    /// Y with τ = Y φ.
-    Regressor, all_slow, |this, robot, counts, scene, row| {
-        let state = state(row, counts, 3);
-        for body in 0..counts.bodies {
-            let columns = algorithms::regressor_columns(robot, &state, scene, body);
-            for (i, parameters) in columns.iter().enumerate().take(counts.v) {
-                put(row, 0, (i * counts.bodies + body) * 10, parameters);
-            }
-        }
-        Ok(())
-    }
-}
-
-algorithm! {
-    /// q ⊕ δ.
-    Integrate, none, |this, robot, counts, scene, row| {
-        let (q, delta) = (filled::<R, Q>(row, 0, counts.q), filled::<R, V>(row, 1, counts.v));
-        let found = manifold::integrate(robot, &q, &delta);
-        put(row, 0, 0, &found[..counts.q]);
-        Ok(())
-    }
-}
-
-algorithm! {
-    /// q₁ ⊖ q₀.
-    Difference, none, |this, robot, counts, scene, row| {
-        let (from, to) = (filled::<R, Q>(row, 0, counts.q), filled::<R, Q>(row, 1, counts.q));
-        let found = manifold::difference(robot, &from, &to);
-        put(row, 0, 0, &found[..counts.v]);
-        Ok(())
-    }
-}
-
-algorithm! {
-    /// The configuration of rest.
-    Neutral, none, |this, robot, counts, scene, row| {
-        put(row, 0, 0, &manifold::neutral::<R, D, B, Q, V>(robot)[..counts.q]);
         Ok(())
     }
 }

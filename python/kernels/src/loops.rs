@@ -1,0 +1,77 @@
+//! The loops of a robot that are known at run time: the library's, filled up.
+
+use std::any::Any;
+
+use dynamics_core::loops::{LoopJoint, LoopModelError, Loops};
+use dynamics_core::model::Model;
+
+use crate::model::{Counts, General, Models};
+
+/// The most loops.
+pub const MOST_LOOPS: usize = 8;
+
+/// The most directions that they constrain: those of as many fixed joints.
+pub const MOST_ROWS: usize = 6 * MOST_LOOPS;
+
+/// Loops on a model of V velocity coordinates.
+pub type Filled<const V: usize> = Loops<MOST_LOOPS, MOST_ROWS, V>;
+
+/// Loops on a model of any size.
+#[derive(Debug)]
+pub struct AnyLoops {
+    filled: Box<dyn Any + Send + Sync>,
+    /// The actuated coordinates, as indices in q̇.
+    pub actuated: Vec<usize>,
+    /// How many directions the loops constrain.
+    pub rows: usize,
+}
+
+impl AnyLoops {
+    /// Loops on a robot, of which up to [`MOST_LOOPS`] are given.
+    ///
+    /// # Errors
+    /// What the library refuses.
+    pub fn of(
+        models: &Models<f64>,
+        counts: Counts,
+        joints: &[LoopJoint],
+        actuated: &[usize],
+        damped_below: f64,
+    ) -> Result<Self, LoopModelError> {
+        match &models.general {
+            General::Small(model) => Self::on(model, counts, joints, actuated, damped_below),
+            General::Large(model) => Self::on(model, counts, joints, actuated, damped_below),
+        }
+    }
+
+    fn on<const B: usize, const Q: usize, const V: usize>(
+        model: &Model<f64, B, Q, V>,
+        counts: Counts,
+        joints: &[LoopJoint],
+        actuated: &[usize],
+        damped_below: f64,
+    ) -> Result<Self, LoopModelError> {
+        // What fills the model up has motors, so that it is free to move.
+        let motors: Vec<usize> = actuated.iter().copied().chain(counts.v..V).collect();
+        let filled = Filled::<V>::try_filled(model, joints, &motors)?;
+        let last = filled.rows(joints.len().saturating_sub(1));
+        Ok(Self {
+            filled: Box::new(filled.damped_below(damped_below)),
+            actuated: actuated.to_vec(),
+            rows: last.end,
+        })
+    }
+
+    /// The loops on a model of V velocity coordinates, which is the robot's.
+    pub(crate) fn get<const V: usize>(&self) -> &Filled<V> {
+        match self.filled.downcast_ref() {
+            Some(filled) => filled,
+            None => unreachable!("the loops are those of another robot"),
+        }
+    }
+
+    /// How many coordinates are actuated.
+    pub fn motors(&self) -> usize {
+        self.actuated.len()
+    }
+}

@@ -1,0 +1,402 @@
+//! Links that bend as Python sees them.
+
+use dynamics_core::flexible::{Beam, FlexibleLink, MODES_PER_LINK, Mode, ModeProblem, Shape};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use robot_dynamics_kernels::Which;
+use robot_dynamics_kernels::flexible::{AnyModes, MOST_MODES, NoModes};
+use robot_dynamics_kernels::spec::Spec;
+
+use crate::arrays::Argument;
+use crate::effects::given as effects_of;
+use crate::error::{Exception, of_model};
+use crate::loops::whole;
+use crate::robot::{Array, Robot, argument};
+
+/// Modes that cannot be used.
+fn refused(py: Python<'_>, link: &str, mode: usize, problem: &str) -> PyErr {
+    let text = format!("link `{link}`, mode {mode}: {problem}");
+    Exception::new(py, "ModeError", text)
+        .with("link", link)
+        .with("mode", mode)
+        .with("state", py.None())
+        .build()
+}
+
+/// One assumed mode of a link: a displacement φ(r) η of every point r, in the frame of the link's joint, with which it
+/// is clamped there.
+///
+/// ``momentum``: ∫ φ dm; ``moments``: ∫ φ rᵀ dm by rows of φ; ``shift`` and ``turn``: φ and the rotation ½ curl φ at the
+/// link's end. φ has no unit where η is in m, and m/rad where it is in rad; masses in kg.
+#[pyclass(frozen, module = "robot_dynamics", name = "Mode")]
+#[derive(Clone)]
+pub struct PyMode(Mode);
+
+#[pymethods]
+impl PyMode {
+    #[new]
+    fn new(momentum: [f64; 3], moments: [[f64; 3]; 3], shift: [f64; 3], turn: [f64; 3]) -> Self {
+        Self(Mode {
+            momentum,
+            moments,
+            shift,
+            turn,
+        })
+    }
+}
+
+/// A link that bends: its body by name or number, its end in the frame of its joint, m, on which its children stand,
+/// up to 6 modes, and of each pair of modes the products ∫ φ φᵀ dm (n, n, 3, 3), stiffness, N/m or N·m/rad, and damping,
+/// N·s/m or N·m·s/rad, each (n, n).
+#[pyclass(frozen, module = "robot_dynamics", name = "FlexibleLink")]
+pub struct PyFlexibleLink {
+    body: Py<PyAny>,
+    link: FlexibleLink,
+}
+
+#[pymethods]
+impl PyFlexibleLink {
+    #[new]
+    fn new(
+        py: Python<'_>,
+        body: Py<PyAny>,
+        end: [f64; 3],
+        modes: Vec<Py<PyMode>>,
+        products: Vec<Vec<[[f64; 3]; 3]>>,
+        stiffness: Vec<Vec<f64>>,
+        damping: Vec<Vec<f64>>,
+    ) -> PyResult<Self> {
+        let n = modes.len();
+        let square =
+            |table: &[Vec<f64>]| table.len() == n && table.iter().all(|row| row.len() == n);
+        let of_products = products.len() == n && products.iter().all(|row| row.len() == n);
+        if n > MODES_PER_LINK || !of_products || !square(&stiffness) || !square(&damping) {
+            let text = format!(
+                "{n} modes, of at most {MODES_PER_LINK}, and tables of as many rows and columns"
+            );
+            return Err(refused(py, &body.bind(py).to_string(), n, &text));
+        }
+        let modes: Vec<Mode> = modes.iter().map(|mode| mode.get().0).collect();
+        let mut link = FlexibleLink::new(0, end, &modes);
+        for k in 0..n {
+            link.products[k][..n].copy_from_slice(&products[k]);
+            link.stiffness[k][..n].copy_from_slice(&stiffness[k]);
+            link.damping[k][..n].copy_from_slice(&damping[k]);
+        }
+        Ok(Self { body, link })
+    }
+}
+
+/// A uniform beam along x: length, m, and mass per length, kg/m; bending stiffness in the planes of y and z and torsion
+/// stiffness, N·m²; the sections' second moments of mass, kg·m; a tip's mass, kg, and inertia, kg·m²; the damping ratio
+/// of its modes.
+#[pyclass(frozen, module = "robot_dynamics", name = "Beam")]
+pub struct PyBeam(Beam);
+
+#[pymethods]
+impl PyBeam {
+    #[new]
+    #[pyo3(signature = (length, mass_per_length, bending = [0.0; 2], torsion = 0.0, sections = [0.0; 2], tip = [0.0; 2], damping_ratio = 0.0))]
+    fn new(
+        length: f64,
+        mass_per_length: f64,
+        bending: [f64; 2],
+        torsion: f64,
+        sections: [f64; 2],
+        tip: [f64; 2],
+        damping_ratio: f64,
+    ) -> Self {
+        let beam = Beam::new(length, mass_per_length)
+            .bending(bending)
+            .torsion(torsion)
+            .sections(sections)
+            .tip(tip[0], tip[1])
+            .damping_ratio(damping_ratio);
+        Self(beam)
+    }
+
+    /// The mass with its tip, kg: that of the robot's body.
+    #[getter]
+    fn mass(&self) -> f64 {
+        self.0.mass()
+    }
+    /// The centre of mass from the joint, m.
+    #[getter]
+    fn com(&self) -> [f64; 3] {
+        self.0.com()
+    }
+    /// Ixx, Ixy, Ixz, Iyy, Iyz, Izz about the centre of mass, kg·m².
+    #[getter]
+    fn inertia(&self) -> [f64; 6] {
+        self.0.inertia()
+    }
+
+    /// The link of a body with modes by their shapes, such as ``[("bend_z", 1), ("twist", 1)]``: "bend_y", "bend_z" or
+    /// "twist", counted from 1.
+    fn link(
+        &self,
+        py: Python<'_>,
+        body: Py<PyAny>,
+        shapes: Vec<(String, usize)>,
+    ) -> PyResult<PyFlexibleLink> {
+        let label = body.bind(py).to_string();
+        let mut all = Vec::new();
+        for (i, (name, index)) in shapes.iter().enumerate() {
+            all.push(match &**name {
+                "bend_y" => Shape::BendY(*index),
+                "bend_z" => Shape::BendZ(*index),
+                "twist" => Shape::Twist(*index),
+                _ => return Err(refused(py, &label, i, &ModeProblem::NoShape.to_string())),
+            });
+        }
+        let link = self.0.link(0, &all);
+        let link = link.map_err(|problem| refused(py, &label, 0, &problem.to_string()))?;
+        Ok(PyFlexibleLink { body, link })
+    }
+}
+
+/// A robot with links that bend, of up to 8 modes in all. The links' stiffness and damping act in every scene.
+///
+/// Shapes: nm is the number of modes, in the order of the bodies. η of a mode is in m or rad, as its shape is scaled.
+#[pyclass(frozen, module = "robot_dynamics", name = "FlexibleRobot")]
+pub struct PyFlexibleRobot {
+    robot: Py<Robot>,
+    modes: AnyModes,
+}
+
+impl PyFlexibleRobot {
+    fn m<'a, 'py>(&self, name: &'static str, given: &'a Array<'py>) -> Argument<'a, 'py> {
+        argument(name, given, self.modes.count)
+    }
+
+    fn several<'py>(
+        &self,
+        py: Python<'py>,
+        which: Which<'_>,
+        effects: Option<&Bound<'py, PyAny>>,
+        arguments: &[Argument<'_, 'py>],
+        results: &[&[usize]],
+    ) -> PyResult<Bound<'py, PyTuple>> {
+        let effects: std::sync::Arc<Vec<Spec>> = effects_of(effects)?;
+        whole(py, &effects)?;
+        self.robot
+            .get()
+            .several(py, which, &effects, arguments, results)
+    }
+}
+
+#[pymethods]
+impl PyFlexibleRobot {
+    #[new]
+    fn new(py: Python<'_>, robot: Py<Robot>, links: Vec<Py<PyFlexibleLink>>) -> PyResult<Self> {
+        let (of, mut all) = (robot.get(), Vec::new());
+        for link in &links {
+            let link = link.get();
+            all.push(FlexibleLink {
+                body: of.body(link.body.bind(py))?,
+                ..link.link
+            });
+        }
+        let count: usize = all.iter().map(|link| link.count).sum();
+        if count > MOST_MODES {
+            let text = format!("{count} modes in all, at most {MOST_MODES}");
+            return Err(refused(py, of.label(), count, &text));
+        }
+        let modes = AnyModes::of(&of.described, &all).map_err(|error| match error {
+            NoModes::Model(error) => of_model(py, &error, &[]),
+            NoModes::Modes(error) => {
+                let body = error.link.parse().ok().and_then(|i| of.body_name(i));
+                let problem = error.problem.to_string();
+                refused(py, body.unwrap_or(of.label()), error.mode, &problem)
+            }
+        })?;
+        Ok(Self { robot, modes })
+    }
+
+    /// The number of modes.
+    #[getter]
+    fn nm(&self) -> usize {
+        self.modes.count
+    }
+
+    /// Inverse dynamics: the torques of the joints (…, nv), N·m or N, and the forces on the modes (…, nm), N or N·m,
+    /// which are zero where the modes move freely; q (…, nq), q̇ and q̈ (…, nv), η, η̇ and η̈ (…, nm).
+    #[pyo3(signature = (q, qd, qdd, eta, etad, etadd, effects = None))]
+    #[allow(clippy::too_many_arguments, reason = "the state of joints and modes")]
+    fn rnea<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        qd: &Array<'py>,
+        qdd: &Array<'py>,
+        eta: &Array<'py>,
+        etad: &Array<'py>,
+        etadd: &Array<'py>,
+        effects: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyTuple>> {
+        let (of, modes) = (self.robot.get(), &self.modes);
+        let given = [
+            of.q(q),
+            of.v("qd", qd),
+            of.v("qdd", qdd),
+            self.m("eta", eta),
+            self.m("etad", etad),
+            self.m("etadd", etadd),
+        ];
+        let which = Which::FlexibleRnea { modes };
+        self.several(
+            py,
+            which,
+            effects,
+            &given,
+            &[&[of.counts.v], &[modes.count]],
+        )
+    }
+
+    /// The inertia of joints and modes in blocks: of joints (…, nv, nv), between modes and joints (…, nm, nv), and of
+    /// modes (…, nm, nm), kg, kg·m or kg·m²; q (…, nq), η (…, nm).
+    #[pyo3(signature = (q, eta, effects = None))]
+    fn crba<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        eta: &Array<'py>,
+        effects: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyTuple>> {
+        let (of, modes) = (self.robot.get(), &self.modes);
+        let (v, m) = (of.counts.v, modes.count);
+        let which = Which::FlexibleCrba { modes };
+        let results: &[&[usize]] = &[&[v, v], &[m, v], &[m, m]];
+        self.several(py, which, effects, &[of.q(q), self.m("eta", eta)], results)
+    }
+
+    /// The natural frequencies of the modes with the joints clamped (…, nm), rad/s, in ascending order; q (…, nq),
+    /// η (…, nm).
+    #[pyo3(signature = (q, eta, effects = None))]
+    fn frequencies<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        eta: &Array<'py>,
+        effects: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Array<'py>> {
+        let (of, modes) = (self.robot.get(), &self.modes);
+        let which = Which::Frequencies { modes };
+        let given = [of.q(q), self.m("eta", eta)];
+        let found = self.several(py, which, effects, &given, &[&[modes.count]])?;
+        found.get_item(0)
+    }
+
+    /// Forward dynamics: q̈ (…, nv), rad/s² or m/s², and η̈ (…, nm), m/s² or rad/s², for q (…, nq), q̇ and τ (…, nv), η
+    /// and η̇ (…, nm).
+    #[pyo3(signature = (q, qd, tau, eta, etad, effects = None))]
+    #[allow(clippy::too_many_arguments, reason = "the state of joints and modes")]
+    fn forward_dynamics<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        qd: &Array<'py>,
+        tau: &Array<'py>,
+        eta: &Array<'py>,
+        etad: &Array<'py>,
+        effects: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyTuple>> {
+        let (of, modes) = (self.robot.get(), &self.modes);
+        let given = [
+            of.q(q),
+            of.v("qd", qd),
+            of.v("tau", tau),
+            self.m("eta", eta),
+            self.m("etad", etad),
+        ];
+        let which = Which::FlexibleForward { modes };
+        self.several(
+            py,
+            which,
+            effects,
+            &given,
+            &[&[of.counts.v], &[modes.count]],
+        )
+    }
+
+    /// η̈ (…, nm), m/s² or rad/s², along a motion of the joints, q (…, nq), q̇ and q̈ (…, nv), whatever torques it takes;
+    /// η and η̇ (…, nm).
+    #[pyo3(signature = (q, qd, qdd, eta, etad, effects = None))]
+    #[allow(clippy::too_many_arguments, reason = "the state of joints and modes")]
+    fn modal_dynamics<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        qd: &Array<'py>,
+        qdd: &Array<'py>,
+        eta: &Array<'py>,
+        etad: &Array<'py>,
+        effects: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Array<'py>> {
+        let (of, modes) = (self.robot.get(), &self.modes);
+        let given = [
+            of.q(q),
+            of.v("qd", qd),
+            of.v("qdd", qdd),
+            self.m("eta", eta),
+            self.m("etad", etad),
+        ];
+        let which = Which::ModalDynamics { modes };
+        let found = self.several(py, which, effects, &given, &[&[modes.count]])?;
+        found.get_item(0)
+    }
+
+    /// η (…, nm), m or rad, at rest under the scene's gravity at q (…, nq).
+    ///
+    /// Raises ModeError of a link that is too soft for its weight.
+    #[pyo3(signature = (q, effects = None))]
+    fn at_rest<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        effects: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Array<'py>> {
+        let (of, modes) = (self.robot.get(), &self.modes);
+        let which = Which::ModesAtRest { modes };
+        let found = self.several(py, which, effects, &[of.q(q)], &[&[modes.count]])?;
+        found.get_item(0)
+    }
+
+    /// A tick of feed-forward of h seconds: the torques (…, nv), N·m or N, at which the joints' motion is a reference, q
+    /// (…, nq), q̇ and q̈ (…, nv), and η, η̇ and η̈ (…, nm) of the modes after it, from those before.
+    #[pyo3(signature = (q, qd, qdd, eta, etad, etadd, h, effects = None))]
+    #[allow(clippy::too_many_arguments, reason = "the state of joints and modes")]
+    fn tick<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        qd: &Array<'py>,
+        qdd: &Array<'py>,
+        eta: &Array<'py>,
+        etad: &Array<'py>,
+        etadd: &Array<'py>,
+        h: f64,
+        effects: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyTuple>> {
+        let (of, modes) = (self.robot.get(), &self.modes);
+        let given = [
+            of.q(q),
+            of.v("qd", qd),
+            of.v("qdd", qdd),
+            self.m("eta", eta),
+            self.m("etad", etad),
+            self.m("etadd", etadd),
+        ];
+        let m = modes.count;
+        let which = Which::FeedforwardTick { modes, h };
+        let results: &[&[usize]] = &[&[of.counts.v], &[m], &[m], &[m]];
+        self.several(py, which, effects, &given, results)
+    }
+}
+
+pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<PyMode>()?;
+    module.add_class::<PyFlexibleLink>()?;
+    module.add_class::<PyBeam>()?;
+    module.add_class::<PyFlexibleRobot>()
+}

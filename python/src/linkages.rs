@@ -1,0 +1,348 @@
+//! Loops of closed form as Python sees them: linkages, and a robot with them.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use dynamics_core::clusters::{
+    Belt, Branch, Delta, Differential, FiveBar, FourBar, Leg, ParallelAnkle, Rod, Stewart,
+};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use robot_dynamics_kernels::Which;
+use robot_dynamics_kernels::linkages::{self, Linkage, MOST_COEFFICIENTS};
+use robot_dynamics_kernels::spec::Spec;
+
+use crate::arrays::Argument;
+use crate::compute::Request;
+use crate::effects::given as effects_of;
+use crate::error::Exception;
+use crate::loops::whole;
+use crate::robot::{Array, Robot, argument};
+
+/// A linkage whose coordinates are a function of fewer independent ones, such as `FourBar(...)`.
+#[pyclass(frozen, module = "robot_dynamics", name = "Linkage")]
+#[derive(Clone)]
+pub struct PyLinkage {
+    linkage: Linkage,
+}
+
+#[pymethods]
+impl PyLinkage {
+    /// The number of coordinates that it drives.
+    #[getter]
+    fn driven(&self) -> usize {
+        self.linkage.sizes()[0]
+    }
+    /// The number of independent ones.
+    #[getter]
+    fn independent(&self) -> usize {
+        self.linkage.sizes()[1]
+    }
+}
+
+/// A linkage that cannot be described so.
+fn refused(py: Python<'_>, name: &str, text: &str) -> PyErr {
+    let error = Exception::new(py, "LinkageError", format!("{name}: {text}"));
+    error.with("linkage", name).with("state", py.None()).build()
+}
+
+/// A linkage of the library, which panics with a text where its numbers are impossible.
+fn linkage(
+    py: Python<'_>,
+    name: &'static str,
+    numbers: &[&[f64]],
+    of: impl Fn() -> Linkage,
+) -> PyResult<PyLinkage> {
+    if !numbers
+        .iter()
+        .all(|list| list.iter().all(|x| x.is_finite()))
+    {
+        return Err(refused(py, name, "a number is not finite"));
+    }
+    match catch_unwind(AssertUnwindSafe(of)) {
+        Ok(linkage) => Ok(PyLinkage { linkage }),
+        Err(panic) => {
+            let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+            let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
+            Err(refused(py, name, &text.unwrap_or_default()))
+        }
+    }
+}
+
+fn branch(positive: bool) -> Branch {
+    if positive {
+        Branch::Positive
+    } else {
+        Branch::Negative
+    }
+}
+
+/// A planar four-bar: the lengths, m, of ground, crank, coupler and rocker; the coordinates are the angles of crank,
+/// coupler on the crank, and rocker. ``positive``: of the two ways to assemble it, that in which the coupler's joint on
+/// the rocker is to the left of the line from the crank's end to the rocker's joint. ``zeros``, rad: the angle of each
+/// link at q = 0 from the ground, and of the coupler from the crank.
+#[pyfunction(name = "FourBar")]
+#[pyo3(signature = (ground, crank, coupler, rocker, positive = true, zeros = [0.0; 3]))]
+fn four_bar(
+    py: Python<'_>,
+    ground: f64,
+    crank: f64,
+    coupler: f64,
+    rocker: f64,
+    positive: bool,
+    zeros: [f64; 3],
+) -> PyResult<PyLinkage> {
+    let numbers: &[&[f64]] = &[&[ground, crank, coupler, rocker], &zeros];
+    linkage(py, "FourBar", numbers, || {
+        let bare = FourBar::new(ground, crank, coupler, rocker, branch(positive));
+        Linkage::FourBar(bare.zeros(zeros))
+    })
+}
+
+/// A planar five-bar: the distance of the cranks, m, and the lengths of crank and rod of each; the coordinates are the
+/// angles of crank, rod, other crank and other rod.
+#[pyfunction(name = "FiveBar")]
+#[pyo3(signature = (ground, first, second, positive = true, zeros = [0.0; 4]))]
+fn five_bar(
+    py: Python<'_>,
+    ground: f64,
+    first: [f64; 2],
+    second: [f64; 2],
+    positive: bool,
+    zeros: [f64; 4],
+) -> PyResult<PyLinkage> {
+    let numbers: &[&[f64]] = &[&[ground], &first, &second, &zeros];
+    linkage(py, "FiveBar", numbers, || {
+        let bare = FiveBar::new(ground, first, second, branch(positive));
+        Linkage::FiveBar(bare.zeros(zeros))
+    })
+}
+
+/// A differential of two motors: half the sum and half the difference of their angles, over the two ratios.
+#[pyfunction(name = "Differential")]
+fn differential(py: Python<'_>, ratios: [f64; 2]) -> PyResult<PyLinkage> {
+    linkage(py, "Differential", &[&ratios], || {
+        Linkage::Differential(Differential::new(ratios))
+    })
+}
+
+/// A belt or gear: the driven angle as a polynomial of the driving one, up to 8 coefficients from the constant on.
+#[pyfunction(name = "Belt")]
+fn belt(py: Python<'_>, coefficients: Vec<f64>) -> PyResult<PyLinkage> {
+    if coefficients.len() > MOST_COEFFICIENTS {
+        return Err(refused(py, "Belt", "it has more than 8 coefficients"));
+    }
+    let mut all = [0.0; MOST_COEFFICIENTS];
+    all[..coefficients.len()].copy_from_slice(&coefficients);
+    linkage(py, "Belt", &[&all], || Linkage::Belt(Belt::new(all)))
+}
+
+/// Three points, a length and a sign.
+type RodNumbers = ([f64; 3], [f64; 3], [f64; 3], f64, bool);
+
+/// An ankle of pitch and roll that two cranks drive by rods. Of each rod: the joint of its crank, the crank's end and
+/// the rod's end on the foot, m, its length, m, and whether its root is positive.
+#[pyfunction(name = "ParallelAnkle")]
+fn parallel_ankle(py: Python<'_>, rods: [RodNumbers; 2]) -> PyResult<PyLinkage> {
+    linkage(py, "ParallelAnkle", &[], || {
+        let rods = rods.map(|(joint, crank, foot, length, positive)| Rod {
+            joint,
+            crank,
+            foot,
+            length,
+            branch: branch(positive),
+        });
+        Linkage::ParallelAnkle(ParallelAnkle::new(rods))
+    })
+}
+
+/// A Delta robot: the radii of base and platform, and the lengths of cranks and rods, m.
+#[pyfunction(name = "Delta")]
+fn delta(py: Python<'_>, base: f64, crank: f64, rod: f64, platform: f64) -> PyResult<PyLinkage> {
+    linkage(py, "Delta", &[&[base, crank, rod, platform]], || {
+        Linkage::Delta(Delta::new(base, crank, rod, platform))
+    })
+}
+
+/// A Stewart platform: of each leg its joints on base and platform, and its length at q = 0, m.
+#[pyfunction(name = "Stewart")]
+fn stewart(py: Python<'_>, legs: [([f64; 3], [f64; 3], f64); 6]) -> PyResult<PyLinkage> {
+    linkage(py, "Stewart", &[], || {
+        let legs = legs.map(|(base, platform, length)| Leg {
+            base,
+            platform,
+            length,
+        });
+        Linkage::Stewart(Stewart::new(legs))
+    })
+}
+
+/// A robot with linkages: ``linkages`` has of each a name, the linkage, and the velocity coordinates that it drives, or
+/// their joints, in the linkage's order.
+///
+/// y has, in the order of the bodies, the coordinates in no linkage, and the independent ones of each linkage in the
+/// place of its first body. Shapes: py is the number of y, ny that of ẏ.
+#[pyclass(frozen, module = "robot_dynamics", name = "Linkages")]
+pub struct PyLinkages {
+    robot: Py<Robot>,
+    linkages: linkages::Linkages,
+    names: Vec<String>,
+}
+
+impl PyLinkages {
+    fn of_y<'a, 'py>(
+        &self,
+        name: &'static str,
+        given: &'a Array<'py>,
+        velocity: bool,
+    ) -> Argument<'a, 'py> {
+        argument(name, given, self.linkages.sizes[usize::from(velocity)])
+    }
+
+    fn all<'py>(
+        &self,
+        py: Python<'py>,
+        which: Which<'_>,
+        effects: &[Spec],
+        arguments: &[Argument<'_, 'py>],
+        results: &[&[usize]],
+    ) -> PyResult<Vec<Array<'py>>> {
+        let names = &self.names;
+        let request = Request {
+            effects,
+            arguments,
+            results,
+            names,
+        };
+        self.robot.get().compute(py, which, &request)
+    }
+}
+
+#[pymethods]
+impl PyLinkages {
+    #[new]
+    fn new(
+        py: Python<'_>,
+        robot: Py<Robot>,
+        linkages: Vec<(String, Py<PyLinkage>, Vec<Bound<'_, PyAny>>)>,
+    ) -> PyResult<Self> {
+        let of = robot.get();
+        let (mut names, mut all) = (Vec::new(), Vec::new());
+        for (name, linkage, coordinates) in linkages {
+            let mut driven = Vec::new();
+            for coordinate in coordinates {
+                driven.extend(of.coordinates_of(&coordinate)?);
+            }
+            all.push((linkage.get().linkage, driven));
+            names.push(name);
+        }
+        let found = linkages::Linkages::of(&of.described, all);
+        let linkages = found.map_err(|(at, text)| refused(py, &names[at], &text))?;
+        Ok(Self {
+            robot,
+            linkages,
+            names,
+        })
+    }
+
+    /// The names of the linkages.
+    #[getter]
+    fn names(&self) -> Vec<String> {
+        self.names.clone()
+    }
+    /// The number of independent positions.
+    #[getter]
+    fn py(&self) -> usize {
+        self.linkages.sizes[0]
+    }
+    /// The number of independent velocities.
+    #[getter]
+    fn ny(&self) -> usize {
+        self.linkages.sizes[1]
+    }
+
+    /// The motion of the tree: q (…, nq), q̇ and q̈ (…, nv), rad and m, G (…, nv, ny) with q̇ = G ẏ, and whether a linkage
+    /// is near a singularity, where G is damped, (…), 1 or 0; y (…, py), ẏ and ÿ (…, ny).
+    ///
+    /// Raises LinkageError with the linkage whose links do not reach each other.
+    fn motion<'py>(
+        &self,
+        py: Python<'py>,
+        y: &Array<'py>,
+        yd: &Array<'py>,
+        ydd: &Array<'py>,
+    ) -> PyResult<Bound<'py, PyTuple>> {
+        let (linkages, counts) = (&self.linkages, self.robot.get().counts);
+        let which = Which::LinkageMotion { linkages };
+        let given = [
+            self.of_y("y", y, false),
+            self.of_y("yd", yd, true),
+            self.of_y("ydd", ydd, true),
+        ];
+        let g = [counts.v, linkages.sizes[1]];
+        let results: &[&[usize]] = &[&[counts.q], &[counts.v], &[counts.v], &g, &[]];
+        PyTuple::new(py, self.all(py, which, &[], &given, results)?)
+    }
+
+    /// Inverse dynamics: the torques at the independent coordinates (…, ny), N·m or N, for y (…, py), ẏ and ÿ (…, ny).
+    ///
+    /// Raises LinkageError. Scenes have Inertia and Coriolis, and no friction of gears.
+    #[pyo3(signature = (y, yd, ydd, effects = None))]
+    fn rnea<'py>(
+        &self,
+        py: Python<'py>,
+        y: &Array<'py>,
+        yd: &Array<'py>,
+        ydd: &Array<'py>,
+        effects: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Array<'py>> {
+        let effects = effects_of(effects)?;
+        whole(py, &effects)?;
+        let linkages = &self.linkages;
+        let given = [
+            self.of_y("y", y, false),
+            self.of_y("yd", yd, true),
+            self.of_y("ydd", ydd, true),
+        ];
+        let which = Which::LinkageRnea { linkages };
+        let mut found = self.all(py, which, &effects, &given, &[&[linkages.sizes[1]]])?;
+        Ok(found.swap_remove(0))
+    }
+
+    /// Forward dynamics: ÿ (…, ny), rad/s² or m/s², for y (…, py), ẏ and the torques at the independent coordinates
+    /// (…, ny), N·m or N.
+    ///
+    /// Raises LinkageError. Scenes have Inertia and Coriolis, and no friction of gears.
+    #[pyo3(signature = (y, yd, tau, effects = None))]
+    fn forward_dynamics<'py>(
+        &self,
+        py: Python<'py>,
+        y: &Array<'py>,
+        yd: &Array<'py>,
+        tau: &Array<'py>,
+        effects: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Array<'py>> {
+        let effects = effects_of(effects)?;
+        whole(py, &effects)?;
+        let linkages = &self.linkages;
+        let given = [
+            self.of_y("y", y, false),
+            self.of_y("yd", yd, true),
+            self.of_y("tau", tau, true),
+        ];
+        let which = Which::LinkageForward { linkages };
+        let mut found = self.all(py, which, &effects, &given, &[&[linkages.sizes[1]]])?;
+        Ok(found.swap_remove(0))
+    }
+}
+
+pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<PyLinkage>()?;
+    module.add_class::<PyLinkages>()?;
+    module.add_function(wrap_pyfunction!(four_bar, module)?)?;
+    module.add_function(wrap_pyfunction!(five_bar, module)?)?;
+    module.add_function(wrap_pyfunction!(differential, module)?)?;
+    module.add_function(wrap_pyfunction!(belt, module)?)?;
+    module.add_function(wrap_pyfunction!(parallel_ankle, module)?)?;
+    module.add_function(wrap_pyfunction!(delta, module)?)?;
+    module.add_function(wrap_pyfunction!(stewart, module)?)
+}

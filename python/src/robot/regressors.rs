@@ -1,0 +1,119 @@
+//! What torques are linear in: inertial parameters, and coefficients of friction.
+
+use pyo3::prelude::*;
+use robot_dynamics_kernels::Which;
+
+use super::{Array, Robot, argument};
+use crate::effects::{given as effects_of, wide};
+
+#[pymethods]
+impl Robot {
+    /// Y (…, nv, bodies, 10) with τ = Y φ, φ of a body: m, m c (3), then Ixx, Ixy, Iyy, Ixz, Iyz, Izz about the
+    /// origin of its frame whose z is the joint's axis; q (…, nq), q̇ and q̈ (…, nv).
+    #[pyo3(signature = (q, qd, qdd, effects = None))]
+    fn regressor<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        qd: &Array<'py>,
+        qdd: &Array<'py>,
+        effects: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Array<'py>> {
+        let effects = effects_of(effects)?;
+        self.one(
+            py,
+            Which::Regressor {
+                first: 0,
+                end: self.counts.bodies,
+            },
+            &effects,
+            &[self.q(q), self.v("qd", qd), self.v("qdd", qdd)],
+            &[self.counts.v, self.counts.bodies, 10],
+        )
+    }
+
+    /// The columns (…, nv, 10) of one body in `regressor`; q (…, nq), q̇ and q̈ (…, nv).
+    #[pyo3(signature = (q, qd, qdd, body, effects = None))]
+    fn regressor_columns<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        qd: &Array<'py>,
+        qdd: &Array<'py>,
+        body: &Bound<'py, PyAny>,
+        effects: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Array<'py>> {
+        let first = self.body(body)?;
+        let effects = effects_of(effects)?;
+        self.one(
+            py,
+            Which::Regressor {
+                first,
+                end: first + 1,
+            },
+            &effects,
+            &[self.q(q), self.v("qd", qd), self.v("qdd", qdd)],
+            &[self.counts.v, 10],
+        )
+    }
+
+    /// The row (…, bodies, 10) of one velocity coordinate in `regressor`, given by its number or its joint, by powers of the bodies; q (…, nq), q̇ and q̈
+    /// (…, nv).
+    #[pyo3(signature = (q, qd, qdd, coordinate, effects = None))]
+    fn regressor_row<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        qd: &Array<'py>,
+        qdd: &Array<'py>,
+        coordinate: &Bound<'py, PyAny>,
+        effects: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Array<'py>> {
+        let coordinate = self.coordinates_of(coordinate)?[0];
+        let effects = effects_of(effects)?;
+        self.one(
+            py,
+            Which::RegressorRow { coordinate },
+            &effects,
+            &[self.q(q), self.v("qd", qd), self.v("qdd", qdd)],
+            &[self.counts.bodies, 10],
+        )
+    }
+
+    /// φ (bodies, 10) of `regressor`, float64: the inertial parameters of the bodies with the loads on them, kg, kg·m
+    /// and kg·m².
+    #[pyo3(signature = (effects = None))]
+    fn inertial_parameters<'py>(
+        &self,
+        py: Python<'py>,
+        effects: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Array<'py>> {
+        let effects = effects_of(effects)?;
+        let none = numpy::PyArray1::<f64>::zeros(py, 0, false).into_any();
+        self.one(
+            py,
+            Which::InertialParameters,
+            &effects,
+            &[argument("q", &none, 0)],
+            &[self.counts.bodies, 10],
+        )
+    }
+
+    /// The regressor of friction (…, nv, 2): of each coordinate q̇ for the coefficient of `Viscous`, N·m·s/rad or
+    /// N·s/m, and the smooth sign of `Coulomb` of this width, rad/s or m/s, for its torque, N·m or N; q̇ (…, nv).
+    fn friction_regressor<'py>(
+        &self,
+        py: Python<'py>,
+        qd: &Array<'py>,
+        width: f64,
+    ) -> PyResult<Array<'py>> {
+        wide(py, "Coulomb", &[width])?;
+        self.one(
+            py,
+            Which::FrictionRegressor { width },
+            &[],
+            &[self.v("qd", qd)],
+            &[self.counts.v, 2],
+        )
+    }
+}

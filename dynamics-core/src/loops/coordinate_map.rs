@@ -50,8 +50,6 @@ pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
     /// The loop and the coordinate that are damped most.
     singular: Option<(&'static str, usize)>,
     actuated: [usize; A],
-    /// How many there are.
-    motors: usize,
     /// Which of the actuated coordinates are independent.
     independent: [bool; A],
 }
@@ -133,7 +131,6 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
             scale: [R::ONE; C],
             singular: None,
             actuated: loops.actuated,
-            motors: V.saturating_sub(loops.undriven),
             independent: [false; A],
         }
     }
@@ -206,10 +203,19 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         if let Some((name, joint)) = self.singular {
             return Drive::Singular { name, joint };
         }
-        match self.motors.saturating_sub(self.degrees_of_freedom()) {
+        match self.motors().saturating_sub(self.degrees_of_freedom()) {
             0 => Drive::Determined,
             redundancy => Drive::LeastNorm { redundancy },
         }
+    }
+
+    /// How many actuated coordinates there are: of robots of run time fewer than A, which is then V at least.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn motors(&self) -> usize {
+        if const { A < V } {
+            return A;
+        }
+        self.actuated.iter().filter(|joint| **joint < V).count()
     }
 
     /// q̇ = G ẏ from the rates of the actuated coordinates; of a redundantly driven robot the independent ones count.
@@ -280,8 +286,11 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     /// The row of G of one coordinate, in the places of the actuated ones.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn row(&self, joint: usize) -> [R; A] {
-        let pivot_row = self.elimination.row_of(joint);
         let mut g = [R::ZERO; A];
+        if const { A >= V } && joint >= V {
+            return g;
+        }
+        let pivot_row = self.elimination.row_of(joint);
         let places = self.actuated.iter().zip(&self.independent);
         for (g, (&of, &independent)) in g.iter_mut().zip(places) {
             if independent {

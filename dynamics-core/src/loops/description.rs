@@ -144,7 +144,7 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     }
 
     /// The same of up to L loops and A actuated coordinates, which constrain up to C directions: for programs that learn
-    /// at run time what a robot's loops are.
+    /// at run time what a robot's loops are. A is V at least.
     ///
     /// Rows beyond those of the loops are zero, and redundant. Several loops whose rows are no more than the coordinates
     /// are eliminated in another order than by [`Loops::new`], so that last digits differ.
@@ -172,6 +172,7 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
         joints: &[LoopJoint],
         actuated: &[usize],
     ) -> Result<Self, LoopModelError> {
+        const { assert!(A >= V, "up to A coordinates are actuated, of V at least") };
         if joints.len() > L || actuated.len() > A {
             let (expected, given) = if joints.len() > L {
                 (joints.len(), L)

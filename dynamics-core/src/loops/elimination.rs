@@ -406,7 +406,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     /// The row of the pivot of a column.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn row_of(&self, column: usize) -> Option<&[R; V]> {
-        self.rows.get(*self.row_of.get(column)?)
+        self.rows.get(entry(&self.row_of, column))
     }
 
     /// x with K x = 0, of given free coordinates.

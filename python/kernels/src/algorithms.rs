@@ -18,7 +18,8 @@ use crate::scene::{Parts, Scene};
 pub trait Algorithm: Sync {
     /// Whether the library has a form of it for some kinds of robots.
     const FAST: bool = false;
-    /// Whether it computes several states at once: its only comparisons are those of pivots.
+    /// Whether it computes several states at once: its only comparisons are those of pivots, and of
+    /// placements, which its states share.
     const LANES: bool = false;
 
     /// Computes one row, of a scene with the products of accelerations (A), of velocities (C) and effects at bodies (X).

@@ -20,7 +20,8 @@ pub trait Algorithm: Sync {
     const FAST: bool = false;
     /// Whether it computes what fills the model up, too, with the inertia 1: M then has its factors.
     const WHOLE: bool = false;
-    /// Whether it computes several states at once: its only comparisons are those of pivots.
+    /// Whether it computes several states at once: its only comparisons are those of pivots, and of
+    /// placements, which its states share.
     const LANES: bool = false;
 
     /// Computes one row, of a scene with the products of accelerations (A), of velocities (C) and effects at bodies (X).

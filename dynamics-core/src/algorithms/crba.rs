@@ -9,7 +9,7 @@ use core::borrow::Borrow;
 use heapless::Vec;
 
 use super::chain;
-use super::tree_pass::inward;
+use super::tree_pass::{Passed, inward, recalled};
 use crate::algorithms::MassMatrix;
 use crate::effects::{Declared, Effect, Scene, add_inertia, body_inertia, rotor_force};
 use crate::model::{LinkView, RobotModel};
@@ -63,9 +63,14 @@ where
     const { Scene::<R, E, B, V>::OF_CORE };
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
-    match (robot.as_revolute_chain(), robot.as_all_revolute()) {
-        (Some(robot), _) => chain::crba::sweep(&robot, trig, effects),
-        (_, Some(robot)) => sweep(&robot, trig, effects),
+    match (
+        robot.as_revolute_chain(),
+        robot.as_all_revolute(),
+        robot.as_revolute_or_fixed(),
+    ) {
+        (Some(robot), _, _) => chain::crba::sweep(&robot, trig, effects),
+        (_, Some(robot), _) => sweep(&robot, trig, effects),
+        (_, _, Some(robot)) => sweep(&robot, trig, effects),
         _ if const { D::CHAIN && D::SINGLE } => chain::crba::sweep(robot, trig, effects),
         _ => sweep(robot, trig, effects),
     }
@@ -102,14 +107,18 @@ where
 
     let mut m = MassMatrix::ZERO;
     let mut pass = inward(&mut bodies);
+    let mut passed = Passed::NONE;
     while let Some((body, inner)) = pass.next() {
+        let link = recalled(robot, &body.link);
+        let ic = passed.onto(&body.ic);
+        let i = inner.len();
         if let Some(parent) = inner.get_mut(body.link.parent) {
-            parent.ic += body.ic.at_parent(&body.x);
+            passed.add(&body.link, i, &mut parent.ic, ic.at_parent(&body.x));
         }
-        for (k, joint) in body.link.coordinates().enumerate() {
-            let mut f = body.ic.along(&body.link.subspace(turns, k));
-            for (l, earlier) in body.link.coordinates().enumerate().take(k + 1) {
-                m.set(joint, earlier, body.link.subspace(turns, l).dot(f));
+        for (k, joint) in link.coordinates().enumerate() {
+            let mut f = ic.along(&link.subspace(turns, k));
+            for (l, earlier) in link.coordinates().enumerate().take(k + 1) {
+                m.set(joint, earlier, link.subspace(turns, l).dot(f));
             }
             if let Some(diagonal) = m.diagonal_mut(joint) {
                 add_inertia(effects, joint, diagonal);
@@ -120,8 +129,9 @@ where
             let mut child = &*body;
             while let Some(parent) = inner.get(child.link.parent) {
                 f = child.x.transpose_mul(f);
-                for (l, ancestor) in parent.link.coordinates().enumerate() {
-                    m.set(joint, ancestor, parent.link.subspace(turns, l).dot(f));
+                let link = recalled(robot, &parent.link);
+                for (l, ancestor) in link.coordinates().enumerate() {
+                    m.set(joint, ancestor, link.subspace(turns, l).dot(f));
                 }
                 child = parent;
             }

@@ -9,7 +9,7 @@ use heapless::Vec;
 
 use super::chain;
 use super::rotors::rotor;
-use super::tree_pass::{PerBody, Topology, inward, per_body};
+use super::tree_pass::{Passed, PerBody, Topology, inward, per_body};
 use crate::effects::{
     Declared, Effect, Scene, base_motion, body_inertia, body_wrench, joint_torques, load_frictions,
 };
@@ -75,12 +75,13 @@ where
     {
         return chain::rnea::sweep(&robot, trig, state, effects, true);
     }
-    match robot.as_all_revolute() {
-        Some(robot) => sweep(&robot, trig, state, effects),
-        None if const { E::VELOCITY_PRODUCTS && D::CHAIN && D::KINDS.are_revolute() } => {
+    match (robot.as_all_revolute(), robot.as_revolute_or_fixed()) {
+        (Some(robot), _) => sweep(&robot, trig, state, effects),
+        (_, Some(robot)) => sweep(&robot, trig, state, effects),
+        _ if const { E::VELOCITY_PRODUCTS && D::CHAIN && D::KINDS.are_revolute() } => {
             chain::rnea::sweep(robot, trig, state, effects, false)
         }
-        None => sweep(robot, trig, state, effects),
+        _ => sweep(robot, trig, state, effects),
     }
 }
 
@@ -137,12 +138,17 @@ where
 
     let mut tau = [R::ZERO; V];
     let mut f_child = Force::ZERO; // of a chain, where a body has one child at most
+    let mut passed = Passed::NONE;
     let mut bodies = inward(&mut bodies);
     while let Some((body, inner)) = bodies.next() {
         let Some(link) = robot.link(inner.len()) else {
             break;
         };
-        let f_i = if D::CHAIN { body.f + f_child } else { body.f };
+        let f_i = if D::CHAIN {
+            body.f + f_child
+        } else {
+            *passed.onto(&body.f)
+        };
         link.project(turns, f_i, &mut tau); // (8)
         joint_torques(effects, &link, state, &mut tau);
         if E::GYROSCOPIC_ROTORS
@@ -159,8 +165,8 @@ where
         let f_parent = Xform { rot, pos }.transpose_mul(f_i); // (7)
         if D::CHAIN {
             f_child = f_parent;
-        } else if let Some(parent) = inner.get_mut(link.parent) {
-            parent.f += f_parent;
+        } else if let (i, Some(parent)) = (inner.len(), inner.get_mut(link.parent)) {
+            passed.add(&link, i, &mut parent.f, f_parent);
         }
     }
     tau

@@ -1,11 +1,13 @@
 //! The two passes over a tree: outward, from the base to the tips, and inward.
 
 use core::marker::PhantomData;
+use core::ops::{AddAssign, Deref};
 
 use heapless::Vec;
 
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
+use crate::trig::VECTORS;
 
 /// Whether the parent of every body is known to be the one before it.
 pub(crate) trait Topology {
@@ -71,6 +73,73 @@ impl<A: Copy, T: Topology, const B: usize> PerBody<A, T, B> {
     }
 }
 
+/// What a body stores, completed on processors with vectors. Elsewhere, where the code is shorter without, it is read in its place.
+#[cfg(any(target_feature = "sse2", target_feature = "neon"))]
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn read<T: Copy>(stored: &T, complete: impl FnOnce(T) -> T) -> impl Deref<Target = T> {
+    struct Completed<T>(T);
+    impl<T> Deref for Completed<T> {
+        type Target = T;
+        #[cfg_attr(not(debug_assertions), inline(always))]
+        fn deref(&self) -> &T {
+            &self.0
+        }
+    }
+    Completed(complete(*stored))
+}
+
+#[cfg(not(any(target_feature = "sse2", target_feature = "neon")))]
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn read<T: Copy>(stored: &T, _: impl FnOnce(T) -> T) -> impl Deref<Target = T> {
+    stored
+}
+
+/// A link of `robot` with the kinds of joint that are known at compile time, which the compiler does not see in memory.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn recalled<'a, D, R: Real, const B: usize, const Q: usize, const V: usize>(
+    _: &D,
+    link: &LinkView<'a, R>,
+) -> impl Deref<Target = LinkView<'a, R>>
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    read(link, |link| link.of_kinds(D::KINDS))
+}
+
+/// A sum over bodies in the inward pass, as far as it is for the next body of the pass.
+///
+/// It is not written to memory, where processors with vectors would wait for a sum that is written in other pieces than it is read. The
+/// bits are the same: the last child that adds to a body is the one before it in the pass. Elsewhere the code is shorter without, and this
+/// is empty.
+pub(crate) struct Passed<A>(Option<A>);
+
+impl<A: Copy + AddAssign> Passed<A> {
+    /// Nothing yet.
+    pub(crate) const NONE: Self = Self(None);
+
+    /// The complete sum of the body that the pass has come to, which has stored its `own`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn onto<'a>(&mut self, own: &'a A) -> impl Deref<Target = A> + use<'a, A> {
+        let passed = if VECTORS { self.0.take() } else { None };
+        read(own, move |mut sum| {
+            if let Some(passed) = passed {
+                sum += passed;
+            }
+            sum
+        })
+    }
+
+    /// Adds what the body `i`, `link`, has for the `sum` of its parent.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn add<R: Real>(&mut self, link: &LinkView<'_, R>, i: usize, sum: &mut A, value: A) {
+        if VECTORS && link.parent.wrapping_add(1) == i {
+            self.0 = Some(value);
+        } else {
+            *sum += value;
+        }
+    }
+}
+
 /// The inward pass over the results of the outward one.
 pub(crate) struct Inward<'a, A>(&'a mut [A]);
 
@@ -87,5 +156,82 @@ impl<'a, A> Inward<'a, A> {
         let (body, before) = core::mem::take(&mut self.0).split_last_mut()?;
         self.0 = before;
         Some((body, self.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Passed;
+    use crate::Core;
+    use crate::algorithms::{aba, crba, rnea};
+    use crate::effects::RIGID_BODY;
+    use crate::model::{Model, Robot, RobotModel, Static};
+    use crate::robots::{A1, G1};
+    use crate::scalar::Real;
+    use crate::state::State;
+
+    /// The sum of each of the G1's bodies: of its own number and of 1.1 times the sums of its children.
+    fn sums(mut add: impl FnMut(usize, &mut [f64; 29])) -> [u64; 29] {
+        // Of the last body −0, which a sum with zero would not leave.
+        let mut of = core::array::from_fn(|i| {
+            if i == 28 {
+                -0.0
+            } else {
+                (i as f64 - 9.3) * 0.7
+            }
+        });
+        (0..29).rev().for_each(|i| add(i, &mut of));
+        of.map(f64::to_bits)
+    }
+
+    #[test]
+    fn sums_that_are_passed_on_have_the_bits_of_memory() {
+        let robot = Static::<G1>::NEW;
+        let links: [_; 29] = core::array::from_fn(|i| {
+            RobotModel::<f64, 29, 29, 29>::link(&robot, i).expect("there is a link")
+        });
+        let mut passed = Passed::NONE;
+        let got = sums(|i, of| {
+            let sum = *passed.onto(&of[i]);
+            of[i] = sum;
+            if let Some(parent) = of.get_mut(links[i].parent) {
+                passed.add(&links[i], i, parent, sum * 1.1);
+            }
+        });
+        let want = sums(|i, of| {
+            let sum = of[i];
+            if let Some(parent) = of.get_mut(links[i].parent) {
+                *parent += sum * 1.1;
+            }
+        });
+        assert_eq!(got, want);
+    }
+
+    fn same_bits<R: Real>(a1: &Model<R, 16, 12, 12>) {
+        let of = |step: f64| core::array::from_fn(|i| R::from_f64(i as f64 * step - 1.3));
+        let state = State {
+            q: of(0.31),
+            qd: of(0.47),
+            qdd: of(0.83),
+        };
+        let bits = |row: [R; 12]| row.map(|x| x.to_f64().to_bits());
+        let tau = rnea(a1, &state, &RIGID_BODY);
+        assert_eq!(bits(tau), bits(Core::<A1>::rnea(&state, &RIGID_BODY)));
+        let (got, want) = (
+            crba(a1, &state.q, &RIGID_BODY),
+            Core::<A1>::crba(&state.q, &RIGID_BODY),
+        );
+        assert_eq!(got.rows.map(bits), want.rows.map(bits));
+        let (got, want) = (
+            aba(a1, &state, &tau, &RIGID_BODY),
+            Core::<A1>::aba(&state, &tau, &RIGID_BODY),
+        );
+        assert_eq!(got.map(bits), want.map(bits));
+    }
+
+    #[test]
+    fn a_tree_with_fixed_joints_read_at_run_time_keeps_its_bits() {
+        same_bits::<f64>(&A1::MODEL);
+        same_bits::<f32>(&A1::MODEL_F32);
     }
 }

@@ -92,7 +92,7 @@ use crate::effects::Effect;
 use crate::model::{JointCoordinate, Robot};
 use crate::scalar::{Native, Real};
 use crate::state::{Configuration, JointTrig, RobotState, State, TrigSource};
-use crate::trig::Kernel;
+use crate::trig::{Kernel, VECTORS};
 pub(crate) use compile::{CompiledJoint, CompiledRobot};
 use gate::EngineScene;
 pub(crate) use rnea::joint_state;
@@ -148,6 +148,16 @@ impl<T, K> Engine<T, K> {
         T: Robot<B, Q, V>,
         K: Kernel<R>,
     {
+        if let Some(near) = const { CompiledRobot::<T, B, Q, V>::ALL_TURN }
+            && VECTORS
+        {
+            let coordinates = if near {
+                JointCoordinate::of_all::<K, true, Q>(q)
+            } else {
+                JointCoordinate::of_all::<K, false, Q>(q)
+            };
+            return JointTrig { coordinates };
+        }
         let mut turns = [JointCoordinate::default(); Q];
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {

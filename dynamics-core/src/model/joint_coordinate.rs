@@ -42,6 +42,27 @@ impl<R: Real> JointCoordinate<R> {
         Self { q, sin, cos }
     }
 
+    /// Rotations by all of q, each with the bits of [`Self::with_kernel`], or of [`Self::revolute_bounded`] if `NEAR`.
+    ///
+    /// A loop of sines alone is one that compilers vectorise, as they do not where each is followed by other work.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn of_all<K: Kernel<R>, const NEAR: bool, const Q: usize>(q: &[R; Q]) -> [Self; Q] {
+        let mut sines = [[R::ZERO; 2]; Q];
+        for (pair, &q) in sines.iter_mut().zip(q) {
+            let (sin, cos) = if NEAR {
+                K::sin_cos_near(q)
+            } else {
+                K::sin_cos(q)
+            };
+            *pair = [sin, cos];
+        }
+        let mut turns = [Self::default(); Q];
+        for ((turn, &q), [sin, cos]) in turns.iter_mut().zip(q).zip(sines) {
+            *turn = Self { q, sin, cos };
+        }
+        turns
+    }
+
     /// A coordinate that is not an angle.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn linear(q: R) -> Self {
@@ -101,4 +122,30 @@ pub(crate) fn near_unit<R: Real>(p: [R; 4]) -> [R; 4] {
     let drifted = (squared - R::ONE).abs() < R::from_f64(0.125);
     let scale = core::hint::select_unpredictable(drifted, near, squared.rsqrt());
     p.map(|x| x * scale)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::JointCoordinate;
+    use crate::scalar::{Native, Real};
+    use crate::state::JointTrig;
+    use crate::{Engine, model::Robot, robots::Ur5e};
+
+    fn same_bits<R: Real>(model: &crate::model::ArmModel<R, 6>, q: [R; 6]) {
+        let bits =
+            |turn: JointCoordinate<R>| [turn.q, turn.sin, turn.cos].map(|x| x.to_f64().to_bits());
+        let one_by_one = q.map(JointCoordinate::with_kernel::<Native>).map(bits);
+        assert_eq!(JointTrig::new(model, &q).coordinates.map(bits), one_by_one);
+        let near = q.map(JointCoordinate::revolute_bounded::<Native>).map(bits);
+        assert_eq!(Engine::<Ur5e>::joint_trig(&q).coordinates.map(bits), near);
+    }
+
+    #[test]
+    fn sines_of_all_joints_together_have_the_bits_of_each_alone() {
+        let angles = [0.0, -0.0, 1.3, -2.9, 3.1, 99.0];
+        same_bits::<f64>(&Ur5e::MODEL, angles);
+        same_bits::<f32>(&Ur5e::MODEL_F32, angles.map(|q| q as f32));
+        same_bits::<f64>(&Ur5e::MODEL, [1e9, -3e9, 1e5, 7e7, f64::MAX, 0.1]);
+        same_bits::<f32>(&Ur5e::MODEL_F32, [1e9, -3e9, 1e5, 7e7, f32::MAX, 0.1]);
+    }
 }

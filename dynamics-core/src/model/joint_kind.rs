@@ -93,10 +93,21 @@ impl JointKinds {
         .with(JointKind::Revolute)
         .with(JointKind::Continuous);
 
+    /// Rotations about one axis and none: continuous joints are revolute ones here, so that two kinds are left, which the compiler
+    /// tells apart by one branch.
+    pub(super) const REVOLUTE_OR_FIXED: Self =
+        Self::NONE.with(JointKind::Revolute).with(JointKind::Fixed);
+
     /// Whether each is one of these.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn are_revolute(self) -> bool {
         self.0 & !Self::REVOLUTE.0 == 0
+    }
+
+    /// Whether each is one of these or fixed: all positions are angles.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) const fn are_revolute_or_fixed(self) -> bool {
+        self.0 & !Self::REVOLUTE.with(JointKind::Fixed).0 == 0
     }
 
     /// These and one more.

@@ -41,6 +41,15 @@ impl<'a, R: Real> LinkView<'a, R> {
         }
     }
 
+    /// The same link, its joint one of `kinds`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn of_kinds(self, kinds: JointKinds) -> Self {
+        Self {
+            kind: kinds.of(self.kind),
+            ..self
+        }
+    }
+
     /// The kind of its joint.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn kind(&self) -> JointKind {

@@ -91,7 +91,7 @@ pub use link_view::LinkView;
 pub use named::{Bodies, BodyNumber, OnBody};
 pub use pruned::Pruned;
 pub use robot::{Arm, Robot, model};
-pub use source::{AllRevolute, Calibrated, RevoluteChain, RobotModel, Static};
+pub use source::{AllRevolute, Calibrated, RevoluteChain, RevoluteOrFixed, RobotModel, Static};
 
 use self::aligned::{aligned, is_finite};
 use crate::scalar::Real;
@@ -159,6 +159,13 @@ pub struct Model<R: Real, const B: usize, const Q: usize, const V: usize> {
 
 /// A robot of N bodies on N joints of one degree of freedom.
 pub type ArmModel<R, const N: usize> = Model<R, N, N, N>;
+
+impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> {
+    /// The kinds of its joints.
+    pub(crate) const fn kinds(&self) -> JointKinds {
+        self.kinds
+    }
+}
 
 impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// A model from its bodies; an impossible description does not compile.
@@ -244,11 +251,6 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             kinds: self.kinds,
             chain: self.chain,
         }
-    }
-
-    /// The kinds of its joints.
-    pub(crate) const fn kinds(&self) -> JointKinds {
-        self.kinds
     }
 
     /// Whether the parent of every body is the one before it.

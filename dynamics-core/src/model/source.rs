@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use super::{JointKinds, LinkView, Model, ModelError, Robot, model};
 use crate::scalar::{Native, Real};
 use crate::spatial::{SpatialInertia, Xform};
-use crate::trig::Kernel;
+use crate::trig::{Kernel, VECTORS};
 
 /// A robot of B bodies, Q position and V velocity coordinates, with the properties that are known at compile time: the
 /// machine code contains only the kinds of joint that it has.
@@ -46,6 +46,13 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     fn has_screws(&self) -> bool {
         let asked = || self.links().all(|link| link.is_screwed());
         const { Self::SCREWS }.unwrap_or_else(asked)
+    }
+
+    /// The same robot as one of revolute and fixed joints only, if a model loaded at run time is one and has fixed joints. Only on
+    /// processors with vectors: the flash of others is short for one more form of each algorithm.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn as_revolute_or_fixed(&self) -> Option<RevoluteOrFixed<'_, R, B, Q, V>> {
+        None
     }
 
     /// The links, parents first, each with the properties of its joint that are known at compile time.
@@ -90,6 +97,12 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
         let only = B == Q && B == V && self.kinds.are_revolute() & self.chain;
         only.then_some(AllRevolute(self))
     }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn as_revolute_or_fixed(&self) -> Option<RevoluteOrFixed<'_, R, B, Q, V>> {
+        let only = const { VECTORS && B > V && Q == V } && self.kinds.are_revolute_or_fixed();
+        only.then_some(RevoluteOrFixed(self))
+    }
 }
 
 /// A [`Model`] whose joints are all known to be revolute.
@@ -119,6 +132,25 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize, const SERIAL: bool
     const KINDS: JointKinds = JointKinds::REVOLUTE;
     const CHAIN: bool = SERIAL;
     const SINGLE: bool = true;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn model(&self) -> &Model<R, B, Q, V> {
+        self.0
+    }
+}
+
+/// A [`Model`] of which each joint is known to be revolute or fixed: [`RobotModel::as_revolute_or_fixed`] makes it.
+#[derive(Clone, Copy, Debug)]
+#[doc(hidden)]
+pub struct RevoluteOrFixed<'a, R: Real, const B: usize, const Q: usize, const V: usize>(
+    &'a Model<R, B, Q, V>,
+);
+
+impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q, V>
+    for RevoluteOrFixed<'_, R, B, Q, V>
+{
+    type Kernel = Native;
+    const KINDS: JointKinds = JointKinds::REVOLUTE_OR_FIXED;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn model(&self) -> &Model<R, B, Q, V> {

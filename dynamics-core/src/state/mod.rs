@@ -10,7 +10,7 @@ pub use incremental::IncrementalTrig;
 
 use crate::model::{JointCoordinate, RobotModel};
 use crate::scalar::Real;
-use crate::trig::Kernel;
+use crate::trig::{Kernel, VECTORS};
 
 /// Positions q (rad, m), velocities q̇ and accelerations q̈ of all joints.
 ///
@@ -99,6 +99,11 @@ impl<R: Real, const Q: usize> JointTrig<R, Q> {
         K: Kernel<R>,
         D: RobotModel<R, B, Q, V>,
     {
+        if const { VECTORS } && robot.model().kinds().are_revolute_or_fixed() {
+            return Self {
+                coordinates: q.map(JointCoordinate::with_kernel::<K>),
+            };
+        }
         let mut turns = [JointCoordinate::default(); Q];
         match robot.as_all_revolute() {
             Some(robot) => robot.links().for_each(|link| link.pose::<K>(q, &mut turns)),

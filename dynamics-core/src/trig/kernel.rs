@@ -38,3 +38,7 @@ pub trait Kernel<R> {
 pub(super) fn bounded(r: f32, inside: bool, x: f32) -> f32 {
     core::hint::select_unpredictable(inside, r, x - x)
 }
+
+/// Whether the processor computes several numbers at once, so that sines of several joints together take less time than one by
+/// one.
+pub(crate) const VECTORS: bool = cfg!(any(target_feature = "sse2", target_feature = "neon"));

@@ -19,6 +19,7 @@ mod minimax;
 mod table;
 
 pub use kernel::Kernel;
+pub(crate) use kernel::VECTORS;
 pub use minimax::Minimax;
 pub use table::Table;
 

@@ -52,6 +52,22 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
         );
         compile(&T::MODEL, T::NEGLIGIBLE)
     };
+
+    /// Whether all joints are near, if all of them turn, and all or none are near.
+    pub(crate) const ALL_TURN: Option<bool> = {
+        let (mut turn, mut near, mut i) = (Q == V, 0, 0);
+        while i < V {
+            let joint = &Self::TREE.joints[i];
+            turn &= matches!(joint.motion, JointMotion::Turn) && joint.q == i;
+            near += joint.near as usize;
+            i += 1;
+        }
+        if turn && (near == 0 || near == V) {
+            Some(near > 0)
+        } else {
+            None
+        }
+    };
 }
 
 impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled

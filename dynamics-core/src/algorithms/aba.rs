@@ -96,13 +96,19 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let given = |joint| Prescribed::Torque(entry(tau, joint));
-    let response = match (robot.as_revolute_chain(), robot.as_all_revolute()) {
-        (Some(robot), _) => return chain::aba::sweep(&robot, trig, state, effects, tau),
-        (_, Some(robot)) => sweep(&robot, trig, state, effects, given)?,
-        _ if const { D::CHAIN && D::SINGLE } => {
-            return chain::aba::sweep(robot, trig, state, effects, tau);
-        }
-        _ => sweep(robot, trig, state, effects, given)?,
+    let forms = (robot.as_revolute_chain(), robot.as_all_revolute());
+    let response = if const { D::MAY_BE_REVOLUTE }
+        && let (Some(robot), _) = forms
+    {
+        return chain::aba::sweep(&robot, trig, state, effects, tau);
+    } else if const { D::MAY_BE_REVOLUTE }
+        && let (_, Some(robot)) = forms
+    {
+        sweep(&robot, trig, state, effects, given)?
+    } else if const { D::CHAIN && D::SINGLE } {
+        return chain::aba::sweep(robot, trig, state, effects, tau);
+    } else {
+        sweep(robot, trig, state, effects, given)?
     };
     Ok(response.qdd)
 }

@@ -63,11 +63,19 @@ where
     const { Scene::<R, E, B, V>::OF_CORE };
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
-    match (robot.as_revolute_chain(), robot.as_all_revolute()) {
-        (Some(robot), _) => chain::crba::sweep(&robot, trig, effects),
-        (_, Some(robot)) => sweep(&robot, trig, effects),
-        _ if const { D::CHAIN && D::SINGLE } => chain::crba::sweep(robot, trig, effects),
-        _ => sweep(robot, trig, effects),
+    let forms = (robot.as_revolute_chain(), robot.as_all_revolute());
+    if const { D::MAY_BE_REVOLUTE }
+        && let (Some(robot), _) = forms
+    {
+        chain::crba::sweep(&robot, trig, effects)
+    } else if const { D::MAY_BE_REVOLUTE }
+        && let (_, Some(robot)) = forms
+    {
+        sweep(&robot, trig, effects)
+    } else if const { D::CHAIN && D::SINGLE } {
+        chain::crba::sweep(robot, trig, effects)
+    } else {
+        sweep(robot, trig, effects)
     }
 }
 

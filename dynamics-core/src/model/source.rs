@@ -20,6 +20,10 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     const CHAIN: bool = false;
     /// Whether every body is known to have one coordinate.
     const SINGLE: bool = false;
+    /// Whether it is a model loaded at run time whose joints may all be revolute. Of others, what
+    /// [`as_all_revolute`](Self::as_all_revolute) and [`as_revolute_chain`](Self::as_revolute_chain) return is not used, and
+    /// without optimisation, too, no form of an algorithm for such a robot is compiled for them.
+    const MAY_BE_REVOLUTE: bool = false;
 
     /// The robot's numbers.
     fn model(&self) -> &Model<R, B, Q, V>;
@@ -63,6 +67,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
     for Model<R, B, Q, V>
 {
     type Kernel = Native;
+    const MAY_BE_REVOLUTE: bool = B == Q && B == V;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn model(&self) -> &Self {
@@ -71,13 +76,13 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn as_all_revolute(&self) -> Option<AllRevolute<'_, R, B, Q, V>> {
-        let only = B == Q && B == V && self.kinds.are_revolute();
+        let only = Self::MAY_BE_REVOLUTE && self.kinds.are_revolute();
         only.then_some(AllRevolute(self))
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn as_revolute_chain(&self) -> Option<RevoluteChain<'_, R, B, Q, V>> {
-        let only = B == Q && B == V && self.kinds.are_revolute() & self.chain;
+        let only = Self::MAY_BE_REVOLUTE && self.kinds.are_revolute() & self.chain;
         only.then_some(AllRevolute(self))
     }
 }

@@ -97,18 +97,22 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let given = |joint| Prescribed::Torque(entry(tau, joint));
-    let response = match (
-        robot.as_revolute_chain(),
-        robot.as_all_revolute(),
-        robot.as_revolute_or_fixed(),
-    ) {
-        (Some(robot), _, _) => return chain::aba::aba(&robot, trig, state, effects, tau),
-        (_, Some(robot), _) => sweep(&robot, trig, state, effects, given)?,
-        (_, _, Some(robot)) => sweep(&robot, trig, state, effects, given)?,
-        _ if const { D::CHAIN && D::SINGLE } => {
-            return chain::aba::aba(robot, trig, state, effects, tau);
-        }
-        _ => sweep(robot, trig, state, effects, given)?,
+    let response = if const { D::MAY_BE_REVOLUTE }
+        && let Some(robot) = robot.as_revolute_chain()
+    {
+        return chain::aba::aba(&robot, trig, state, effects, tau);
+    } else if const { D::MAY_BE_REVOLUTE }
+        && let Some(robot) = robot.as_all_revolute()
+    {
+        sweep(&robot, trig, state, effects, given)?
+    } else if const { D::MAY_HAVE_FIXED }
+        && let Some(robot) = robot.as_revolute_or_fixed()
+    {
+        sweep(&robot, trig, state, effects, given)?
+    } else if const { D::CHAIN && D::SINGLE } {
+        return chain::aba::aba(robot, trig, state, effects, tau);
+    } else {
+        sweep(robot, trig, state, effects, given)?
     };
     Ok(response.qdd)
 }

@@ -63,16 +63,22 @@ where
     const { Scene::<R, E, B, V>::OF_CORE };
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
-    match (
-        robot.as_revolute_chain(),
-        robot.as_all_revolute(),
-        robot.as_revolute_or_fixed(),
-    ) {
-        (Some(robot), _, _) => chain::crba::sweep(&robot, trig, effects),
-        (_, Some(robot), _) => sweep(&robot, trig, effects),
-        (_, _, Some(robot)) => sweep(&robot, trig, effects),
-        _ if const { D::CHAIN && D::SINGLE } => chain::crba::sweep(robot, trig, effects),
-        _ => sweep(robot, trig, effects),
+    if const { D::MAY_BE_REVOLUTE }
+        && let Some(robot) = robot.as_revolute_chain()
+    {
+        chain::crba::sweep(&robot, trig, effects)
+    } else if const { D::MAY_BE_REVOLUTE }
+        && let Some(robot) = robot.as_all_revolute()
+    {
+        sweep(&robot, trig, effects)
+    } else if const { D::MAY_HAVE_FIXED }
+        && let Some(robot) = robot.as_revolute_or_fixed()
+    {
+        sweep(&robot, trig, effects)
+    } else if const { D::CHAIN && D::SINGLE } {
+        chain::crba::sweep(robot, trig, effects)
+    } else {
+        sweep(robot, trig, effects)
     }
 }
 

@@ -70,18 +70,22 @@ where
     const { Scene::<R, E, B, V>::OF_CORE };
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
-    if E::VELOCITY_PRODUCTS
+    if const { E::VELOCITY_PRODUCTS && D::MAY_BE_REVOLUTE }
         && let Some(robot) = robot.as_revolute_chain()
     {
-        return chain::rnea::sweep(&robot, trig, state, effects, true);
-    }
-    match (robot.as_all_revolute(), robot.as_revolute_or_fixed()) {
-        (Some(robot), _) => sweep(&robot, trig, state, effects),
-        (_, Some(robot)) => sweep(&robot, trig, state, effects),
-        _ if const { E::VELOCITY_PRODUCTS && D::CHAIN && D::KINDS.are_revolute() } => {
-            chain::rnea::sweep(robot, trig, state, effects, false)
-        }
-        _ => sweep(robot, trig, state, effects),
+        chain::rnea::sweep(&robot, trig, state, effects, true)
+    } else if const { D::MAY_BE_REVOLUTE }
+        && let Some(robot) = robot.as_all_revolute()
+    {
+        sweep(&robot, trig, state, effects)
+    } else if const { D::MAY_HAVE_FIXED }
+        && let Some(robot) = robot.as_revolute_or_fixed()
+    {
+        sweep(&robot, trig, state, effects)
+    } else if const { E::VELOCITY_PRODUCTS && D::CHAIN && D::KINDS.are_revolute() } {
+        chain::rnea::sweep(robot, trig, state, effects, false)
+    } else {
+        sweep(robot, trig, state, effects)
     }
 }
 

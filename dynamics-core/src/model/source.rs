@@ -23,6 +23,12 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     /// Whether every joint turns, and each link stands in its parent's frame as Denavit & Hartenberg's parameters say: turned about x,
     /// and shifted along x and along its own axis. None if that is not known at compile time.
     const SCREWS: Option<bool> = None;
+    /// Whether it is a model loaded at run time whose joints may all be revolute. Of others, what
+    /// [`as_all_revolute`](Self::as_all_revolute) and [`as_revolute_chain`](Self::as_revolute_chain) return is not used, and
+    /// without optimisation, too, no form of an algorithm for such a robot is compiled for them.
+    const MAY_BE_REVOLUTE: bool = false;
+    /// Whether it is one whose joints may all be revolute or fixed, and [`as_revolute_or_fixed`](Self::as_revolute_or_fixed) is used.
+    const MAY_HAVE_FIXED: bool = false;
 
     /// The robot's numbers.
     fn model(&self) -> &Model<R, B, Q, V>;
@@ -80,6 +86,8 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
     for Model<R, B, Q, V>
 {
     type Kernel = Native;
+    const MAY_BE_REVOLUTE: bool = B == Q && B == V;
+    const MAY_HAVE_FIXED: bool = VECTORS && B > V && Q == V;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn model(&self) -> &Self {
@@ -88,19 +96,19 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn as_all_revolute(&self) -> Option<AllRevolute<'_, R, B, Q, V>> {
-        let only = B == Q && B == V && self.kinds.are_revolute();
+        let only = Self::MAY_BE_REVOLUTE && self.kinds.are_revolute();
         only.then_some(AllRevolute(self))
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn as_revolute_chain(&self) -> Option<RevoluteChain<'_, R, B, Q, V>> {
-        let only = B == Q && B == V && self.kinds.are_revolute() & self.chain;
+        let only = Self::MAY_BE_REVOLUTE && self.kinds.are_revolute() & self.chain;
         only.then_some(AllRevolute(self))
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn as_revolute_or_fixed(&self) -> Option<RevoluteOrFixed<'_, R, B, Q, V>> {
-        let only = const { VECTORS && B > V && Q == V } && self.kinds.are_revolute_or_fixed();
+        let only = Self::MAY_HAVE_FIXED && self.kinds.are_revolute_or_fixed();
         only.then_some(RevoluteOrFixed(self))
     }
 }

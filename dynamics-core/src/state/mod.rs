@@ -105,9 +105,12 @@ impl<R: Real, const Q: usize> JointTrig<R, Q> {
             };
         }
         let mut turns = [JointCoordinate::default(); Q];
-        match robot.as_all_revolute() {
-            Some(robot) => robot.links().for_each(|link| link.pose::<K>(q, &mut turns)),
-            None => robot.links().for_each(|link| link.pose::<K>(q, &mut turns)),
+        if const { D::MAY_BE_REVOLUTE }
+            && let Some(robot) = robot.as_all_revolute()
+        {
+            robot.links().for_each(|link| link.pose::<K>(q, &mut turns));
+        } else {
+            robot.links().for_each(|link| link.pose::<K>(q, &mut turns));
         }
         Self { coordinates: turns }
     }

@@ -330,6 +330,7 @@ where
 fn wrenches_moving_bases_and_rotors_agree_with_pinocchio() {
     let mut verdict = Verdict(vec![]);
     surroundings_of::<Panda, 7, 7, 7>(&mut verdict);
+    #[cfg(feature = "full")]
     surroundings_of::<A1, 16, 12, 12>(&mut verdict);
     surroundings_of::<TreeA, 17, 35, 32>(&mut verdict);
     surroundings_of::<TreeB, 17, 35, 32>(&mut verdict);

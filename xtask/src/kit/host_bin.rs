@@ -5,7 +5,7 @@ use std::process::Command;
 
 use serde::de::DeserializeOwned;
 
-use crate::kit::error::{Result, check};
+use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::shell;
 use crate::kit::workspace::Workspace;
 
@@ -56,4 +56,21 @@ pub fn json<T: DeserializeOwned>(workspace: &Workspace, bin: &str) -> Result<T> 
 /// The JSON that a bin printed.
 pub fn parsed<T: DeserializeOwned>(bin: &str, text: &str) -> Result<T> {
     serde_json::from_str(text).map_err(|e| check!("`{bin}` printed what is not understood: {e}"))
+}
+
+pub fn same_lines(name: &str, on_target: &[impl AsRef<str>], on_host: &str) -> Result<()> {
+    let on_host: Vec<&str> = on_host.lines().collect();
+    for (target, host) in std::iter::zip(on_target, &on_host) {
+        let target = target.as_ref();
+        refuse_if!(
+            target != *host,
+            "`{name}` differs:\n  QEMU: {target}\n  host: {host}"
+        );
+    }
+    let (there, here) = (on_target.len(), on_host.len());
+    refuse_if!(
+        there == 0 || there != here,
+        "`{name}` printed {there} lines in QEMU and {here} on the host"
+    );
+    Ok(())
 }

@@ -39,24 +39,8 @@ fn on_both(context: &Context, name: &str, begin: &str) -> Result<Vec<String>> {
     let elf = context.built(name)?;
     let mut on_target = context.tools.qemu.lines(&Run::logging(name, &elf, None))?;
     on_target.retain(|line| line.starts_with(begin));
-    same_lines(name, &on_target, &host_bin::text(&context.workspace, name)?)?;
+    host_bin::same_lines(name, &on_target, &host_bin::text(&context.workspace, name)?)?;
     Ok(on_target)
-}
-
-fn same_lines(name: &str, on_target: &[String], on_host: &str) -> Result<()> {
-    let on_host: Vec<&str> = on_host.lines().collect();
-    for (target, host) in std::iter::zip(on_target, &on_host) {
-        refuse_if!(
-            target != host,
-            "`{name}` differs:\n  QEMU: {target}\n  host: {host}"
-        );
-    }
-    let (there, here) = (on_target.len(), on_host.len());
-    refuse_if!(
-        there == 0 || there != here,
-        "`{name}` printed {there} lines in QEMU and {here} on the host"
-    );
-    Ok(())
 }
 
 pub fn bits(context: &Context) -> Result<String> {
@@ -181,6 +165,7 @@ mod tests {
 
     use super::{Kind, steady};
     use crate::kit::elf::{is_f64, is_panic};
+    use crate::kit::host_bin::same_lines;
 
     #[test]
     fn panics_and_f64_are_known_by_their_symbols() {
@@ -205,7 +190,7 @@ mod tests {
     fn a_differing_or_missing_line_is_named() {
         let lines: Vec<String> = (0..25).map(|k| format!("bits hard {k} a 0{k:x}")).collect();
         let host = lines.join("\n");
-        let same = |there: &[String], here: &str| super::same_lines("bits", there, here);
+        let same = |there: &[String], here: &str| same_lines("bits", there, here);
         assert!(same(&lines, &host).is_ok());
         assert!(same(&lines[..24], &host).is_err() && same(&[], "").is_err());
         let other = host.replace("7 a 07", "7 a 06");

@@ -52,7 +52,7 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 /// V.
 ///
 /// # Cost
-/// O(B): some 590 flops for each revolute joint; of a chain some 530, and 400 if each link is turned from its parent about x and
+/// O(B): some 590 flops for each revolute joint; of a chain some 530, and 440 if each link is turned from its parent about x and
 /// shifted along x and along its own axis, as Denavit & Hartenberg's parameters say.
 ///
 /// # Source

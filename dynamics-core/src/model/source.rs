@@ -21,7 +21,7 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     /// Whether every body is known to have one coordinate.
     const SINGLE: bool = false;
     /// Whether every joint turns, and each link stands in its parent's frame as Denavit & Hartenberg's parameters say: turned about x,
-    /// and shifted along x and along its own axis. None if that is not known at compile time.
+    /// and shifted along x and along its own axis. None: each call asks.
     const SCREWS: Option<bool> = None;
     /// Whether it is a model loaded at run time whose joints may all be revolute. Of others, what
     /// [`as_all_revolute`](Self::as_all_revolute) and [`as_revolute_chain`](Self::as_revolute_chain) return is not used, and
@@ -205,7 +205,8 @@ where
 /// measured lengths.
 ///
 /// It is as fast and as small as [`Static`], while a [`Model`] at run time has a branch on the kind of each joint; but forward
-/// dynamics of a chain by [`aba`](crate::algorithms::aba()) asks at each call how its links are placed, and has code for either answer.
+/// dynamics of a chain by [`aba`](crate::algorithms::aba()) takes no shorter form where its links are placed as Denavit & Hartenberg's
+/// parameters say.
 ///
 /// ```
 /// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::Calibrated, robots::Ur5e, state::State};
@@ -265,6 +266,8 @@ where
     const KINDS: JointKinds = T::MODEL.kinds();
     const CHAIN: bool = T::MODEL.is_chain();
     const SINGLE: bool = T::MODEL.kinds().are_single() && B == Q && B == V;
+    // Its placements can change, and code for both forms takes 4 kB more.
+    const SCREWS: Option<bool> = Some(false);
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn model(&self) -> &Model<R, B, Q, V> {

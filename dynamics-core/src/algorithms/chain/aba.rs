@@ -50,7 +50,8 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    if const { D::KINDS.are_revolute() } && robot.has_screws() {
+    if const { D::KINDS.are_revolute() && !matches!(D::SCREWS, Some(false)) } && robot.has_screws()
+    {
         sweep::<AxialScrews<R>, _, _, _, B, Q, V>(robot, trig, state, effects, tau)
     } else {
         sweep::<Xform<R>, _, _, _, B, Q, V>(robot, trig, state, effects, tau)

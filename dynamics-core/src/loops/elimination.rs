@@ -208,8 +208,8 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// Pivots in each loop's own coordinates first, listed in their order; whether every row, or every coordinate of `first`,
-    /// has a pivot that is not near to singular: there complete pivoting decides. `FACTORS`: for the factors of
-    /// [`Factors`](super::factors::Factors), with a right-hand side, in place of T.
+    /// has a pivot that is not near to singular: there complete pivoting decides. `FACTORS`: for the factors of K, with a
+    /// right-hand side, in place of T.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn loop_by_loop<const FACTORS: bool, const L: usize, const A: usize>(
         &mut self,
@@ -327,6 +327,44 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
                         *other -= factor * pivot;
                     }
                 }
+            }
+        }
+    }
+
+    /// Divides the row of a pivot by it, and subtracts it from those that are open, the right-hand side likewise.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn subtract_scaled(
+        &mut self,
+        (row, column): (usize, usize),
+        open: &[usize],
+        right: &mut [R; C],
+    ) {
+        let (Some(pivot_row), Some(own), Some(multiples)) = (
+            self.rows.get_mut(row),
+            right.get_mut(row),
+            self.transform.get_mut(row),
+        ) else {
+            return;
+        };
+        let reciprocal = R::ONE / entry(pivot_row, column);
+        let scaled = pivot_row.map(|x| x * reciprocal);
+        *pivot_row = scaled;
+        *own *= reciprocal;
+        let own = *own;
+        if let Some(kept) = multiples.get_mut(row) {
+            *kept = reciprocal;
+        }
+        for &i in open {
+            let (Some(other), Some(right), Some(kept)) =
+                (self.rows.get_mut(i), right.get_mut(i), multiples.get_mut(i))
+            else {
+                continue;
+            };
+            let factor = entry(other, column);
+            if factor != R::ZERO {
+                subtract(other, factor, &scaled);
+                *right -= factor * own;
+                *kept = factor;
             }
         }
     }

@@ -18,7 +18,7 @@
 //! (1/ρ − ε) h_k: none reaches zero.
 //!
 //! A number below 2⁻¹²⁶ has an absolute error of 2⁻¹⁵⁰ besides. Such errors of all operations, with factors of at most n h, are less than
-//! [`TINY`].
+//! `TINY`.
 
 use serde::{Deserialize, Serialize};
 

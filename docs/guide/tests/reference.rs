@@ -87,7 +87,7 @@ static DOCUMENTED: LazyLock<Documented> = LazyLock::new(|| {
     // Classes of Python, those that Rust defines by their stubs.
     let python = root().join("python");
     for file in files(&python, "py").iter().chain(&files(&python, "pyi")) {
-        let text = read_to_string(&file).expect("a source file");
+        let text = read_to_string(file).expect("a source file");
         let classes = between(&text, "\nclass ", ':').filter_map(|class| class.split('(').next());
         names.extend(classes.map(str::to_owned));
     }

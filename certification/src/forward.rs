@@ -34,11 +34,11 @@ use crate::state_box::Robot;
 
 /// The unit roundoff of f32.
 const UNIT: f64 = 1.0 / (1 << 24) as f64;
-/// Beyond the errors of subnormal numbers of robots whose inertias are at most [`HEAVIEST`].
+/// A bound of the sum of all errors of subnormal numbers, for robots whose inertias are at most [`HEAVIEST`].
 const TINY: f64 = 1e-30;
 /// kg·m²
 const HEAVIEST: f64 = 1e6;
-/// More than the relative errors of these sums in f64.
+/// A factor that exceeds the relative errors of the sums in this file, which are in f64.
 const UP: f64 = 1.0 + 1e-12;
 
 type Matrix = Vec<Vec<f64>>;
@@ -262,7 +262,7 @@ impl Exact<'_> {
     }
 }
 
-/// Of the power method.
+/// Steps of the power method.
 const STEPS: usize = 20;
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -274,7 +274,7 @@ fn magnitude(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a * b).abs()).sum()
 }
 
-/// At least the greatest singular value of a matrix without negative entries: the root of its greatest sums of a row and of a column.
+/// A bound of the greatest singular value of a matrix without negative entries: the root of its greatest sums of a row and of a column.
 fn norm(of: &Matrix) -> f64 {
     let row = of.iter().map(|row| row.iter().sum()).fold(0.0, f64::max);
     let columns = (0..of.len()).map(|j| of.iter().map(|row| row[j]).sum());

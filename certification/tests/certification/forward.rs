@@ -233,7 +233,7 @@ fn every_other_operation_in_factors_and_solution_is_refused() {
     assert!(wrong_comparison(|one| one.nodes[0] -= 1));
 }
 
-/// The core knows nothing of machine code, factors and links' own torques.
+/// The oracle is the core's ABA in f64, which shares no code with the proof or with the search.
 #[test]
 fn no_acceleration_is_further_from_the_cores_than_its_bound() {
     let (subject, robot, bodies) = (subject(), robot(3), bodies());

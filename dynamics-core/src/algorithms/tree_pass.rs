@@ -73,7 +73,8 @@ impl<A: Copy, T: Topology, const B: usize> PerBody<A, T, B> {
     }
 }
 
-/// What a body stores, completed on processors with vectors. Elsewhere, where the code is shorter without, it is read in its place.
+/// A value that a body stores: on processors with vectors a copy that `complete` has changed, elsewhere the value in its place, which takes
+/// less code.
 #[cfg(any(target_feature = "sse2", target_feature = "neon"))]
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn read<T: Copy>(stored: &T, complete: impl FnOnce(T) -> T) -> impl Deref<Target = T> {
@@ -85,16 +86,19 @@ fn read<T: Copy>(stored: &T, complete: impl FnOnce(T) -> T) -> impl Deref<Target
             &self.0
         }
     }
+    const { assert!(VECTORS) };
     Completed(complete(*stored))
 }
 
 #[cfg(not(any(target_feature = "sse2", target_feature = "neon")))]
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn read<T: Copy>(stored: &T, _: impl FnOnce(T) -> T) -> impl Deref<Target = T> {
+    // Or a sum that was passed on would be lost.
+    const { assert!(!VECTORS) };
     stored
 }
 
-/// A link of `robot` with the kinds of joint that are known at compile time, which the compiler does not see in memory.
+/// A link that was stored, of a `robot` whose kinds of joint are known at compile time: the compiler does not see them in memory.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn recalled<'a, D, R: Real, const B: usize, const Q: usize, const V: usize>(
     _: &D,
@@ -106,7 +110,7 @@ where
     read(link, |link| link.of_kinds(D::KINDS))
 }
 
-/// A sum over bodies in the inward pass, as far as it is for the next body of the pass.
+/// The share of a sum over children that belongs to the next body of the inward pass.
 ///
 /// It is not written to memory, where processors with vectors would wait for a sum that is written in other pieces than it is read. The
 /// bits are the same: the last child that adds to a body is the one before it in the pass. Elsewhere the code is shorter without, and this

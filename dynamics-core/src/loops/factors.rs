@@ -22,7 +22,7 @@ pub(super) struct Factors<'a, R, const V: usize, const C: usize> {
 }
 
 impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
-    /// Nothing, to be filled in this place.
+    /// No factors yet, to be filled where they stand.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn blank(k: &'a mut Elimination<R, V, C>) -> Self {
         Self {
@@ -32,7 +32,7 @@ impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
         }
     }
 
-    /// Those of K and b.
+    /// Factors K, and eliminates b with its rows.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn set<const L: usize, const A: usize>(
         &mut self,
@@ -53,7 +53,7 @@ impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
         self.right = self.k.transform.each_ref().map(|row| dot(row, right));
     }
 
-    /// Makes b and the columns without a pivot those of unit columns for the pivots, from the last pivot to the first.
+    /// Back substitution, from the last pivot to the first, of b and of the columns without a pivot.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn substitute_back(&mut self) {
         let mut order: &[(usize, usize)] = &self.order;

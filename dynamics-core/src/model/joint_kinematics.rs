@@ -63,7 +63,7 @@ impl<R: Real> LinkView<'_, R> {
 
     /// Whether the link is turned from its parent about x, and shifted along x and along its own axis, exactly.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn is_screwed(&self) -> bool {
+    pub(crate) fn is_placed_by_screws(&self) -> bool {
         let ([x, y, z], [_, r_y, r_z]) = (
             self.placement.rot.cols().map(Vector::array),
             self.placement.pos.array(),
@@ -72,7 +72,7 @@ impl<R: Real> LinkView<'_, R> {
         x[0] > R::ZERO && x[1].abs() + x[2].abs() + across == R::ZERO
     }
 
-    /// The same transform of a link that [is placed by screws](Self::is_screwed).
+    /// The same transform of a link that [is placed by screws](Self::is_placed_by_screws).
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn screws(&self, turns: &[JointCoordinate<R>]) -> AxialScrews<R> {
         let [[_, cos, _], [_, sin, _]] = [1, 2].map(|k| self.placement.rot.cols()[k].array());

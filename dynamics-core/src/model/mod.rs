@@ -258,7 +258,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
         self.chain
     }
 
-    /// Whether all joints turn, and each link [is placed by screws](LinkView::is_screwed).
+    /// Whether all joints turn, and each link [is placed by screws](LinkView::is_placed_by_screws).
     pub(crate) const fn has_screws(&self) -> bool {
         let (mut all, mut i) = (self.kinds.are_revolute(), 0);
         while i < B {

@@ -23,11 +23,11 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     /// Whether every joint turns, and each link stands in its parent's frame as Denavit & Hartenberg's parameters say: turned about x,
     /// and shifted along x and along its own axis. None: each call asks.
     const SCREWS: Option<bool> = None;
-    /// Whether it is a model loaded at run time whose joints may all be revolute. Of others, what
-    /// [`as_all_revolute`](Self::as_all_revolute) and [`as_revolute_chain`](Self::as_revolute_chain) return is not used, and
-    /// without optimisation, too, no form of an algorithm for such a robot is compiled for them.
+    /// Whether it is a model loaded at run time whose joints may all be revolute. For others
+    /// [`as_all_revolute`](Self::as_all_revolute) and [`as_revolute_chain`](Self::as_revolute_chain) are not called, so that no second
+    /// form of an algorithm is compiled, not even without optimisation.
     const MAY_BE_REVOLUTE: bool = false;
-    /// Whether it is one whose joints may all be revolute or fixed, and [`as_revolute_or_fixed`](Self::as_revolute_or_fixed) is used.
+    /// The same of joints that are revolute or fixed, and of [`as_revolute_or_fixed`](Self::as_revolute_or_fixed).
     const MAY_HAVE_FIXED: bool = false;
 
     /// The robot's numbers.
@@ -50,7 +50,7 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     /// Whether [`RobotModel::SCREWS`] holds, of a robot whose joints turn.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn has_screws(&self) -> bool {
-        let asked = || self.links().all(|link| link.is_screwed());
+        let asked = || self.links().all(|link| link.is_placed_by_screws());
         const { Self::SCREWS }.unwrap_or_else(asked)
     }
 

@@ -86,7 +86,7 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
         self.active = true;
     }
 
-    /// The same for an arm that stands, at the start of its trajectory.
+    /// Starts a return at the first point of the trajectory, for an arm that stands.
     pub(crate) fn stand(&mut self) {
         self.active = true;
     }

@@ -58,6 +58,7 @@ pub fn parsed<T: DeserializeOwned>(bin: &str, text: &str) -> Result<T> {
     serde_json::from_str(text).map_err(|e| check!("`{bin}` printed what is not understood: {e}"))
 }
 
+/// Fails unless what `name` printed in QEMU is, line by line, what it printed on the host.
 pub fn same_lines(name: &str, on_target: &[impl AsRef<str>], on_host: &str) -> Result<()> {
     let on_host: Vec<&str> = on_host.lines().collect();
     for (target, host) in std::iter::zip(on_target, &on_host) {

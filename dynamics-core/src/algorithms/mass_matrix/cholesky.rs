@@ -14,7 +14,7 @@ use crate::scalar::Real;
 pub struct Cholesky<R, const V: usize> {
     /// L below the diagonal; the rest is not used.
     rows: [[R; V]; V],
-    /// The reciprocals of L's diagonal.
+    /// The reciprocals of L's diagonal, 1/(√kg·m) or 1/√kg.
     l_inv: [R; V],
 }
 
@@ -88,20 +88,20 @@ where
 }
 
 impl<R: Real, const V: usize> Cholesky<R, V> {
-    /// The factor of these rows of L, of which the entries below the diagonal are read, and the reciprocals of its
-    /// diagonal.
+    /// The factor whose L has these rows, √kg·m or √kg, of which the entries below the diagonal are read, and these
+    /// reciprocals of its diagonal.
     #[must_use]
     pub const fn from_rows(rows: [[R; V]; V], l_inv: [R; V]) -> Self {
         Self { rows, l_inv }
     }
 
-    /// L_ij below the diagonal; zero elsewhere.
+    /// L_ij below the diagonal, √kg·m or √kg; zero elsewhere.
     pub fn get(&self, i: usize, j: usize) -> R {
         let row = self.rows.get(i).filter(|_| j < i);
         row.and_then(|row| row.get(j)).copied().unwrap_or_default()
     }
 
-    /// The reciprocals of L's diagonal.
+    /// The reciprocals of L's diagonal, 1/(√kg·m) or 1/√kg.
     ///
     /// ```
     /// use dynamics_core::algorithms::{Cholesky, cholesky, crba};

@@ -93,7 +93,8 @@ where
 }
 
 /// The same in the place of M, D on its diagonal: without copies of the matrix, which take as long as the factors of a tree
-/// with many branches. [`ltdl`] by this function is other machine code on trees that have been measured.
+/// with many branches. [`ltdl`] does not call it, since
+/// the machine code of trees without loops would change.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn ltdl_in_place<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

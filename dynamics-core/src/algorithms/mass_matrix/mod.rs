@@ -171,7 +171,8 @@ pub struct Ltdl<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> Ltdl<R, V> {
-    /// The factors of these rows of L, of which the entries below the diagonal are read, and the reciprocals of D.
+    /// The factors whose L has these rows, of which the entries below the diagonal are read, and these reciprocals of D,
+    /// 1/(kg·m²) or 1/kg.
     ///
     /// ```
     /// use dynamics_core::{Core, Ltdl, effects::RIGID_BODY, robots::Ur5e};

@@ -53,7 +53,8 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
         compile(&T::MODEL, T::NEGLIGIBLE)
     };
 
-    /// Whether all joints are near, if all of them turn, and all or none are near.
+    /// For a robot of revolute joints alone: whether the limits of all of them are within two turns (`near`), or of none. None for every
+    /// other robot, whose sines are computed joint by joint.
     pub(crate) const ALL_TURN: Option<bool> = {
         let (mut turn, mut near, mut i) = (Q == V, 0, 0);
         while i < V {

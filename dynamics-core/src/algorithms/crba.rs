@@ -66,7 +66,7 @@ where
     if const { D::MAY_BE_REVOLUTE }
         && let Some(robot) = robot.as_revolute_chain()
     {
-        chain::crba::sweep(&robot, trig, effects)
+        chain::crba::crba(&robot, trig, effects)
     } else if const { D::MAY_BE_REVOLUTE }
         && let Some(robot) = robot.as_all_revolute()
     {
@@ -76,7 +76,7 @@ where
     {
         sweep(&robot, trig, effects)
     } else if const { D::CHAIN && D::SINGLE } {
-        chain::crba::sweep(robot, trig, effects)
+        chain::crba::crba(robot, trig, effects)
     } else {
         sweep(robot, trig, effects)
     }

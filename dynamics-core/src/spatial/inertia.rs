@@ -10,9 +10,9 @@ use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 /// The inertia of bodies that move as one, in ten numbers. RBDA (2.63).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CompositeInertia<R: Real> {
-    mass: R,
-    first_moment: R::Vec3,
-    inertia: Symmetric<R>,
+    pub(super) mass: R,
+    pub(super) first_moment: R::Vec3,
+    pub(super) inertia: Symmetric<R>,
 }
 
 impl<R: Real> From<SpatialInertia<R>> for CompositeInertia<R> {

@@ -118,26 +118,43 @@ impl Report {
         table
     }
 
-    /// Which ancestors take fewer cycles than the core, at [`COMPARED`].
-    fn fewer(&self) -> String {
-        let cycles = |key: &str| self.at(key, COMPARED).map(|row| row.cycles.max);
-        let of = |all: &[(&str, &'static str)], core: &str| -> Vec<&str> {
-            let fewer = all.iter().filter(|(key, _)| {
-                !key.starts_with("engine")
-                    && cycles(key).zip(cycles(core)).is_some_and(|(a, b)| a < b)
-            });
-            fewer.map(|(_, name)| *name).collect()
+    /// The ancestors that take fewer cycles than the core over this number of links, each with its share of them.
+    fn fewer_at(&self, joints: usize) -> Vec<String> {
+        let cycles = |key: &str| self.at(key, joints).map(|row| row.cycles.max as f64);
+        let of = |all: &[(&str, &str)], core: &str| -> Vec<String> {
+            let each = all.iter().filter(|(key, _)| !key.starts_with("engine"));
+            let shares = each.filter_map(|(key, name)| Some((cycles(key)? / cycles(core)?, name)));
+            let fewer = shares.filter(|(share, _)| *share < 1.0);
+            fewer
+                .map(|(share, name)| format!("{name} ({share:.3})"))
+                .collect()
         };
-        let names = [of(&TORQUES, "rnea"), of(&INERTIA, "crba")].concat();
-        match names.join("; ") {
+        [of(&TORQUES, "rnea"), of(&INERTIA, "crba")].concat()
+    }
+
+    /// Which ancestors take fewer cycles than the core, at [`COMPARED`] and over the other chains.
+    fn fewer(&self) -> String {
+        let core = "this library's core over a model that is read at run time";
+        let names = self.fewer_at(COMPARED);
+        let compared = match names.is_empty() {
+            true => format!(
+                "No ancestor takes fewer cycles for it\nthan {core}, although each prepares constants of the links beforehand."
+            ),
+            false => format!(
+                "Of the ancestors, which prepare constants of the links\nbeforehand, fewer cycles than {core} are taken by: {}.",
+                names.join("; ")
+            ),
+        };
+        let others = self.of("rnea").filter(|row| row.joints != COMPARED);
+        let others = others.map(|row| (row.joints, self.fewer_at(row.joints)));
+        let others = others.filter(|(_, names)| !names.is_empty());
+        let others = others.map(|(n, names)| format!("of {n} links by {}", names.join(" and ")));
+        match others.collect::<Vec<_>>().join("; ") {
             none if none.is_empty() => {
-                "No ancestor takes fewer cycles than this library's core over a model that\n\
-                is read at run time, although each prepares constants of the links beforehand."
-                    .into()
+                format!("{compared} Nor does one for shorter or longer chains.")
             }
-            names => format!(
-                "Of the ancestors, which prepare constants of the links\nbeforehand, fewer cycles than this library's core over a \
-                 model that is read at run time are taken by: {names}."
+            others => format!(
+                "{compared} For chains of other lengths\nfewer are taken (their share of the core's in brackets) {others}."
             ),
         }
     }

@@ -5,7 +5,7 @@ use core::ops::Mul;
 use crate::algorithms::pivot_check::length;
 use crate::model::{JointCoordinate, LinkView};
 use crate::scalar::{Real, Vector};
-use crate::spatial::inertia::{ArticulatedInertia, FreeAboutZ};
+use crate::spatial::inertia::{ArticulatedInertia, CompositeInertia, FreeAboutZ};
 use crate::spatial::{AxialScrews, Force, Motion, Xform};
 
 /// A transform across a link. What is kept of it is what the robot and the sines and cosines do not hold.
@@ -20,6 +20,8 @@ pub(in crate::algorithms) trait Across<R: Real>:
     fn distance(&self) -> R;
     /// Xᵀ f.
     fn force_back(&self, f: Force<R>) -> Force<R>;
+    /// Xᵀ Iᶜ X.
+    fn composite_back(&self, ic: &CompositeInertia<R>) -> CompositeInertia<R>;
     /// Xᵀ Iᵃ X.
     fn inertia_back(&self, ia: &ArticulatedInertia<R>) -> ArticulatedInertia<R>;
     /// The same where the joint turns freely about z.
@@ -47,6 +49,10 @@ impl<R: Real> Across<R> for Xform<R> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn force_back(&self, f: Force<R>) -> Force<R> {
         self.transpose_mul(f)
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn composite_back(&self, ic: &CompositeInertia<R>) -> CompositeInertia<R> {
+        ic.at_parent(self)
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn inertia_back(&self, ia: &ArticulatedInertia<R>) -> ArticulatedInertia<R> {
@@ -80,6 +86,10 @@ impl<R: Real> Across<R> for AxialScrews<R> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn force_back(&self, f: Force<R>) -> Force<R> {
         self.transpose_mul(f)
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn composite_back(&self, ic: &CompositeInertia<R>) -> CompositeInertia<R> {
+        self.composite_at_parent(ic)
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn inertia_back(&self, ia: &ArticulatedInertia<R>) -> ArticulatedInertia<R> {

@@ -1,20 +1,24 @@
 //! The joint-space inertia matrix of a chain of joints with one coordinate each.
 //!
 //! [`crba`](crate::algorithms::crba()) where nothing branches: one composite inertia runs from the tip to the base, and row i of M is the
-//! force of joint i's unit acceleration on it, carried down to the base. Links are visited anew rather than stored.
+//! force of joint i's unit acceleration on it, carried down to the base. Links are visited anew rather than stored, and crossed by two
+//! screws if they are placed by Denavit & Hartenberg's parameters, as in [`aba`](super::aba).
 
 use heapless::Vec;
 
+use super::across::Across;
 use crate::algorithms::MassMatrix;
+use crate::algorithms::mass_matrix::UNROLLED;
 use crate::effects::{Declared, Effect, add_inertia, body_inertia, rotor_force};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
 use crate::spatial::inertia::CompositeInertia;
+use crate::spatial::{AxialScrews, Xform};
 use crate::state::JointTrig;
 
 /// M of a chain: `D::CHAIN` and `D::SINGLE` hold.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(in crate::algorithms) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+pub(in crate::algorithms) fn crba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
     effects: &E,
@@ -23,10 +27,32 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
+    // Asking two or three links takes more cycles than they give back.
+    if const { D::KINDS.are_revolute() && V > 3 && !matches!(D::SCREWS, Some(false)) }
+        && robot.has_screws()
+    {
+        sweep::<AxialScrews<R>, _, _, _, B, Q, V>(robot, trig, effects)
+    } else {
+        sweep::<Xform<R>, _, _, _, B, Q, V>(robot, trig, effects)
+    }
+}
+
+/// The two passes, with the transforms across links in the form X.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn sweep<X, R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    trig: &JointTrig<R, Q>,
+    effects: &E,
+) -> MassMatrix<R, V>
+where
+    X: Across<R>,
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
     let turns = &trig.coordinates;
-    let mut rotations: Vec<R::Mat3, V> = Vec::new();
+    let mut kept: Vec<X::Kept, V> = Vec::new();
     for link in robot.links() {
-        let _ = rotations.push(link.xform(turns).rot);
+        let _ = kept.push(X::of(&link, turns).kept());
     }
     let composite = |i, link: &LinkView<'_, R>, beyond| {
         let mut ic = CompositeInertia::from(body_inertia(effects, i, link));
@@ -39,14 +65,13 @@ where
     let mut m = MassMatrix::ZERO;
     let mut beyond = None;
     for i in (1..V).rev() {
-        let (Some(link), Some(rot), Some(row)) =
-            (robot.link(i), rotations.get(i), m.rows.get_mut(i))
+        let (Some(link), Some(x), Some(row)) = (robot.link(i), kept.get(i), m.rows.get_mut(i))
         else {
-            continue;
+            break; // never happens, and leaves no branch that joins the loop again
         };
-        let mut x = link.xform_of(*rot, turns);
+        let mut x = X::again(*x, &link, turns);
         let ic = composite(i, &link, beyond);
-        beyond = Some(ic.at_parent(&x));
+        beyond = Some(x.composite_back(&ic));
         let s = link.subspace(turns, 0);
         let mut f = ic.along(&s);
         if let Some(diagonal) = row.get_mut(i) {
@@ -57,24 +82,28 @@ where
             f += rotor_force(effects, &link);
         }
         for l in (1..i).rev() {
-            let (Some(ancestor), Some(rot), Some(entry)) =
-                (robot.link(l), rotations.get(l), row.get_mut(l))
+            let (Some(ancestor), Some(next), Some(entry)) =
+                (robot.link(l), kept.get(l), row.get_mut(l))
             else {
-                continue;
+                break;
             };
-            f = x.transpose_mul(f);
+            f = x.force_back(f);
             *entry = ancestor.subspace(turns, 0).dot(f);
-            x = ancestor.xform_of(*rot, turns);
+            x = X::again(*next, &ancestor, turns);
         }
         // Of the force on the first link only one component is computed.
         if let (Some(first), Some(entry)) = (robot.link(0), row.first_mut()) {
-            *entry = first.subspace(turns, 0).dot(x.transpose_mul(f));
+            *entry = first.subspace(turns, 0).dot(x.force_back(f));
         }
     }
     if let (Some(first), Some(diagonal)) = (robot.link(0), m.diagonal_mut(0)) {
         let s = first.subspace(turns, 0);
         *diagonal = s.dot(composite(0, &first, beyond).along(&s));
         add_inertia(effects, 0, diagonal);
+    }
+    if V > UNROLLED {
+        m.mirror();
+        return m; // and not m.mirrored(), which copies it
     }
     m.mirrored()
 }

@@ -120,20 +120,17 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn mirrored(mut self) -> Self {
         if V > UNROLLED {
-            mirror(self.rows.as_flattened_mut(), V);
-            return self;
-        }
-        for i in 1..V {
-            let Some((above, [row, ..])) = self.rows.split_at_mut_checked(i) else {
-                break;
-            };
-            for (column, &entry) in above.iter_mut().zip(&*row) {
-                if let Some(mirror) = column.get_mut(i) {
-                    *mirror = entry;
-                }
-            }
+            self.mirror();
+        } else {
+            mirror(&mut self.rows);
         }
         self
+    }
+
+    /// Writes the triangle up to the diagonal into the other, in a call.
+    #[inline(never)]
+    pub(crate) fn mirror(&mut self) {
+        mirror(&mut self.rows);
     }
 
     /// M_ii.
@@ -143,18 +140,20 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     }
 }
 
-/// The largest order whose copies the compiler writes out.
-const UNROLLED: usize = 8;
+/// The largest order whose copies the compiler writes out in place.
+pub(crate) const UNROLLED: usize = 8;
 
-/// Writes the triangle up to the diagonal of a matrix of this order into the other: one function for all orders.
-#[inline(never)]
-fn mirror<R: Copy>(rows: &mut [R], order: usize) {
-    for i in 1..order {
-        let Some((above, row)) = rows.split_at_mut_checked(i * order) else {
+/// Writes the triangle up to the diagonal into the other.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn mirror<R: Copy, const V: usize>(rows: &mut [[R; V]; V]) {
+    for i in 1..V {
+        let Some((above, [row, ..])) = rows.split_at_mut_checked(i) else {
             break;
         };
-        for (mirror, &entry) in above.iter_mut().skip(i).step_by(order).zip(&*row) {
-            *mirror = entry;
+        for (column, &entry) in above.iter_mut().zip(&*row) {
+            if let Some(mirror) = column.get_mut(i) {
+                *mirror = entry;
+            }
         }
     }
 }

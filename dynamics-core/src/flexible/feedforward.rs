@@ -5,7 +5,7 @@ use core::borrow::Borrow;
 use super::crba::modal_inertia;
 use super::forward_dynamics::{Factors, finite};
 use super::step::advance;
-use super::{FlexibleError, Modes, rnea};
+use super::{FlexibleError, JointsAndModes, Modes, rnea};
 use crate::effects::{Bias, Effect};
 use crate::model::RobotModel;
 use crate::scalar::Real;
@@ -130,13 +130,31 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     {
         let trig = reference.q.trig_of(robot);
         let trig: &JointTrig<R, Q> = trig.borrow();
+        self.moved_on(
+            modes,
+            E::ELASTICITY,
+            h,
+            |bent| rnea(robot, modes, trig.with(reference), bent, effects),
+            |eta| modal_inertia(robot, modes, trig, eta, effects),
+        )
+    }
+
+    /// The tick by inverse dynamics and by the inertia of the modes, whatever computes them.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn moved_on<const V: usize>(
+        &mut self,
+        modes: &Modes<R, M>,
+        elastic: bool,
+        h: R,
+        inverse: impl Fn(&State<R, M, M>) -> JointsAndModes<R, V, M>,
+        inertia: impl Fn(&[R; M]) -> [[R; M]; M],
+    ) -> Result<[R; V], FlexibleError> {
         let [of_rate, square] = [h * R::from_f64(1.5), h * h];
         let mut bent = self.bent;
         advance(&mut bent, &self.bent.qdd, h);
-        let force = rnea(robot, modes, trig.with(reference), &bent, effects).modes;
-        let m = modal_inertia(robot, modes, trig, &bent.q, effects);
-        let mut matrix = m.map(|row| row.map(|m| m + m));
-        if E::ELASTICITY {
+        let force = inverse(&bent).modes;
+        let mut matrix = inertia(&bent.q).map(|row| row.map(|m| m + m));
+        if elastic {
             modes.add_stiffness(&mut matrix, [of_rate, square]);
         }
         let factors = Factors::of(&matrix).map_err(FlexibleError::Mode)?;
@@ -152,7 +170,7 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
                 }
             }
         }
-        let tau = rnea(robot, modes, trig.with(reference), &bent, effects).joints;
+        let tau = inverse(&bent).joints;
         finite(&bent.qdd).map_err(FlexibleError::Mode)?;
         finite(&tau).map_err(FlexibleError::Joint)?;
         self.bent = bent;

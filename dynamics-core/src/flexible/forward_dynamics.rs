@@ -147,7 +147,16 @@ where
     };
     let force = rnea(robot, modes, trig.with(state), &coasting, effects).modes;
     let m = modal_inertia(robot, modes, trig, &bent.q, effects);
-    let factors = Factors::of(&m).map_err(FlexibleError::Mode)?;
+    accelerations(&m, force)
+}
+
+/// The accelerations of the modes that need these forces at rest.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn accelerations<R: Real, const M: usize>(
+    m: &[[R; M]; M],
+    force: [R; M],
+) -> Result<[R; M], FlexibleError> {
+    let factors = Factors::of(m).map_err(FlexibleError::Mode)?;
     let accelerations = factors.solve(force.map(|force| -force));
     finite(&accelerations).map_err(FlexibleError::Mode)?;
     Ok(accelerations)

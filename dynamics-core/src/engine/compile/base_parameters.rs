@@ -8,6 +8,9 @@
 //! joint of its own, over the massless body between them. A screw and a planar joint move the body's origin along or across
 //! z, so that only Σ_zz goes to the parent. A spherical joint keeps its centre in the parent, which receives the mass there;
 //! h and Σ stay. A free joint passes nothing.
+//!
+//! The end of a link that bends turns with respect to the link, so that a joint on it passes nothing but a mass at its very end: that
+//! is displaced as the end is.
 
 use glam::{DMat3, DVec3};
 
@@ -15,8 +18,13 @@ use super::tree::{Joint, JointMotion};
 use crate::math::const_eval::{add, mul, scale, transpose};
 use crate::model::BASE;
 
-/// From the last joint to the first, moves the parameters to the parent on which the joint's motion does not depend.
-pub(super) const fn regroup<const V: usize>(joints: &mut [Joint; V]) {
+/// From the last joint to the first, moves the parameters to the parent on which the joint's motion does not depend. Of bodies that
+/// bend, `ends` has the ends; returned are the masses that are left there, and are in the bodies' parameters, too.
+pub(super) const fn regroup<const V: usize>(
+    joints: &mut [Joint; V],
+    ends: &[Option<DVec3>; V],
+) -> [f64; V] {
+    let mut on_ends = [0.0; V];
     let mut i = V;
     while i > 0 {
         i -= 1;
@@ -27,11 +35,23 @@ pub(super) const fn regroup<const V: usize>(joints: &mut [Joint; V]) {
         }
         // The coordinate that moves the body.
         let by = joints[child.first];
-        let passed = passed(&mut joints[i], by.motion);
+        let end = if by.parent == BASE {
+            None
+        } else {
+            ends[by.parent]
+        };
+        let passed = match end {
+            None => passed(&mut joints[i], by.motion),
+            Some(_) => passed_to_end(&mut joints[i], &by),
+        };
         joints[i].second_moment_only = joints[i].second;
         if by.parent != BASE {
             let parent = &mut joints[by.parent];
-            let (p, h) = (by.pos, scale(by.rot.z_axis, passed.rod));
+            let (mut p, h) = (by.pos, scale(by.rot.z_axis, passed.rod));
+            if let Some(end) = end {
+                p = end;
+                on_ends[by.parent] += passed.mass;
+            }
             let second = mul(&mul(&by.rot, &passed.spread), &transpose(&by.rot));
             let second = mat_add(&second, &mat_add(&outer(p, h), &outer(h, p)));
             let whole = mat_add(&second, &outer(p, scale(p, passed.mass)));
@@ -48,6 +68,7 @@ pub(super) const fn regroup<const V: usize>(joints: &mut [Joint; V]) {
             joints[i].second = DMat3::from_cols(x, DVec3::ZERO, DVec3::ZERO);
         }
     }
+    on_ends
 }
 
 /// What a parent receives at the joint's origin: a mass, the first moment of a rod along z, and a second moment.
@@ -57,13 +78,28 @@ struct Passed {
     spread: DMat3,
 }
 
-/// Takes from a body what its joint passes to the parent.
-const fn passed(body: &mut Joint, motion: JointMotion) -> Passed {
-    let mut passed = Passed {
+impl Passed {
+    const NOTHING: Self = Self {
         mass: 0.0,
         rod: 0.0,
         spread: DMat3::ZERO,
     };
+}
+
+/// Takes from a body what the joint that moves it passes to the end of a parent that bends.
+const fn passed_to_end(body: &mut Joint, by: &Joint) -> Passed {
+    let mut passed = Passed::NOTHING;
+    let turns = matches!(by.motion, JointMotion::Turn | JointMotion::Spherical);
+    if turns && by.pos.x == 0.0 && by.pos.y == 0.0 && by.pos.z == 0.0 {
+        passed.mass = body.mass;
+        body.mass = 0.0;
+    }
+    passed
+}
+
+/// Takes from a body what its joint passes to the parent.
+const fn passed(body: &mut Joint, motion: JointMotion) -> Passed {
+    let mut passed = Passed::NOTHING;
     if matches!(motion, JointMotion::Slide) {
         passed.spread = body.second;
         body.second = DMat3::ZERO;

@@ -22,7 +22,7 @@ mod tree;
 pub(crate) use remainder::{Distribution, Remainder};
 pub(crate) use topology::{
     Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair, is_parent, is_slide_beyond,
-    joint, last, load, loads, place, supports,
+    joint, last, load, loads, place, support, supports,
 };
 pub(crate) use tree::{BodyPlacement, CompiledTree, Joint, JointMotion};
 
@@ -41,8 +41,19 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
     negligible: f64,
 ) -> CompiledTree<B, V> {
+    compile_bending(model, negligible, &[None; B]).0
+}
+
+/// The same of a robot whose links bend: `ends` has the end of each body that does, in its aligned frame. On it are the joints
+/// of its children, whose places are those from the end, and the masses that they leave there: the second result.
+pub(crate) const fn compile_bending<const B: usize, const Q: usize, const V: usize>(
+    model: &Model<f64, B, Q, V>,
+    negligible: f64,
+    ends: &[Option<DVec3>; B],
+) -> (CompiledTree<B, V>, [f64; V]) {
     let mut joints = [PADDING_JOINT; V];
     let mut places = [AT_BASE; B];
+    let mut bent = [None; V];
     let mut i = 0;
     while i < B {
         let link = &model.links[i];
@@ -52,7 +63,10 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
             places[link.parent]
         };
         let rot = mul(&parent.rot, &transpose(&link.placement.rot));
-        let pos = add(mul_vec(&parent.rot, link.placement.pos), parent.pos);
+        let pos = match end_of(ends, link.parent) {
+            None => add(mul_vec(&parent.rot, link.placement.pos), parent.pos),
+            Some(end) => mul_vec(&parent.rot, apart(link.placement.pos, end)),
+        };
         if matches!(link.joint.kind, JointKind::Fixed) {
             places[i] = BodyPlacement {
                 joint: parent.joint,
@@ -74,16 +88,24 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
             joint.second = mat_add(&joint.second, &mat_add(&second, &outer(d, scale(d, mass))));
             joint.moment = add(joint.moment, add(h, scale(d, mass)));
             joint.mass += mass;
+            if let Some(end) = ends[i] {
+                bent[places[i].joint] = Some(add(mul_vec(rot, end), d));
+            }
         }
         i += 1;
     }
     if negligible == 0.0 {
         inertia_alone(&mut joints, &model.links);
     }
-    regroup(&mut joints);
+    let on_ends = regroup(&mut joints, &bent);
     prune(&mut joints, negligible);
     regroup_for_matrix(&mut joints);
-    let length = unit_of_length(&joints);
+    // Coordinates of modes are in m.
+    let length = if bends(ends) {
+        1.0
+    } else {
+        unit_of_length(&joints)
+    };
     i = 0;
     while i < V {
         let joint = &mut joints[i];
@@ -100,11 +122,38 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
         places[i].pos = divide(places[i].pos, length);
         i += 1;
     }
-    CompiledTree {
+    let tree = CompiledTree {
         joints,
         places,
         length,
+    };
+    (tree, on_ends)
+}
+
+const fn bends(ends: &[Option<DVec3>]) -> bool {
+    let mut i = 0;
+    while i < ends.len() {
+        if ends[i].is_some() {
+            return true;
+        }
+        i += 1;
     }
+    false
+}
+
+const fn end_of(ends: &[Option<DVec3>], body: usize) -> Option<DVec3> {
+    if body < ends.len() { ends[body] } else { None }
+}
+
+/// A place from the end of a link, zero where it misses that by rounding alone.
+const fn apart(place: DVec3, end: DVec3) -> DVec3 {
+    let limit = 4.0 * f64::EPSILON * (end.x.abs() + end.y.abs() + end.z.abs());
+    let d = add(place, scale(end, -1.0));
+    DVec3::new(
+        if d.x.abs() <= limit { 0.0 } else { d.x },
+        if d.y.abs() <= limit { 0.0 } else { d.y },
+        if d.z.abs() <= limit { 0.0 } else { d.z },
+    )
 }
 
 /// Writes the coordinates of a joint whose frame is `rot` and `pos` in that of `parent`; returns where its body is.

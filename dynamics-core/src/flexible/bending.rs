@@ -4,6 +4,8 @@ use core::borrow::Borrow;
 use core::marker::PhantomData;
 
 use super::compiled::CompiledModes;
+use super::feedforward::correct;
+use super::forward_dynamics::accelerations;
 use super::{FlexibleError, JointsAndModes, ModalFeedforward, Modes, modal_dynamics, rnea};
 use crate::effects::{Effect, Scene, no_gyroscopic_rotors};
 use crate::engine::{bending_torques, modal_inertia};
@@ -267,7 +269,7 @@ impl<T, K> Bending<Engine<T, K>> {
         };
         let force = inverse::<T, R, E, B, Q, V, M>(trig, joints, &coasting, effects).modes;
         let m = inertia::<T, R, E, B, Q, V, M>(trig, joints, &bent.q, effects);
-        super::forward_dynamics::accelerations(&m, force)
+        accelerations(&m, force)
     }
 
     /// The torques of the joints' motors at a tick of h seconds, N·m or N, at which the joints' motion is `reference`, as
@@ -319,13 +321,13 @@ impl<T, K> Bending<Engine<T, K>> {
     {
         const { taken::<R, E, B, V>() };
         let trig: JointTrig<R, Q> = Engine::<T, K>::joint_trig(&reference.q);
-        feedforward.moved_on(
-            R::modes::<T, B, Q, V, M>(),
-            E::ELASTICITY,
-            h,
-            |bent| inverse::<T, R, E, B, Q, V, M>(&trig, reference, bent, effects),
-            |eta| inertia::<T, R, E, B, Q, V, M>(&trig, reference, eta, effects),
-        )
+        let mut bent = feedforward.ahead(h);
+        let force = inverse::<T, R, E, B, Q, V, M>(&trig, reference, &bent, effects).modes;
+        let m = inertia::<T, R, E, B, Q, V, M>(&trig, reference, &bent.q, effects);
+        let elastic = E::ELASTICITY.then(R::modes::<T, B, Q, V, M>);
+        correct(&mut bent, &m, force, elastic, h)?;
+        let tau = inverse::<T, R, E, B, Q, V, M>(&trig, reference, &bent, effects).joints;
+        feedforward.accept(bent, tau)
     }
 }
 

@@ -219,6 +219,7 @@ pub(super) struct Factors<R, const N: usize> {
 
 impl<R: Real, const N: usize> Factors<R, N> {
     /// The number of the first row whose pivot is not positive, beyond what rounding leaves of it, is the error.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of(matrix: &[[R; N]; N]) -> Result<Self, usize> {
         let (mut rows, mut d_inv) = (*matrix, [R::ZERO; N]);
         let noise = R::EPSILON * R::from_f64(N as f64);
@@ -252,6 +253,7 @@ impl<R: Real, const N: usize> Factors<R, N> {
     }
 
     /// L⁻¹ x.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn forward(&self, mut x: [R; N]) -> [R; N] {
         for i in 0..N {
             let row = self

@@ -95,7 +95,7 @@ use crate::scalar::{Native, Real};
 use crate::state::{Configuration, JointTrig, RobotState, State, TrigSource};
 use crate::trig::{Kernel, VECTORS};
 pub(crate) use bending::{
-    BendingLink, BendingMode, Bends, MODES, bending_torques, modal_inertia, outer, sum,
+    BendingLink, BendingMode, Bends, MODES, bending_inertia, bending_torques, outer, sum,
 };
 pub(crate) use compile::{
     BodyPlacement, Compiled, CompiledJoint, CompiledRobot, CompiledTree, Joint, JointMotion,

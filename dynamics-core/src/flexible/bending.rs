@@ -5,10 +5,14 @@ use core::marker::PhantomData;
 
 use super::compiled::CompiledModes;
 use super::feedforward::correct;
-use super::forward_dynamics::accelerations;
-use super::{FlexibleError, JointsAndModes, ModalFeedforward, Modes, modal_dynamics, rnea};
-use crate::effects::{Effect, Scene, no_gyroscopic_rotors};
-use crate::engine::{bending_torques, modal_inertia};
+use super::forward_dynamics::{accelerates, accelerations, forces};
+use super::{
+    FlexibleError, FlexibleInertia, JointsAndModes, ModalFeedforward, Modes, crba,
+    forward_dynamics, modal_dynamics, rnea,
+};
+use crate::algorithms::MassMatrix;
+use crate::effects::{Bias, Effect, Scene, add_inertia, no_gyroscopic_rotors};
+use crate::engine::{bending_inertia, bending_torques};
 use crate::model::{Robot, RobotModel, Static};
 use crate::scalar::Real;
 use crate::state::{Configuration, JointTrig, RobotState, State};
@@ -114,6 +118,58 @@ impl<T, K> Bending<Core<T, K>> {
             bent,
             effects,
         )
+    }
+
+    /// The inertia M(q, η) of joints and modes: see [`crba`](super::crba()).
+    #[inline(never)]
+    #[must_use]
+    pub fn crba<R: Table, E, const B: usize, const Q: usize, const V: usize, const M: usize>(
+        q: &impl Configuration<R, Q>,
+        eta: &[R; M],
+        effects: &E,
+    ) -> FlexibleInertia<R, V, M>
+    where
+        T: BendingRobot<B, Q, V, M>,
+        Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        const { Scene::<R, E, B, V>::OF_CORE };
+        crba(
+            &Static::<T, K>::NEW,
+            R::modes::<T, B, Q, V, M>(),
+            q,
+            eta,
+            effects,
+        )
+    }
+
+    /// The accelerations of joints and modes, rad/s² or m/s², under these torques of the motors: see
+    /// [`forward_dynamics`](super::forward_dynamics()).
+    ///
+    /// # Errors
+    /// [`FlexibleError`] names a joint or a mode that moves no inertia.
+    #[inline(never)]
+    pub fn forward_dynamics<
+        R: Table,
+        E,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+        const M: usize,
+    >(
+        state: impl RobotState<R, Q, V>,
+        bent: &State<R, M, M>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> Result<JointsAndModes<R, V, M>, FlexibleError>
+    where
+        T: BendingRobot<B, Q, V, M>,
+        Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        const { Scene::<R, E, B, V>::OF_CORE };
+        let modes = R::modes::<T, B, Q, V, M>();
+        forward_dynamics(&Static::<T, K>::NEW, modes, state, bent, tau, effects)
     }
 
     /// The accelerations of the modes along a motion of the joints, m/s² or rad/s²: see [`modal_dynamics`](super::modal_dynamics()).
@@ -229,6 +285,103 @@ impl<T, K> Bending<Engine<T, K>> {
         inverse::<T, R, E, B, Q, V, M>(trig.borrow(), state.state(), bent, effects)
     }
 
+    /// The inertia M(q, η) of joints and modes, kg, kg·m or kg·m², as [`crba`](super::crba()) computes it.
+    ///
+    /// # Shape
+    /// Blocks of V × V, M × V and M × M.
+    ///
+    /// # Cost
+    /// `docs/costs.md` in the repository, `two_link`: by columns, each of which is [`Bending::rnea`] of the unit acceleration of one
+    /// coordinate at rest, so that it grows with the square of their number.
+    ///
+    /// # Source
+    /// Walker & Orin (1982), method 1, over known zeros.
+    ///
+    /// # Example
+    /// That of [`Bending::forward_dynamics`](Bending::<Engine<()>>::forward_dynamics).
+    #[inline(never)]
+    #[must_use]
+    pub fn crba<R: Real, E, const B: usize, const Q: usize, const V: usize, const M: usize>(
+        q: &impl Configuration<R, Q>,
+        eta: &[R; M],
+        effects: &E,
+    ) -> FlexibleInertia<R, V, M>
+    where
+        T: BendingRobot<B, Q, V, M>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
+    {
+        const { taken::<R, E, B, V>() };
+        let trig = q.trig_or(Engine::<T, K>::trig_source::<B, V>());
+        inertia::<T, R, E, B, Q, V, M>(trig.borrow(), eta, effects)
+    }
+
+    /// The accelerations of joints and modes, rad/s² or m/s², under these torques of the motors, as
+    /// [`forward_dynamics`](super::forward_dynamics()) computes them.
+    ///
+    /// # Cost
+    /// That of [`Bending::rnea`] without accelerations, of [`Bending::crba`], and (V + M)³ / 3 flops.
+    ///
+    /// # Errors
+    /// [`FlexibleError`] names a joint or a mode that moves no inertia; so it does where an input is NaN.
+    ///
+    /// ```
+    /// # use dynamics_core::flexible::{Beam, BendingRobot, FlexibleLink, Modes, Shape};
+    /// # use dynamics_core::model::{ArmModel, BASE, Body, Joint, Robot};
+    /// use dynamics_core::effects::{Elasticity, RIGID_BODY};
+    /// use dynamics_core::flexible::Bending;
+    /// use dynamics_core::{Engine, state::State};
+    /// # const BEAM: Beam = Beam::new(0.5, 0.8).bending([4.0, 4.0]).tip(0.3, 1e-4);
+    /// # const LINK: FlexibleLink = match BEAM.link(0, &[Shape::BendZ(1)]) { Ok(link) => link, Err(_) => panic!() };
+    /// # struct Boom;
+    /// # impl Robot<1, 1, 1> for Boom {
+    /// #     const MODEL: ArmModel<f64, 1> = ArmModel::new("boom", [
+    /// #         Body::new("boom", BASE, Joint::revolute([0.0, 1.0, 0.0])).mass(BEAM.mass()).com(BEAM.com()).inertia(BEAM.inertia()),
+    /// #     ]);
+    /// # }
+    /// # impl BendingRobot<1, 1, 1, 1> for Boom { const MODES: Modes<f64, 1> = Modes::new(&Self::MODEL, &[LINK]); }
+    /// let scene = (RIGID_BODY, Elasticity);
+    /// let (mut joint, mut bent) = (State::at([0.3]), State::at([-0.02]));
+    /// let found = Bending::<Engine<Boom>>::forward_dynamics(&joint, &bent, &[2.0], &scene)?;
+    /// (joint.qdd, bent.qdd) = (found.joints, found.modes);
+    /// let tau = Bending::<Engine<Boom>>::rnea(&joint, &bent, &scene);
+    /// assert!((tau.joints[0] - 2.0).abs() < 1e-12 && tau.modes[0].abs() < 1e-12);
+    /// let m = Bending::<Engine<Boom>>::crba(&joint.q, &bent.q, &scene);
+    /// assert!(m.joints.get(0, 0) * m.modes.get(0, 0) > m.coupling[0][0] * m.coupling[0][0]);
+    /// # Ok::<(), dynamics_core::flexible::FlexibleError>(())
+    /// ```
+    #[inline(never)]
+    pub fn forward_dynamics<
+        R: Real,
+        E,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+        const M: usize,
+    >(
+        state: impl RobotState<R, Q, V>,
+        bent: &State<R, M, M>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> Result<JointsAndModes<R, V, M>, FlexibleError>
+    where
+        T: BendingRobot<B, Q, V, M>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
+    {
+        const {
+            taken::<R, E, B, V>();
+            accelerates::<R, E, B, V>();
+        };
+        let trig = state
+            .configuration()
+            .trig_or(Engine::<T, K>::trig_source::<B, V>());
+        let (trig, joints) = (trig.borrow(), state.state());
+        let bias = inverse::<T, R, _, B, Q, V, M>(trig, joints, bent, &Bias(effects));
+        let m = inertia::<T, R, E, B, Q, V, M>(trig, &bent.q, effects);
+        m.solve(&forces(&Static::<T, K>::NEW, joints, tau, bias, effects))
+    }
+
     /// The accelerations η̈ of the modes along a motion of the joints, m/s² or rad/s², as
     /// [`modal_dynamics`](super::modal_dynamics()) computes them.
     ///
@@ -268,7 +421,7 @@ impl<T, K> Bending<Engine<T, K>> {
             ..*bent
         };
         let force = inverse::<T, R, E, B, Q, V, M>(trig, joints, &coasting, effects).modes;
-        let m = inertia::<T, R, E, B, Q, V, M>(trig, joints, &bent.q, effects);
+        let m = of_modes::<T, R, E, B, Q, V, M>(trig, &bent.q, effects);
         accelerations(&m, force)
     }
 
@@ -323,7 +476,7 @@ impl<T, K> Bending<Engine<T, K>> {
         let trig: JointTrig<R, Q> = Engine::<T, K>::joint_trig(&reference.q);
         let mut bent = feedforward.ahead(h);
         let force = inverse::<T, R, E, B, Q, V, M>(&trig, reference, &bent, effects).modes;
-        let m = inertia::<T, R, E, B, Q, V, M>(&trig, reference, &bent.q, effects);
+        let m = of_modes::<T, R, E, B, Q, V, M>(&trig, &bent.q, effects);
         let elastic = E::ELASTICITY.then(R::modes::<T, B, Q, V, M>);
         correct(&mut bent, &m, force, elastic, h)?;
         let tau = inverse::<T, R, E, B, Q, V, M>(&trig, reference, &bent, effects).joints;
@@ -351,7 +504,32 @@ where
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn inertia<T, R: Real, E, const B: usize, const Q: usize, const V: usize, const M: usize>(
     trig: &JointTrig<R, Q>,
-    joints: &State<R, Q, V>,
+    eta: &[R; M],
+    effects: &E,
+) -> FlexibleInertia<R, V, M>
+where
+    T: BendingRobot<B, Q, V, M>,
+    E: Effect<R, B, V>,
+{
+    let (joints, coupling, modes) =
+        bending_inertia::<R, CompiledModes<T, B, Q, V, M>, E, B, Q, V, M, true>(trig, eta, effects);
+    let mut m = FlexibleInertia {
+        joints: MassMatrix { rows: joints },
+        coupling,
+        modes: MassMatrix { rows: modes },
+    };
+    for joint in 0..V {
+        if let Some(diagonal) = m.joints.diagonal_mut(joint) {
+            add_inertia(effects, joint, diagonal);
+        }
+    }
+    m
+}
+
+/// The inertia of the modes alone.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn of_modes<T, R: Real, E, const B: usize, const Q: usize, const V: usize, const M: usize>(
+    trig: &JointTrig<R, Q>,
     eta: &[R; M],
     effects: &E,
 ) -> [[R; M]; M]
@@ -359,7 +537,7 @@ where
     T: BendingRobot<B, Q, V, M>,
     E: Effect<R, B, V>,
 {
-    modal_inertia::<R, CompiledModes<T, B, Q, V, M>, E, B, Q, V, M>(trig, joints, eta, effects)
+    bending_inertia::<R, CompiledModes<T, B, Q, V, M>, E, B, Q, V, M, false>(trig, eta, effects).2
 }
 
 /// A scene that the engine takes with modes.

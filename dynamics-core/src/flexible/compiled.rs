@@ -24,6 +24,10 @@ where
 {
     const ENDS: [Option<DVec3>; B] = {
         assert!(MODES == MODES_PER_LINK);
+        assert!(
+            V + M <= 64,
+            "the engine takes up to 64 joints and modes; use `Core`"
+        );
         let (mut ends, mut k) = ([None; B], 0);
         while k < M {
             ends[T::MODES.links[k]] = Some(T::MODES.each[k].end);

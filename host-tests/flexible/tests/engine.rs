@@ -5,7 +5,8 @@ use dynamics_core::effects::{
     MovingBase, Payload, RIGID_BODY, Width, WorldWrench, hook,
 };
 use dynamics_core::flexible::{
-    Beam, Bending, BendingRobot, FlexibleError, JointsAndModes, ModalFeedforward, Modes, Shape,
+    Beam, Bending, BendingRobot, FlexibleError, FlexibleInertia, JointsAndModes, ModalFeedforward,
+    Modes, Shape,
 };
 use dynamics_core::model::{ArmModel, BASE, Body, BodyInertia, Joint, Model, Robot, Static};
 use dynamics_core::scalar::Real;
@@ -125,7 +126,8 @@ where
         let core = Bending::<Core<T>>::rnea(&state, &bent, scene);
         let engine = Bending::<Engine<T>>::rnea(&state, &bent, scene);
         worst = f64::max(worst, apart(&engine, &core));
-        let free = |modes| JointsAndModes {
+        worst = f64::max(worst, inertia_apart::<T, E, B, V, M>(&state, &bent, scene));
+        let free = |modes| JointsAndModes::<f64, V, M> {
             joints: [0.0; V],
             modes,
         };
@@ -135,6 +137,31 @@ where
         worst = f64::max(worst, apart(&engine, &core));
     }
     worst
+}
+
+/// The difference of M, of each block relative to its largest entry.
+fn inertia_apart<T, E, const B: usize, const V: usize, const M: usize>(
+    state: &State<f64, V, V>,
+    bent: &State<f64, M, M>,
+    scene: &E,
+) -> f64
+where
+    T: BendingRobot<B, V, V, M>,
+    E: Effect<f64, B, V>,
+{
+    let core = Bending::<Core<T>>::crba(&state.q, &bent.q, scene);
+    let engine = Bending::<Engine<T>>::crba(&state.q, &bent.q, scene);
+    let rows = |m: &FlexibleInertia<f64, V, M>, i: usize| JointsAndModes::<f64, V, M> {
+        joints: core::array::from_fn(|j| m.joints.get(i, j)),
+        modes: core::array::from_fn(|k| m.coupling[k][i]),
+    };
+    let joints = (0..V).map(|i| apart(&rows(&engine, i), &rows(&core, i)));
+    let row = |m: &FlexibleInertia<f64, V, M>, k: usize| JointsAndModes::<f64, V, M> {
+        joints: m.coupling[k],
+        modes: core::array::from_fn(|l| m.modes.get(k, l)),
+    };
+    let modes = (0..M).map(|k| apart(&row(&engine, k), &row(&core, k)));
+    joints.chain(modes).fold(0.0, f64::max)
 }
 
 fn scenes<T, const B: usize, const V: usize, const M: usize>()
@@ -242,4 +269,21 @@ fn the_engine_names_modes_and_joints_that_are_not_finite() {
     bent.qd[1] = f64::INFINITY;
     let found = Bending::<Engine<Planar>>::modal_dynamics(&State::at([0.3; 2]), &bent, &scene);
     assert!(matches!(found, Err(FlexibleError::Mode(_))), "{found:?}");
+}
+
+#[test]
+fn forward_dynamics_of_engine_and_core_agree() {
+    let gears = LoadFriction::of_efficiency([0.8; 6], [0.75; 6], Width::new(0.01));
+    let scene = (RIGID_BODY, Elasticity, Armature([0.1; 6]), gears);
+    let (mut numbers, mut worst) = (Numbers::new(3), 0.0);
+    for _ in 0..100 {
+        let (state, bent) = (numbers.state::<6>(JOINTS), numbers.state::<5>(MODES));
+        let tau = [(); 6].map(|()| 5.0 * numbers.draw());
+        let core = Bending::<Core<Tree>>::forward_dynamics(&state, &bent, &tau, &scene);
+        let engine = Bending::<Engine<Tree>>::forward_dynamics(&state, &bent, &tau, &scene);
+        let [core, engine] = [core, engine].map(|found| found.expect("an inertia"));
+        worst = f64::max(worst, apart(&engine, &core));
+    }
+    println!("forward dynamics: {worst:.1e}");
+    assert!(worst < 1e-12, "{worst:.1e}");
 }

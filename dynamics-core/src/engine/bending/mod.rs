@@ -13,7 +13,7 @@ use core::marker::PhantomData;
 
 use end::{End, Stand};
 use link::bent_wrench;
-use motion::{Measured, Mode, Moves, Of, UnitMode};
+use motion::{Measured, Mode, Moves, Of, Unit};
 pub(crate) use table::{BendingLink, BendingMode, Bends, MODES, outer, sum};
 use table::{Bent, HasMode};
 
@@ -22,8 +22,8 @@ use super::base::base;
 use super::compile::{CompiledJoint, JointPair};
 use super::displacement::Displacement;
 use super::folding::Folded;
+use super::only_if;
 use super::rnea::{Task, drive, environment, inertia};
-use super::{Index, only_if};
 use crate::effects::{Declared, Effect};
 use crate::model::JointCoordinate;
 use crate::scalar::Real;
@@ -75,9 +75,12 @@ where
     swept::<R, C, E, _, B, Q, V, M>(trig, joints, moves, effects, &base)
 }
 
-/// The inertia of the modes, both triangles.
+/// The blocks of M(q, η): joints, a row for each mode between it and the joints, and modes.
+pub(crate) type Blocks<R, const V: usize, const M: usize> = ([[R; V]; V], [[R; V]; M], [[R; M]; M]);
+
+/// The inertia of joints and modes, without armatures; without `JOINTS` the block of the modes alone.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn modal_inertia<
+pub(crate) fn bending_inertia<
     R,
     C,
     E,
@@ -85,56 +88,67 @@ pub(crate) fn modal_inertia<
     const Q: usize,
     const V: usize,
     const M: usize,
+    const JOINTS: bool,
 >(
     trig: &JointTrig<R, Q>,
-    joints: &State<R, Q, V>,
     eta: &[R; M],
     effects: &E,
-) -> [[R; M]; M]
+) -> Blocks<R, V, M>
 where
     R: Real,
     C: Bends,
     E: Effect<R, B, V>,
 {
-    let mut m = [[R::ZERO; M]; M];
+    let mut m = ([[R::ZERO; V]; V], [[R::ZERO; V]; M], [[R::ZERO; M]; M]);
     for_each_joint!(L, {
-        if Index::<L, M>::IS_BELOW
+        if const { is_column(L, V, M, JOINTS) }
             && let Some(column) = const {
                 only_if(
-                    Index::<L, M>::IS_BELOW,
+                    is_column(L, V, M, JOINTS),
                     column::<R, C, E, B, Q, V, M, L> as Column<R, E, Q, V, M>,
                 )
             }
         {
-            let column = column(trig, joints, eta, effects);
-            // Modes before it have theirs already: links are in the order of the tree.
-            for k in L..M {
-                m[k][L] = column[k];
-                m[L][k] = column[k];
+            let (tau, forces) = column(trig, eta, effects);
+            // Bodies and links are in the order of the tree: what is before a coordinate has the entry in its own column.
+            if L < V {
+                for i in L..V {
+                    (m.0[i][L], m.0[L][i]) = (tau[i], tau[i]);
+                }
+            } else {
+                let mode = L - V;
+                for k in mode..M {
+                    (m.2[k][mode], m.2[mode][k]) = (forces[k], forces[k]);
+                }
+                m.1[mode] = tau;
             }
         }
     });
     m
 }
 
-type Column<R, E, const Q: usize, const V: usize, const M: usize> =
-    fn(&JointTrig<R, Q>, &State<R, Q, V>, &[R; M], &E) -> [R; M];
+/// Whether there is a coordinate L.
+const fn is_column(l: usize, joints: usize, modes: usize, all: bool) -> bool {
+    l < joints + modes && (all || l >= joints)
+}
 
-/// The forces on the modes that mode L needs for a unit acceleration.
+type Column<R, E, const Q: usize, const V: usize, const M: usize> =
+    fn(&JointTrig<R, Q>, &[R; M], &E) -> ([R; V], [R; M]);
+
+/// The torques and forces that a unit acceleration of coordinate L needs.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const M: usize, const L: usize>(
     trig: &JointTrig<R, Q>,
-    joints: &State<R, Q, V>,
     eta: &[R; M],
     effects: &E,
-) -> [R; M]
+) -> ([R; V], [R; M])
 where
     R: Real,
     C: Bends,
     E: Effect<R, B, V>,
 {
-    let moves = UnitMode::<R, M, L> { eta };
-    swept::<R, C, E, _, B, Q, V, M>(trig, joints, moves, effects, &AccelerationField::RESTING).1
+    let (moves, base) = (Unit::<R, V, M, L> { eta }, AccelerationField::RESTING);
+    swept::<R, C, E, _, B, Q, V, M>(trig, &State::at([R::ZERO; Q]), moves, effects, &base)
 }
 
 /// The recursion from the base.
@@ -250,6 +264,9 @@ where
     });
     if X::ALL {
         drive::<R, C, E, B, Q, V, I>(task.rigid, &total);
+    } else {
+        let along = total.along(CompiledJoint::<C, I>::JOINT, Folded::ONE);
+        task.rigid.tau[I] = along.get();
     }
     total.to_parent::<C, I>(&at)
 }

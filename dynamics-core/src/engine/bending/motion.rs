@@ -1,4 +1,4 @@
-//! The motion along which inverse dynamics is computed: that of a state, or the unit acceleration of one mode.
+//! The motion along which inverse dynamics is computed: that of a state, or the unit acceleration of one coordinate.
 
 use core::marker::PhantomData;
 
@@ -82,30 +82,36 @@ where
     }
 }
 
-/// The unit acceleration of mode L of a robot whose links are bent.
-pub(crate) struct UnitMode<'a, R, const M: usize, const L: usize> {
+/// The unit acceleration of coordinate L, of V joints and then of the modes, of a robot whose links are bent.
+pub(crate) struct Unit<'a, R, const V: usize, const M: usize, const L: usize> {
     pub(crate) eta: &'a [R; M],
 }
 
-impl<R: Real, const M: usize, const L: usize> Moves<R> for UnitMode<'_, R, M, L> {
+impl<R: Real, const V: usize, const M: usize, const L: usize> Unit<'_, R, V, M, L> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn of(k: usize) -> Folded<R> {
+        if k == L { Folded::ONE } else { Folded::ZERO }
+    }
+}
+
+impl<R: Real, const V: usize, const M: usize, const L: usize> Moves<R> for Unit<'_, R, V, M, L> {
     const ALL: bool = false;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn joint(&self, _: usize) -> JointRates<R> {
+    fn joint(&self, i: usize) -> JointRates<R> {
         JointRates {
             velocity: Folded::ZERO,
             omega_products: Folded::ZERO,
-            accel: Folded::ZERO,
+            accel: Self::of(i),
         }
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn mode(&self, k: usize) -> Mode<R> {
-        let mut mode = Mode::NONE;
-        mode.eta = Folded::runtime(self.eta[k]);
-        if k == L {
-            mode.accel = Folded::ONE;
+        Mode {
+            eta: Folded::runtime(self.eta[k]),
+            accel: Self::of(V + k),
+            ..Mode::NONE
         }
-        mode
     }
 }

@@ -5,17 +5,17 @@ use core::marker::PhantomData;
 
 use super::compiled::CompiledModes;
 use super::feedforward::correct;
-use super::forward_dynamics::{accelerates, accelerations, forces};
+use super::forward_dynamics::{accelerates, accelerations};
 use super::{
     FlexibleError, FlexibleInertia, JointsAndModes, ModalFeedforward, Modes, crba,
     forward_dynamics, modal_dynamics, rnea,
 };
 use crate::algorithms::MassMatrix;
-use crate::effects::{Bias, Effect, Scene, add_inertia, no_gyroscopic_rotors};
+use crate::effects::{Bias, Effect, Scene, add_inertia, all_transmitted, no_gyroscopic_rotors};
 use crate::engine::{bending_inertia, bending_torques};
 use crate::model::{Robot, RobotModel, Static};
 use crate::scalar::Real;
-use crate::state::{Configuration, JointTrig, RobotState, State};
+use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 use crate::trig::Kernel;
 use crate::{Core, Engine};
 
@@ -379,7 +379,11 @@ impl<T, K> Bending<Engine<T, K>> {
         let (trig, joints) = (trig.borrow(), state.state());
         let bias = inverse::<T, R, _, B, Q, V, M>(trig, joints, bent, &Bias(effects));
         let m = inertia::<T, R, E, B, Q, V, M>(trig, &bent.q, effects);
-        m.solve(&forces(&Static::<T, K>::NEW, joints, tau, bias, effects))
+        let tau = all_transmitted(&Static::<T, K>::NEW, joints, effects, tau);
+        m.solve(&JointsAndModes {
+            joints: core::array::from_fn(|k| entry(&tau, k) - entry(&bias.joints, k)),
+            modes: bias.modes.map(|force| -force),
+        })
     }
 
     /// The accelerations η̈ of the modes along a motion of the joints, m/s² or rad/s², as

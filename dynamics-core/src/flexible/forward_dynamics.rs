@@ -94,7 +94,11 @@ where
     let (trig, state) = (trig.borrow(), state.state());
     let bias = rnea(robot, modes, trig.with(state), bent, &Bias(effects));
     let m = crba(robot, modes, trig, &bent.q, effects);
-    m.solve(&forces(robot, state, tau, bias, effects))
+    let tau = all_transmitted(robot, state, effects, tau);
+    m.solve(&JointsAndModes {
+        joints: core::array::from_fn(|k| entry(&tau, k) - entry(&bias.joints, k)),
+        modes: bias.modes.map(|force| -force),
+    })
 }
 
 pub(super) const fn accelerates<R: Real, E, const B: usize, const V: usize>()
@@ -105,34 +109,6 @@ where
         E::ACCELERATIONS,
         "forward dynamics needs `Inertia` in the scene"
     );
-}
-
-/// What accelerates joints and modes: the torques of the motors less the bias.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn forces<
-    R: Real,
-    D,
-    E,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const M: usize,
->(
-    robot: &D,
-    state: &State<R, Q, V>,
-    tau: &[R; V],
-    bias: JointsAndModes<R, V, M>,
-    effects: &E,
-) -> JointsAndModes<R, V, M>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    let tau = all_transmitted(robot, state, effects, tau);
-    JointsAndModes {
-        joints: core::array::from_fn(|k| entry(&tau, k) - entry(&bias.joints, k)),
-        modes: bias.modes.map(|force| -force),
-    }
 }
 
 /// The accelerations η̈ of the modes along a motion of the joints, m/s² or rad/s².
@@ -196,6 +172,7 @@ impl<R: Real, const V: usize, const M: usize> FlexibleInertia<R, V, M> {
     ///
     /// # Errors
     /// [`FlexibleError`] names the first coordinate whose pivot is not positive.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn solve(
         &self,
         forces: &JointsAndModes<R, V, M>,

@@ -112,13 +112,13 @@ where
             let (tau, forces) = column(trig, eta, effects);
             // Bodies and links are in the order of the tree: what is before a coordinate has the entry in its own column.
             if L < V {
-                for i in L..V {
-                    (m.0[i][L], m.0[L][i]) = (tau[i], tau[i]);
+                for (i, &entry) in tau.iter().enumerate().skip(L) {
+                    (m.0[i][L], m.0[L][i]) = (entry, entry);
                 }
             } else {
                 let mode = L - V;
-                for k in mode..M {
-                    (m.2[k][mode], m.2[mode][k]) = (forces[k], forces[k]);
+                for (k, &entry) in forces.iter().enumerate().skip(mode) {
+                    (m.2[k][mode], m.2[mode][k]) = (entry, entry);
                 }
                 m.1[mode] = tau;
             }

@@ -115,6 +115,24 @@ where
 }
 
 #[inline(never)]
+fn folded_inertia<const M: usize>(case: &Case<M>) -> FlexibleInertia<f32, 2, M>
+where
+    TwoLink: BendingRobot<2, 2, 2, M>,
+{
+    let (q, eta) = (&case.joints.q, &case.bent.q);
+    Bending::<Engine<TwoLink>>::crba(q, eta, &(RIGID_BODY, Elasticity))
+}
+
+#[inline(never)]
+fn folded_forward<const M: usize>(case: &Case<M>) -> Option<JointsAndModes<f32, 2, M>>
+where
+    TwoLink: BendingRobot<2, 2, 2, M>,
+{
+    let (Case { joints, bent, tau }, scene) = (case, (RIGID_BODY, Elasticity));
+    Bending::<Engine<TwoLink>>::forward_dynamics(joints, bent, tau, &scene).ok()
+}
+
+#[inline(never)]
 fn folded_feedforward<const M: usize>(case: &Case<M>) -> Option<[f32; 2]>
 where
     TwoLink: BendingRobot<2, 2, 2, M>,
@@ -146,6 +164,10 @@ where
     let of = |algorithm| Row::of::<TwoLink, 2, 2>(algorithm, "engine", inputs, true);
     let run = folded::<M>;
     of("rnea").measure(run as *const () as usize, cases, run);
+    let run = folded_inertia::<M>;
+    of("crba").measure(run as *const () as usize, cases, run);
+    let run = folded_forward::<M>;
+    of("forward_dynamics").measure(run as *const () as usize, cases, run);
     let run = folded_feedforward::<M>;
     of("modal_feedforward").measure(run as *const () as usize, cases, run);
 }

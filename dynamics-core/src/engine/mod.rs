@@ -98,7 +98,7 @@ pub(crate) use bending::{
     BendingLink, BendingMode, Bends, MODES, bending_inertia, bending_torques, outer, sum,
 };
 pub(crate) use compile::{
-    BodyPlacement, Compiled, CompiledJoint, CompiledRobot, CompiledTree, Joint, JointMotion,
+    BendingTree, BodyPlacement, Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion,
     compile_bending, support,
 };
 use gate::EngineScene;

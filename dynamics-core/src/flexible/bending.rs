@@ -32,8 +32,7 @@ pub trait BendingRobot<const B: usize, const Q: usize, const V: usize, const M: 
 /// The algorithms of the module for a robot and modes known at compile time: `Bending<Core<T>>` or `Bending<Engine<T>>`.
 ///
 /// The engine folds the integrals of the modes as it does all constants of a robot: of links that bend in the plane in which they
-/// move, most are zero. It takes robots whose joints have one degree of freedom; a body that is fixed on the end of a link that
-/// bends has to be part of that link.
+/// move, most are zero. It takes robots whose joints have one degree of freedom.
 ///
 /// ```
 /// use dynamics_core::effects::{Elasticity, RIGID_BODY};
@@ -245,7 +244,7 @@ impl<T, K> Bending<Engine<T, K>> {
     /// Book (1984), over base parameters: the mass of a body whose joint is on the very end of a link that bends is a point there.
     ///
     /// # Example
-    /// That of [`Bending`]. A body on a fixed joint at the end of a link that bends does not compile:
+    /// That of [`Bending`]. A joint of several degrees of freedom does not compile:
     ///
     /// ```compile_fail,E0080
     /// # use dynamics_core::effects::RIGID_BODY;
@@ -255,16 +254,16 @@ impl<T, K> Bending<Engine<T, K>> {
     /// # const BEAM: Beam = Beam::new(0.5, 0.8).bending([4.0, 4.0]).tip(0.3, 1e-4);
     /// # const LINK: FlexibleLink = match BEAM.link(0, &[Shape::BendZ(1)]) { Ok(link) => link, Err(_) => panic!() };
     /// # struct Boom;
-    /// impl Robot<2, 1, 1> for Boom {
-    ///     const MODEL: Model<f64, 2, 1, 1> = Model::new("boom", [
-    ///         Body::new("boom", BASE, Joint::revolute([0.0, 1.0, 0.0])).mass(BEAM.mass()).com(BEAM.com()).inertia(BEAM.inertia()),
-    ///         Body::new("flange", 0, Joint::fixed()).xyz([0.5, 0.0, 0.0]),
+    /// impl Robot<1, 4, 3> for Boom {
+    ///     const MODEL: Model<f64, 1, 4, 3> = Model::new("boom", [
+    ///         Body::new("boom", BASE, Joint::spherical()).mass(BEAM.mass()).com(BEAM.com()).inertia(BEAM.inertia()),
     ///     ]);
     /// }
-    /// # impl BendingRobot<2, 1, 1, 1> for Boom { const MODES: Modes<f64, 1> = Modes::new(&Self::MODEL, &[LINK]); }
-    /// let _ = Bending::<Engine<Boom>>::rnea(&State::at([0.0]), &State::at([0.0]), &RIGID_BODY);
-    /// // error: robot `boom`, body `flange`: a body is fixed on the end of a link that bends, which the engine does not take
-    /// // beside modes; use `Core`
+    /// # impl BendingRobot<1, 4, 3, 1> for Boom { const MODES: Modes<f64, 1> = Modes::new(&Self::MODEL, &[LINK]); }
+    /// let state = State { q: [1.0, 0.0, 0.0, 0.0], qd: [0.0; 3], qdd: [0.0; 3] };
+    /// let _ = Bending::<Engine<Boom>>::rnea(&state, &State::at([0.0]), &RIGID_BODY);
+    /// // error: robot `boom`, body `boom`: a joint has several degrees of freedom, which the engine does not take beside modes; use
+    /// // `Core`
     /// ```
     #[inline(never)]
     #[must_use]

@@ -2,13 +2,13 @@
 
 use core::marker::PhantomData;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::link::MODES_PER_LINK;
 use super::{BendingRobot, Modes};
 use crate::engine::{
-    BendingLink, BendingMode, Bends, Compiled, CompiledTree, Joint, JointMotion, MODES,
-    compile_bending, outer, sum, support,
+    BendingLink, BendingMode, BendingTree, Bends, BodyPlacement, Compiled, Joint, JointMotion,
+    MODES, compile_bending, outer, sum, support,
 };
 use crate::math::const_eval::add;
 use crate::model::{BASE, JointKind, Link, Text};
@@ -36,16 +36,15 @@ where
         taken(T::MODEL.name, &T::MODEL.links, &ends);
         ends
     };
-    const TREE: &'static (CompiledTree<B, V>, [f64; V]) =
-        &compile_bending(&T::MODEL, 0.0, &Self::ENDS);
+    const TREE: &'static BendingTree<B, V> = &compile_bending(&T::MODEL, 0.0, &Self::ENDS);
     const MOVING_LINKS: [BendingLink; V] = {
-        let (tree, on_ends) = Self::TREE;
+        let BendingTree { tree, on_ends, .. } = Self::TREE;
         let (mut links, mut body) = ([BendingLink::RIGID; V], 0);
         while body < B {
             if Self::ENDS[body].is_some() {
                 let place = &tree.places[body];
                 let link = bending(&T::MODES, body, place.pos);
-                links[place.joint] = link.with_mass_at_end(on_ends[place.joint]);
+                links[place.joint] = link.with_mass_at_end(on_ends[place.joint].mass);
             }
             body += 1;
         }
@@ -53,7 +52,7 @@ where
     };
     /// Whether each body turns about z alone, on a base at rest.
     const IN_PLANE: [bool; V] = {
-        let joints = &Self::TREE.0.joints;
+        let joints = &Self::TREE.tree.joints;
         let (mut flat, mut i) = ([false; V], 0);
         while i < V {
             let Joint { parent, rot, .. } = &joints[i];
@@ -77,18 +76,40 @@ where
         links
     };
     const JOINTS: [Joint; V] = {
-        let (mut joints, mut i) = (Self::TREE.0.joints, 0);
+        let (mut joints, mut i) = (Self::TREE.tree.joints, 0);
         while i < V {
             if Self::IN_PLANE[i] {
-                // One rotation, about z, depends on Σ_xx + Σ_yy alone.
-                let second = &mut joints[i].second;
-                second.x_axis = DVec3::new(second.x_axis.x + second.y_axis.y, 0.0, 0.0);
-                (second.y_axis, second.z_axis) = (DVec3::ZERO, DVec3::ZERO);
+                joints[i].second = flat(&joints[i].second);
             }
             i += 1;
         }
         joints
     };
+    const END_JOINTS: [Joint; V] = {
+        let (mut joints, mut i) = (Self::TREE.tree.joints, 0);
+        while i < V {
+            let (joint, on_end) = (&mut joints[i], &Self::TREE.on_ends[i]);
+            (joint.mass, joint.moment) = (0.0, on_end.moment);
+            (joint.second, joint.second_moment_only) = (on_end.second, on_end.second);
+            if Self::IN_PLANE[i] && Self::MOVING_LINKS[i].turns_about(DVec3::Z) {
+                joint.second = flat(&joint.second);
+            }
+            i += 1;
+        }
+        joints
+    };
+
+    /// The places of the bodies that are fixed on an end, or of all others.
+    const fn places(on_end: bool) -> [BodyPlacement; B] {
+        let (mut places, mut body) = (Self::TREE.tree.places, 0);
+        while body < B {
+            if Self::TREE.is_on_end[body] != on_end {
+                places[body].joint = BASE;
+            }
+            body += 1;
+        }
+        places
+    }
 }
 
 impl<T, const B: usize, const Q: usize, const V: usize, const M: usize> Compiled
@@ -98,9 +119,9 @@ where
 {
     const LINKS: &'static [Link<f64>] = &T::MODEL.links;
     const JOINTS: &'static [Joint] = &Self::JOINTS;
-    const PLACES: &'static [crate::engine::BodyPlacement] = &Self::TREE.0.places;
-    const LENGTH: f64 = Self::TREE.0.length;
-    const SUPPORT: &'static [u64] = &support(&Self::TREE.0.joints);
+    const PLACES: &'static [BodyPlacement] = &Self::places(false);
+    const LENGTH: f64 = Self::TREE.tree.length;
+    const SUPPORT: &'static [u64] = &support(&Self::TREE.tree.joints);
 }
 
 impl<T, const B: usize, const Q: usize, const V: usize, const M: usize> Bends
@@ -110,20 +131,26 @@ where
 {
     const AT_REST: &'static [BendingLink] = &Self::LINKS_AT_REST;
     const MOVING: &'static [BendingLink] = &Self::MOVING_LINKS;
+    const END_JOINTS: &'static [Joint] = &Self::END_JOINTS;
+    const END_PLACES: &'static [BodyPlacement] = &Self::places(true);
+}
+
+/// Σ of a body that turns about z alone: Σ_xx + Σ_yy.
+const fn flat(second: &DMat3) -> DMat3 {
+    let x = DVec3::new(second.x_axis.x + second.y_axis.y, 0.0, 0.0);
+    DMat3::from_cols(x, DVec3::ZERO, DVec3::ZERO)
 }
 
 /// A robot whose modes the engine takes.
 const fn taken(robot: &'static str, links: &[Link<f64>], ends: &[Option<DVec3>]) {
     let mut i = 0;
     while i < links.len() {
-        let Link { joint, parent, .. } = &links[i];
+        let joint = &links[i].joint;
         let fixed = matches!(joint.kind, JointKind::Fixed);
         let problem = if joint.kind.coordinates().1 > 1 {
             Some("a joint has several degrees of freedom")
         } else if fixed && ends[i].is_some() {
             Some("a body on a fixed joint bends")
-        } else if fixed && *parent != BASE && ends[*parent].is_some() {
-            Some("a body is fixed on the end of a link that bends")
         } else {
             None
         };

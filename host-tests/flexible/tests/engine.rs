@@ -16,8 +16,8 @@ use dynamics_core::{Core, Engine};
 use flexible_tests::{JOINTS, LOWER, MODES, Numbers, PLANAR, Planar, Spatial, UPPER, link};
 use glam::DVec3;
 
-/// A tree on a slide. The first link that bends carries one on its very end and a joint that is off it; the axis of that and of the
-/// joint behind it are skew. A body without a joint of its own is fixed to the slide.
+/// A tree on a slide. The first link that bends carries one on its very end, a joint that is off it with a skew axis, and a body that
+/// is fixed there with a joint behind it. Another is fixed to the slide.
 struct Tree;
 
 const fn of(beam: &Beam, name: &'static str, parent: usize, joint: Joint<f64>) -> Body {
@@ -34,8 +34,8 @@ const fn lump(name: &'static str, parent: usize, joint: Joint<f64>) -> Body {
         .inertia([0.02, 0.001, -0.002, 0.03, 0.003, 0.025])
 }
 
-impl Robot<7, 6, 6> for Tree {
-    const MODEL: Model<f64, 7, 6, 6> = Model::new(
+impl Robot<9, 7, 7> for Tree {
+    const MODEL: Model<f64, 9, 7, 7> = Model::new(
         "tree",
         [
             lump("slide", BASE, Joint::prismatic([0.0, 0.6, 0.8])),
@@ -49,11 +49,15 @@ impl Robot<7, 6, 6> for Tree {
                 .rpy([0.3, 0.5, -0.8]),
             lump("screw", 3, Joint::helical([0.0, 0.0, 1.0], 0.05)).xyz([0.4, 0.0, 0.02]),
             lump("last", 4, Joint::prismatic([1.0, 0.0, 0.0])).xyz([0.1, 0.1, 0.0]),
+            lump("flange", 2, Joint::fixed())
+                .xyz([0.52, 0.01, -0.02])
+                .rpy([0.1, 0.7, -0.4]),
+            lump("wrist", 7, Joint::revolute([1.0, 0.0, 0.0])).xyz([0.05, 0.0, 0.03]),
         ],
     );
 }
 
-impl BendingRobot<7, 6, 6, 5> for Tree {
+impl BendingRobot<9, 7, 7, 5> for Tree {
     const MODES: Modes<f64, 5> = Modes::new(
         &Self::MODEL,
         &[
@@ -67,26 +71,29 @@ impl BendingRobot<7, 6, 6, 5> for Tree {
     );
 }
 
-/// Two links in a plane, of which the second is mounted the other way round and bends out of the plane as well.
+/// Three links in a plane, of which the second is mounted the other way round and the last, with a gripper fixed on its end, bends out
+/// of the plane as well.
 struct Flipped;
 
-impl Robot<3, 3, 3> for Flipped {
-    const MODEL: Model<f64, 3, 3, 3> = Model::new(
+impl Robot<4, 3, 3> for Flipped {
+    const MODEL: Model<f64, 4, 3, 3> = Model::new(
         "flipped",
         [
             of(&UPPER, "upper", BASE, Joint::revolute([0.0, 1.0, 0.0])),
             of(&LOWER, "lower", 0, Joint::revolute([0.0, -1.0, 0.0])).xyz([0.5, 0.0, 0.0]),
-            lump("hand", 1, Joint::revolute([0.0, 1.0, 0.0])).xyz([0.4, 0.0, 0.0]),
+            of(&LOWER, "hand", 1, Joint::revolute([0.0, 1.0, 0.0])).xyz([0.4, 0.0, 0.0]),
+            lump("gripper", 2, Joint::fixed()).xyz([0.4, 0.0, 0.0]),
         ],
     );
 }
 
-impl BendingRobot<3, 3, 3, 4> for Flipped {
-    const MODES: Modes<f64, 4> = Modes::new(
+impl BendingRobot<4, 3, 3, 5> for Flipped {
+    const MODES: Modes<f64, 5> = Modes::new(
         &Self::MODEL,
         &[
             link(&UPPER, 0, &[Shape::BendZ(1), Shape::BendZ(2)]),
-            link(&LOWER, 1, &[Shape::BendZ(1), Shape::BendY(1)]),
+            link(&LOWER, 1, &[Shape::BendZ(1)]),
+            link(&LOWER, 2, &[Shape::BendZ(1), Shape::BendY(1)]),
         ],
     );
 }
@@ -164,9 +171,10 @@ where
     joints.chain(modes).fold(0.0, f64::max)
 }
 
-fn scenes<T, const B: usize, const V: usize, const M: usize>()
+fn scenes<T, L, const B: usize, const V: usize, const M: usize>(load: fn(BodyInertia<f64>) -> L)
 where
     T: BendingRobot<B, V, V, M>,
+    L: Effect<f64, B, V>,
 {
     let g = GravityVector(DVec3::new(1.0, -3.0, -9.0));
     let body = BodyInertia {
@@ -192,6 +200,7 @@ where
         compare::<T, _, B, V, M>(&(Gravity::EARTH, Inertia)),
         compare::<T, _, B, V, M>(&(Gravity::EARTH, Coriolis)),
         compare::<T, _, B, V, M>(&(RIGID_BODY, Payload::<f64, 1>::from_inertia(body), wrench)),
+        compare::<T, _, B, V, M>(&(RIGID_BODY, load(body))),
         compare::<T, _, B, V, M>(&(RIGID_BODY, Drag, Elasticity)),
         compare::<T, _, B, V, M>(&(Inertia, Coriolis, g, base, Drag, Elasticity)),
         compare::<T, _, B, V, M>(&(RIGID_BODY, Armature([0.1; V]), gears)),
@@ -202,10 +211,10 @@ where
 
 #[test]
 fn engine_and_core_bend_alike_under_every_effect() {
-    scenes::<Planar, 2, 2, 4>();
-    scenes::<Spatial, 2, 2, 6>();
-    scenes::<Flipped, 3, 3, 4>();
-    scenes::<Tree, 7, 6, 5>();
+    scenes::<Planar, _, 2, 2, 4>(Payload::<f64, 0>::from_inertia);
+    scenes::<Spatial, _, 2, 2, 6>(Payload::<f64, 1>::from_inertia);
+    scenes::<Flipped, _, 4, 3, 5>(Payload::<f64, 3>::from_inertia);
+    scenes::<Tree, _, 9, 7, 5>(Payload::<f64, 7>::from_inertia);
 }
 
 /// A difference of a part in 10⁹ of one stiffness, one integral or one place is found.
@@ -273,12 +282,12 @@ fn the_engine_names_modes_and_joints_that_are_not_finite() {
 
 #[test]
 fn forward_dynamics_of_engine_and_core_agree() {
-    let gears = LoadFriction::of_efficiency([0.8; 6], [0.75; 6], Width::new(0.01));
-    let scene = (RIGID_BODY, Elasticity, Armature([0.1; 6]), gears);
+    let gears = LoadFriction::of_efficiency([0.8; 7], [0.75; 7], Width::new(0.01));
+    let scene = (RIGID_BODY, Elasticity, Armature([0.1; 7]), gears);
     let (mut numbers, mut worst) = (Numbers::new(3), 0.0);
     for _ in 0..100 {
-        let (state, bent) = (numbers.state::<6>(JOINTS), numbers.state::<5>(MODES));
-        let tau = [(); 6].map(|()| 5.0 * numbers.draw());
+        let (state, bent) = (numbers.state::<7>(JOINTS), numbers.state::<5>(MODES));
+        let tau = [(); 7].map(|()| 5.0 * numbers.draw());
         let core = Bending::<Core<Tree>>::forward_dynamics(&state, &bent, &tau, &scene);
         let engine = Bending::<Engine<Tree>>::forward_dynamics(&state, &bent, &tau, &scene);
         let [core, engine] = [core, engine].map(|found| found.expect("an inertia"));

@@ -63,12 +63,12 @@ impl<R: Real> Sum<R> {
 }
 
 impl<R: Real> End<R> {
-    /// The end of the body of joint I, whose field is `field`, and what its children stand on.
+    /// The end of the body of joint I, whose field is `field`, and its own, in the link's axes.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of<C: Bends, const I: usize, const MOVES: bool>(
         field: &AccelerationField<R>,
         bent: &[Mode<R>; MODES],
-    ) -> (Self, Stand<R>) {
+    ) -> (Self, AccelerationField<R>) {
         let [mut bend, mut velocity, mut products, mut accel] = [Sum::ZERO; 4];
         for_each_mode!(K, {
             if HasMode::<C, I, K>::IS {
@@ -90,16 +90,24 @@ impl<R: Real> End<R> {
             g: bend.g,
             scale,
         };
-        let along = end.moved(field, velocity, products, accel);
-        if Bent::<C, I, MOVES>::ADDS_TO_ANGLES || !Bent::<C, I, MOVES>::TURNS {
-            let mut stand = Stand::rigid(along);
-            if Bent::<C, I, MOVES>::TURNS {
-                stand.sin = end.g.scale(scale);
-                stand.cos = scale - Folded::ONE;
-            }
-            return (end, stand);
+        (end, end.moved(field, velocity, products, accel))
+    }
+
+    /// What the joints on the end stand on, whose field in the link's axes is `along`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn stand<C: Bends, const I: usize, const MOVES: bool>(
+        &self,
+        along: &AccelerationField<R>,
+    ) -> Stand<R> {
+        if !Bent::<C, I, MOVES>::ADDS_TO_ANGLES {
+            return Stand::rigid(self.turned::<C, I, MOVES>(along));
         }
-        (end, Stand::rigid(end.turned(&along)))
+        let mut stand = Stand::rigid(*along);
+        if Bent::<C, I, MOVES>::TURNS {
+            stand.sin = self.g.scale(self.scale);
+            stand.cos = self.scale - Folded::ONE;
+        }
+        stand
     }
 
     /// The field of the end, in the link's axes.
@@ -132,7 +140,13 @@ impl<R: Real> End<R> {
 
     /// The same in the axes of the end.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn turned(&self, field: &AccelerationField<R>) -> AccelerationField<R> {
+    pub(super) fn turned<C: Bends, const I: usize, const MOVES: bool>(
+        &self,
+        field: &AccelerationField<R>,
+    ) -> AccelerationField<R> {
+        if !Bent::<C, I, MOVES>::TURNS {
+            return *field;
+        }
         let axes = self.axes();
         let (alpha, omega) = (axes.mul(field.alpha), axes.mul(field.omega_products));
         AccelerationField {
@@ -164,22 +178,29 @@ impl<R: Real> End<R> {
         (g_dot + self.g.cross(g_dot)).scale(self.scale)
     }
 
-    /// Adds the work of the wrench of the children, about the end, to the forces on the modes; returns the wrench in the link's axes
-    /// and about its joint.
+    /// A wrench about the end in the link's axes, from those of the end.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn turned_back<C: Bends, const I: usize, const MOVES: bool>(
+        &self,
+        load: Wrench<R>,
+    ) -> Wrench<R> {
+        if !Bent::<C, I, MOVES>::TURNS {
+            return load;
+        }
+        let axes = self.axes();
+        Wrench {
+            f: axes.transpose_mul(load.f),
+            n: axes.transpose_mul(load.n),
+        }
+    }
+
+    /// Adds the work of a wrench about the end, in the link's axes, to the forces on the modes; returns it about the link's joint.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn carry<C: Bends, const I: usize, const MOVES: bool>(
         &self,
         load: Wrench<R>,
         forces: &mut [Folded<R>; MODES],
     ) -> Wrench<R> {
-        let mut load = load;
-        if Bent::<C, I, MOVES>::TURNS && !Bent::<C, I, MOVES>::ADDS_TO_ANGLES {
-            let axes = self.axes();
-            load = Wrench {
-                f: axes.transpose_mul(load.f),
-                n: axes.transpose_mul(load.n),
-            };
-        }
         let couple = (load.n - self.g.cross(load.n)).scale(self.scale);
         for_each_mode!(K, {
             if HasMode::<C, I, K>::IS {

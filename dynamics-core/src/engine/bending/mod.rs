@@ -15,7 +15,7 @@ use end::{End, Stand};
 use link::bent_wrench;
 use motion::{Measured, Mode, Moves, Of, Unit};
 pub(crate) use table::{BendingLink, BendingMode, Bends, MODES, outer, sum};
-use table::{Bent, HasMode};
+use table::{Bent, Ends, HasMode};
 
 use super::acceleration_field::{AccelerationField, Wrench};
 use super::base::base;
@@ -271,7 +271,7 @@ where
     total.to_parent::<C, I>(&at)
 }
 
-/// The children on the end of the body of joint I: the wrench that they need from the body.
+/// What is on the end of the body of joint I: the wrench that it needs from the body.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn beyond<
     R,
@@ -296,8 +296,20 @@ where
     E: Effect<R, B, V>,
     X: Moves<R>,
 {
-    let (end, stand) = End::of::<C, I, MOVES>(field, bent);
-    let load = children::<R, C, E, X, B, Q, V, M, I>(task, &stand);
+    let (end, along) = End::of::<C, I, MOVES>(field, bent);
+    let stand = end.stand::<C, I, MOVES>(&along);
+    let mut load = children::<R, C, E, X, B, Q, V, M, I>(task, &stand);
+    if !Bent::<C, I, MOVES>::ADDS_TO_ANGLES {
+        load = end.turned_back::<C, I, MOVES>(load);
+    }
+    if Bent::<C, I, MOVES>::HAS_BODY_ON_END {
+        let (effects, at) = (task.rigid.effects, end.turned::<C, I, MOVES>(&along));
+        let mut fixed = at.wrench(&inertia::<R, Ends<C>, E, B, Q, V, I>(effects, MOVES));
+        if const { X::ALL && E::WRENCH } {
+            fixed = environment::<R, Ends<C>, E, B, Q, V, I>(effects, &at, fixed);
+        }
+        load = load + end.turned_back::<C, I, MOVES>(fixed);
+    }
     end.carry::<C, I, MOVES>(load, forces)
 }
 

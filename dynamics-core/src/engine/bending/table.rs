@@ -4,8 +4,9 @@ use core::marker::PhantomData;
 
 use glam::{DMat3, DVec3};
 
-use crate::engine::compile::{Compiled, CompiledJoint, JointMotion};
+use crate::engine::compile::{BodyPlacement, Compiled, CompiledJoint, Joint, JointMotion};
 use crate::math::const_eval::{add, scale};
+use crate::model::Link;
 
 /// The most modes of one link.
 pub(crate) const MODES: usize = 6;
@@ -19,6 +20,21 @@ pub(crate) trait Bends: Compiled {
     const AT_REST: &'static [BendingLink];
     /// Of any motion of the base.
     const MOVING: &'static [BendingLink];
+    /// The joints with the inertia of what is fixed on the end of each body, without the point that its mass is.
+    const END_JOINTS: &'static [Joint];
+    /// Where bodies are that are fixed on an end, from there; of all others the base.
+    const END_PLACES: &'static [BodyPlacement];
+}
+
+/// What is fixed on the ends of the robot C.
+pub(super) struct Ends<C>(PhantomData<C>);
+
+impl<C: Bends> Compiled for Ends<C> {
+    const LINKS: &'static [Link<f64>] = C::LINKS;
+    const JOINTS: &'static [Joint] = C::END_JOINTS;
+    const PLACES: &'static [BodyPlacement] = C::END_PLACES;
+    const LENGTH: f64 = C::LENGTH;
+    const SUPPORT: &'static [u64] = C::SUPPORT;
 }
 
 /// The modes of a body, in the frame of its joint; none of a rigid one.
@@ -217,9 +233,11 @@ impl<C: Bends, const I: usize, const MOVES: bool> Bent<C, I, MOVES> {
         }
         all
     };
-    /// Whether nothing is on it.
+    /// Whether a body is fixed on its end.
+    pub(super) const HAS_BODY_ON_END: bool = CompiledJoint::<Ends<C>, I>::BODIES > 0;
+    /// Whether nothing is on its end.
     pub(super) const IS_LAST: bool = {
-        let (mut last, mut j) = (true, 0);
+        let (mut last, mut j) = (!Self::HAS_BODY_ON_END, 0);
         while j < C::JOINTS.len() {
             last &= C::JOINTS[j].parent != CompiledJoint::<C, I>::LAST;
             j += 1;

@@ -14,17 +14,17 @@
 
 use glam::{DMat3, DVec3};
 
-use super::tree::{Joint, JointMotion};
+use super::tree::{Joint, JointMotion, OnEnd};
 use crate::math::const_eval::{add, mul, scale, transpose};
 use crate::model::BASE;
 
 /// From the last joint to the first, moves the parameters to the parent on which the joint's motion does not depend. Of bodies that
-/// bend, `ends` has the ends; returned are the masses that are left there, and are in the bodies' parameters, too.
+/// bend, `ends` has the ends, on which masses are left.
 pub(super) const fn regroup<const V: usize>(
     joints: &mut [Joint; V],
     ends: &[Option<DVec3>; V],
-) -> [f64; V] {
-    let mut on_ends = [0.0; V];
+    on_ends: &mut [OnEnd; V],
+) {
     let mut i = V;
     while i > 0 {
         i -= 1;
@@ -50,7 +50,7 @@ pub(super) const fn regroup<const V: usize>(
             let (mut p, h) = (by.pos, scale(by.rot.z_axis, passed.rod));
             if let Some(end) = end {
                 p = end;
-                on_ends[by.parent] += passed.mass;
+                on_ends[by.parent].mass += passed.mass;
             }
             let second = mul(&mul(&by.rot, &passed.spread), &transpose(&by.rot));
             let second = mat_add(&second, &mat_add(&outer(p, h), &outer(h, p)));
@@ -68,7 +68,6 @@ pub(super) const fn regroup<const V: usize>(
             joints[i].second = DMat3::from_cols(x, DVec3::ZERO, DVec3::ZERO);
         }
     }
-    on_ends
 }
 
 /// What a parent receives at the joint's origin: a mass, the first moment of a rod along z, and a second moment.

@@ -24,7 +24,7 @@ pub(crate) use topology::{
     Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair, is_parent, is_slide_beyond,
     joint, last, load, loads, place, support, supports,
 };
-pub(crate) use tree::{BodyPlacement, CompiledTree, Joint, JointMotion};
+pub(crate) use tree::{BendingTree, BodyPlacement, CompiledTree, Joint, JointMotion, OnEnd};
 
 use glam::{DMat3, DVec3};
 
@@ -41,19 +41,20 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
     negligible: f64,
 ) -> CompiledTree<B, V> {
-    compile_bending(model, negligible, &[None; B]).0
+    compile_bending(model, negligible, &[None; B]).tree
 }
 
 /// The same of a robot whose links bend: `ends` has the end of each body that does, in its aligned frame. On it are the joints
-/// of its children, whose places are those from the end, and the masses that they leave there: the second result.
+/// of its children, whose places are those from the end.
 pub(crate) const fn compile_bending<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
     negligible: f64,
     ends: &[Option<DVec3>; B],
-) -> (CompiledTree<B, V>, [f64; V]) {
+) -> BendingTree<B, V> {
     let mut joints = [PADDING_JOINT; V];
     let mut places = [AT_BASE; B];
     let mut bent = [None; V];
+    let (mut on_ends, mut is_on_end) = ([OnEnd::NOTHING; V], [false; B]);
     let mut i = 0;
     while i < B {
         let link = &model.links[i];
@@ -73,6 +74,8 @@ pub(crate) const fn compile_bending<const B: usize, const Q: usize, const V: usi
                 rot,
                 pos,
             };
+            is_on_end[i] =
+                link.parent < B && (ends[link.parent].is_some() || is_on_end[link.parent]);
         } else {
             places[i] = attach(&mut joints, link, parent.joint, &rot, pos);
         }
@@ -85,8 +88,20 @@ pub(crate) const fn compile_bending<const B: usize, const Q: usize, const V: usi
                 &transpose(rot),
             );
             let second = mat_add(&second, &mat_add(&outer(h, d), &outer(d, h)));
-            joint.second = mat_add(&joint.second, &mat_add(&second, &outer(d, scale(d, mass))));
-            joint.moment = add(joint.moment, add(h, scale(d, mass)));
+            let second = mat_add(&second, &outer(d, scale(d, mass)));
+            let moment = add(h, scale(d, mass));
+            if let (true, Some(end)) = (is_on_end[i], bent[places[i].joint]) {
+                // Its mass is a point at the end.
+                let on_end = &mut on_ends[places[i].joint];
+                on_end.second = mat_add(&on_end.second, &second);
+                on_end.moment = add(on_end.moment, moment);
+                on_end.mass += mass;
+                joint.second = mat_add(&joint.second, &outer(end, scale(end, mass)));
+                joint.moment = add(joint.moment, scale(end, mass));
+            } else {
+                joint.second = mat_add(&joint.second, &second);
+                joint.moment = add(joint.moment, moment);
+            }
             joint.mass += mass;
             if let Some(end) = ends[i] {
                 bent[places[i].joint] = Some(add(mul_vec(rot, end), d));
@@ -97,7 +112,7 @@ pub(crate) const fn compile_bending<const B: usize, const Q: usize, const V: usi
     if negligible == 0.0 {
         inertia_alone(&mut joints, &model.links);
     }
-    let on_ends = regroup(&mut joints, &bent);
+    regroup(&mut joints, &bent, &mut on_ends);
     prune(&mut joints, negligible);
     regroup_for_matrix(&mut joints);
     // Coordinates of modes are in m.
@@ -127,7 +142,11 @@ pub(crate) const fn compile_bending<const B: usize, const Q: usize, const V: usi
         places,
         length,
     };
-    (tree, on_ends)
+    BendingTree {
+        tree,
+        on_ends,
+        is_on_end,
+    }
 }
 
 const fn bends(ends: &[Option<DVec3>]) -> bool {

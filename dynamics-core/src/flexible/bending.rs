@@ -53,7 +53,7 @@ pub trait BendingRobot<const B: usize, const Q: usize, const V: usize, const M: 
 /// }
 ///
 /// let scene = (RIGID_BODY, Elasticity);
-/// let joint = State { q: [0.3], qd: [2.0], qdd: [10.0] };
+/// let joint = State { q: [0.3_f64], qd: [2.0], qdd: [10.0] };
 /// let bent = State { q: [-0.02, 0.001], qd: [0.5, -0.1], qdd: [3.0, 20.0] };
 /// let (a, b) = (Bending::<Core<Boom>>::rnea(&joint, &bent, &scene), Bending::<Engine<Boom>>::rnea(&joint, &bent, &scene));
 /// assert!((a.joints[0] - b.joints[0]).abs() < 1e-13 && (a.modes[1] - b.modes[1]).abs() < 1e-12);
@@ -340,7 +340,7 @@ impl<T, K> Bending<Engine<T, K>> {
     /// # }
     /// # impl BendingRobot<1, 1, 1, 1> for Boom { const MODES: Modes<f64, 1> = Modes::new(&Self::MODEL, &[LINK]); }
     /// let scene = (RIGID_BODY, Elasticity);
-    /// let (mut joint, mut bent) = (State::at([0.3]), State::at([-0.02]));
+    /// let (mut joint, mut bent) = (State::at([0.3_f64]), State::at([-0.02]));
     /// let found = Bending::<Engine<Boom>>::forward_dynamics(&joint, &bent, &[2.0], &scene)?;
     /// (joint.qdd, bent.qdd) = (found.joints, found.modes);
     /// let tau = Bending::<Engine<Boom>>::rnea(&joint, &bent, &scene);

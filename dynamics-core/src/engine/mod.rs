@@ -95,11 +95,11 @@ use crate::scalar::{Native, Real};
 use crate::state::{Configuration, JointTrig, RobotState, State, TrigSource};
 use crate::trig::{Kernel, VECTORS};
 pub(crate) use bending::{
-    BendingLink, BendingMode, Bends, MODES, bending_inertia, bending_torques, outer, sum,
+    BendingLink, BendingMode, Bends, MODES, bending_inertia, bending_torques,
 };
 pub(crate) use compile::{
     BendingTree, BodyPlacement, Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion,
-    compile_bending, support,
+    compile_bending, mat_add, outer, support,
 };
 use gate::EngineScene;
 pub(crate) use rnea::joint_state;

@@ -8,7 +8,7 @@ use super::link::MODES_PER_LINK;
 use super::{BendingRobot, Modes};
 use crate::engine::{
     BendingLink, BendingMode, BendingTree, Bends, BodyPlacement, Compiled, Joint, JointMotion,
-    MODES, compile_bending, outer, sum, support,
+    MODES, compile_bending, mat_add, outer, support,
 };
 use crate::math::const_eval::add;
 use crate::model::{BASE, JointKind, Link, Text};
@@ -181,7 +181,7 @@ const fn bending<const M: usize>(modes: &Modes<f64, M>, body: usize, origin: DVe
             let of = &modes.each[k];
             let mut mode = BendingMode {
                 momentum: of.momentum,
-                moments: sum(&of.moments, &outer(of.momentum, origin)),
+                moments: mat_add(&of.moments, &outer(of.momentum, origin)),
                 shift: of.shift,
                 half_turn: of.half_turn,
                 ..BendingMode::NONE

@@ -128,7 +128,7 @@ where
     E: Effect<f64, B, V>,
 {
     let (mut numbers, mut worst) = (Numbers::new(11), 0.0);
-    for _ in 0..100 {
+    for _ in 0..20 {
         let (state, bent) = (numbers.state::<V>(JOINTS), numbers.state::<M>(MODES));
         let core = Bending::<Core<T>>::rnea(&state, &bent, scene);
         let engine = Bending::<Engine<T>>::rnea(&state, &bent, scene);
@@ -265,7 +265,7 @@ fn a_thousand_ticks_of_feedforward_agree() {
 }
 
 #[test]
-fn the_engine_names_modes_and_joints_that_are_not_finite() {
+fn the_engine_names_modes_that_are_not_finite() {
     let scene = (RIGID_BODY, Elasticity);
     let start = ModalFeedforward::at_rest(&Static::<Planar>::NEW, &PLANAR, &[0.0; 2], &scene);
     let start = start.expect("stiffness");
@@ -294,5 +294,5 @@ fn forward_dynamics_of_engine_and_core_agree() {
         worst = f64::max(worst, apart(&engine, &core));
     }
     println!("forward dynamics: {worst:.1e}");
-    assert!(worst < 1e-12, "{worst:.1e}");
+    assert!(worst < 2e-13, "{worst:.1e}");
 }

@@ -14,7 +14,7 @@ use core::marker::PhantomData;
 use end::{End, Stand};
 use link::bent_wrench;
 use motion::{Measured, Mode, Moves, Of, Unit};
-pub(crate) use table::{BendingLink, BendingMode, Bends, MODES, outer, sum};
+pub(crate) use table::{BendingLink, BendingMode, Bends, MODES};
 use table::{Bent, Ends, HasMode};
 
 use super::acceleration_field::{AccelerationField, Wrench};

@@ -4,7 +4,9 @@ use core::marker::PhantomData;
 
 use glam::{DMat3, DVec3};
 
-use crate::engine::compile::{BodyPlacement, Compiled, CompiledJoint, Joint, JointMotion};
+use crate::engine::compile::{
+    BodyPlacement, Compiled, CompiledJoint, Joint, JointMotion, mat_add, outer,
+};
 use crate::math::const_eval::{add, scale};
 use crate::model::Link;
 
@@ -95,7 +97,7 @@ impl BendingLink {
             let mode = &mut self.modes[k];
             let momentum = scale(mode.shift, mass);
             mode.momentum = add(mode.momentum, momentum);
-            mode.moments = sum(&mode.moments, &outer(momentum, end));
+            mode.moments = mat_add(&mode.moments, &outer(momentum, end));
             k += 1;
         }
         k = 0;
@@ -103,7 +105,7 @@ impl BendingLink {
             let (a, b) = (k / self.count, k % self.count);
             let (shift, other) = (self.modes[a].shift, self.modes[b].shift);
             let mode = &mut self.modes[a];
-            mode.products[b] = sum(&mode.products[b], &outer(scale(shift, mass), other));
+            mode.products[b] = mat_add(&mode.products[b], &outer(scale(shift, mass), other));
             mode.masses[b] = trace(&mode.products[b]);
             k += 1;
         }
@@ -174,19 +176,6 @@ const fn in_plane(m: &DMat3, rounding: f64) -> DMat3 {
 
 const fn kept(x: f64, rounding: f64) -> f64 {
     if x.abs() <= rounding { 0.0 } else { x }
-}
-
-/// a bᵀ.
-pub(crate) const fn outer(a: DVec3, b: DVec3) -> DMat3 {
-    DMat3::from_cols(scale(a, b.x), scale(a, b.y), scale(a, b.z))
-}
-
-pub(crate) const fn sum(a: &DMat3, b: &DMat3) -> DMat3 {
-    DMat3::from_cols(
-        add(a.x_axis, b.x_axis),
-        add(a.y_axis, b.y_axis),
-        add(a.z_axis, b.z_axis),
-    )
 }
 
 pub(super) const fn trace(m: &DMat3) -> f64 {

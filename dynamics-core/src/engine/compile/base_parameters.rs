@@ -131,11 +131,12 @@ pub(super) const fn second_moment(inertia: &DMat3) -> DMat3 {
     )
 }
 
-pub(super) const fn outer(a: DVec3, b: DVec3) -> DMat3 {
+/// a bᵀ.
+pub(crate) const fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(scale(a, b.x), scale(a, b.y), scale(a, b.z))
 }
 
-pub(super) const fn mat_add(a: &DMat3, b: &DMat3) -> DMat3 {
+pub(crate) const fn mat_add(a: &DMat3, b: &DMat3) -> DMat3 {
     DMat3::from_cols(
         add(a.x_axis, b.x_axis),
         add(a.y_axis, b.y_axis),

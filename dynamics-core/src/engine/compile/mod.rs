@@ -19,6 +19,7 @@ mod snap;
 mod topology;
 mod tree;
 
+pub(crate) use base_parameters::{mat_add, outer};
 pub(crate) use remainder::{Distribution, Remainder};
 pub(crate) use topology::{
     Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair, is_parent, is_slide_beyond,
@@ -29,7 +30,7 @@ pub(crate) use tree::{BendingTree, BodyPlacement, CompiledTree, Joint, JointMoti
 use glam::{DMat3, DVec3};
 
 use self::alone::inertia_alone;
-use self::base_parameters::{mat_add, outer, regroup, second_moment};
+use self::base_parameters::{regroup, second_moment};
 use self::matrix_parameters::regroup_for_matrix;
 use self::prune::prune;
 use self::snap::{snap_small, snapped};

@@ -445,7 +445,7 @@ impl<R: Real> AccelerationField<R> {
 
 /// U = \[α\]× + \[ω\]×\[ω\]×.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn u_of<R: Real>(alpha: Vec3<R>, omega: Vec3<R>) -> Mat3<R> {
+pub(super) fn u_of<R: Real>(alpha: Vec3<R>, omega: Vec3<R>) -> Mat3<R> {
     let ([ax, ay, az], [wx, wy, wz]) = (alpha.0, omega.0);
     let (xz, yz, xy) = (wx * wz, wy * wz, wx * wy);
     let (xx, yy, zz) = (wx * wx, wy * wy, wz * wz);

@@ -56,6 +56,7 @@ mod acceleration_field;
 mod articulated_inertia;
 mod base;
 mod base_parameters;
+mod bending;
 mod centroidal;
 mod compile;
 mod crba;
@@ -93,7 +94,13 @@ use crate::model::{JointCoordinate, Robot};
 use crate::scalar::{Native, Real};
 use crate::state::{Configuration, JointTrig, RobotState, State, TrigSource};
 use crate::trig::{Kernel, VECTORS};
-pub(crate) use compile::{CompiledJoint, CompiledRobot};
+pub(crate) use bending::{
+    BendingLink, BendingMode, Bends, MODES, bending_inertia, bending_torques,
+};
+pub(crate) use compile::{
+    BendingTree, BodyPlacement, Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion,
+    compile_bending, mat_add, outer, support,
+};
 use gate::EngineScene;
 pub(crate) use rnea::joint_state;
 use rnea::torques;
@@ -216,8 +223,15 @@ impl<T, K> Engine<T, K> {
     }
 }
 
+impl<T, K> Engine<T, K> {
+    /// What computes sines and cosines of a robot of B bodies and V velocity coordinates.
+    pub(crate) const fn trig_source<const B: usize, const V: usize>() -> Specialised<T, K, B, V> {
+        Specialised(PhantomData)
+    }
+}
+
 /// [`Engine::joint_trig`] of a robot of B bodies and V velocity coordinates.
-struct Specialised<T, K, const B: usize, const V: usize>(PhantomData<(T, K)>);
+pub(crate) struct Specialised<T, K, const B: usize, const V: usize>(PhantomData<(T, K)>);
 
 impl<R: Real, T, K, const B: usize, const Q: usize, const V: usize> TrigSource<R, Q>
     for Specialised<T, K, B, V>

@@ -47,6 +47,25 @@ impl<R: Real> Pose<R> {
         }
     }
 
+    /// The pose of the same body's point at `p`, in its axes.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn moved(&self, p: Vec3<R>) -> Self {
+        Self {
+            origin: self.origin + self.axes.mul(p),
+            ..*self
+        }
+    }
+
+    /// The same with axes that `to_axes` turns to from these.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn turned(&self, to_axes: &Mat3<R>) -> Self {
+        let [x, y, z] = to_axes.rows();
+        Self {
+            axes: Mat3([self.axes.mul(x), self.axes.mul(y), self.axes.mul(z)]),
+            ..*self
+        }
+    }
+
     /// ᵘX₀ of a body of the description: from the base to its own frame.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of(&self, place: &BodyPlacement, length: Folded<R>) -> Xform<R> {

@@ -219,7 +219,7 @@ where
 
 /// The torque of the motor of coordinate I, which carries `total`.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn drive<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+pub(super) fn drive<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     total: &Wrench<R>,
 ) where

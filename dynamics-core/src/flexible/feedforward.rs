@@ -130,32 +130,62 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     {
         let trig = reference.q.trig_of(robot);
         let trig: &JointTrig<R, Q> = trig.borrow();
-        let [of_rate, square] = [h * R::from_f64(1.5), h * h];
-        let mut bent = self.bent;
-        advance(&mut bent, &self.bent.qdd, h);
+        let mut bent = self.ahead(h);
         let force = rnea(robot, modes, trig.with(reference), &bent, effects).modes;
         let m = modal_inertia(robot, modes, trig, &bent.q, effects);
-        let mut matrix = m.map(|row| row.map(|m| m + m));
-        if E::ELASTICITY {
-            modes.add_stiffness(&mut matrix, [of_rate, square]);
-        }
-        let factors = Factors::of(&matrix).map_err(FlexibleError::Mode)?;
-        for (k, change) in factors.solve(force).into_iter().enumerate() {
-            let terms = [
-                (&mut bent.q, square),
-                (&mut bent.qd, of_rate),
-                (&mut bent.qdd, R::ONE),
-            ];
-            for (to, factor) in terms {
-                if let Some(to) = to.get_mut(k) {
-                    *to -= factor * change;
-                }
-            }
-        }
+        correct(&mut bent, &m, force, E::ELASTICITY.then_some(modes), h)?;
         let tau = rnea(robot, modes, trig.with(reference), &bent, effects).joints;
+        self.accept(bent, tau)
+    }
+
+    /// The modes after h seconds, extrapolated by η̈.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn ahead(&self, h: R) -> State<R, M, M> {
+        let mut bent = self.bent;
+        advance(&mut bent, &self.bent.qdd, h);
+        bent
+    }
+
+    /// Stores the modes of a tick and returns its torques.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn accept<const V: usize>(
+        &mut self,
+        bent: State<R, M, M>,
+        tau: [R; V],
+    ) -> Result<[R; V], FlexibleError> {
         finite(&bent.qdd).map_err(FlexibleError::Mode)?;
         finite(&tau).map_err(FlexibleError::Joint)?;
         self.bent = bent;
         Ok(tau)
     }
+}
+
+/// Corrects extrapolated modes, of this inertia and with this force on them, by the change δ of η̈; `elastic` has their stiffness.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn correct<R: Real, const M: usize>(
+    bent: &mut State<R, M, M>,
+    m: &[[R; M]; M],
+    force: [R; M],
+    elastic: Option<&Modes<R, M>>,
+    h: R,
+) -> Result<(), FlexibleError> {
+    let [of_rate, square] = [h * R::from_f64(1.5), h * h];
+    let mut matrix = m.map(|row| row.map(|m| m + m));
+    if let Some(modes) = elastic {
+        modes.add_stiffness(&mut matrix, [of_rate, square]);
+    }
+    let factors = Factors::of(&matrix).map_err(FlexibleError::Mode)?;
+    for (k, change) in factors.solve(force).into_iter().enumerate() {
+        let terms = [
+            (&mut bent.q, square),
+            (&mut bent.qd, of_rate),
+            (&mut bent.qdd, R::ONE),
+        ];
+        for (to, factor) in terms {
+            if let Some(to) = to.get_mut(k) {
+                *to -= factor * change;
+            }
+        }
+    }
+    Ok(())
 }

@@ -89,12 +89,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    const {
-        assert!(
-            E::ACCELERATIONS,
-            "forward dynamics needs `Inertia` in the scene"
-        )
-    };
+    const { accelerates::<R, E, B, V>() };
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let bias = rnea(robot, modes, trig.with(state), bent, &Bias(effects));
@@ -104,6 +99,16 @@ where
         joints: core::array::from_fn(|k| entry(&tau, k) - entry(&bias.joints, k)),
         modes: bias.modes.map(|force| -force),
     })
+}
+
+pub(super) const fn accelerates<R: Real, E, const B: usize, const V: usize>()
+where
+    E: Effect<R, B, V>,
+{
+    assert!(
+        E::ACCELERATIONS,
+        "forward dynamics needs `Inertia` in the scene"
+    );
 }
 
 /// The accelerations η̈ of the modes along a motion of the joints, m/s² or rad/s².
@@ -147,7 +152,16 @@ where
     };
     let force = rnea(robot, modes, trig.with(state), &coasting, effects).modes;
     let m = modal_inertia(robot, modes, trig, &bent.q, effects);
-    let factors = Factors::of(&m).map_err(FlexibleError::Mode)?;
+    accelerations(&m, force)
+}
+
+/// The accelerations of the modes that need these forces at rest.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn accelerations<R: Real, const M: usize>(
+    m: &[[R; M]; M],
+    force: [R; M],
+) -> Result<[R; M], FlexibleError> {
+    let factors = Factors::of(m).map_err(FlexibleError::Mode)?;
     let accelerations = factors.solve(force.map(|force| -force));
     finite(&accelerations).map_err(FlexibleError::Mode)?;
     Ok(accelerations)
@@ -158,6 +172,7 @@ impl<R: Real, const V: usize, const M: usize> FlexibleInertia<R, V, M> {
     ///
     /// # Errors
     /// [`FlexibleError`] names the first coordinate whose pivot is not positive.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn solve(
         &self,
         forces: &JointsAndModes<R, V, M>,
@@ -210,6 +225,7 @@ pub(super) struct Factors<R, const N: usize> {
 
 impl<R: Real, const N: usize> Factors<R, N> {
     /// The number of the first row whose pivot is not positive, beyond what rounding leaves of it, is the error.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of(matrix: &[[R; N]; N]) -> Result<Self, usize> {
         let (mut rows, mut d_inv) = (*matrix, [R::ZERO; N]);
         let noise = R::EPSILON * R::from_f64(N as f64);
@@ -243,6 +259,7 @@ impl<R: Real, const N: usize> Factors<R, N> {
     }
 
     /// L⁻¹ x.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn forward(&self, mut x: [R; N]) -> [R; N] {
         for i in 0..N {
             let row = self

@@ -13,6 +13,7 @@
 //! | [`modal_dynamics`] | accelerations of the modes along a given motion of the joints |
 //! | [`step()`] | a step of simulation, stable for modes of any frequency |
 //! | [`ModalFeedforward`] | torques along a reference, with the modes' motion under it |
+//! | [`Bending`] | all of these but [`step()`] for a robot known at compile time, by the textbook or by the engine |
 //!
 //! The torques that move the *joints* along a reference are a sound inverse: the modes move under it as those of links
 //! whose joints are clamped, and settle. The torques that would move the *tip* along one are not: the tip of a link that
@@ -28,7 +29,9 @@
 //! Book (1984); Shabana, *Dynamics of Multibody Systems* (2005), chapter 5.
 
 mod beam;
+mod bending;
 mod check;
+mod compiled;
 mod crba;
 mod deformation;
 mod feedforward;
@@ -42,6 +45,7 @@ mod shape;
 mod step;
 
 pub use beam::{Beam, Shape};
+pub use bending::{Bending, BendingRobot};
 pub use crba::{FlexibleInertia, crba};
 pub use feedforward::ModalFeedforward;
 pub use forward_dynamics::{FlexibleError, forward_dynamics, modal_dynamics};

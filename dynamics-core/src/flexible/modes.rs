@@ -47,7 +47,7 @@ use crate::scalar::Real;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Modes<R: Real, const M: usize> {
-    links: [usize; M],
+    pub(super) links: [usize; M],
     /// A mode's integrals, in the aligned frame of its link.
     pub(super) each: [Integrals<R>; M],
     /// ∫ φₖ φₗᵀ dm; zero between modes of different links.

@@ -1,6 +1,6 @@
 //! A light arm of two links that bend.
 
-use dynamics_core::flexible::{Beam, FlexibleLink, Modes, Shape};
+use dynamics_core::flexible::{Beam, BendingRobot, FlexibleLink, Modes, Shape};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Robot};
 
 /// Two beams in a vertical plane: a motor at the end of the first, a gripper at that of the second. Our own numbers.
@@ -48,25 +48,33 @@ const fn link(beam: &Beam, body: usize, shapes: &[Shape]) -> FlexibleLink {
     }
 }
 
+/// With the first bending shape of each link.
+impl BendingRobot<2, 2, 2, 2> for TwoLink {
+    const MODES: Modes<f64, 2> = Modes::new(
+        &Self::MODEL,
+        &[
+            link(&UPPER, 0, &[Shape::BendZ(1)]),
+            link(&FORE, 1, &[Shape::BendZ(1)]),
+        ],
+    );
+}
+
+/// With the first two modes of each link.
+impl BendingRobot<2, 2, 2, 4> for TwoLink {
+    const MODES: Modes<f64, 4> = Modes::new(
+        &Self::MODEL,
+        &[
+            link(&UPPER, 0, &[Shape::BendZ(1), Shape::BendZ(2)]),
+            link(&FORE, 1, &[Shape::BendZ(1), Shape::BendZ(2)]),
+        ],
+    );
+}
+
 /// The first bending shape of each link.
-pub const MODES_1: Modes<f32, 2> = Modes::new(
-    &TwoLink::MODEL,
-    &[
-        link(&UPPER, 0, &[Shape::BendZ(1)]),
-        link(&FORE, 1, &[Shape::BendZ(1)]),
-    ],
-)
-.to_f32();
+pub const MODES_1: Modes<f32, 2> = <TwoLink as BendingRobot<2, 2, 2, 2>>::MODES.to_f32();
 
 /// The first two modes of each link.
-pub const MODES_2: Modes<f32, 4> = Modes::new(
-    &TwoLink::MODEL,
-    &[
-        link(&UPPER, 0, &[Shape::BendZ(1), Shape::BendZ(2)]),
-        link(&FORE, 1, &[Shape::BendZ(1), Shape::BendZ(2)]),
-    ],
-)
-.to_f32();
+pub const MODES_2: Modes<f32, 4> = <TwoLink as BendingRobot<2, 2, 2, 4>>::MODES.to_f32();
 
 /// The same of beams that are 9.75 % softer, so that every frequency is 5 % lower.
 pub const MODES_2_SOFT: Modes<f32, 4> = {

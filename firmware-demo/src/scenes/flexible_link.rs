@@ -1,11 +1,11 @@
 //! Scene `flexible_link`: a light arm whose links bend, under feed-forward with their modes and under one that takes them
 //! for rigid. It swings to a pose through a shaper that leaves no vibration, and back without.
 
-use dynamics_core::Core;
 use dynamics_core::effects::{Armature, Coriolis, Effect, Elasticity, Gravity, Inertia, Viscous};
-use dynamics_core::flexible::{ModalFeedforward, Modes};
+use dynamics_core::flexible::{Bending, ModalFeedforward, Modes};
 use dynamics_core::model::{Calibrated, Static};
 use dynamics_core::state::State;
+use dynamics_core::{Core, Engine};
 use motion_control::{Shaped, TrajectoryError};
 
 use crate::plant::BendingPlant;
@@ -85,7 +85,7 @@ impl Scene<2, 2, 2, 2> for BendingArm {
             ticks as u32,
             || at_rest(START),
             |modes, state| {
-                let moved = modes.tick(&Static::<TwoLink>::NEW, &MODES_2, state, &EFFECTS, TICK);
+                let moved = Bending::<Engine<TwoLink>>::tick(modes, state, &EFFECTS, TICK);
                 // The numbers of the reference are finite.
                 let _ = moved;
             },
@@ -98,7 +98,7 @@ impl Scene<2, 2, 2, 2> for BendingArm {
         effects: &E,
     ) -> [f32; 2] {
         let mut modes = ModalFeedforward { bent: *bent };
-        let tau = modes.tick(&Static::<TwoLink>::NEW, &MODES_2, reference, effects, TICK);
+        let tau = Bending::<Engine<TwoLink>>::tick(&mut modes, reference, effects, TICK);
         tau.unwrap_or([0.0; 2])
     }
 

@@ -1,6 +1,6 @@
 //! Two arms of two links that bend, and states of them.
 
-use dynamics_core::flexible::{Beam, FlexibleLink, Modes, Shape};
+use dynamics_core::flexible::{Beam, BendingRobot, FlexibleLink, Modes, Shape};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Robot};
 use dynamics_core::state::State;
 
@@ -64,6 +64,10 @@ pub const PLANAR: Modes<f64, 4> = Modes::new(
     ],
 );
 
+impl BendingRobot<2, 2, 2, 4> for Planar {
+    const MODES: Modes<f64, 4> = PLANAR;
+}
+
 /// Two links, the first about the vertical, that bend in two planes and twist.
 #[derive(Clone, Copy, Debug)]
 pub struct Spatial;
@@ -87,6 +91,10 @@ pub const SPATIAL: Modes<f64, 6> = Modes::new(
         ),
     ],
 );
+
+impl BendingRobot<2, 2, 2, 6> for Spatial {
+    const MODES: Modes<f64, 6> = SPATIAL;
+}
 
 /// A number within ±1 of a sequence.
 #[derive(Debug)]

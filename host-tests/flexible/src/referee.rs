@@ -2,7 +2,7 @@
 
 use dynamics_core::effects::{Elasticity, RIGID_BODY};
 use dynamics_core::flexible::{
-    Beam, FlexibleLink, ModalFeedforward, Modes, Shape, crba, modal_dynamics, rnea,
+    Beam, FlexibleLink, JointsAndModes, ModalFeedforward, Modes, Shape, crba, modal_dynamics, rnea,
 };
 use dynamics_core::model::{ArmModel, BASE, Body, Joint};
 use dynamics_core::scalar::Real;
@@ -18,26 +18,49 @@ pub fn error<'a>(pairs: impl Iterator<Item = (&'a f64, &'a f64)>) -> f64 {
     worst / scale
 }
 
-/// Torques of the joints, forces on the modes, and kinetic energy at every recorded state.
+/// Torques of the joints and forces on the modes at every recorded state, by a function that computes inverse dynamics.
 ///
 /// # Panics
 /// If the recording is of another robot.
 pub fn inverse<R: Real, const M: usize>(
     recorded: &Dynamics,
-    model: &ArmModel<R, 2>,
-    modes: &Modes<R, M>,
-) -> [Vec<f64>; 3] {
-    let [mut tau, mut of_modes, mut kinetic] = [(); 3].map(|()| Vec::new());
-    for k in 0..recorded.q.len() {
-        let state = recorded_state::<R, 2>([&recorded.q, &recorded.qd, &recorded.qdd], k);
-        let bent = recorded_state::<R, M>([&recorded.eta, &recorded.etad, &recorded.etadd], k);
-        let found = rnea(model, modes, &state, &bent, &RIGID_BODY);
+    rnea: impl Fn(&State<R, 2, 2>, &State<R, M, M>) -> JointsAndModes<R, 2, M>,
+) -> [Vec<f64>; 2] {
+    let [mut tau, mut of_modes] = [(); 2].map(|()| Vec::new());
+    for (state, bent) in states(recorded) {
+        let found = rnea(&state, &bent);
         tau.extend(found.joints.map(R::to_f64));
         of_modes.extend(found.modes.map(R::to_f64));
-        let inertia = crba(model, modes, &state.q, &bent.q, &RIGID_BODY);
-        kinetic.push(inertia.kinetic_energy(&state.qd, &bent.qd).to_f64());
     }
-    [tau, of_modes, kinetic]
+    [tau, of_modes]
+}
+
+/// Kinetic energy at every recorded state.
+///
+/// # Panics
+/// If the recording is of another robot.
+pub fn kinetic<R: Real, const M: usize>(
+    recorded: &Dynamics,
+    model: &ArmModel<R, 2>,
+    modes: &Modes<R, M>,
+) -> Vec<f64> {
+    let energy = |(state, bent): (State<R, 2, 2>, State<R, M, M>)| {
+        let inertia = crba(model, modes, &state.q, &bent.q, &RIGID_BODY);
+        inertia.kinetic_energy(&state.qd, &bent.qd).to_f64()
+    };
+    states(recorded).map(energy).collect()
+}
+
+/// The recorded states of joints and modes.
+fn states<R: Real, const M: usize>(
+    recorded: &Dynamics,
+) -> impl Iterator<Item = (State<R, 2, 2>, State<R, M, M>)> {
+    (0..recorded.q.len()).map(|k| {
+        (
+            recorded_state([&recorded.q, &recorded.qd, &recorded.qdd], k),
+            recorded_state([&recorded.eta, &recorded.etad, &recorded.etadd], k),
+        )
+    })
 }
 
 fn recorded_state<R: Real, const N: usize>(rows: [&[Vec<f64>]; 3], k: usize) -> State<R, N, N> {

@@ -1,12 +1,13 @@
 //! The figures of docs/flexible.md.
 
-use dynamics_core::flexible::Modes;
-use dynamics_core::model::{ArmModel, Robot};
+use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::flexible::{Bending, BendingRobot};
+use dynamics_core::{Core, Engine};
 use serde_json::{Value, json};
 
 use crate::recording::recording;
 use crate::referee::{error, forced, inverse, sag};
-use crate::{LOWER, PLANAR, Planar, SPATIAL, Spatial, UPPER};
+use crate::{LOWER, Planar, Spatial, UPPER};
 
 /// The truncation errors of 1 to 6 modes, and the errors of inverse dynamics in f64 and f32.
 pub fn measured() -> Value {
@@ -19,8 +20,8 @@ pub fn measured() -> Value {
         truncation::<6>(),
     ];
     let errors = [
-        errors("planar", &Planar::MODEL, &PLANAR),
-        errors("spatial", &Spatial::MODEL, &SPATIAL),
+        errors::<Planar, 4>("planar"),
+        errors::<Spatial, 6>("spatial"),
     ];
     json!({ "truncation": truncation, "errors": errors.concat() })
 }
@@ -39,22 +40,46 @@ fn truncation<const M: usize>() -> [f64; 3] {
     ]
 }
 
-/// Robot, quantity, and its errors in f64 and f32.
-fn errors<const M: usize>(
-    name: &'static str,
-    model: &ArmModel<f64, 2>,
-    modes: &Modes<f64, M>,
-) -> Vec<(&'static str, &'static str, [f64; 2])> {
+/// Robot, form and quantity, and the errors of it in f64 and f32.
+fn errors<T, const M: usize>(name: &str) -> Vec<(String, &'static str, [f64; 2])>
+where
+    T: BendingRobot<2, 2, 2, M>,
+{
     let recorded = &recording().dynamics[name];
-    let double = inverse(recorded, model, modes);
-    let single = inverse(recorded, &model.to_f32(), &modes.to_f32());
-    let of = |quantity, rows: &[Vec<f64>], k: usize| {
-        let errors = [&double[k], &single[k]];
-        let errors = errors.map(|found| error(found.iter().zip(rows.iter().flatten())));
-        (name, quantity, errors)
+    let of = |form, double: [Vec<f64>; 2], single: [Vec<f64>; 2]| {
+        let quantities = [
+            ("torques of the joints", &recorded.tau),
+            ("forces on the modes", &recorded.modal),
+        ];
+        let found = double.into_iter().zip(single);
+        let rows = quantities.into_iter().zip(found);
+        let rows = rows.map(|((quantity, rows), (double, single))| {
+            let of = |found: &[f64]| error(found.iter().zip(rows.iter().flatten()));
+            (
+                format!("{name}, {form}"),
+                quantity,
+                [of(&double), of(&single)],
+            )
+        });
+        rows.collect::<Vec<_>>()
     };
-    vec![
-        of("torques of the joints", &recorded.tau, 0),
-        of("forces on the modes", &recorded.modal, 1),
-    ]
+    let core = of(
+        "core",
+        inverse(recorded, |q, eta| {
+            Bending::<Core<T>>::rnea::<f64, _, 2, 2, 2, M>(q, eta, &RIGID_BODY)
+        }),
+        inverse(recorded, |q, eta| {
+            Bending::<Core<T>>::rnea::<f32, _, 2, 2, 2, M>(q, eta, &RIGID_BODY)
+        }),
+    );
+    let engine = of(
+        "engine",
+        inverse(recorded, |q, eta| {
+            Bending::<Engine<T>>::rnea::<f64, _, 2, 2, 2, M>(q, eta, &RIGID_BODY)
+        }),
+        inverse(recorded, |q, eta| {
+            Bending::<Engine<T>>::rnea::<f32, _, 2, 2, 2, M>(q, eta, &RIGID_BODY)
+        }),
+    );
+    [core, engine].concat()
 }

@@ -3,21 +3,31 @@
 
 use std::fmt::Write;
 
-use dynamics_core::flexible::{Beam, ModeProblem, Modes, Shape};
-use dynamics_core::model::{ArmModel, Robot};
+use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::flexible::{Beam, Bending, BendingRobot, ModeProblem, Shape};
+use dynamics_core::state::State;
+use dynamics_core::{Core, Engine};
 use flexible_tests::recording::{Static, recording};
-use flexible_tests::referee::{error, forced, inverse, sag, vibration};
-use flexible_tests::{LOWER, PLANAR, Planar, SPATIAL, Spatial, UPPER};
+use flexible_tests::referee::{error, forced, inverse, kinetic, sag, vibration};
+use flexible_tests::{LOWER, Planar, Spatial, UPPER};
 
-fn dynamics<const M: usize>(name: &str, model: &ArmModel<f64, 2>, modes: &Modes<f64, M>) {
+fn dynamics<T: BendingRobot<2, 2, 2, M>, const M: usize>(name: &str) {
     let recorded = &recording().dynamics[name];
-    let [mut tau, of_modes, kinetic] = inverse(recorded, model, modes);
-    for (k, (energy, recorded)) in kinetic.iter().zip(&recorded.kinetic).enumerate() {
+    let energies = kinetic::<f64, M>(recorded, &T::MODEL, &T::MODES);
+    for (k, (energy, recorded)) in energies.iter().zip(&recorded.kinetic).enumerate() {
         assert!(
             (energy / recorded - 1.0).abs() < 1e-12,
             "{name} {k}: {energy}"
         );
     }
+    let by_core = |q: &State<f64, 2, 2>, eta: &_| Bending::<Core<T>>::rnea(q, eta, &RIGID_BODY);
+    compared(name, inverse(recorded, by_core));
+    let folded = |q: &State<f64, 2, 2>, eta: &_| Bending::<Engine<T>>::rnea(q, eta, &RIGID_BODY);
+    compared(name, inverse(recorded, folded));
+}
+
+fn compared(name: &str, [mut tau, of_modes]: [Vec<f64>; 2]) {
+    let recorded = &recording().dynamics[name];
     let joints = error(tau.iter().zip(recorded.tau.iter().flatten()));
     let modal = error(of_modes.iter().zip(recorded.modal.iter().flatten()));
     println!("{name}: joints {joints:.1e}, modes {modal:.1e} of full scale");
@@ -38,8 +48,8 @@ fn dynamics<const M: usize>(name: &str, model: &ArmModel<f64, 2>, modes: &Modes<
 
 #[test]
 fn inverse_dynamics_is_that_of_the_beams_points() {
-    dynamics("planar", &Planar::MODEL, &PLANAR);
-    dynamics("spatial", &Spatial::MODEL, &SPATIAL);
+    dynamics::<Planar, 4>("planar");
+    dynamics::<Spatial, 6>("spatial");
 }
 
 fn beams() -> [(&'static str, Beam); 4] {

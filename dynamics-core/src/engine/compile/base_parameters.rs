@@ -8,15 +8,23 @@
 //! joint of its own, over the massless body between them. A screw and a planar joint move the body's origin along or across
 //! z, so that only Σ_zz goes to the parent. A spherical joint keeps its centre in the parent, which receives the mass there;
 //! h and Σ stay. A free joint passes nothing.
+//!
+//! The end of a link that bends turns with respect to the link, so that a joint on it passes nothing but a mass at its very end: that
+//! is displaced as the end is.
 
 use glam::{DMat3, DVec3};
 
-use super::tree::{Joint, JointMotion};
+use super::tree::{Joint, JointMotion, OnEnd};
 use crate::math::const_eval::{add, mul, scale, transpose};
 use crate::model::BASE;
 
-/// From the last joint to the first, moves the parameters to the parent on which the joint's motion does not depend.
-pub(super) const fn regroup<const V: usize>(joints: &mut [Joint; V]) {
+/// From the last joint to the first, moves the parameters to the parent on which the joint's motion does not depend. Of bodies that
+/// bend, `ends` has the ends, on which masses are left.
+pub(super) const fn regroup<const V: usize>(
+    joints: &mut [Joint; V],
+    ends: &[Option<DVec3>; V],
+    on_ends: &mut [OnEnd; V],
+) {
     let mut i = V;
     while i > 0 {
         i -= 1;
@@ -27,11 +35,23 @@ pub(super) const fn regroup<const V: usize>(joints: &mut [Joint; V]) {
         }
         // The coordinate that moves the body.
         let by = joints[child.first];
-        let passed = passed(&mut joints[i], by.motion);
+        let end = if by.parent == BASE {
+            None
+        } else {
+            ends[by.parent]
+        };
+        let passed = match end {
+            None => passed(&mut joints[i], by.motion),
+            Some(_) => passed_to_end(&mut joints[i], &by),
+        };
         joints[i].second_moment_only = joints[i].second;
         if by.parent != BASE {
             let parent = &mut joints[by.parent];
-            let (p, h) = (by.pos, scale(by.rot.z_axis, passed.rod));
+            let (mut p, h) = (by.pos, scale(by.rot.z_axis, passed.rod));
+            if let Some(end) = end {
+                p = end;
+                on_ends[by.parent].mass += passed.mass;
+            }
             let second = mul(&mul(&by.rot, &passed.spread), &transpose(&by.rot));
             let second = mat_add(&second, &mat_add(&outer(p, h), &outer(h, p)));
             let whole = mat_add(&second, &outer(p, scale(p, passed.mass)));
@@ -57,13 +77,28 @@ struct Passed {
     spread: DMat3,
 }
 
-/// Takes from a body what its joint passes to the parent.
-const fn passed(body: &mut Joint, motion: JointMotion) -> Passed {
-    let mut passed = Passed {
+impl Passed {
+    const NOTHING: Self = Self {
         mass: 0.0,
         rod: 0.0,
         spread: DMat3::ZERO,
     };
+}
+
+/// Takes from a body what the joint that moves it passes to the end of a parent that bends.
+const fn passed_to_end(body: &mut Joint, by: &Joint) -> Passed {
+    let mut passed = Passed::NOTHING;
+    let turns = matches!(by.motion, JointMotion::Turn | JointMotion::Spherical);
+    if turns && by.pos.x == 0.0 && by.pos.y == 0.0 && by.pos.z == 0.0 {
+        passed.mass = body.mass;
+        body.mass = 0.0;
+    }
+    passed
+}
+
+/// Takes from a body what its joint passes to the parent.
+const fn passed(body: &mut Joint, motion: JointMotion) -> Passed {
+    let mut passed = Passed::NOTHING;
     if matches!(motion, JointMotion::Slide) {
         passed.spread = body.second;
         body.second = DMat3::ZERO;
@@ -96,11 +131,12 @@ pub(super) const fn second_moment(inertia: &DMat3) -> DMat3 {
     )
 }
 
-pub(super) const fn outer(a: DVec3, b: DVec3) -> DMat3 {
+/// a bᵀ.
+pub(crate) const fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(scale(a, b.x), scale(a, b.y), scale(a, b.z))
 }
 
-pub(super) const fn mat_add(a: &DMat3, b: &DMat3) -> DMat3 {
+pub(crate) const fn mat_add(a: &DMat3, b: &DMat3) -> DMat3 {
     DMat3::from_cols(
         add(a.x_axis, b.x_axis),
         add(a.y_axis, b.y_axis),

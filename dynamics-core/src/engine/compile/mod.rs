@@ -19,17 +19,18 @@ mod snap;
 mod topology;
 mod tree;
 
+pub(crate) use base_parameters::{mat_add, outer};
 pub(crate) use remainder::{Distribution, Remainder};
 pub(crate) use topology::{
     Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair, is_parent, is_slide_beyond,
-    joint, last, load, loads, place, supports,
+    joint, last, load, loads, place, support, supports,
 };
-pub(crate) use tree::{BodyPlacement, CompiledTree, Joint, JointMotion};
+pub(crate) use tree::{BendingTree, BodyPlacement, CompiledTree, Joint, JointMotion, OnEnd};
 
 use glam::{DMat3, DVec3};
 
 use self::alone::inertia_alone;
-use self::base_parameters::{mat_add, outer, regroup, second_moment};
+use self::base_parameters::{regroup, second_moment};
 use self::matrix_parameters::regroup_for_matrix;
 use self::prune::prune;
 use self::snap::{snap_small, snapped};
@@ -41,8 +42,20 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
     negligible: f64,
 ) -> CompiledTree<B, V> {
+    compile_bending(model, negligible, &[None; B]).tree
+}
+
+/// The same of a robot whose links bend: `ends` has the end of each body that does, in its aligned frame. On it are the joints
+/// of its children, whose places are those from the end.
+pub(crate) const fn compile_bending<const B: usize, const Q: usize, const V: usize>(
+    model: &Model<f64, B, Q, V>,
+    negligible: f64,
+    ends: &[Option<DVec3>; B],
+) -> BendingTree<B, V> {
     let mut joints = [PADDING_JOINT; V];
     let mut places = [AT_BASE; B];
+    let mut bent = [None; V];
+    let (mut on_ends, mut is_on_end) = ([OnEnd::NOTHING; V], [false; B]);
     let mut i = 0;
     while i < B {
         let link = &model.links[i];
@@ -52,13 +65,18 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
             places[link.parent]
         };
         let rot = mul(&parent.rot, &transpose(&link.placement.rot));
-        let pos = add(mul_vec(&parent.rot, link.placement.pos), parent.pos);
+        let pos = match end_of(ends, link.parent) {
+            None => add(mul_vec(&parent.rot, link.placement.pos), parent.pos),
+            Some(end) => mul_vec(&parent.rot, apart(link.placement.pos, end)),
+        };
         if matches!(link.joint.kind, JointKind::Fixed) {
             places[i] = BodyPlacement {
                 joint: parent.joint,
                 rot,
                 pos,
             };
+            is_on_end[i] =
+                link.parent < B && (ends[link.parent].is_some() || is_on_end[link.parent]);
         } else {
             places[i] = attach(&mut joints, link, parent.joint, &rot, pos);
         }
@@ -71,19 +89,39 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
                 &transpose(rot),
             );
             let second = mat_add(&second, &mat_add(&outer(h, d), &outer(d, h)));
-            joint.second = mat_add(&joint.second, &mat_add(&second, &outer(d, scale(d, mass))));
-            joint.moment = add(joint.moment, add(h, scale(d, mass)));
+            let second = mat_add(&second, &outer(d, scale(d, mass)));
+            let moment = add(h, scale(d, mass));
+            if let (true, Some(end)) = (is_on_end[i], bent[places[i].joint]) {
+                // Its mass is a point at the end.
+                let on_end = &mut on_ends[places[i].joint];
+                on_end.second = mat_add(&on_end.second, &second);
+                on_end.moment = add(on_end.moment, moment);
+                on_end.mass += mass;
+                joint.second = mat_add(&joint.second, &outer(end, scale(end, mass)));
+                joint.moment = add(joint.moment, scale(end, mass));
+            } else {
+                joint.second = mat_add(&joint.second, &second);
+                joint.moment = add(joint.moment, moment);
+            }
             joint.mass += mass;
+            if let Some(end) = ends[i] {
+                bent[places[i].joint] = Some(add(mul_vec(rot, end), d));
+            }
         }
         i += 1;
     }
     if negligible == 0.0 {
         inertia_alone(&mut joints, &model.links);
     }
-    regroup(&mut joints);
+    regroup(&mut joints, &bent, &mut on_ends);
     prune(&mut joints, negligible);
     regroup_for_matrix(&mut joints);
-    let length = unit_of_length(&joints);
+    // Coordinates of modes are in m.
+    let length = if bends(ends) {
+        1.0
+    } else {
+        unit_of_length(&joints)
+    };
     i = 0;
     while i < V {
         let joint = &mut joints[i];
@@ -100,11 +138,42 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
         places[i].pos = divide(places[i].pos, length);
         i += 1;
     }
-    CompiledTree {
+    let tree = CompiledTree {
         joints,
         places,
         length,
+    };
+    BendingTree {
+        tree,
+        on_ends,
+        is_on_end,
     }
+}
+
+const fn bends(ends: &[Option<DVec3>]) -> bool {
+    let mut i = 0;
+    while i < ends.len() {
+        if ends[i].is_some() {
+            return true;
+        }
+        i += 1;
+    }
+    false
+}
+
+const fn end_of(ends: &[Option<DVec3>], body: usize) -> Option<DVec3> {
+    if body < ends.len() { ends[body] } else { None }
+}
+
+/// A place from the end of a link, zero where it misses that by rounding alone.
+const fn apart(place: DVec3, end: DVec3) -> DVec3 {
+    let limit = 4.0 * f64::EPSILON * (end.x.abs() + end.y.abs() + end.z.abs());
+    let d = add(place, scale(end, -1.0));
+    DVec3::new(
+        if d.x.abs() <= limit { 0.0 } else { d.x },
+        if d.y.abs() <= limit { 0.0 } else { d.y },
+        if d.z.abs() <= limit { 0.0 } else { d.z },
+    )
 }
 
 /// Writes the coordinates of a joint whose frame is `rot` and `pos` in that of `parent`; returns where its body is.

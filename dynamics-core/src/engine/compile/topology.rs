@@ -78,18 +78,21 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
     const JOINTS: &'static [Joint] = &Self::TREE.joints;
     const PLACES: &'static [BodyPlacement] = &Self::TREE.places;
     const LENGTH: f64 = Self::TREE.length;
-    const SUPPORT: &'static [u64] = &{
-        let (mut support, mut i) = ([0; V], 0);
-        while i < V {
-            let parent = Self::TREE.joints[i].parent;
-            support[i] = 1 << i;
-            if parent != BASE {
-                support[i] |= support[parent];
-            }
-            i += 1;
+    const SUPPORT: &'static [u64] = &support(&Self::TREE.joints);
+}
+
+/// The joints that support each joint, itself among them, as bits.
+pub(crate) const fn support<const V: usize>(joints: &[Joint; V]) -> [u64; V] {
+    let (mut support, mut i) = ([0; V], 0);
+    while i < V {
+        let parent = joints[i].parent;
+        support[i] = 1 << i;
+        if parent != BASE {
+            support[i] |= support[parent];
         }
-        support
-    };
+        i += 1;
+    }
+    support
 }
 
 /// Whether joint `i`, or the base, is the parent of joint `j`.

@@ -82,6 +82,35 @@ pub(crate) struct CompiledTree<const B: usize, const V: usize> {
     pub(crate) length: f64,
 }
 
+/// The same of a robot whose links bend.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BendingTree<const B: usize, const V: usize> {
+    pub(crate) tree: CompiledTree<B, V>,
+    /// What is on the end of the body of each joint.
+    pub(crate) on_ends: [OnEnd; V],
+    /// Whether a body of the description is fixed on an end: its place is that from there.
+    pub(crate) is_on_end: [bool; B],
+}
+
+/// What is on the end of a link that bends.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OnEnd {
+    /// The mass of what is fixed there, and that which joints leave at the very end: a point, which is in the parameters of the link,
+    /// too.
+    pub(crate) mass: f64,
+    /// Of what is fixed there, about the end.
+    pub(crate) moment: DVec3,
+    pub(crate) second: DMat3,
+}
+
+impl OnEnd {
+    pub(super) const NOTHING: Self = Self {
+        mass: 0.0,
+        moment: DVec3::ZERO,
+        second: DMat3::ZERO,
+    };
+}
+
 /// Fills the constants of branches that are not compiled in, which the compiler evaluates all the same.
 pub(super) const PADDING_JOINT: Joint = Joint {
     parent: BASE,

@@ -40,7 +40,11 @@ rm -rf "$work/package"
 cp -R "$here" "$work/package"
 "$python" -m pip install -q --disable-pip-version-check --no-deps --force-reinstall "$wheel" "$work/package"
 
-(cd "$root" && cargo run -q --package host-reports --bin so101_floating) >"$work/scene.json"
+scene=${SO101_FLOATING_SCENE:-}
+if [ -z "$scene" ]; then
+    scene=$work/scene.json
+    (cd "$root" && cargo run -q --package host-reports --bin so101_floating) >"$scene"
+fi
 cd "$here"
-SO101_FLOATING_SCENE="$work/scene.json" HF_HOME="$work/huggingface" \
+SO101_FLOATING_SCENE="$scene" HF_HOME="$work/huggingface" \
     exec "$python" -m pytest -p no:cacheprovider "$@"

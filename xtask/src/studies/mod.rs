@@ -29,6 +29,7 @@ use std::process::ExitCode;
 use clap::{ArgMatches, Args, Command};
 
 use crate::kit::error::Result;
+use crate::kit::host_bin::SIMULATED;
 use crate::kit::workspace::Workspace;
 use crate::kit::{setup, shell};
 use study::Form::{Demo, Own, Part, Whole};
@@ -100,9 +101,8 @@ pub const STUDIES: &[Study] = &[
         held: Step(Target, Full, "docs/certificates.md and docs/accuracy-proven.json have the hashes of today's machine code, whose forward dynamics is the recursion of LᵀDL; Gappa and Coq accept parts of the proofs, and refuse wrong ones"),
         form: Demo(|bench| {
             setup::provers(bench.options.without_questions())?;
-            let words = "--quiet --profile simulated --package certification --".split(' ');
             for check in ["--hashes", "--sampled"] {
-                shell::cargo(bench.workspace.cargo("run").args(words.clone()).arg(check))?;
+                shell::cargo(SIMULATED.program(bench.workspace, "certify")?.arg(check))?;
             }
             Ok(String::new())
         }),

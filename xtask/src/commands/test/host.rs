@@ -7,25 +7,20 @@ use serde_json::Value;
 use super::Context;
 use crate::commands::weight;
 use crate::kit::error::{Result, refuse_if};
-use crate::kit::host_bin::{SHARED, SIMULATED};
+use crate::kit::host_bin::{SHARED, SIMULATED, Together};
 use crate::kit::sources::sources;
 use crate::kit::workspace;
 
-/// The tests that take the compiler or a simulation long: further robots, scalars and hours of claims that are tested without, of
-/// the packages that simulate and of the others.
-const FULL_SIMULATED: &str = "--features simulation-tests/full,trial-tests/full";
-const FULL: &str = "--features guide/full,host-tests/full,robot-import/full,specialised-tests/full";
-/// All packages but the firmware and its listeners, which the steps `telemetry` and `pil` build and test.
-const HOST: &str = "--workspace --exclude firmware-demo --exclude lab-target --exclude telemetry-watch --exclude telemetry-pil";
-/// The part of the firmware that runs anywhere.
-const FIRMWARE: &str = "--package firmware-demo --package lab-target --lib";
+/// All packages but the firmware, with what the tests of a full run have besides. Of the firmware, whose bins link only for a Cortex-M,
+/// clippy reads the part that runs anywhere, on which others depend.
+fn everything() -> String {
+    let [shared, simulated] = [SHARED, SIMULATED].map(|these| these.full);
+    format!("--workspace --exclude firmware-demo --exclude lab-target {shared} {simulated}")
+}
 
 pub fn clippy(context: &Context) -> Result<String> {
-    context.cargo(&[
-        &format!("clippy {HOST} --all-targets {FULL} {FULL_SIMULATED} -- -D warnings"),
-        &format!("clippy {FIRMWARE} -- -D warnings"),
-        "clippy --package telemetry-watch --package telemetry-pil --all-targets -- -D warnings",
-    ])
+    let everything = everything();
+    context.cargo(&[format!("clippy {everything} --all-targets -- -D warnings")])
 }
 
 /// The files of tests beside a `main.rs` that does not name them, which cargo would not compile.
@@ -44,13 +39,13 @@ fn unnamed(root: &Path) -> Result<Vec<PathBuf>> {
 }
 
 /// The tests, by cargo's command line.
-fn lines() -> [String; 2] {
-    [tests_of(SHARED), "test --package xtask".into()]
+fn lines(full: bool) -> [String; 2] {
+    [tests_of(&SHARED, full), "test --package xtask".into()]
 }
 
 /// The tests of packages: neither `--lib` nor `--bins`, which compile what has `test = false`, too.
-fn tests_of(packages: &str) -> String {
-    format!("test {packages} --tests")
+fn tests_of(packages: &Together, full: bool) -> String {
+    format!("test {} --tests", packages.words(full))
 }
 
 pub fn tests(context: &Context) -> Result<String> {
@@ -59,20 +54,16 @@ pub fn tests(context: &Context) -> Result<String> {
         !unnamed.is_empty(),
         "no `mod` in the `main.rs` beside them: {unnamed:?}"
     );
-    let more = match context.full {
-        true => FULL,
-        false => "",
-    };
-    let [all, xtask] = lines();
+    let [all, xtask] = lines(context.full);
     // All failures in one run, which takes long.
-    let printed = context.cargo(&[&format!("{all} --no-fail-fast {more}"), &xtask])?;
+    let printed = context.cargo(&[format!("{all} --no-fail-fast"), xtask])?;
     Ok(format!("{} tests", count(&printed)))
 }
 
 /// The tests that simulate, which another profile compiles.
 pub fn simulations(context: &Context) -> Result<String> {
-    let tests = tests_of(SIMULATED);
-    let printed = context.cargo(&[format!("{tests} --no-fail-fast {FULL_SIMULATED}")])?;
+    let tests = tests_of(&SIMULATED, true);
+    let printed = context.cargo(&[format!("{tests} --no-fail-fast")])?;
     Ok(format!("{} tests", count(&printed)))
 }
 
@@ -87,7 +78,7 @@ pub fn weight(context: &Context) -> Result<String> {
 
 /// The programs of the tests, built.
 fn programs(context: &Context) -> Result<Vec<PathBuf>> {
-    let lines = lines().map(|line| format!("{line} --no-run --message-format json"));
+    let lines = lines(false).map(|line| format!("{line} --no-run --message-format json"));
     let printed = context.cargo(&lines)?;
     Ok(printed.lines().filter_map(executable).collect())
 }
@@ -104,20 +95,21 @@ pub fn doctests(context: &Context) -> Result<String> {
         true => &[SHARED, SIMULATED][..],
         false => &[SHARED],
     };
-    let lines: Vec<_> = packages
-        .iter()
-        .map(|packages| format!("test {packages} --doc"))
-        .collect();
-    let printed = context.cargo(&lines)?;
+    let line = |these: &Together| format!("test {} --doc", these.words(context.full));
+    let printed = context.cargo(&packages.iter().map(line).collect::<Vec<_>>())?;
     Ok(format!("{} examples", count(&printed)))
 }
 
 pub fn doc(context: &Context) -> Result<String> {
-    // Without private items too: a link to one of them is broken only there.
-    for private in ["", "--document-private-items"] {
+    // Without private items too: a link to one of them is broken only there. A program's are documented in any case.
+    let everything = everything();
+    for (host, firmware) in [
+        ("--document-private-items", "--document-private-items"),
+        ("--lib", ""),
+    ] {
         context.cargo(&[
-            &format!("doc {HOST} --no-deps {private}"),
-            &format!("doc {FIRMWARE} --no-deps {private}"),
+            format!("doc {everything} --no-deps {host}"),
+            format!("doc --package firmware-demo --package lab-target --lib --no-deps {firmware}"),
         ])?;
     }
     Ok(String::new())

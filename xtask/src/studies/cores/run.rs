@@ -11,9 +11,9 @@ use crate::kit::elf::Image;
 use crate::kit::error::{Error, Result, check, refuse_if};
 use crate::kit::meter::{self, Cost, REGIONS};
 use crate::kit::qemu::Qemu;
-use crate::kit::shell;
 use crate::kit::toolchain::RELEASE;
 use crate::kit::workspace::Workspace;
+use crate::kit::{host_bin, shell};
 
 const PACKAGE: &str = "cores";
 /// The time limit of a core in QEMU.
@@ -90,9 +90,7 @@ impl Said {
 
 /// The torques of this machine, which no emulator computes.
 pub fn on_host(workspace: &Workspace) -> Result<Vec<Torques>> {
-    let mut command = workspace.cargo("run");
-    command.args(["--quiet", "--package", PACKAGE]);
-    Ok(Said::read(&shell::capture(&mut command)?)?.torques)
+    Ok(Said::read(&host_bin::text(workspace, PACKAGE)?)?.torques)
 }
 
 /// Builds the bin for a core.

@@ -11,16 +11,21 @@ use crate::kit::host_bin::{SHARED, SIMULATED, Together};
 use crate::kit::sources::sources;
 use crate::kit::workspace;
 
-/// All packages but the firmware, with what the tests of a full run have besides. Of the firmware, whose bins link only for a Cortex-M,
-/// clippy reads the part that runs anywhere, on which others depend.
+/// All but the firmware, whose bins link only for a Cortex-M.
+const WITHOUT_FIRMWARE: &str = "--exclude firmware-demo --exclude lab-target";
+
+/// All packages, with what the tests of a full run have besides.
 fn everything() -> String {
     let [shared, simulated] = [SHARED, SIMULATED].map(|these| these.full);
-    format!("--workspace --exclude firmware-demo --exclude lab-target {shared} {simulated}")
+    format!("--workspace {shared} {simulated}")
 }
 
 pub fn clippy(context: &Context) -> Result<String> {
-    let everything = everything();
-    context.cargo(&[format!("clippy {everything} --all-targets -- -D warnings")])
+    // It reads the part of the firmware that runs anywhere, too, since others depend on it.
+    let all = everything();
+    context.cargo(&[format!(
+        "clippy {all} {WITHOUT_FIRMWARE} --all-targets -- -D warnings"
+    )])
 }
 
 /// The files of tests beside a `main.rs` that does not name them, which cargo would not compile.
@@ -101,17 +106,13 @@ pub fn doctests(context: &Context) -> Result<String> {
 }
 
 pub fn doc(context: &Context) -> Result<String> {
+    let all = everything();
     // Without private items too: a link to one of them is broken only there. A program's are documented in any case.
-    let everything = everything();
-    for (host, firmware) in [
-        ("--document-private-items", "--document-private-items"),
-        ("--lib", ""),
-    ] {
-        context.cargo(&[
-            format!("doc {everything} --no-deps {host}"),
-            format!("doc --package firmware-demo --package lab-target --lib --no-deps {firmware}"),
-        ])?;
-    }
+    context.cargo(&[
+        format!("doc {all} {WITHOUT_FIRMWARE} --no-deps --document-private-items"),
+        format!("doc {all} --lib --no-deps --document-private-items"),
+        format!("doc {all} --lib --no-deps"),
+    ])?;
     Ok(String::new())
 }
 

@@ -1,6 +1,5 @@
 //! The programs that measure and simulate on the host.
 
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde::de::DeserializeOwned;
@@ -42,51 +41,38 @@ pub const SIMULATED: Together = Together {
 impl Together {
     /// The words by which cargo selects the packages.
     pub fn words(&self, full: bool) -> String {
-        let more = if full { self.full } else { "" };
-        format!("{} {more}", self.packages)
+        format!("{} {}", self.packages, if full { self.full } else { "" })
     }
 
     /// A command that builds what further words select.
     pub fn build(&self, workspace: &Workspace) -> Command {
         let mut command = workspace.cargo("build");
-        command
-            .arg("--quiet")
-            .args(self.programs.split_whitespace());
-        command.args(self.words(workspace.full).split_whitespace());
+        let words = format!("--quiet {} {}", self.programs, self.words(workspace.full));
+        command.args(words.split_whitespace());
         command
     }
 
-    /// The folder of the programs.
-    pub fn folder(&self, workspace: &Workspace) -> PathBuf {
-        workspace.target.join(self.folder)
+    /// A program that has been built, by its path from the folder of programs.
+    pub fn built(&self, workspace: &Workspace, path: &str) -> Command {
+        let file = format!("{}/{path}{}", self.folder, std::env::consts::EXE_SUFFIX);
+        Command::new(workspace.target.join(file))
     }
 
     /// A bin, built.
     pub fn program(&self, workspace: &Workspace, bin: &str) -> Result<Command> {
         shell::capture(self.build(workspace).args(["--bin", bin]))?;
-        Ok(program(&self.folder(workspace), bin))
+        Ok(self.built(workspace, bin))
     }
-}
 
-/// A program in a folder.
-pub fn program(folder: &Path, name: &str) -> Command {
-    let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
-    Command::new(folder.join(file))
-}
-
-/// What a bin of the [`SHARED`] packages prints.
-pub fn text(workspace: &Workspace, bin: &str) -> Result<String> {
-    shell::capture(&mut SHARED.program(workspace, bin)?)
-}
-
-/// What a bin of the [`SIMULATED`] packages prints.
-pub fn simulated(workspace: &Workspace, bin: &str) -> Result<String> {
-    shell::capture(&mut SIMULATED.program(workspace, bin)?)
+    /// What a bin prints.
+    pub fn text(&self, workspace: &Workspace, bin: &str) -> Result<String> {
+        shell::capture(&mut self.program(workspace, bin)?)
+    }
 }
 
 /// The JSON that a bin of the [`SHARED`] packages prints.
 pub fn json<T: DeserializeOwned>(workspace: &Workspace, bin: &str) -> Result<T> {
-    parsed(bin, &text(workspace, bin)?)
+    parsed(bin, &SHARED.text(workspace, bin)?)
 }
 
 /// The JSON that a bin printed.

@@ -29,9 +29,8 @@ use std::process::ExitCode;
 use clap::{ArgMatches, Args, Command};
 
 use crate::kit::error::Result;
-use crate::kit::host_bin::SIMULATED;
 use crate::kit::workspace::Workspace;
-use crate::kit::{setup, shell};
+use crate::kit::{host_bin::SIMULATED, setup, shell};
 use study::Form::{Demo, Own, Part, Whole};
 use study::Held::{Bars, Step};
 use study::Lane::{Host, Target};

@@ -4,11 +4,10 @@
 use serde_json::{Value, json};
 
 use crate::kit::error::{Result, check};
-use crate::kit::host_bin::SIMULATED;
 use crate::kit::progress::Spinner;
 use crate::kit::rows::{self, Row};
 use crate::kit::toolchain::RELEASE;
-use crate::kit::{firmware, shell, workspace};
+use crate::kit::{firmware, host_bin::SIMULATED, shell, workspace};
 use crate::studies::costs::BINS;
 use crate::studies::study::{Bench, Found};
 

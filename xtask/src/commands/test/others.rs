@@ -8,13 +8,12 @@ use super::Context;
 use crate::commands::demo;
 use crate::kit::bars::OTHER_RUSTC;
 use crate::kit::error::{Error, Result, refuse_if};
-use crate::kit::host_bin::{self, SHARED};
 use crate::kit::qemu::{Qemu, Run};
 use crate::kit::scene::Scene;
 use crate::kit::system::{Privilege, System};
 use crate::kit::toolchain::{self, DEBIAN_PACKAGES, RELEASE, TARGET, Toolchain, release};
 use crate::kit::workspace::{self, FIRMWARE, Workspace};
-use crate::kit::{apt, firmware, rows, setup, shell};
+use crate::kit::{apt, firmware, host_bin::SHARED, rows, setup, shell};
 use crate::studies::budgets;
 
 /// The bins that are built: the default scene, and the costs of its robot.
@@ -74,10 +73,7 @@ pub fn lerobot(context: &Context) -> Result<String> {
     let folder = "python/lerobot_teleoperator_so101_floating";
     let script = context.workspace.root.join(folder).join("test.sh");
     let scene = context.workspace.output("so101_floating.json")?;
-    workspace::write(
-        &scene,
-        host_bin::text(&context.workspace, "so101_floating")?,
-    )?;
+    workspace::write(&scene, SHARED.text(&context.workspace, "so101_floating")?)?;
     let test = |words: &[&str]| {
         let mut script = Command::new(&script);
         shell::capture(script.args(words).env("SO101_FLOATING_SCENE", &scene))

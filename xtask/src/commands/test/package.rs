@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 use super::Context;
 use crate::kit::error::{Error, Result, refuse_if};
-use crate::kit::host_bin::{SHARED, program};
+use crate::kit::host_bin::SHARED;
 use crate::kit::shell;
 use crate::kit::toolchain::{TARGET, Toolchain};
 use crate::kit::workspace::{read, write};
@@ -113,13 +113,12 @@ pub fn features(context: &Context) -> Result<String> {
 pub fn examples(context: &Context) -> Result<String> {
     let workspace = &context.workspace;
     shell::capture(SHARED.build(workspace).arg("--examples"))?;
-    let folder = SHARED.folder(workspace).join("examples");
     let mut ran = Vec::new();
     for library in [LIBRARY, CONTROLLER] {
         ran.extend(example_names(&workspace.root, library)?);
     }
     for name in &ran {
-        shell::capture(&mut program(&folder, name))?;
+        shell::capture(&mut SHARED.built(workspace, &format!("examples/{name}")))?;
     }
     Ok(ran.join(", "))
 }

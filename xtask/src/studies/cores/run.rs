@@ -9,11 +9,12 @@ use super::list::{self, Core, Isa};
 use super::walk::Walk;
 use crate::kit::elf::Image;
 use crate::kit::error::{Error, Result, check, refuse_if};
+use crate::kit::host_bin::SHARED;
 use crate::kit::meter::{self, Cost, REGIONS};
 use crate::kit::qemu::Qemu;
+use crate::kit::shell;
 use crate::kit::toolchain::RELEASE;
 use crate::kit::workspace::Workspace;
-use crate::kit::{host_bin, shell};
 
 const PACKAGE: &str = "cores";
 /// The time limit of a core in QEMU.
@@ -90,7 +91,7 @@ impl Said {
 
 /// The torques of this machine, which no emulator computes.
 pub fn on_host(workspace: &Workspace) -> Result<Vec<Torques>> {
-    Ok(Said::read(&host_bin::text(workspace, PACKAGE)?)?.torques)
+    Ok(Said::read(&SHARED.text(workspace, PACKAGE)?)?.torques)
 }
 
 /// Builds the bin for a core.

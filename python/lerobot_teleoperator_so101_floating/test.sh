@@ -7,6 +7,7 @@
 # no test computes with (torch above all; tests/stand_ins.py takes their places), the wheel of robot_dynamics, and this package. What the
 # firmware's scene commands is computed by Rust.
 #   ROBOT_DYNAMICS_WHEEL   a wheel to take in place of the one that python/test.py builds
+#   SO101_FLOATING_SCENE   what the scene commands, in place of what the bin so101_floating prints
 #   TABLES_WRITE=1         writes the tables of the guide's page in place of comparing them
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)

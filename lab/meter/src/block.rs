@@ -194,7 +194,7 @@ mod tests {
             }
             assert_eq!(block.cost(start, code.len()), (sum, pipe), "{entry:?}");
         }
-        assert_eq!(block.end(), 0x112);
+        assert_eq!(block.end(), 0x11A);
     }
 
     #[test]

@@ -81,6 +81,11 @@ impl Pipe {
         Self::clear(self.reading)
     }
 
+    /// Whether nothing is pending: the next instructions cost what they cost alone.
+    pub fn is_clear(&self) -> bool {
+        *self == self.cleared()
+    }
+
     /// Executes one instruction and returns its cycles, stalls included. A branch
     /// is charged as not taken, a predicated instruction as executed.
     pub fn step(&mut self, insn: &Insn) -> u32 {

@@ -47,18 +47,9 @@ impl<'b> Meter<'b> {
         if opens {
             self.unmatched += u64::from(slot.replace((now, block.address(mark.index))).is_some());
         } else if let Some((then, at)) = slot.take() {
-            let Tally {
-                instructions,
-                cycles,
-                flops,
-            } = now.since(then);
-            self.samples.push(Sample {
-                region,
-                instructions,
-                cycles,
-                flops,
-                at,
-            });
+            let cost = now.since(then);
+            let sample = Sample::of(region, [cost.instructions, cost.cycles, cost.flops]);
+            self.samples.push(Sample { at, ..sample });
         } else {
             self.unmatched += 1;
         }

@@ -22,9 +22,10 @@ fn everything() -> String {
 
 pub fn clippy(context: &Context) -> Result<String> {
     // It reads the part of the firmware that runs anywhere, too, since others depend on it.
-    let all = everything();
+    let words = "--all-targets -- -D warnings";
     context.cargo(&[format!(
-        "clippy {all} {WITHOUT_FIRMWARE} --all-targets -- -D warnings"
+        "clippy {} {WITHOUT_FIRMWARE} {words}",
+        everything()
     )])
 }
 
@@ -96,12 +97,9 @@ fn executable(message: &str) -> Option<PathBuf> {
 }
 
 pub fn doctests(context: &Context) -> Result<String> {
-    let packages = match context.full {
-        true => &[SHARED, SIMULATED][..],
-        false => &[SHARED],
-    };
-    let line = |these: &Together| format!("test {} --doc", these.words(context.full));
-    let printed = context.cargo(&packages.iter().map(line).collect::<Vec<_>>())?;
+    let line = |these: Together| format!("test {} --doc", these.words(context.full));
+    let lines = [SHARED, SIMULATED].map(line);
+    let printed = context.cargo(&lines[..1 + usize::from(context.full)])?;
     Ok(format!("{} examples", count(&printed)))
 }
 

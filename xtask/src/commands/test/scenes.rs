@@ -51,8 +51,7 @@ pub fn determinism(context: &Context) -> Result<String> {
     let (workspace, tools, meter) = (&context.workspace, &context.tools, context.meter()?);
     let mut scenes = context.measured()?.iter().zip(context.scenes());
     // Without `--full` there is the default one alone.
-    let is_it = |scene: &Scene| !context.full || scene.name() == TWICE;
-    let found = scenes.find(|(_, scene)| is_it(scene));
+    let found = scenes.find(|(_, scene)| !context.full || scene.name() == TWICE);
     let (first, scene) = found.ok_or_else(|| check!("`{TWICE}` is not measured"))?;
     let again = demo::measure(workspace, tools, *scene, &first.elf, meter)?;
     let ((log, costs), (log_again, costs_again)) = (&first.raw, &again.raw);

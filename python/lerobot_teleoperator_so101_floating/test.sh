@@ -7,6 +7,7 @@
 # no test computes with (torch above all; tests/stand_ins.py takes their places), the wheel of robot_dynamics, and this package. What the
 # firmware's scene commands is computed by Rust.
 #   ROBOT_DYNAMICS_WHEEL   a wheel to take in place of the one that python/test.py builds
+#   SO101_FLOATING_SCENE   what the scene commands, in place of what the bin so101_floating prints
 #   TABLES_WRITE=1         writes the tables of the guide's page in place of comparing them
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -40,7 +41,11 @@ rm -rf "$work/package"
 cp -R "$here" "$work/package"
 "$python" -m pip install -q --disable-pip-version-check --no-deps --force-reinstall "$wheel" "$work/package"
 
-(cd "$root" && cargo run -q --package host-reports --bin so101_floating) >"$work/scene.json"
+scene=${SO101_FLOATING_SCENE:-}
+if [ -z "$scene" ]; then
+    scene=$work/scene.json
+    (cd "$root" && cargo run -q --package host-reports --bin so101_floating) >"$scene"
+fi
 cd "$here"
-SO101_FLOATING_SCENE="$work/scene.json" HF_HOME="$work/huggingface" \
+SO101_FLOATING_SCENE="$scene" HF_HOME="$work/huggingface" \
     exec "$python" -m pytest -p no:cacheprovider "$@"

@@ -6,7 +6,6 @@
 mod naive;
 mod rerooted_chain;
 
-pub mod attitude;
 pub mod chains;
 pub mod clock;
 pub mod continuous_turns;
@@ -17,7 +16,6 @@ pub mod engine;
 pub mod far_slide;
 pub mod friction;
 pub mod impedance;
-pub mod integrators;
 pub mod invariances;
 pub mod masses;
 pub mod measure;
@@ -32,11 +30,8 @@ pub mod suite;
 pub mod top;
 
 use host_tests::hard::{Case, demand_of};
-
-/// The scalar's name.
-fn name<R>() -> &'static str {
-    std::any::type_name::<R>()
-}
+use long_cases::name;
+pub use long_cases::{attitude, day, integrators, pendulum};
 
 /// All cases, a slice a family.
 pub const CASES: &[&[Case]] = &[

@@ -1,5 +1,5 @@
 use crate::{demand, demand_part};
-use hard_cases::clock::quarter_of_an_hour;
+use hard_cases::day::quarter_of_an_hour;
 
 #[test]
 fn an_encoder_wrap_is_no_velocity_spike() {

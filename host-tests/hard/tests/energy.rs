@@ -1,5 +1,5 @@
 use crate::{demand, demand_part};
-use hard_cases::energy::pendulum_for_seconds;
+use hard_cases::pendulum::pendulum_for_seconds;
 
 #[test]
 fn a_double_pendulum_keeps_its_energy() {

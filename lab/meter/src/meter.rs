@@ -41,20 +41,15 @@ impl<'b> Meter<'b> {
     /// A marker of the current block is executed.
     pub fn mark(&mut self, mark: &Mark) {
         let Some(block) = self.current else { return };
-        let part = block.cost_before(self.entry, mark.index);
-        let now = self.total.plus(part);
+        let now = self.total.plus(block.cost(self.entry, mark.index).0);
         let Marker { region, opens } = mark.marker;
         let slot = &mut self.open[usize::from(region)];
         if opens {
             self.unmatched += u64::from(slot.replace((now, block.address(mark.index))).is_some());
         } else if let Some((then, at)) = slot.take() {
-            self.samples.push(Sample {
-                region,
-                instructions: now.instructions - then.instructions,
-                cycles: now.cycles - then.cycles,
-                flops: now.flops - then.flops,
-                at,
-            });
+            let cost = now.since(then);
+            let sample = Sample::of(region, [cost.instructions, cost.cycles, cost.flops]);
+            self.samples.push(Sample { at, ..sample });
         } else {
             self.unmatched += 1;
         }

@@ -155,10 +155,24 @@ impl Built {
         Ok(Self { meter, runs })
     }
 
-    /// Runs the ones under the other.
+    /// Runs the ones under the other, as many at a time as there are cores, and returns them in their order.
     pub fn measure(&self, workspace: &Workspace, tools: &Tools) -> Result<Vec<Measured>> {
         tools.qemu.interface(&self.meter)?;
-        measure_all(workspace, tools, &self.meter, &self.runs)
+        let (runs, meter, next) = (&self.runs, &self.meter, AtomicUsize::new(0));
+        let done: Vec<_> = runs.iter().map(|_| OnceLock::new()).collect();
+        let work = || {
+            while let Some(number) = Some(next.fetch_add(1, Relaxed)).filter(|n| *n < runs.len()) {
+                let (scene, elf) = &runs[number];
+                done[number].get_or_init(|| measure(workspace, tools, *scene, elf, meter));
+            }
+        };
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        std::thread::scope(|scope| {
+            for _ in 0..cores.min(runs.len()) {
+                scope.spawn(work);
+            }
+        });
+        done.into_iter().filter_map(OnceLock::into_inner).collect()
     }
 
     /// Whether the runs failed because QEMU does not take the meter: it said so, or it is so new that
@@ -167,30 +181,6 @@ impl Built {
         let refused = tools.qemu.interface(&self.meter).is_err();
         refused || (matches!(why, Error::Qemu { .. }) && !tools.qemu.is_known())
     }
-}
-
-/// Runs scenes under the meter, as many at a time as there are cores, and returns them in their order.
-pub fn measure_all(
-    workspace: &Workspace,
-    tools: &Tools,
-    meter: &Path,
-    runs: &[(Scene, PathBuf)],
-) -> Result<Vec<Measured>> {
-    let next = AtomicUsize::new(0);
-    let done: Vec<_> = runs.iter().map(|_| OnceLock::new()).collect();
-    let work = || {
-        while let Some(number) = Some(next.fetch_add(1, Relaxed)).filter(|n| *n < runs.len()) {
-            let (scene, elf) = &runs[number];
-            done[number].get_or_init(|| measure(workspace, tools, *scene, elf, meter));
-        }
-    };
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| {
-        for _ in 0..cores.min(runs.len()) {
-            scope.spawn(work);
-        }
-    });
-    done.into_iter().filter_map(OnceLock::into_inner).collect()
 }
 
 /// A run in words, from the line that announces it: `run exact pd 0x800b789`.

@@ -1,9 +1,10 @@
 //! `cargo xtask identify`: the parameters of a robot's file from a recording, by the package `identify`; `cargo xtask certify`: proven
 //! rounding errors, by the package `certification`.
 
-use std::process::{Command, ExitCode};
+use std::process::ExitCode;
 
 use crate::kit::error::Result;
+use crate::kit::host_bin::SIMULATED;
 use crate::kit::shell;
 use crate::kit::workspace::Workspace;
 
@@ -29,14 +30,10 @@ pub struct Certify {
     pub arguments: Vec<String>,
 }
 
-pub fn run(package: &str, program: &str, arguments: &[String]) -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
-    // In which its equations are solved within a second.
-    let words = ["--profile", "simulated", "--package", package];
-    shell::cargo(workspace.cargo("build").args(words))?;
-    // Where programs have an ending, the system adds it.
-    let program = workspace.target.join("simulated").join(program);
-    let status = shell::run_for_user(Command::new(program).args(arguments))?;
+pub fn run(program: &str, arguments: &[String]) -> Result<ExitCode> {
+    // By the profile in which its equations are solved within a second.
+    let mut program = SIMULATED.program(&Workspace::find()?, program)?;
+    let status = shell::run_for_user(program.args(arguments))?;
     // It has printed its error.
     Ok(ExitCode::from(u8::from(!status.success())))
 }

@@ -5,7 +5,7 @@ use std::process::{Command, ExitCode};
 use crate::kit::error::{Error, Result};
 use crate::kit::setup::{self, Options};
 use crate::kit::workspace::Workspace;
-use crate::kit::{host_bin, shell, toolchain, workspace};
+use crate::kit::{host_bin::SHARED, shell, toolchain, workspace};
 
 /// The target of the library in a browser.
 const WASM: &str = "wasm32-unknown-unknown";
@@ -39,7 +39,7 @@ pub fn run(options: Options, name: &str) -> Result<ExitCode> {
 /// Holds the page to its bars in headless Chromium; returns its figures.
 pub fn check(workspace: &Workspace, options: Options) -> Result<String> {
     let bits = workspace.output("play.bits")?;
-    workspace::write(&bits, host_bin::text(workspace, "bits")?)?;
+    workspace::write(&bits, SHARED.text(workspace, "bits")?)?;
     let mut node = test(workspace, options, "play/test/play.mjs")?;
     last_line(node.arg("--host-bits").arg(&bits))
 }

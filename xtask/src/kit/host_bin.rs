@@ -1,6 +1,5 @@
 //! The programs that measure and simulate on the host.
 
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde::de::DeserializeOwned;
@@ -9,48 +8,71 @@ use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::shell;
 use crate::kit::workspace::Workspace;
 
-/// The packages of the host whose crates are built together, whichever of their programs is wanted: another selection has other
-/// features of the crates below, which would be compiled once more. xtask is there already, with features of its own.
-pub const SHARED: &str = "--workspace --exclude xtask --exclude telemetry-watch --exclude telemetry-pil --exclude firmware-demo \
-     --exclude lab-target --exclude identification --exclude identify --exclude simulation-tests --exclude trial-tests --exclude play --exclude site";
-
-/// The packages that simulate, likewise, and the profile that inlines the library into them.
-pub const SIMULATED: &str = "--profile simulated --package identification --package identify --package simulation-tests --package trial-tests";
-
-/// Builds programs of [`SHARED`] packages, and returns their folder.
-pub fn build(workspace: &Workspace, targets: &[&str]) -> Result<PathBuf> {
-    built(workspace, SHARED, targets, "debug")
+/// Packages of the host whose crates are built together, whichever of their programs is wanted: another selection, or a feature more
+/// or less, has other features of the crates below, which would be compiled once more.
+pub struct Together {
+    packages: &'static str,
+    /// Those of which programs are built with the same crates, but no tests.
+    programs: &'static str,
+    /// What the tests of a full run have besides: further robots, scalars and hours of claims that are tested without.
+    pub full: &'static str,
+    folder: &'static str,
 }
 
-fn built(workspace: &Workspace, of: &str, targets: &[&str], folder: &str) -> Result<PathBuf> {
-    let mut command = workspace.cargo("build");
-    let command = command.arg("--quiet").args(of.split_whitespace());
-    shell::capture(command.args(targets))?;
-    Ok(workspace.target.join(folder))
-}
+/// All but those that simulate. xtask is there already, with features of its own.
+pub const SHARED: Together = Together {
+    packages: "--workspace --exclude xtask --exclude telemetry-watch --exclude telemetry-pil --exclude firmware-demo --exclude lab-target \
+         --exclude identification --exclude identify --exclude simulation-tests --exclude trial-tests --exclude play --exclude site",
+    programs: "",
+    // What computes for minutes is optimised, which would take the compiler longer than the parts of an everyday run.
+    full: "--features guide/full,host-tests/full,robot-import/full,specialised-tests/full \
+         --config profile.dev.package.long-cases.opt-level=2 --config profile.dev.package.flexible-tests.opt-level=2",
+    folder: "debug",
+};
 
-/// Runs a program in a folder, and returns what it printed.
-pub fn run(folder: &Path, name: &str) -> Result<String> {
-    let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
-    shell::capture(&mut Command::new(folder.join(file)))
-}
+/// The packages that simulate, and the profile that inlines the library into them.
+pub const SIMULATED: Together = Together {
+    packages: "--profile simulated --package identification --package identify --package simulation-tests --package trial-tests",
+    programs: "--package certification",
+    full: "--features simulation-tests/full,trial-tests/full",
+    folder: "simulated",
+};
 
-/// What a bin of the [`SHARED`] packages prints.
-pub fn text(workspace: &Workspace, bin: &str) -> Result<String> {
-    run(&build(workspace, &["--bin", bin])?, bin)
-}
+impl Together {
+    /// The words by which cargo selects the packages.
+    pub fn words(&self, full: bool) -> String {
+        format!("{} {}", self.packages, if full { self.full } else { "" })
+    }
 
-/// What a bin of the [`SIMULATED`] packages prints.
-pub fn simulated(workspace: &Workspace, bin: &str) -> Result<String> {
-    run(
-        &built(workspace, SIMULATED, &["--bin", bin], "simulated")?,
-        bin,
-    )
+    /// A command that builds what further words select.
+    pub fn build(&self, workspace: &Workspace) -> Command {
+        let mut command = workspace.cargo("build");
+        let words = format!("--quiet {} {}", self.programs, self.words(workspace.full));
+        command.args(words.split_whitespace());
+        command
+    }
+
+    /// A program that has been built, by its path from the folder of programs.
+    pub fn built(&self, workspace: &Workspace, path: &str) -> Command {
+        let file = format!("{}/{path}{}", self.folder, std::env::consts::EXE_SUFFIX);
+        Command::new(workspace.target.join(file))
+    }
+
+    /// A bin, built.
+    pub fn program(&self, workspace: &Workspace, bin: &str) -> Result<Command> {
+        shell::capture(self.build(workspace).args(["--bin", bin]))?;
+        Ok(self.built(workspace, bin))
+    }
+
+    /// What a bin prints.
+    pub fn text(&self, workspace: &Workspace, bin: &str) -> Result<String> {
+        shell::capture(&mut self.program(workspace, bin)?)
+    }
 }
 
 /// The JSON that a bin of the [`SHARED`] packages prints.
 pub fn json<T: DeserializeOwned>(workspace: &Workspace, bin: &str) -> Result<T> {
-    parsed(bin, &text(workspace, bin)?)
+    parsed(bin, &SHARED.text(workspace, bin)?)
 }
 
 /// The JSON that a bin printed.

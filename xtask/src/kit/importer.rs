@@ -3,12 +3,13 @@
 pub mod passed;
 
 use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::Value;
 
 use crate::kit::error::{Error, Result, bail, check};
 use crate::kit::firmware::{self, OWN_ROBOTS};
+use crate::kit::host_bin::SHARED;
 use crate::kit::progress::Spinner;
 use crate::kit::rows::{self, Row};
 use crate::kit::setup::Tools;
@@ -32,12 +33,8 @@ pub fn command<W: AsRef<OsStr>>(
     subcommand: &str,
     words: &[W],
 ) -> Result<String> {
-    let mut command = workspace.cargo("run");
-    command
-        .args(["--quiet", "--package", PACKAGE, "--", subcommand])
-        .args(words)
-        .current_dir(std::env::current_dir().map_err(Error::file("find", Path::new(".")))?);
-    shell::capture(&mut command).map_err(Error::reason)
+    let mut command = SHARED.program(workspace, PACKAGE)?;
+    shell::capture(command.arg(subcommand).args(words)).map_err(Error::reason)
 }
 
 /// Imports a file for a report of its own; the Rust file is written to `file`.

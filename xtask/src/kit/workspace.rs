@@ -21,6 +21,8 @@ pub struct Workspace {
     pub target: PathBuf,
     /// The directory for reports, if it is not the workspace.
     pub reports: Option<PathBuf>,
+    /// Whether this is a full run of the tests, in which the host's programs are built with the features of its tests.
+    pub full: bool,
     /// The firmware's bins that need no feature.
     pub bins: Vec<String>,
     /// What packages use of this workspace.
@@ -94,6 +96,7 @@ impl Workspace {
             root,
             target: path("target_directory").ok_or_else(lacks)?,
             reports: REPORTS.get().cloned(),
+            full: false,
             bins: names.collect(),
             uses,
         })
@@ -143,6 +146,7 @@ impl Workspace {
             bins: Vec::new(),
             uses: Vec::new(),
             reports: None,
+            full: false,
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::kit::progress::Spinner;
 use crate::kit::rows::{self, Row};
 use crate::kit::table::Table;
 use crate::kit::toolchain::RELEASE;
-use crate::kit::{firmware, host_bin, workspace};
+use crate::kit::{firmware, host_bin::SHARED, workspace};
 use crate::studies::study::{Bench, Found};
 
 const FEATURE: &str = "effects";
@@ -71,7 +71,7 @@ fn prices(bench: &Bench<'_>) -> Result<Vec<Price>> {
     let (rows, lines) = rows::run_all(workspace, tools, &BINS, &elves)?;
     let sizes = lines.iter().filter_map(|line| holds(line)).collect();
     let _spinner = Spinner::start("computing torques on the host");
-    let torques = host_bin::text(workspace, HOST_BIN)?;
+    let torques = SHARED.text(workspace, HOST_BIN)?;
     let torques = torques.lines().filter_map(torque).collect();
     priced(&rows, &sizes, &torques)
 }

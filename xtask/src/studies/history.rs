@@ -5,7 +5,7 @@ use crate::kit::meter::MODEL;
 use crate::kit::rows::{self, Row};
 use crate::kit::table::{Table, thousands};
 use crate::kit::toolchain::RELEASE;
-use crate::kit::{chart, firmware, host_bin};
+use crate::kit::{chart, firmware, host_bin::SHARED};
 use crate::studies::study::{Bench, Found};
 
 /// The bin, and the feature that it is built for.
@@ -47,7 +47,7 @@ struct Report {
 /// Counts on the host and runs the firmware's bin under the meter.
 pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     let (workspace, tools) = (bench.workspace, bench.tools()?);
-    let counts = host_bin::text(workspace, "history_counts")?;
+    let counts = SHARED.text(workspace, "history_counts")?;
     let (ancestors, differences) = counts
         .split_once("\n\n")
         .ok_or_else(|| check!("`history_counts` printed no differences"))?;

@@ -2,7 +2,7 @@
 
 use crate::kit::docs::cells;
 use crate::kit::error::Result;
-use crate::kit::host_bin;
+use crate::kit::host_bin::SHARED;
 use crate::studies::study::{Bench, Found};
 
 /// The accuracy of the two methods of forward dynamics.
@@ -14,7 +14,7 @@ pub fn eliminations(bench: &Bench<'_>) -> Result<Found> {
 }
 
 fn table(bench: &Bench<'_>, bin: &str, head: &str) -> Result<Found> {
-    let text = host_bin::text(bench.workspace, bin)?;
+    let text = SHARED.text(bench.workspace, bin)?;
     found(head, &text.lines().collect::<Vec<_>>())
 }
 

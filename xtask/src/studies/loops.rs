@@ -5,7 +5,7 @@ use serde::Deserialize;
 use super::host_table;
 use crate::kit::chart::{self, BLUE, HEAD, HPos, INK, MUTED, RED, RGBColor};
 use crate::kit::error::{Result, check};
-use crate::kit::host_bin;
+use crate::kit::host_bin::SHARED;
 use crate::studies::study::{Bench, Found};
 
 const BIN: &str = "loops";
@@ -35,7 +35,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     const HEAD: &str = "\
 | robot | quantity | error, f64 | bound | error, f32 | bound |\n\
 | --- | --- | ---: | ---: | ---: | ---: |\n";
-    let lines = host_bin::text(bench.workspace, BIN)?;
+    let lines = SHARED.text(bench.workspace, BIN)?;
     let (rows, drawn): (Vec<&str>, Vec<&str>) =
         lines.lines().partition(|line| line.starts_with('|'));
     let drawings = drawn.iter().map(|line| serde_json::from_str(line));

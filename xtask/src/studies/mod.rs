@@ -30,7 +30,7 @@ use clap::{ArgMatches, Args, Command};
 
 use crate::kit::error::Result;
 use crate::kit::workspace::Workspace;
-use crate::kit::{setup, shell};
+use crate::kit::{host_bin::SIMULATED, setup, shell};
 use study::Form::{Demo, Own, Part, Whole};
 use study::Held::{Bars, Step};
 use study::Lane::{Host, Target};
@@ -100,9 +100,8 @@ pub const STUDIES: &[Study] = &[
         held: Step(Target, Full, "docs/certificates.md and docs/accuracy-proven.json have the hashes of today's machine code, whose forward dynamics is the recursion of LᵀDL; Gappa and Coq accept parts of the proofs, and refuse wrong ones"),
         form: Demo(|bench| {
             setup::provers(bench.options.without_questions())?;
-            let words = "--quiet --profile simulated --package certification --".split(' ');
             for check in ["--hashes", "--sampled"] {
-                shell::cargo(bench.workspace.cargo("run").args(words.clone()).arg(check))?;
+                shell::cargo(SIMULATED.program(bench.workspace, "certify")?.arg(check))?;
             }
             Ok(String::new())
         }),

@@ -1,15 +1,13 @@
 //! `cargo xtask static`: the most cycles and the most stack of the rows of `cargo xtask costs` by their machine code: runs them, and has the
 //! package `certification` bound what it finds.
 
-use std::process::Command;
-
 use serde_json::{Value, json};
 
 use crate::kit::error::{Result, check};
 use crate::kit::progress::Spinner;
 use crate::kit::rows::{self, Row};
 use crate::kit::toolchain::RELEASE;
-use crate::kit::{firmware, shell, workspace};
+use crate::kit::{firmware, host_bin::SIMULATED, shell, workspace};
 use crate::studies::costs::BINS;
 use crate::studies::study::{Bench, Found};
 
@@ -18,8 +16,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     let spinner = Spinner::start("building what is measured");
     let elves = firmware::build_bins(workspace, tools.toolchain, RELEASE, &BINS)?;
     let meter = firmware::build_meter(workspace)?;
-    let words = ["--profile", "simulated", "--package", "certification"];
-    shell::cargo(workspace.cargo("build").args(words))?;
+    let mut certify = SIMULATED.program(workspace, "certify")?;
     let mut programs = Vec::new();
     for (bin, elf) in BINS.iter().zip(&elves) {
         spinner.say(format!("running {bin} in QEMU"));
@@ -29,8 +26,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     spinner.say("bounding".to_owned());
     let measured = workspace.target.join("static.json");
     workspace::write(&measured, json!(programs).to_string())?;
-    let certify = workspace.target.join("simulated/certify");
-    let text = shell::capture(Command::new(certify).arg("--rows").arg(&measured))?;
+    let text = shell::capture(certify.arg("--rows").arg(&measured))?;
     let report: Value = serde_json::from_str(&text).map_err(|error| check!("certify: {error}"))?;
     let of = |name: &str| report[name].as_str().unwrap_or_default().to_owned();
     let wrong = report["wrong"].as_array().into_iter().flatten();

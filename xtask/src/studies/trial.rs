@@ -9,13 +9,14 @@ use crate::kit::callgraph::f32_only;
 use crate::kit::chart::{self, Axis, HEAD, HPos, Line, TEXT};
 use crate::kit::docs::{self, Page};
 use crate::kit::error::{Result, check};
+use crate::kit::host_bin::{self, SIMULATED};
 use crate::kit::meter::{self, BETWEEN, CLOCK_MHZ, Cost, MODEL, REGIONS};
 use crate::kit::qemu::Run;
 use crate::kit::scene::Trial;
 use crate::kit::setup::Tools;
 use crate::kit::table::{Table, plain, thousands};
 use crate::kit::workspace::{self, Workspace};
-use crate::kit::{firmware, host_bin, output};
+use crate::kit::{firmware, output};
 use crate::studies::budgets;
 use crate::studies::study::Bench;
 
@@ -79,7 +80,7 @@ impl Recorded {
             lines.collect()
         };
         let rows = said("row");
-        host_bin::same_lines(name, &rows, &host_bin::simulated(workspace, name)?)?;
+        host_bin::same_lines(name, &rows, &SIMULATED.text(workspace, name)?)?;
         let only = |word| match *said(word) {
             [value] => Ok(value.to_owned()),
             _ => Err(check!(
@@ -189,10 +190,8 @@ fn measure(
     trial: Trial,
     recorded: &Recorded,
 ) -> Result<(String, String)> {
-    let shown: Shown = host_bin::parsed(
-        &report(trial),
-        &host_bin::simulated(workspace, &report(trial))?,
-    )?;
+    let shown: Shown =
+        host_bin::parsed(&report(trial), &SIMULATED.text(workspace, &report(trial))?)?;
     let rustc = tools.toolchain.rustc_version()?;
     let text = format!(
         "{}\n{}\nMeasured with {rustc}.",

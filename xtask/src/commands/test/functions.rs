@@ -6,9 +6,10 @@ use super::Context;
 use crate::kit::callgraph::f32_only;
 use crate::kit::elf::Image;
 use crate::kit::error::{Error, Result, bail, check, refuse_if};
+use crate::kit::host_bin::{self, SHARED};
 use crate::kit::meter::Cost;
 use crate::kit::qemu::Run;
-use crate::kit::{firmware, host_bin, shell};
+use crate::kit::{firmware, shell};
 
 /// The least number of hard cases in QEMU.
 const HARD_CASES: usize = 25;
@@ -39,7 +40,7 @@ fn on_both(context: &Context, name: &str, begin: &str) -> Result<Vec<String>> {
     let elf = context.built(name)?;
     let mut on_target = context.tools.qemu.lines(&Run::logging(name, &elf, None))?;
     on_target.retain(|line| line.starts_with(begin));
-    host_bin::same_lines(name, &on_target, &host_bin::text(&context.workspace, name)?)?;
+    host_bin::same_lines(name, &on_target, &SHARED.text(&context.workspace, name)?)?;
     Ok(on_target)
 }
 

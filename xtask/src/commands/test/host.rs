@@ -7,25 +7,26 @@ use serde_json::Value;
 use super::Context;
 use crate::commands::weight;
 use crate::kit::error::{Result, refuse_if};
-use crate::kit::host_bin::{SHARED, SIMULATED};
+use crate::kit::host_bin::{SHARED, SIMULATED, Together};
 use crate::kit::sources::sources;
 use crate::kit::workspace;
 
-/// The tests that take the compiler or a simulation long: further robots, scalars and hours of claims that are tested without, of
-/// the packages that simulate and of the others.
-const FULL_SIMULATED: &str = "--features simulation-tests/full,trial-tests/full";
-const FULL: &str = "--features guide/full,host-tests/full,robot-import/full,specialised-tests/full";
-/// All packages but the firmware and its listeners, which the steps `telemetry` and `pil` build and test.
-const HOST: &str = "--workspace --exclude firmware-demo --exclude lab-target --exclude telemetry-watch --exclude telemetry-pil";
-/// The part of the firmware that runs anywhere.
-const FIRMWARE: &str = "--package firmware-demo --package lab-target --lib";
+/// All but the firmware, whose bins link only for a Cortex-M.
+const WITHOUT_FIRMWARE: &str = "--exclude firmware-demo --exclude lab-target";
+
+/// All packages, with what the tests of a full run have besides.
+fn everything() -> String {
+    let [shared, simulated] = [SHARED, SIMULATED].map(|these| these.full);
+    format!("--workspace {shared} {simulated}")
+}
 
 pub fn clippy(context: &Context) -> Result<String> {
-    context.cargo(&[
-        &format!("clippy {HOST} --all-targets {FULL} {FULL_SIMULATED} -- -D warnings"),
-        &format!("clippy {FIRMWARE} -- -D warnings"),
-        "clippy --package telemetry-watch --package telemetry-pil --all-targets -- -D warnings",
-    ])
+    // It reads the part of the firmware that runs anywhere, too, since others depend on it.
+    let words = "--all-targets -- -D warnings";
+    context.cargo(&[format!(
+        "clippy {} {WITHOUT_FIRMWARE} {words}",
+        everything()
+    )])
 }
 
 /// The files of tests beside a `main.rs` that does not name them, which cargo would not compile.
@@ -44,13 +45,13 @@ fn unnamed(root: &Path) -> Result<Vec<PathBuf>> {
 }
 
 /// The tests, by cargo's command line.
-fn lines() -> [String; 2] {
-    [tests_of(SHARED), "test --package xtask".into()]
+fn lines(full: bool) -> [String; 2] {
+    [tests_of(&SHARED, full), "test --package xtask".into()]
 }
 
 /// The tests of packages: neither `--lib` nor `--bins`, which compile what has `test = false`, too.
-fn tests_of(packages: &str) -> String {
-    format!("test {packages} --tests")
+fn tests_of(packages: &Together, full: bool) -> String {
+    format!("test {} --tests", packages.words(full))
 }
 
 pub fn tests(context: &Context) -> Result<String> {
@@ -59,20 +60,16 @@ pub fn tests(context: &Context) -> Result<String> {
         !unnamed.is_empty(),
         "no `mod` in the `main.rs` beside them: {unnamed:?}"
     );
-    let more = match context.full {
-        true => FULL,
-        false => "",
-    };
-    let [all, xtask] = lines();
+    let [all, xtask] = lines(context.full);
     // All failures in one run, which takes long.
-    let printed = context.cargo(&[&format!("{all} --no-fail-fast {more}"), &xtask])?;
+    let printed = context.cargo(&[format!("{all} --no-fail-fast"), xtask])?;
     Ok(format!("{} tests", count(&printed)))
 }
 
 /// The tests that simulate, which another profile compiles.
 pub fn simulations(context: &Context) -> Result<String> {
-    let tests = tests_of(SIMULATED);
-    let printed = context.cargo(&[format!("{tests} --no-fail-fast {FULL_SIMULATED}")])?;
+    let tests = tests_of(&SIMULATED, true);
+    let printed = context.cargo(&[format!("{tests} --no-fail-fast")])?;
     Ok(format!("{} tests", count(&printed)))
 }
 
@@ -87,7 +84,7 @@ pub fn weight(context: &Context) -> Result<String> {
 
 /// The programs of the tests, built.
 fn programs(context: &Context) -> Result<Vec<PathBuf>> {
-    let lines = lines().map(|line| format!("{line} --no-run --message-format json"));
+    let lines = lines(false).map(|line| format!("{line} --no-run --message-format json"));
     let printed = context.cargo(&lines)?;
     Ok(printed.lines().filter_map(executable).collect())
 }
@@ -100,26 +97,20 @@ fn executable(message: &str) -> Option<PathBuf> {
 }
 
 pub fn doctests(context: &Context) -> Result<String> {
-    let packages = match context.full {
-        true => &[SHARED, SIMULATED][..],
-        false => &[SHARED],
-    };
-    let lines: Vec<_> = packages
-        .iter()
-        .map(|packages| format!("test {packages} --doc"))
-        .collect();
-    let printed = context.cargo(&lines)?;
+    let line = |these: Together| format!("test {} --doc", these.words(context.full));
+    let lines = [SHARED, SIMULATED].map(line);
+    let printed = context.cargo(&lines[..1 + usize::from(context.full)])?;
     Ok(format!("{} examples", count(&printed)))
 }
 
 pub fn doc(context: &Context) -> Result<String> {
-    // Without private items too: a link to one of them is broken only there.
-    for private in ["", "--document-private-items"] {
-        context.cargo(&[
-            &format!("doc {HOST} --no-deps {private}"),
-            &format!("doc {FIRMWARE} --no-deps {private}"),
-        ])?;
-    }
+    let all = everything();
+    // Without private items too: a link to one of them is broken only there. A program's are documented in any case.
+    context.cargo(&[
+        format!("doc {all} {WITHOUT_FIRMWARE} --no-deps --document-private-items"),
+        format!("doc {all} --lib --no-deps --document-private-items"),
+        format!("doc {all} --lib --no-deps"),
+    ])?;
     Ok(String::new())
 }
 

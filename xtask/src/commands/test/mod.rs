@@ -237,7 +237,10 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     }
     let start = Instant::now();
     let context = Context {
-        workspace: Workspace::find()?,
+        workspace: Workspace {
+            full: args.full,
+            ..Workspace::find()?
+        },
         tools: setup::for_test(options)?,
         options: options.without_questions(),
         full: args.full,

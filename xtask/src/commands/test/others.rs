@@ -13,7 +13,7 @@ use crate::kit::scene::Scene;
 use crate::kit::system::{Privilege, System};
 use crate::kit::toolchain::{self, DEBIAN_PACKAGES, RELEASE, TARGET, Toolchain, release};
 use crate::kit::workspace::{self, FIRMWARE, Workspace};
-use crate::kit::{apt, firmware, rows, setup, shell};
+use crate::kit::{apt, firmware, host_bin::SHARED, rows, setup, shell};
 use crate::studies::budgets;
 
 /// The bins that are built: the default scene, and the costs of its robot.
@@ -61,8 +61,8 @@ pub fn projects(context: &Context) -> Result<String> {
     let _ = lacks().then(|| setup::for_cores(context.options, &[PICO_2], &[]));
     let boards = if lacks() { "" } else { "project::the_boards" };
     context.cargo(&[&format!(
-        "test --package robot-import --test import -- --ignored --test-threads 1 project::a_pendulum project::an_arm \
-         project::two_robots_in_c {boards}"
+        "test {} --test import -- --ignored --test-threads 1 project::a_pendulum project::an_arm project::two_robots_in_c {boards}",
+        SHARED.words(context.full)
     )])?;
     Ok(boards.to_owned())
 }
@@ -72,7 +72,12 @@ pub fn lerobot(context: &Context) -> Result<String> {
     context.workspace.python()?;
     let folder = "python/lerobot_teleoperator_so101_floating";
     let script = context.workspace.root.join(folder).join("test.sh");
-    let test = |words: &[&str]| shell::capture(Command::new(&script).args(words));
+    let scene = context.workspace.output("so101_floating.json")?;
+    workspace::write(&scene, SHARED.text(&context.workspace, "so101_floating")?)?;
+    let test = |words: &[&str]| {
+        let mut script = Command::new(&script);
+        shell::capture(script.args(words).env("SO101_FLOATING_SCENE", &scene))
+    };
     test(&["--prepare"]).or_else(|error| skip(format!("LeRobot cannot be had: {error}")))?;
     Ok(test(&[])?.lines().last().unwrap_or_default().to_owned())
 }

@@ -8,9 +8,10 @@ use tempfile::TempDir;
 
 use super::Context;
 use crate::kit::error::{Error, Result, refuse_if};
+use crate::kit::host_bin::SHARED;
+use crate::kit::shell;
 use crate::kit::toolchain::{TARGET, Toolchain};
 use crate::kit::workspace::{read, write};
-use crate::kit::{host_bin, shell};
 
 const LIBRARY: &str = "dynamics-core";
 const CONTROLLER: &str = "motion-control";
@@ -110,13 +111,14 @@ pub fn features(context: &Context) -> Result<String> {
 }
 
 pub fn examples(context: &Context) -> Result<String> {
-    let folder = host_bin::build(&context.workspace, &["--examples"])?.join("examples");
+    let workspace = &context.workspace;
+    shell::capture(SHARED.build(workspace).arg("--examples"))?;
     let mut ran = Vec::new();
     for library in [LIBRARY, CONTROLLER] {
-        ran.extend(example_names(&context.workspace.root, library)?);
+        ran.extend(example_names(&workspace.root, library)?);
     }
     for name in &ran {
-        host_bin::run(&folder, name)?;
+        shell::capture(&mut SHARED.built(workspace, &format!("examples/{name}")))?;
     }
     Ok(ran.join(", "))
 }

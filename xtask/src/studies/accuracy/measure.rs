@@ -8,6 +8,7 @@ use super::printed::{self, PRINTED};
 use super::proven;
 use crate::kit::bracket::{self, READINGS};
 use crate::kit::error::{Result, check};
+use crate::kit::host_bin::{SHARED, SIMULATED};
 use crate::kit::progress::Spinner;
 use crate::kit::rows::{self, Row};
 use crate::kit::setup::Tools;
@@ -182,24 +183,22 @@ impl Plan {
     /// Measures the errors of these robots on the host.
     fn errors(&self, workspace: &Workspace, printed: &Path) -> Result<String> {
         // A dozen ways are computed sooner than the compiler optimises them across crates; all of them take most of an hour without.
-        let mut command = workspace.cargo("run");
-        let (bin, profile) = if self.quick {
-            (QUICK_BIN, "dev")
-        } else {
-            (ACCURACY, "simulated")
+        let (these, bin) = match self.quick {
+            true => (SHARED, QUICK_BIN),
+            false => (SIMULATED, ACCURACY),
         };
-        command
-            .env(PRINTED, printed)
-            .args(["--quiet", "--package", "host-reports"]);
-        command.args([
-            "--profile",
-            profile,
-            "--features",
-            ACCURACY,
+        let mut build = these.build(workspace);
+        let features = format!("host-reports/{ACCURACY}");
+        build.args([
+            "--package",
+            "host-reports",
             "--bin",
             bin,
-            "--",
+            "--features",
+            &features,
         ]);
+        shell::capture(build.env(PRINTED, printed))?;
+        let mut command = these.built(workspace, bin);
         command.args(self.computed().map(|(robot, _)| robot.name()));
         command.args(self.simulates().then_some("simulation"));
         shell::capture(&mut command)

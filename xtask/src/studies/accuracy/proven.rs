@@ -8,8 +8,9 @@ use serde::Deserialize;
 use super::front;
 use super::point::{Kind, Point};
 use crate::kit::error::{Result, bail, refuse_if};
+use crate::kit::host_bin::{self, SIMULATED};
 use crate::kit::workspace::{self, Workspace};
-use crate::kit::{host_bin, output, shell};
+use crate::kit::{output, shell};
 
 /// The record, which `certify --hashes` compares with today's machine code.
 pub const FILE: &str = "docs/accuracy-proven.json";
@@ -63,9 +64,8 @@ struct Joint {
 /// What `certify --configurations` prints: of the robots of the page, or of those of these words.
 pub fn prove(workspace: &Workspace, words: &[String]) -> Result<String> {
     output::note("The errors of a hundred configurations are proven: this takes some minutes.");
-    let certify = "--quiet --profile simulated --package certification -- --configurations";
-    let mut command = workspace.cargo("run");
-    shell::capture(command.args(certify.split(' ')).args(words))
+    let mut certify = SIMULATED.program(workspace, "certify")?;
+    shell::capture(certify.arg("--configurations").args(words))
 }
 
 pub fn parsed(text: &str) -> Result<Vec<Proven>> {

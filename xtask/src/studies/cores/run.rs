@@ -9,6 +9,7 @@ use super::list::{self, Core, Isa};
 use super::walk::Walk;
 use crate::kit::elf::Image;
 use crate::kit::error::{Error, Result, check, refuse_if};
+use crate::kit::host_bin::SHARED;
 use crate::kit::meter::{self, Cost, REGIONS};
 use crate::kit::qemu::Qemu;
 use crate::kit::shell;
@@ -90,9 +91,7 @@ impl Said {
 
 /// The torques of this machine, which no emulator computes.
 pub fn on_host(workspace: &Workspace) -> Result<Vec<Torques>> {
-    let mut command = workspace.cargo("run");
-    command.args(["--quiet", "--package", PACKAGE]);
-    Ok(Said::read(&shell::capture(&mut command)?)?.torques)
+    Ok(Said::read(&SHARED.text(workspace, PACKAGE)?)?.torques)
 }
 
 /// Builds the bin for a core.

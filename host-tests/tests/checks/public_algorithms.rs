@@ -89,7 +89,7 @@ fn of(path: &Path) -> Vec<String> {
 
 #[test]
 fn there_is_one_name_per_algorithm() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dynamics-core/src");
     let [free, core, engine, loops, clusters] =
         ["algorithms", "textbook.rs", "engine", "loops", "clusters"]
             .map(|room| of(&src.join(room)));

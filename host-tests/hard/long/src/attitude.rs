@@ -1,7 +1,7 @@
 //! Attitudes that turn for long: a quaternion after ten million steps, the Dzhanibekov body.
 
-use super::name;
 use crate::integrators::{INTEGRATORS, Integrator};
+use crate::name;
 use dynamics_core::algorithms::{kinetic_energy, momentum};
 use dynamics_core::effects::{Coriolis, Inertia};
 use dynamics_core::model::{BASE, Body, Joint, Model};
@@ -36,7 +36,8 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-pub(super) fn ball(mass: f64, com: f64, moments: [f64; 3]) -> Model<f64, 1, 4, 3> {
+/// A body about its centre.
+pub fn ball(mass: f64, com: f64, moments: [f64; 3]) -> Model<f64, 1, 4, 3> {
     let [xx, yy, zz] = moments;
     let body = Body::new("body", BASE, Joint::spherical()).mass(mass);
     Model::new(

@@ -21,6 +21,7 @@ mod generated;
 mod kinematics;
 mod manifold;
 mod measured;
+mod merged;
 mod model;
 mod momentum;
 mod operational;

@@ -45,6 +45,13 @@ pub enum Problem {
         /// The model's Q and V.
         given: [usize; 2],
     },
+    /// Another number of the robot's bodies moves than the merged model has.
+    Bodies {
+        /// The number of bodies on joints that move.
+        expected: usize,
+        /// The number of bodies of the merged model.
+        given: usize,
+    },
     /// The body has inertia but no mass.
     Massless,
     /// A body before it has the same name, by [`super::Model::check`].
@@ -73,6 +80,7 @@ impl Problem {
             Self::Pitch => "the pitch of its joint is not finite",
             Self::Angle => "its roll, pitch or yaw is beyond 2 pi: angles are in rad",
             Self::Coordinates { .. } => "its joints have other numbers of coordinates",
+            Self::Bodies { .. } => "another number of its bodies moves",
             Self::Massless => "it has inertia but no mass",
             Self::Name => "a body before it has the same name",
             Self::Triangle(_) => "its moments of inertia break the triangle inequality",
@@ -89,6 +97,13 @@ impl fmt::Display for ModelError {
             return write!(
                 out,
                 "robot `{name}`: its joints make Q = {q} and V = {v}, not Q = {given_q} and V = {given_v}"
+            );
+        }
+        if let Problem::Bodies { expected, given } = self.problem {
+            let name = self.body;
+            return write!(
+                out,
+                "robot `{name}`: {expected} of its bodies move, not M = {given}"
             );
         }
         write!(out, "body `{}`: {}", self.body, self.problem.text())?;
@@ -123,6 +138,13 @@ impl ModelError {
                 .number(given[0])
                 .with(" and V = ")
                 .number(given[1]),
+            Problem::Bodies { expected, given } => Text::EMPTY
+                .with("robot `")
+                .with(self.body)
+                .with("`: ")
+                .number(expected)
+                .with(" of its bodies move, not M = ")
+                .number(given),
             problem => Text::EMPTY
                 .with("body `")
                 .with(self.body)

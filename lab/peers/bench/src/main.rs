@@ -51,7 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     macro_rules! arms {
         ($($robot:ident $n:literal $tip:literal;)*) => {$(
             let known = (ours::arm::<$robot, _, $n, $n, $tip> as _, Some(ours::arm::<$robot, _, $n, $n, $tip> as _));
-            robot::run::<$robot, $n, $n, $n>(&manifest, ARM, known)?;
+            robot::run::<$robot, $n, $n, $n, $n>(&manifest, ARM, known)?;
         )*};
     }
     arms! { Ur5e 6 5; Panda 7 6; Iiwa14 7 6; }
@@ -59,13 +59,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         ours::inverse::<A1, _, 16, 12, 12> as _,
         Some(ours::inverse::<A1, _, 16, 12, 12> as _),
     );
-    robot::run::<A1, 16, 12, 12>(&manifest, &ARM[..5], known)?;
+    robot::run::<A1, 16, 12, 12, 12>(&manifest, &ARM[..5], known)?;
     let known = (
         ours::dynamics::<A1Free, _, 17, 19, 18> as _,
         Some(ours::dynamics::<A1Free, _, 17, 19, 18> as _),
     );
-    robot::run::<A1Free, 17, 19, 18>(&manifest, DYNAMICS, known)?;
-    robot::run::<G1, 29, 29, 29>(&manifest, DYNAMICS, (|_, _| Vec::new(), None))?;
+    robot::run::<A1Free, 17, 13, 19, 18>(&manifest, DYNAMICS, known)?;
+    robot::run::<G1, 29, 29, 29, 29>(&manifest, DYNAMICS, (|_, _| Vec::new(), None))?;
     let known = (ours::dynamics::<G1Free, _, 30, 36, 35> as _, None);
-    robot::run::<G1Free, 30, 36, 35>(&manifest, DYNAMICS, known)
+    robot::run::<G1Free, 30, 30, 36, 35>(&manifest, DYNAMICS, known)
 }

@@ -1,6 +1,7 @@
 //! This library's forms.
 
 use std::hint::black_box;
+use std::marker::PhantomData;
 
 use dynamics_core::algorithms::frame::Local;
 use dynamics_core::algorithms::{self, NotPositiveDefinite, OsimInverse};
@@ -19,6 +20,17 @@ pub type Subjects<R, const Q: usize, const V: usize> =
 
 const BIAS: (Gravity, Coriolis) = (Gravity::EARTH, Coriolis);
 const GRAVITY: (Gravity,) = (Gravity::EARTH,);
+
+/// The robot T of B bodies, with those on fixed joints as parts of the bodies that carry them: Pinocchio merges them when it reads a model.
+pub struct Merged<T, const B: usize>(PhantomData<T>);
+
+impl<T, const B: usize, const M: usize, const Q: usize, const V: usize> Robot<M, Q, V>
+    for Merged<T, B>
+where
+    T: Robot<B, Q, V>,
+{
+    const MODEL: Model<f64, M, Q, V> = T::MODEL.merged().model;
+}
 
 /// The core over a model known at run time, of which the compiler knows nothing.
 pub fn run_time<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, const V: usize>(

@@ -7,6 +7,7 @@ use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use host_tests::recordings::{self, Recording};
 
+use crate::ours::Merged;
 use crate::subject::{Row, Subject, interleaved};
 use crate::{Manifest, dynibo, foreign, ours};
 
@@ -17,25 +18,32 @@ const BATCH: usize = 256;
 pub type Known<const Q: usize, const V: usize> =
     (ours::Subjects<f64, Q, V>, Option<ours::Subjects<f32, Q, V>>);
 
-/// Checks, times and prints these algorithms of a robot.
-pub fn run<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
+/// Checks, times and prints these algorithms of a robot of B bodies, of which M move.
+pub fn run<T, const B: usize, const M: usize, const Q: usize, const V: usize>(
     manifest: &Manifest,
     algorithms: &[&str],
     (double, single): Known<Q, V>,
-) -> Result<(), Box<dyn Error>> {
+) -> Result<(), Box<dyn Error>>
+where
+    T: Robot<B, Q, V>,
+{
     let recording = &recordings::load(T::MODEL.name);
     let urdf = manifest.urdfs.join(format!("{}.urdf", recording.robot));
     for algorithm in algorithms {
         one(manifest, recording, algorithm, "f64", |states| {
             let mut subjects = double(algorithm, states);
-            subjects.extend(ours::run_time::<T, f64, B, Q, V>(algorithm, states));
+            subjects.extend(ours::run_time::<Merged<T, B>, f64, M, Q, V>(
+                algorithm, states,
+            ));
             subjects.extend(dynibo::subject(algorithm, &urdf, recording, states)?);
             Ok(subjects)
         })?;
         if let Some(single) = single {
             one(manifest, recording, algorithm, "f32", |states| {
                 let mut subjects = single(algorithm, states);
-                subjects.extend(ours::run_time::<T, f32, B, Q, V>(algorithm, states));
+                subjects.extend(ours::run_time::<Merged<T, B>, f32, M, Q, V>(
+                    algorithm, states,
+                ));
                 Ok(subjects)
             })?;
         }

@@ -85,7 +85,7 @@ where
     };
     for i in (0..V).rev() {
         let (Some(link), Some(body)) = (robot.link(i), bodies.get(i)) else {
-            break; // never happens, and leaves no branch that joins the loop again
+            continue;
         };
         let inertia = body_inertia(effects, i, &link);
         let Beyond {

@@ -93,6 +93,8 @@ pub struct Configurations {
 pub struct Spent {
     /// The most points of a grid of angles.
     pub points: usize,
+    /// The most points of the finer grid on which two models are compared.
+    pub fine: usize,
     /// The parts that the box of each result is split into, for each kernel.
     pub parts: usize,
 }
@@ -221,9 +223,6 @@ pub fn prove(program: &Program, robot: &Robot, spent: Spent) -> Result<Configura
     Ok(all)
 }
 
-/// Points of the finer grid on which two models are compared.
-const FINE: usize = 4_000_000;
-
 /// The whole model, with which others are compared.
 #[derive(Clone, Debug)]
 pub struct Whole<'a> {
@@ -293,7 +292,7 @@ pub fn each(
             .iter()
             .position(|(offset, _)| *offset == place)?;
         let apart = difference(&graph, &whole.graph.of_output(same));
-        let apart = Grid::new(&apart, robot)?.greatest_value(spent.points, FINE)?;
+        let apart = Grid::new(&apart, robot)?.greatest_value(spent.points, spent.fine)?;
         let literals = whole.literals[same];
         Some(
             bounds

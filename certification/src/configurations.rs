@@ -95,7 +95,7 @@ pub struct Spent {
     pub points: usize,
     /// The most points of the finer grid on which two models are compared.
     pub fine: usize,
-    /// The parts that the box of each result is split into.
+    /// The parts that the box of each result is split into, for each kernel.
     pub parts: usize,
 }
 
@@ -263,15 +263,10 @@ pub fn each(
 ) -> Option<Vec<f64>> {
     let joints = in_parallel(own.outputs.len(), |output| {
         let graph = own.of_output(output);
-        let bounder =
-            |sines: &SineErrors| Bounder::new(own, output, robot, *sines, Enclosure::WrittenOut);
-        // The parts that are chosen with one kernel serve all: splitting takes most of the time.
-        let chosen = branch::prove(&mut bounder(errors.first()?)?, &robot.whole(), spent.parts);
         let by_parts = |sines: &SineErrors| {
-            let mut bounder = bounder(sines)?;
-            let bounds = chosen.parts.iter();
-            let bounds = bounds.map(|part| bounder.bound(&part.states).total());
-            Some(bounds.fold(0.0, f64::max))
+            let mut bounder = Bounder::new(own, output, robot, *sines, Enclosure::WrittenOut)?;
+            let proven = branch::prove(&mut bounder, &robot.whole(), spent.parts);
+            Some(proven.bound.total())
         };
         let parts: Vec<f64> = errors.iter().map(by_parts).collect::<Option<_>>()?;
         let grid = Grid::new(&graph, robot);

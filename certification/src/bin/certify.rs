@@ -122,7 +122,7 @@ const POINTS: usize = 1_000_000;
 const PAGE_POINTS: usize = 5_000_000;
 /// Points of each grid and parts of each box of `--configurations`, which proves a hundred of them.
 const CONFIGURED_POINTS: usize = 300_000;
-const CONFIGURED_PARTS: usize = 1000;
+const CONFIGURED_PARTS: usize = 300;
 /// Points on which the Fourier coefficients of the difference of two models are evaluated.
 const CONFIGURED_FINE: usize = 4_000_000;
 /// Points of the grids of a robot with a loop, over all parts of the coordinates that it depends on by quotients and roots.

@@ -1,5 +1,7 @@
 //! Checks of certificates: by Gappa, and of the page against today's machine code.
 
+use std::path::Path;
+
 use crate::bound::{Bounder, Enclosure, SineErrors};
 use crate::certificate::{Certificate, Function, Subject};
 use crate::error::{Error, Result};
@@ -102,6 +104,17 @@ pub fn by_gappa(
         }
     }
     Ok(())
+}
+
+/// Fails unless a file of benchmarks has this text.
+///
+/// # Errors
+/// [`Error::Stale`], with the file.
+pub fn file(path: &Path, text: &str) -> Result<()> {
+    match std::fs::read_to_string(path) {
+        Ok(written) if written == text => Ok(()),
+        _ => Err(Error::Stale(path.display().to_string())),
+    }
 }
 
 /// Has Gappa and Coq check a part of the box of one result of a function, drawn at random, and refuse what is wrong: Gappa a smaller

@@ -93,6 +93,8 @@ pub struct Configurations {
 pub struct Spent {
     /// The most points of a grid of angles.
     pub points: usize,
+    /// The most points of the finer grid on which two models are compared.
+    pub fine: usize,
     /// The parts that the box of each result is split into, for each kernel.
     pub parts: usize,
 }
@@ -196,10 +198,14 @@ pub fn prove(program: &Program, robot: &Robot, spent: Spent) -> Result<Configura
         ..Configurations::default()
     };
     let expressions = expressions(&image)?;
-    let whole = &expressions[0].graph;
+    let whole = Whole::of(&expressions[0].graph, robot, spent.points);
     for ((model, _), own) in MODELS.iter().zip(&expressions) {
-        let beside = (!model.is_empty()).then_some(whole);
-        match each(&own.graph, beside, robot, &errors, spent) {
+        let bounds = match (model.is_empty(), &whole) {
+            (true, _) => each(&own.graph, None, robot, &errors, spent),
+            (false, Some(whole)) => each(&own.graph, Some(whole), robot, &errors, spent),
+            (false, None) => None,
+        };
+        match bounds {
             Some(bounds) => {
                 let keys = names.iter().map(|kernel| key(kernel, model));
                 all.proven.extend(keys.zip(bounds));
@@ -217,10 +223,40 @@ pub fn prove(program: &Program, robot: &Robot, spent: Spent) -> Result<Configura
     Ok(all)
 }
 
+/// The whole model, with which others are compared.
+#[derive(Clone, Debug)]
+pub struct Whole<'a> {
+    graph: &'a Graph,
+    /// How far its literals take each result from the robot's.
+    literals: Vec<f64>,
+}
+
+impl<'a> Whole<'a> {
+    /// By a grid of at most so many points; `None` if there is none.
+    pub fn of(graph: &'a Graph, robot: &Robot, points: usize) -> Option<Self> {
+        let literals = in_parallel(graph.outputs.len(), |output| {
+            let one = graph.of_output(output);
+            let none = [SineErrors::default()];
+            let bounds = Grid::new(&one, robot)?.prove_each(
+                &one,
+                robot,
+                &none,
+                Counted::LiteralsAlone,
+                points,
+            );
+            Some(bounds?.pop()?.total())
+        });
+        Some(Self {
+            graph,
+            literals: literals.into_iter().collect::<Option<_>>()?,
+        })
+    }
+}
+
 /// The greatest error of a joint by each kernel, of a model's expression; beside the whole one if it is another.
 pub fn each(
     own: &Graph,
-    whole: Option<&Graph>,
+    whole: Option<&Whole<'_>>,
     robot: &Robot,
     errors: &[SineErrors],
     spent: Spent,
@@ -251,17 +287,13 @@ pub fn each(
         };
         let place = own.outputs[output].0;
         let same = whole
+            .graph
             .outputs
             .iter()
             .position(|(offset, _)| *offset == place)?;
-        let whole = whole.of_output(same);
-        let apart = difference(&graph, &whole);
-        let apart = Grid::new(&apart, robot)?.greatest_value(spent.points)?;
-        let none = [SineErrors::default()];
-        let literals = Grid::new(&whole, robot)?
-            .prove_each(&whole, robot, &none, Counted::LiteralsAlone, spent.points)?
-            .pop()?
-            .total();
+        let apart = difference(&graph, &whole.graph.of_output(same));
+        let apart = Grid::new(&apart, robot)?.greatest_value(spent.points, spent.fine)?;
+        let literals = whole.literals[same];
         Some(
             bounds
                 .into_iter()

@@ -58,15 +58,27 @@ pub fn prove(bodies: &[Body], positions: &[Interval], scales: &[f64], most: usiz
     let Some(arm) = arms.last().filter(|arm| arm.len() == positions.len()) else {
         return Floor::default();
     };
+    // The first joints' floors are in the ratio of the scales, or of inertias at one position, which keep more for the joints beyond.
+    let middle = positions
+        .iter()
+        .map(|x| Position::at(0.5 * (x.low + x.high)));
+    let matrix = inertia_matrix(arm, positions.len(), &middle.collect::<Vec<_>>());
+    let inertias: Vec<f64> = (0..positions.len())
+        .map(|i| matrix[i][i].max(f64::MIN_POSITIVE))
+        .collect();
+    let firsts = FIRST.into_iter().filter(|first| *first < arms.len());
+    // One joint has no ratio.
+    let starts = firsts.flat_map(|first| [(first, scales), (first, &inertias)]);
+    let starts = starts.filter(|(first, ratio)| *first > 1 || *ratio == scales);
     let mut floor = 0.0_f64;
-    for first in FIRST.into_iter().filter(|first| *first < arms.len()) {
+    for (first, ratio) in starts {
         let (first, rest) = arms.split_at(first);
         let known = first
             .last()
-            .map(|arm| directly(arm, &positions[..arm.len()], scales, 0.0, most).floor);
+            .map(|arm| directly(arm, &positions[..arm.len()], ratio, 0.0, most).floor);
         let known = known
             .into_iter()
-            .flat_map(|floor| scales.iter().map(move |x| x * floor));
+            .flat_map(|floor| ratio.iter().map(move |x| x * floor));
         let floors: Vec<f64> = known.take(first.len()).collect();
         for kept in KEPT {
             floor = floor.max(by_joints(

@@ -2,12 +2,8 @@
 //!
 //! Sines and cosines enter the code by sums and products alone. So every value and every adjoint is a trigonometric polynomial in each
 //! angle, whose degree the code shows, and a quadratic one in speeds and accelerations. Riesz (1914): such a polynomial of degree n
-//! falls from its greatest absolute value M no faster than M cos(n θ). With N angles on the circle, one of them within π/N, it holds that
-//!
-//!   max |T| ≤ max over the grid |T| / cos(π n / N),
-//!
-//! and for several angles one after the other (Ehlich & Zeller, Mathematische Zeitschrift 86, 1964). Between the points of the grid
-//! nothing has to be enclosed, so that what cancels does. The same holds of Σ |c_m| M_m over the coefficients c_m of the monomials of speeds
+//! falls from its greatest absolute value M no faster than M cos(n θ), so that a grid of enough angles bounds it everywhere (`lattice`). Between the
+//! points nothing has to be enclosed, so that what cancels does. The same holds of Σ |c_m| M_m over the coefficients c_m of the monomials of speeds
 //! and accelerations, which is the greatest of the polynomials Σ ± c_m M_m.
 //!
 //! The errors are the same as in [`crate::bound`], of an exact identity in place of the mean value theorem: with the numbers v that the
@@ -18,15 +14,24 @@
 //! so that the error of the result is Σ (e_k + d_a d_b) ∂τ/∂v_k with derivatives at v. The same identity, with the errors of the literals, leads
 //! from v to the model's exact value.
 
-mod proof;
+//!
+//! A quotient or a root is no polynomial in the angles that its divisor or operand depends on, and neither is the position of a joint that slides. Of
+//! those coordinates the box is split into parts, over each of which a coefficient is a number within a radius; over the other angles it stays the
+//! same polynomial. The identity has a term of second order for a quotient too, and Lagrange's remainder for a root.
 
+mod classes;
+mod lanes;
+mod lattice;
+mod proof;
+mod waves;
+
+use lattice::Lattice;
+pub use lattice::between;
 pub use proof::Counted;
 
 use std::collections::BTreeMap;
-use std::f64::consts::{PI, TAU};
 
-use crate::bound::Bound;
-use crate::graph::{Graph, Node};
+use crate::graph::{Graph, Node, operands};
 use crate::state_box::{Leaf, Robot};
 
 /// A product of at most two speeds and accelerations, the lesser number first, from one; zero stands for one.
@@ -35,26 +40,39 @@ type Monomial = (u8, u8);
 type Place = (u32, bool);
 type Polynomial = BTreeMap<Monomial, Place>;
 
-/// One step: the number at `to`, or nothing at first, plus or minus the product of those at `a` and `b`, for some points of the grid at once.
+/// What a step puts where it says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    /// What is there, or nothing at first, plus or minus the product of both operands.
+    Product { is_first: bool, is_minus: bool },
+    /// The reciprocal of the first operand.
+    Reciprocal,
+    /// The root of it.
+    Root,
+}
+
+/// One step, for some points of the grid at once.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     to: u32,
     a: u32,
     b: u32,
-    is_first: bool,
-    is_minus: bool,
+    kind: Kind,
 }
 
-const LANES: usize = 8;
 const ONE: u32 = 0;
 
 /// Values and adjoints of the function of one output, ready to be evaluated at many angles.
 #[derive(Clone, Debug)]
 pub struct Program {
     steps: Vec<Step>,
-    /// Literals by place, and the places of cosine and sine of each angle.
+    /// Literals by place, and the places of cosine, sine and position of each joint.
     constants: Vec<(u32, f64)>,
-    angles: Vec<[Option<u32>; 2]>,
+    coordinates: Vec<[Option<u32>; 3]>,
+    /// The joints whose range is split into parts: those with a grid are the others.
+    parted: Vec<bool>,
+    /// Of a quotient or root, where the reciprocal is of its divisor, or of the root.
+    inverses: Vec<Option<u32>>,
     places: u32,
     /// The steps of the values, before those of the adjoints.
     forward: usize,
@@ -75,6 +93,46 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
+    /// A step of one operand, which must have no speeds.
+    fn apply(&mut self, kind: Kind, of: &Polynomial) -> Option<Polynomial> {
+        let mut terms = of.iter();
+        let (((0, 0), (a, false)), None) = (terms.next()?, terms.next()) else {
+            return None;
+        };
+        let to = self.place();
+        let (a, b) = (*a, ONE);
+        self.program.steps.push(Step { to, a, b, kind });
+        Some(Polynomial::from([((0, 0), (to, false))]))
+    }
+
+    /// 1/x or 1/√x of a quotient's divisor or a root's operand, of which node k has the place; with √x of a root.
+    fn inverse(&mut self, k: usize, of: usize, is_root: bool) -> Option<[Polynomial; 2]> {
+        let mut x = self.values[of].clone();
+        if x.values().any(|(_, is_minus)| *is_minus) {
+            // The opposite, as a number of its own.
+            let (own, one) = (std::mem::take(&mut x), constant(ONE));
+            self.multiply_add(&mut x, &own, &one, false)?;
+        }
+        if is_root {
+            x = self.apply(Kind::Root, &x)?;
+        }
+        let inverse = self.apply(Kind::Reciprocal, &x)?;
+        self.program.inverses[k] = inverse.values().next().map(|(place, _)| *place);
+        Some([inverse, x])
+    }
+
+    fn literal(&mut self, x: f64) -> Polynomial {
+        let place = self.place();
+        self.program.constants.push((place, x));
+        constant(place)
+    }
+
+    fn product(&mut self, a: &Polynomial, b: &Polynomial, is_negated: bool) -> Option<Polynomial> {
+        let mut product = Polynomial::new();
+        self.multiply_add(&mut product, a, b, is_negated)?;
+        Some(product)
+    }
+
     fn place(&mut self) -> u32 {
         self.program.places += 1;
         self.program.places - 1
@@ -98,61 +156,56 @@ impl Builder<'_> {
                     to: place,
                     a: *a,
                     b: *b,
-                    is_first: known.is_none(),
-                    is_minus: is_negated ^ a_minus ^ b_minus ^ to_minus,
+                    kind: Kind::Product {
+                        is_first: known.is_none(),
+                        is_minus: is_negated ^ a_minus ^ b_minus ^ to_minus,
+                    },
                 });
             }
         }
         Some(())
     }
 
-    fn value(&mut self, node: Node, leaf: Option<Leaf>, n: usize) -> Option<Polynomial> {
-        let one = Polynomial::from([((0, 0), (ONE, false))]);
+    fn value(&mut self, k: usize, leaf: Option<Leaf>, n: usize) -> Option<Polynomial> {
+        let one = constant(ONE);
+        let node = self.graph.nodes[k];
         Some(match node {
             Node::Input(_) => match leaf? {
-                Leaf::Sine(joint) => self.angle(joint, 1),
-                Leaf::Cosine(joint) => self.angle(joint, 0),
-                // A position that is no angle would need a grid of its own.
-                Leaf::Axis(axis) if axis < n => return None,
+                Leaf::Cosine(joint) => self.coordinate(joint, 0),
+                Leaf::Sine(joint) => self.coordinate(joint, 1),
+                Leaf::Axis(axis) if axis < n => self.coordinate(axis, 2),
                 Leaf::Axis(axis) => Polynomial::from([((0, (axis + 1) as u8), (ONE, false))]),
             },
             Node::Literal(0.0) => Polynomial::new(),
-            Node::Literal(x) => {
-                let place = self.place();
-                self.program.constants.push((place, x.into()));
-                Polynomial::from([((0, 0), (place, false))])
-            }
+            Node::Literal(x) => self.literal(x.into()),
             Node::Neg(a) => negated(&self.values[a]),
-            Node::Div(..) | Node::Sqrt(_) | Node::InverseRoot(..) => return None,
             Node::Add(a, b) | Node::Sub(a, b) => {
-                let (mut sum, a, b) = (
-                    Polynomial::new(),
-                    self.values[a].clone(),
-                    self.values[b].clone(),
-                );
-                self.multiply_add(&mut sum, &a, &one, false)?;
+                let (a, b) = (self.values[a].clone(), self.values[b].clone());
+                let mut sum = self.product(&a, &one, false)?;
                 self.multiply_add(&mut sum, &b, &one, matches!(node, Node::Sub(..)))?;
                 sum
             }
             Node::Mul(a, b) => {
-                let (mut product, a, b) = (
-                    Polynomial::new(),
-                    self.values[a].clone(),
-                    self.values[b].clone(),
-                );
-                self.multiply_add(&mut product, &a, &b, false)?;
-                product
+                let (a, b) = (self.values[a].clone(), self.values[b].clone());
+                self.product(&a, &b, false)?
             }
+            Node::Div(a, b) => {
+                let [inverse, _] = self.inverse(k, b, false)?;
+                let a = self.values[a].clone();
+                self.product(&a, &inverse, false)?
+            }
+            Node::Sqrt(a) => self.inverse(k, a, true).map(|[_, root]| root)?,
+            Node::InverseRoot(a, _) => self.inverse(k, a, true).map(|[inverse, _]| inverse)?,
         })
     }
 
-    fn angle(&mut self, joint: usize, side: usize) -> Polynomial {
-        let place = match self.program.angles[joint][side] {
+    fn coordinate(&mut self, joint: usize, side: usize) -> Polynomial {
+        let place = match self.program.coordinates[joint][side] {
             Some(place) => place,
             None => self.place(),
         };
-        self.program.angles[joint][side] = Some(place);
-        Polynomial::from([((0, 0), (place, false))])
+        self.program.coordinates[joint][side] = Some(place);
+        constant(place)
     }
 
     /// Adds a node's adjoint to those of its operands. `uses` counts the uses of each node: an operand with one use shares its places.
@@ -178,17 +231,42 @@ impl Builder<'_> {
             self.multiply_add(&mut sum, &adjoint, &one, *is_minus)?;
             self.adjoints[*to] = sum;
         }
-        if let Node::Mul(a, b) = self.graph.nodes[k] {
-            for (to, other) in [(a, b), (b, a)] {
-                let (mut sum, value) = (
-                    std::mem::take(&mut self.adjoints[to]),
-                    self.values[other].clone(),
-                );
-                self.multiply_add(&mut sum, &adjoint, &value, false)?;
-                self.adjoints[to] = sum;
-            }
+        for (to, slope) in self.slopes(k)?.into_iter().flatten() {
+            let mut sum = std::mem::take(&mut self.adjoints[to]);
+            self.multiply_add(&mut sum, &adjoint, &slope, false)?;
+            self.adjoints[to] = sum;
         }
         Some(())
+    }
+
+    /// The operands of a product, a quotient or a root, and the derivatives by them.
+    fn slopes(&mut self, k: usize) -> Option<[Option<(usize, Polynomial)>; 2]> {
+        let value = self.values[k].clone();
+        let inverse = self.program.inverses[k].map(constant).unwrap_or_default();
+        Some(match self.graph.nodes[k] {
+            Node::Mul(a, b) => [
+                Some((a, self.values[b].clone())),
+                Some((b, self.values[a].clone())),
+            ],
+            // 1/b and −(a/b)/b
+            Node::Div(a, b) => {
+                let by_divisor = self.product(&value, &inverse, true)?;
+                [Some((a, inverse)), Some((b, by_divisor))]
+            }
+            // ½/√a
+            Node::Sqrt(a) => {
+                let half = self.literal(0.5);
+                [Some((a, self.product(&inverse, &half, false)?)), None]
+            }
+            // −½ (1/√a)³
+            Node::InverseRoot(a, _) => {
+                let half = self.literal(0.5);
+                let square = self.product(&value, &value, false)?;
+                let cube = self.product(&square, &value, false)?;
+                [Some((a, self.product(&cube, &half, true)?)), None]
+            }
+            _ => [None, None],
+        })
     }
 
     fn sum(&self, of: &Polynomial) -> Vec<(u32, f64)> {
@@ -201,8 +279,41 @@ impl Builder<'_> {
         };
         of.iter()
             .map(|((i, j), (place, _))| (*place, most(*i) * most(*j)))
+            .filter(|(_, most)| *most > 0.0)
             .collect()
     }
+}
+
+fn constant(place: u32) -> Polynomial {
+    Polynomial::from([((0, 0), (place, false))])
+}
+
+/// The joints of whose position the function is no trigonometric polynomial.
+fn parted(graph: &Graph, leaves: &[Option<Leaf>], joints: usize) -> Vec<bool> {
+    let mut parted = vec![false; joints];
+    let mut depends: Vec<Vec<bool>> = Vec::new();
+    for (node, leaf) in graph.nodes.iter().zip(leaves) {
+        let mut on = vec![false; joints];
+        for a in operands(*node).into_iter().flatten() {
+            on.iter_mut().zip(&depends[a]).for_each(|(on, a)| *on |= a);
+        }
+        match leaf {
+            Some(Leaf::Sine(joint) | Leaf::Cosine(joint)) => on[*joint] = true,
+            Some(Leaf::Axis(axis)) if *axis < joints => {
+                on[*axis] = true;
+                parted[*axis] = true;
+            }
+            _ => {}
+        }
+        let (Node::Div(_, of) | Node::Sqrt(of) | Node::InverseRoot(of, _)) = *node else {
+            depends.push(on);
+            continue;
+        };
+        let all = parted.iter_mut().zip(&depends[of]);
+        all.for_each(|(parted, of)| *parted |= of);
+        depends.push(on);
+    }
+    parted
 }
 
 fn negated(of: &Polynomial) -> Polynomial {
@@ -221,7 +332,7 @@ fn times(m: Monomial, n: Monomial) -> Option<Monomial> {
 }
 
 impl Program {
-    /// Of a graph of one output; `None` if it is no such polynomial: of a joint that slides, of a higher degree in speeds, of a quotient or a root.
+    /// Of a graph of one output; `None` if it is no such polynomial: of a higher degree in speeds, of a quotient by speeds or a root of them.
     pub fn new(graph: &Graph, robot: &Robot) -> Option<Self> {
         let n = robot.joints.len();
         let whole = robot.whole();
@@ -229,12 +340,15 @@ impl Program {
             Node::Input(input) => robot.leaf(*input),
             _ => None,
         };
+        let leaves: Vec<Option<Leaf>> = graph.nodes.iter().map(leaf).collect();
         let mut builder = Builder {
             graph,
             program: Self {
                 steps: Vec::new(),
                 constants: vec![(ONE, 1.0)],
-                angles: vec![[None; 2]; n],
+                coordinates: vec![[None; 3]; n],
+                parted: parted(graph, &leaves, n),
+                inverses: vec![None; graph.nodes.len()],
                 places: ONE + 1,
                 forward: 0,
                 sums: Vec::new(),
@@ -245,14 +359,14 @@ impl Program {
             adjoints: vec![Polynomial::new(); graph.nodes.len()],
             most: whole.iter().map(|x| x.magnitude()).collect(),
         };
-        for node in &graph.nodes {
-            let value = builder.value(*node, leaf(node), n)?;
+        for (k, leaf) in leaves.iter().enumerate() {
+            let value = builder.value(k, *leaf, n)?;
             builder.values.push(value);
         }
         builder.program.forward = builder.program.steps.len();
         let mut uses = vec![0; graph.nodes.len()];
         for node in &graph.nodes {
-            for at in crate::graph::operands(*node).into_iter().flatten() {
+            for at in operands(*node).into_iter().flatten() {
                 uses[at] += 1;
             }
         }
@@ -282,7 +396,9 @@ impl Program {
             (degrees[k], absolute[k]) = match *node {
                 Node::Input(input) => match robot.leaf(input) {
                     Some(Leaf::Sine(joint) | Leaf::Cosine(joint)) => {
-                        ((0..n).map(|i| u8::from(i == joint)).collect(), 1.0)
+                        let is_polynomial = !self.parted[joint];
+                        let degree = |i: usize| u8::from(is_polynomial && i == joint);
+                        ((0..n).map(degree).collect(), 1.0)
                     }
                     Some(Leaf::Axis(axis)) => (vec![0; n], most[axis]),
                     None => (vec![0; n], 0.0),
@@ -293,8 +409,9 @@ impl Program {
                     (larger(&degrees[a], &degrees[b]), absolute[a] + absolute[b])
                 }
                 Node::Mul(a, b) => (both(&degrees[a], &degrees[b]), absolute[a] * absolute[b]),
-                // Of these there is no program.
-                Node::Div(..) | Node::Sqrt(_) | Node::InverseRoot(..) => continue,
+                // Absolute values are those of whole circles alone.
+                Node::Div(a, _) => (degrees[a].clone(), 0.0),
+                Node::Sqrt(_) | Node::InverseRoot(..) => (vec![0; n], 0.0),
             };
         }
         absolute[2 * nodes - 1] = 1.0;
@@ -309,7 +426,9 @@ impl Program {
                     (a, both(&degree, &degrees[b]), size * absolute[b]),
                     (b, both(&degree, &degrees[a]), size * absolute[a]),
                 ],
-                _ => continue,
+                Node::Div(a, b) => vec![(b, both(&degree, &degrees[k]), 0.0), (a, degree, 0.0)],
+                Node::Sqrt(a) | Node::InverseRoot(a, _) => vec![(a, degree, 0.0)],
+                Node::Input(_) | Node::Literal(_) => continue,
             };
             for (to, degree, size) in propagated {
                 degrees[nodes + to] = larger(&degrees[nodes + to], &degree);
@@ -320,237 +439,6 @@ impl Program {
     }
 }
 
-/// Absolute values that are added up, with their factors: places of coefficients.
-type Weighted = Vec<(u32, f64)>;
-
-/// Points that are looked at before it is decided which adjoints are added up together.
-const SAMPLE: usize = 64 * LANES;
-
-/// Adjoints that are added up before the greatest sum is taken.
-#[derive(Clone, Debug)]
-struct Class {
-    /// The greatest degree of them in each angle.
-    degrees: Vec<u8>,
-    sum: Weighted,
-    /// The sums at the sampled points.
-    sampled: Vec<f64>,
-    /// What the evaluation's roundings can have hidden.
-    hidden: f64,
-}
-
-impl Class {
-    /// How much more a sum may be between the points of the grid.
-    fn between(degrees: &[u8], sizes: &[usize]) -> f64 {
-        let factors = degrees.iter().zip(sizes);
-        let cosines = factors.map(|(degree, size)| (PI * f64::from(*degree) / *size as f64).cos());
-        (1.0 + 1e-12) / cosines.product::<f64>()
-    }
-
-    fn with(&self, other: &Self) -> Self {
-        let added = self.sampled.iter().zip(&other.sampled).map(|(a, b)| a + b);
-        Self {
-            degrees: larger(&self.degrees, &other.degrees),
-            sum: [self.sum.as_slice(), &other.sum].concat(),
-            sampled: added.collect(),
-            hidden: self.hidden + other.hidden,
-        }
-    }
-
-    fn sampled_bound(&self, sizes: &[usize]) -> f64 {
-        let most = self.sampled.iter().copied().fold(0.0, f64::max);
-        most * Self::between(&self.degrees, sizes)
-    }
-}
-
 fn larger(a: &[u8], b: &[u8]) -> Vec<u8> {
     a.iter().zip(b).map(|(a, b)| *a.max(b)).collect()
-}
-
-impl Program {
-    /// The angles of the grid for each joint, at most this many points in all; `None` if these degrees ask for more.
-    fn sizes(&self, of: &[Vec<u8>], most: usize) -> Option<Vec<usize>> {
-        let n = self.angles.len();
-        let degree = |i: usize| of.iter().map(|of| of[i]).max().unwrap_or(0);
-        let degrees: Vec<usize> = (0..n).map(|i| usize::from(degree(i))).collect();
-        let sizes = |share: f64| -> Vec<usize> {
-            let of = |degree: &usize| ((share * *degree as f64) as usize).max(2 * degree + 1);
-            degrees.iter().map(of).collect()
-        };
-        let fits = |sizes: &[usize]| {
-            let all = sizes.iter().try_fold(1_usize, |a, b| a.checked_mul(*b));
-            all.is_some_and(|all| all <= most)
-        };
-        let shares = (0..2000).map(|i| 2.0 + 0.05 * f64::from(i));
-        shares.map(sizes).take_while(|sizes| fits(sizes)).last()
-    }
-
-    /// Sets cosines and sines to those of a point of the grid, by its number.
-    fn set_angles(&self, x: &mut [[f64; LANES]], lane: usize, point: usize, sizes: &[usize]) {
-        let mut rest = point;
-        for (places, size) in self.angles.iter().zip(sizes) {
-            let (sine, cosine) = (TAU * (rest % size) as f64 / *size as f64).sin_cos();
-            rest /= size;
-            for (place, value) in places.iter().zip([cosine, sine]) {
-                if let Some(place) = place {
-                    x[*place as usize][lane] = value;
-                }
-            }
-        }
-    }
-
-    /// Evaluates the steps at points of the grid, `LANES` from each given number on, and passes all coefficients to `visit`.
-    fn at_points(
-        &self,
-        steps: &[Step],
-        sizes: &[usize],
-        points: impl Iterator<Item = usize>,
-        mut visit: impl FnMut(&[[f64; LANES]]),
-    ) {
-        let most: usize = sizes.iter().product();
-        let mut x = vec![[0.0; LANES]; self.places as usize];
-        for (place, value) in &self.constants {
-            x[*place as usize] = [*value; LANES];
-        }
-        for first in points {
-            (0..LANES).for_each(|lane| {
-                self.set_angles(&mut x, lane, (first + lane).min(most - 1), sizes)
-            });
-            evaluate(steps, &mut x);
-            visit(&x);
-        }
-    }
-
-    /// The greatest sum of each on the whole grid.
-    fn greatest(&self, steps: &[Step], sizes: &[usize], sums: &[&[(u32, f64)]]) -> Vec<f64> {
-        let mut greatest = vec![[0.0_f64; LANES]; sums.len()];
-        let points: usize = sizes.iter().product();
-        self.at_points(steps, sizes, (0..points).step_by(LANES), |x| {
-            for (greatest, sum) in greatest.iter_mut().zip(sums) {
-                let sum = absolute(sum, x);
-                (0..LANES).for_each(|i| greatest[i] = greatest[i].max(sum[i]));
-            }
-        });
-        let most = |lanes: [f64; LANES]| lanes.into_iter().fold(0.0, f64::max);
-        greatest.into_iter().map(most).collect()
-    }
-
-    /// The greatest absolute value of each node over all angles and speeds.
-    fn values(&self, sizes: &[usize], rounding: f64) -> Vec<f64> {
-        let nodes = self.sums.len() / 2;
-        let sums: Vec<&[(u32, f64)]> = self.sums[..nodes].iter().map(Vec::as_slice).collect();
-        let on_grid = self.greatest(&self.steps[..self.forward], sizes, &sums);
-        let everywhere = |(k, most): (usize, f64)| {
-            (most + rounding * self.absolute[k]) * Class::between(&self.degrees[k], sizes)
-        };
-        on_grid.into_iter().enumerate().map(everywhere).collect()
-    }
-
-    /// Adjoints by their weights, those added up together of which this gives the least bound at some points.
-    fn classes(&self, weights: &[f64], sizes: &[usize], rounding: f64) -> Vec<Class> {
-        let nodes = weights.len();
-        let mut of_degrees = BTreeMap::<&[u8], Class>::new();
-        for (k, weight) in weights.iter().enumerate().filter(|one| *one.1 > 0.0) {
-            let degrees = &self.degrees[nodes + k];
-            let class = of_degrees.entry(degrees).or_insert_with(|| Class {
-                degrees: degrees.clone(),
-                sum: Vec::new(),
-                sampled: Vec::new(),
-                hidden: 0.0,
-            });
-            let terms = self.sums[nodes + k].iter();
-            class
-                .sum
-                .extend(terms.map(|(place, most)| (*place, weight * most)));
-            class.hidden += weight * self.absolute[nodes + k] * rounding;
-        }
-        let mut classes: Vec<Class> = of_degrees.into_values().collect();
-        self.at_points(&self.steps, sizes, sample(sizes), |x| {
-            for class in &mut classes {
-                class.sampled.extend(absolute(&class.sum, x));
-            }
-        });
-        loop {
-            let mut best = (0.0, None);
-            for i in 0..classes.len() {
-                for j in 0..i {
-                    let apart = classes[i].sampled_bound(sizes) + classes[j].sampled_bound(sizes);
-                    let gain = apart - classes[i].with(&classes[j]).sampled_bound(sizes);
-                    if gain > best.0 {
-                        best = (gain, Some((i, j)));
-                    }
-                }
-            }
-            let Some((i, j)) = best.1 else { break };
-            let other = classes.swap_remove(i);
-            classes[j] = classes[j].with(&other);
-        }
-        classes
-    }
-
-    /// A bound whose parts have the shares that they have at the sampled points together.
-    fn shared(&self, graph: &Graph, weights: &[f64], sizes: &[usize], total: f64) -> Bound {
-        let nodes = weights.len();
-        let mut sums = [const { Weighted::new() }; 3];
-        for (k, weight) in weights.iter().enumerate() {
-            let kind = match graph.nodes[k] {
-                Node::Input(_) => 2,
-                Node::Literal(_) => 1,
-                _ => 0,
-            };
-            let terms = self.sums[nodes + k].iter();
-            sums[kind].extend(terms.map(|(place, most)| (*place, weight * most)));
-        }
-        let mut parts = [0.0; 3];
-        self.at_points(&self.steps, sizes, sample(sizes), |x| {
-            for (part, sum) in parts.iter_mut().zip(&sums) {
-                *part += absolute(sum, x).iter().sum::<f64>();
-            }
-        });
-        let all: f64 = parts.iter().sum();
-        let [operations, literals, sines] =
-            parts.map(|part| if all > 0.0 { total * part / all } else { 0.0 });
-        Bound {
-            operations,
-            literals,
-            sines,
-        }
-    }
-}
-
-/// The first of some points each, drawn at random.
-fn sample(sizes: &[usize]) -> impl Iterator<Item = usize> {
-    let points: usize = sizes.iter().product();
-    let mut rng = fastrand::Rng::with_seed(1);
-    (0..SAMPLE / LANES).map(move |_| rng.usize(..points))
-}
-
-fn absolute(sum: &[(u32, f64)], x: &[[f64; LANES]]) -> [f64; LANES] {
-    let mut result = [0.0; LANES];
-    for (place, most) in sum {
-        let x = &x[*place as usize];
-        (0..LANES).for_each(|i| result[i] += x[i].abs() * most);
-    }
-    result
-}
-
-/// Each place once.
-fn joined(sum: &[(u32, f64)]) -> Weighted {
-    let mut places = BTreeMap::<u32, f64>::new();
-    for (place, weight) in sum {
-        *places.entry(*place).or_default() += weight;
-    }
-    places.into_iter().collect()
-}
-
-fn evaluate(steps: &[Step], x: &mut [[f64; LANES]]) {
-    for step in steps {
-        let (a, b) = (x[step.a as usize], x[step.b as usize]);
-        let to = &mut x[step.to as usize];
-        match (step.is_first, step.is_minus) {
-            (true, false) => (0..LANES).for_each(|i| to[i] = a[i] * b[i]),
-            (true, true) => (0..LANES).for_each(|i| to[i] = -(a[i] * b[i])),
-            (false, false) => (0..LANES).for_each(|i| to[i] += a[i] * b[i]),
-            (false, true) => (0..LANES).for_each(|i| to[i] -= a[i] * b[i]),
-        }
-    }
 }

@@ -42,6 +42,12 @@ impl Interval {
         self.low.abs().max(self.high.abs())
     }
 
+    /// How far its ends are apart.
+    #[inline]
+    pub fn width(self) -> f64 {
+        self.high - self.low
+    }
+
     /// It, and this far beyond both ends.
     #[inline]
     pub fn widened(self, by: f64) -> Self {

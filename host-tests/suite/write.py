@@ -98,17 +98,22 @@ def lines(value):
     return text(value)
 
 
+def stale(wanted):
+    """The names of the files that are not those of the scripts: of other text, missing, or of no case."""
+    other = [path.name for path, text in wanted.items() if not path.exists() or path.read_text() != text]
+    return other + [path.name for path in OUT.glob("*.json") if path not in wanted]
+
+
 def main():
-    wanted, stale = {}, []
+    wanted = {}
     for case in [*existing(), *found()]:
         path = OUT / f"{case.number:02}-{case.name}.json"
         assert path not in wanted, path
         wanted[path] = written(case)
         print(path.name, file=sys.stderr, flush=True)
     if "--check" in sys.argv:
-        stale = [path.name for path, text in wanted.items() if not path.exists() or path.read_text() != text]
-        stale += [path.name for path in OUT.glob("*.json") if path not in wanted]
-        sys.exit(f"not current: {', '.join(stale)}" if stale else 0)
+        names = stale(wanted)
+        sys.exit(f"not current: {', '.join(names)}" if names else 0)
     OUT.mkdir(exist_ok=True)
     for path in OUT.glob("*.json"):
         path.unlink()

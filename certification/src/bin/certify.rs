@@ -123,6 +123,10 @@ const PAGE_POINTS: usize = 5_000_000;
 /// Points of each grid and parts of each box of `--configurations`, which proves a hundred of them.
 const CONFIGURED_POINTS: usize = 300_000;
 const CONFIGURED_PARTS: usize = 300;
+/// Points on which the Fourier coefficients of the difference of two models are evaluated.
+const CONFIGURED_FINE: usize = 4_000_000;
+/// Points of the grids of a robot with a loop, over all parts of the coordinates that it depends on by quotients and roots.
+const LOOP_POINTS: usize = 100_000;
 /// Parts for speeds and for the floor of the inertia matrix; those of the page.
 const SHEET_EFFORT: limits::Effort = limits::Effort {
     speeds: 20_000,
@@ -172,6 +176,7 @@ fn run(args: &Args) -> Result<String> {
     if args.configurations {
         let spent = configurations::Spent {
             points: args.points.unwrap_or(CONFIGURED_POINTS),
+            fine: CONFIGURED_FINE,
             parts: args.parts.min(CONFIGURED_PARTS),
         };
         let prove = |(program, robot)| configurations::prove(&program, &robot, spent);
@@ -200,10 +205,7 @@ fn run(args: &Args) -> Result<String> {
             check::hashes(&image, functions, &program.robot, &written()?)?;
         }
         for (path, text) in kept(&docs, &programs, &robots)? {
-            if std::fs::read_to_string(&path).ok().as_ref() != Some(&text) {
-                let name = path.file_name().unwrap_or_default().to_string_lossy();
-                return Err(Error::Stale(format!("{FOLDER}/{name}")));
-            }
+            check::file(&path, &text)?;
         }
         let recorded = std::fs::read_to_string(docs.join(CONFIGURED)).unwrap_or_default();
         let recorded: Vec<Configurations> = serde_json::from_str(&recorded).unwrap_or_default();
@@ -440,6 +442,7 @@ fn spent(args: &Args, function: Function) -> Spent {
         points: args.points.unwrap_or(match function {
             // It has the most results: 27 of six joints, 35 of seven.
             Function::ForwardDynamics => POINTS,
+            Function::Clustered => LOOP_POINTS,
             _ if args.write_docs.is_some() => PAGE_POINTS,
             _ => POINTS,
         }),

@@ -3,7 +3,7 @@
 use certification::bound::SineErrors;
 use certification::certificate::{Function, expression};
 use certification::check;
-use certification::configurations::{self, Configurations, Spent, each};
+use certification::configurations::{self, Configurations, Spent, Whole, each};
 use certification::error::Error;
 use certification::graph::{Graph, Input};
 use certification::search::Evaluation;
@@ -17,6 +17,7 @@ use super::recorded::{BASE, EFFECTS, GRAVITY, RNEA, SINES, bytes, graph, robot};
 
 const SPENT: Spent = Spent {
     points: 20_000,
+    fine: 200_000,
     parts: 10,
 };
 
@@ -81,8 +82,11 @@ fn a_coarse_kernel_keeps_its_bound_and_breaks_the_fine_one() {
 #[test]
 fn a_model_that_leaves_terms_out_needs_its_distance() {
     let (own, whole, robot) = (graph(GRAVITY), graph(RNEA), robot(6));
-    let of = |whole| each(&own, whole, &robot, &[SINES], SPENT).expect("angles alone")[0];
-    let (bound, alone) = (of(Some(&whole)), of(None));
+    let beside = |graph| Whole::of(graph, &robot, SPENT.points).expect("angles alone");
+    let of = |whole: Option<&Whole<'_>>| {
+        each(&own, whole, &robot, &[SINES], SPENT).expect("angles alone")[0]
+    };
+    let (bound, alone) = (of(Some(&beside(&whole))), of(None));
     let mut rng = fastrand::Rng::with_seed(1);
     let (mut one, mut other) = (
         Evaluation::new(&own, &robot),
@@ -95,9 +99,12 @@ fn a_model_that_leaves_terms_out_needs_its_distance() {
             most = most.max((f64::from(single) - exact).abs());
         }
     }
-    assert!(most <= bound && alone < most, "{most} {bound} {alone:e}");
+    assert!(
+        most <= bound && alone < most && bound < 10.0 * most,
+        "{most} {bound} {alone:e}"
+    );
     // The same model twice has no distance, and little more than its own bound.
-    let twice = of(Some(&own));
+    let twice = of(Some(&beside(&own)));
     assert!(twice < 3.0 * alone, "{twice:e} {alone:e}");
 }
 
@@ -134,6 +141,14 @@ fn a_page_of_other_machine_code_is_stale() {
     let mut code = bytes(GRAVITY);
     *code.last_mut().expect("a literal") ^= 1;
     assert!(stale(&program(code), &page).is_some());
+    // A file of another text, and none.
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("rnea.fpcore");
+    assert!(check::file(&path, "(FPCore ())").is_err());
+    std::fs::write(&path, "(FPCore ())").expect("it is written");
+    assert!(check::file(&path, "(FPCore ())").is_ok());
+    let said = check::file(&path, "(FPCore (q1))").expect_err("another");
+    assert!(said.to_string().contains("rnea.fpcore"), "{said}");
 }
 
 #[test]

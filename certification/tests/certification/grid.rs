@@ -3,7 +3,8 @@
 use super::recorded::{GRAVITY, LITTLE, RNEA, SINES, graph, robot};
 use certification::bound::{Bound, Bounder, Enclosure, SineErrors};
 use certification::graph::{Graph, Input, Node};
-use certification::grid::Program;
+use certification::grid::{Program, between};
+use certification::interval::half_ulp;
 use certification::search::{Effort, search};
 
 const POINTS: usize = 10_000;
@@ -73,7 +74,6 @@ fn what_lies_between_the_points_is_bounded() {
     for points in [5, 7, 9, 31] {
         assert!(error(points) >= Some(half_ulp_of_a_half), "{points}");
     }
-    assert!(error(5) > error(31));
     assert_eq!(error(4), None, "degree two asks for five angles");
 }
 
@@ -95,21 +95,101 @@ fn what_cancels_has_no_part_in_the_bound() {
     assert!(by_grid.total() < 0.3 * by_parts.total());
 }
 
+/// Interpolation of signs on the fewest angles is as large between them as the bound says.
 #[test]
-fn a_cube_of_a_speed_and_a_joint_that_slides_are_declined() {
+fn a_polynomial_reaches_the_bound_between_the_points() {
+    for degree in 1..=4 {
+        for size in 2 * degree + 1..=4 * degree {
+            let bound = between(degree, size);
+            let angle = |j: f64| std::f64::consts::TAU * j / size as f64;
+            // Σ_k cos k(θ − θ_j) with these signs is of the degree, and at the points at most its own greatest value there.
+            let mut most = 0.0_f64;
+            for pattern in 0..1_u32 << size {
+                let sign = |j: usize| f64::from(pattern >> j & 1) * 2.0 - 1.0;
+                let at = |theta: f64| -> f64 {
+                    let waves = |j: usize| {
+                        let wave = |k: usize| 2.0 * (k as f64 * (theta - angle(j as f64))).cos();
+                        sign(j) * (1.0 + (1..=degree).map(wave).sum::<f64>())
+                    };
+                    (0..size).map(waves).sum()
+                };
+                let on_grid = (0..size).map(|j| at(angle(j as f64)).abs());
+                let on_grid = on_grid.fold(1e-9, f64::max);
+                most = most.max(at(angle(0.5)).abs() / on_grid);
+                if size > 9 {
+                    break;
+                }
+            }
+            assert!(most <= bound, "{degree} {size}: {most} {bound}");
+            if size == 2 * degree + 1 {
+                assert!(size > 9 || most > 0.999 * bound, "{degree}: {most} {bound}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_cube_of_a_speed_is_declined() {
     let cube = of(&[Node::Mul(2, 2), Node::Mul(3, 2)]);
     assert!(Program::new(&cube, &robot(6)).is_none());
-    let slides = Graph {
+}
+
+/// 1/(q + 4) of a position between −3 and 3: one at most, where an error of 4 counts as much as one of the result.
+#[test]
+fn positions_and_quotients_are_bounded_by_parts() {
+    let position = Node::Input(Input {
+        argument: 2,
+        offset: 0,
+    });
+    let quotient = |shift: f32| Graph {
         nodes: vec![
-            Node::Input(Input {
-                argument: 2,
-                offset: 0,
-            }),
-            Node::Add(0, 0),
+            position,
+            Node::Literal(shift),
+            Node::Add(0, 1),
+            Node::Literal(1.0),
+            Node::Div(3, 2),
         ],
-        outputs: vec![(0, 1)],
+        outputs: vec![(0, 4)],
     };
-    assert!(Program::new(&slides, &robot(6)).is_none());
+    let graph = quotient(4.0);
+    let bound = bound(&graph, 100_000).expect("the divisor is one at least");
+    // Two literals, a sum and a quotient, at q = −3.
+    let at_the_end = half_ulp(4.0) + half_ulp(1.0) + half_ulp(1.0) + half_ulp(1.0);
+    assert!(
+        bound >= at_the_end && bound < 1.1 * at_the_end,
+        "{bound:e} {at_the_end:e}"
+    );
+    let observed = search(&graph, &robot(1), LITTLE, 1)[0].error;
+    assert!(observed > 0.0 && observed <= bound);
+    // At q = −3 there is no quotient.
+    let robot = robot(1);
+    let singular = quotient(3.0);
+    let program = Program::new(&singular, &robot).expect("a quotient");
+    assert_eq!(program.prove(&singular, &robot, SINES, 10_000), None);
+}
+
+/// sin q cos² q + sin³ q is of degree three by its terms, and sin q.
+#[test]
+fn a_greatest_value_knows_what_cancels() {
+    let product = of(&[Node::Mul(0, 1)]);
+    let sine = of(&[
+        Node::Mul(1, 1),
+        Node::Mul(0, 0),
+        Node::Add(3, 4),
+        Node::Mul(5, 0),
+    ]);
+    for (graph, most) in [(product, 0.5), (sine, 1.0)] {
+        let greatest = |fine| {
+            let program = Program::new(&graph, &robot(6)).expect("one angle");
+            program
+                .greatest_value(20, fine)
+                .expect("seven points are enough")
+        };
+        for fine in [5, 6, 100] {
+            assert!(greatest(fine) >= most, "{fine}");
+        }
+        assert!(greatest(100) < 1.01 * most, "{}", greatest(100));
+    }
 }
 
 /// A square of a speed is as large at −3 as at 3, and its error that of nine.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::certificate::{Certificate, Function};
+use crate::certificate::Certificate;
 use crate::forward::Forward;
 
 /// A number in three digits, its power of ten written out.
@@ -38,7 +38,7 @@ pub fn tables(certificates: &[Certificate]) -> String {
 
 fn table(one: &Certificate) -> String {
     let (what, unit) = match one.function {
-        Function::Crba => ("entry", "kg·m² or kg"),
+        one if one.is_matrix() => ("entry", "kg·m² or kg"),
         _ => ("joint", "N·m or N"),
     };
     let mut text = format!(
@@ -136,7 +136,7 @@ pub(crate) fn ranges(one: &Certificate) -> String {
         let joint = one.joints[i];
         let (q, unit) = (joint.position, if joint.turns { "rad" } else { "m" });
         let mut text = format!("q from {:.2} to {:.2} {unit}", q.low, q.high);
-        if one.function == Function::ForwardDynamics {
+        if one.function.matrix().is_some() {
             let _ = write!(text, ", |q̇| ≤ {:.2} {unit}/s", joint.speed);
         }
         if one.function.is_inverse_dynamics() {

@@ -34,6 +34,8 @@ const MOST: usize = 200_000;
 enum Word {
     /// Bits that do not depend on inputs.
     Bits(u32),
+    /// Bits that lie between two others, as those of a positive number do.
+    Within(u32, u32),
     /// A real number.
     Real(usize),
     /// A guess of the reciprocal root of a real number: a magic number less half of its bits.
@@ -49,6 +51,14 @@ pub struct Comparison {
     pub nodes: [usize; 2],
     /// How they are ordered at the state zero, and must be at every state of the box.
     pub ordering: Ordering,
+}
+
+/// Bits from the least to the greatest.
+fn within(low: u32, high: u32) -> Word {
+    match low == high {
+        true => Word::Bits(low),
+        false => Word::Within(low, high),
+    }
 }
 
 /// A function's expression, and where its code lies.
@@ -72,8 +82,10 @@ struct Walk<'a> {
     core: [Option<Word>; 16],
     real: [Option<Word>; 32],
     memory: HashMap<u32, Word>,
-    /// Negative, zero, carry, overflow of the last comparison of integers.
-    flags: Option<[bool; 4]>,
+    /// Bytes of words of which not all are known.
+    bytes: HashMap<u32, u8>,
+    /// Negative, zero, carry, overflow, as far as they are known.
+    flags: [Option<bool>; 4],
     /// The conditions of the next instructions: ITSTATE.
     conditions: u8,
     sines: Option<Sines>,
@@ -104,7 +116,8 @@ pub fn walk<const N: usize>(
         core: [None; 16],
         real: [None; 32],
         memory: HashMap::new(),
-        flags: None,
+        bytes: HashMap::new(),
+        flags: [None; 4],
         conditions: 0,
         sines: Sines::of(image),
         compared: None,
@@ -147,7 +160,7 @@ pub fn walk<const N: usize>(
         .collect();
     outputs.sort_by_key(|output| output.0);
     for (offset, word) in outputs {
-        let node = walk.node(word);
+        let node = walk.node(word)?;
         walk.graph.outputs.push((offset, node));
     }
     roots::join_steps(&mut walk.graph);
@@ -174,9 +187,10 @@ impl Walk<'_> {
     }
 
     /// The node of a word that is used as a real number.
-    fn node(&mut self, word: Word) -> usize {
-        match word {
+    fn node(&mut self, word: Word) -> Result<usize> {
+        Ok(match word {
             Word::Real(node) => node,
+            Word::Within(..) => return Err(self.declined("a number of bits that are not known")),
             Word::Guess(a, magic) => self.push(Node::InverseRoot(a, Guess { magic, steps: 0 })),
             Word::Bits(bits) => match self.literals.get(&bits) {
                 Some(node) => *node,
@@ -186,7 +200,7 @@ impl Walk<'_> {
                     node
                 }
             },
-        }
+        })
     }
 
     fn core(&self, register: u8) -> Result<Word> {
@@ -204,6 +218,24 @@ impl Walk<'_> {
         }
     }
 
+    /// The least and the greatest bits of a register. Those of a real number are taken as of one that is positive, neither subnormal nor
+    /// infinite, which is noted as a comparison.
+    fn range(&mut self, register: u8) -> Result<(u32, u32)> {
+        match self.core(register)? {
+            Word::Within(low, high) => Ok((low, high)),
+            Word::Real(a) => {
+                let least = self.node(Word::Bits(f32::MIN_POSITIVE.to_bits()))?;
+                match self.compare([a, least])? {
+                    Ordering::Greater => Ok((f32::MIN_POSITIVE.to_bits(), f32::MAX.to_bits())),
+                    _ => {
+                        Err(self.declined("an integer operation on a number that is not positive"))
+                    }
+                }
+            }
+            _ => self.bits(register).map(|bits| (bits, bits)),
+        }
+    }
+
     fn real(&self, register: u8) -> Result<Word> {
         let word = self.real.get(usize::from(register)).copied().flatten();
         word.ok_or_else(|| self.declined("a floating-point register that nothing has set"))
@@ -215,6 +247,11 @@ impl Walk<'_> {
         }
         if let Some(word) = self.memory.get(&address) {
             return Ok(*word);
+        }
+        if let [Some(a), Some(b), Some(c), Some(d)] =
+            [0, 1, 2, 3].map(|i| self.bytes.get(&(address + i)))
+        {
+            return Ok(Word::Bits(u32::from_le_bytes([*a, *b, *c, *d])));
         }
         if let Some(bits) = self.image.word(address) {
             return Ok(Word::Bits(bits));
@@ -242,7 +279,34 @@ impl Walk<'_> {
                 self.declined("a store to an input, to the program, or beside a word's address")
             );
         }
+        self.bytes.retain(|at, _| *at & !3 != address);
         self.memory.insert(address, word);
+        Ok(())
+    }
+
+    fn byte(&self, address: u32) -> Result<u8> {
+        let within = address & 3;
+        let word = match self.memory.get(&(address - within)) {
+            Some(Word::Bits(bits)) => Some(*bits),
+            Some(_) => None,
+            None => self.image.word(address - within),
+        };
+        let byte = word.map(|word| word.to_le_bytes()[within as usize]);
+        let byte = self.bytes.get(&address).copied().or(byte);
+        byte.ok_or_else(|| self.declined("a part of a word that is not known"))
+    }
+
+    /// Of a real number that it is written into, the other bytes are known no longer.
+    fn store_byte(&mut self, address: u32, byte: u8) -> Result<()> {
+        let within = address & 3;
+        let word = address - within;
+        if let Some(Word::Bits(bits)) = self.memory.get(&word) {
+            let mut bytes = bits.to_le_bytes();
+            bytes[within as usize] = byte;
+            return self.store(word, Word::Bits(u32::from_le_bytes(bytes)));
+        }
+        self.memory.remove(&word);
+        self.bytes.insert(address, byte);
         Ok(())
     }
 
@@ -312,19 +376,54 @@ impl Walk<'_> {
                 Ok(())
             }
             I::Add { d, n, by, flags } => {
-                let (a, b) = (self.bits(n)?, self.operand(by)?);
-                self.note(flags, a, b, false);
-                self.set(d, Word::Bits(a.wrapping_add(b)))
+                let (a, b) = (self.range(n)?, self.operand(by)?);
+                let sum = self.sum(flags, a, b, false)?;
+                self.set(d, sum)
             }
             I::Sub { d, n, by } => {
-                let (a, b) = (self.bits(n)?, self.operand(by)?);
-                self.note(true, a, !b, true);
-                self.set(d, Word::Bits(a.wrapping_sub(b)))
+                let (a, b) = (self.range(n)?, self.operand(by)?);
+                let difference = self.sum(true, a, !b, true)?;
+                self.set(d, difference)
             }
             I::Constant { d, value } => {
-                // The short form sets flags; nothing that is followed branches by them.
-                self.flags = None;
+                // Of one halfword it sets flags.
+                if self.next == self.here + 2 {
+                    [self.flags[0], self.flags[1]] = [value >> 31 != 0, value == 0].map(Some);
+                }
                 self.set(d, Word::Bits(value))
+            }
+            I::Address { d, offset } => {
+                let address = ((self.here + 4) & !3).wrapping_add_signed(offset);
+                self.set(d, Word::Bits(address))
+            }
+            I::Not { d, m, flags } => {
+                let result = Word::Bits(!self.bits(m)?);
+                self.note(flags, result);
+                self.set(d, result)
+            }
+            I::MultiplyAdd { d, n, m, a } => {
+                let product = self.bits(n)?.wrapping_mul(self.bits(m)?);
+                let more = if a == NOWHERE { 0 } else { self.bits(a)? };
+                self.set(d, Word::Bits(product.wrapping_add(more)))
+            }
+            I::LeadingZeros { d, m } => {
+                let (low, high) = self.range(m)?;
+                self.set(d, within(high.leading_zeros(), low.leading_zeros()))
+            }
+            I::TableBranch { n, m, shift } => {
+                let table = if n == PC {
+                    self.here + 4
+                } else {
+                    self.bits(n)?
+                };
+                let at = table.wrapping_add(self.bits(m)? << shift);
+                let bytes = [self.byte(at)?, self.byte(at + u32::from(shift))?];
+                let entry = match shift {
+                    0 => bytes[0].into(),
+                    _ => u16::from_le_bytes(bytes),
+                };
+                self.next = self.here + 4 + 2 * u32::from(entry);
+                Ok(())
             }
             I::Upper { d, value } => {
                 let low = self.bits(d)? & 0xffff;
@@ -384,14 +483,14 @@ impl Walk<'_> {
             I::Arithmetic { op, d, n, m } => self.arithmetic(op, d, n, m),
             I::Negate { d, m } => {
                 let word = self.real(m)?;
-                let a = self.node(word);
+                let a = self.node(word)?;
                 let node = self.push(Node::Neg(a));
                 self.real[usize::from(d)] = Some(Word::Real(node));
                 Ok(())
             }
             I::Root { d, m } => {
                 let word = self.real(m)?;
-                let a = self.node(word);
+                let a = self.node(word)?;
                 let node = self.push(Node::Sqrt(a));
                 self.real[usize::from(d)] = Some(Word::Real(node));
                 Ok(())
@@ -399,7 +498,7 @@ impl Walk<'_> {
             I::Compare { d, m } => {
                 let a = self.real(d)?;
                 let b = m.map_or(Ok(Word::Bits(0)), |m| self.real(m))?;
-                self.compared = Some([self.node(a), self.node(b)]);
+                self.compared = Some([self.node(a)?, self.node(b)?]);
                 Ok(())
             }
             I::TakeFlags => self.take_flags(),
@@ -414,7 +513,7 @@ impl Walk<'_> {
                 match halved {
                     Word::Real(a) => self.set(d, Word::Guess(a, magic)),
                     Word::Bits(bits) => self.set(d, Word::Bits(magic.wrapping_sub(bits >> 1))),
-                    Word::Guess(..) => Err(self.declined("a guess of a guess")),
+                    _ => Err(self.declined("a guess of a guess")),
                 }
             }
             I::Integer {
@@ -424,12 +523,15 @@ impl Walk<'_> {
                 by,
                 flags,
             } => {
-                let result = op.of(self.bits(n)?, self.operand(by)?);
-                if flags {
-                    // Carry and overflow are those of no sum.
-                    self.flags = None;
-                }
-                self.set(d, Word::Bits(result))
+                let ((low, high), by) = (self.range(n)?, self.operand(by)?);
+                let result = match op {
+                    _ if low == high => Word::Bits(op.of(low, by)),
+                    Integer::Right => within(op.of(low, by), op.of(high, by)),
+                    Integer::Clear if by == 1 << 31 && high < by => within(low, high),
+                    _ => return Err(self.declined("an integer operation on a real number")),
+                };
+                self.note(flags, result);
+                self.set(d, result)
             }
             I::Copy { d, m } => {
                 self.real[usize::from(d)] = Some(self.real(m)?);
@@ -450,7 +552,7 @@ impl Walk<'_> {
                 }
                 let mut word = self.core(core)?;
                 if let Word::Guess(..) = word {
-                    word = Word::Real(self.node(word));
+                    word = Word::Real(self.node(word)?);
                 }
                 self.real[usize::from(real)] = Some(word);
                 Ok(())
@@ -482,7 +584,9 @@ impl Walk<'_> {
                 self.next = self.bits(m)? & !1;
                 Ok(())
             }
-            I::Access(one) if one.bytes == 4 => self.access(one),
+            I::Access(one) if one.bytes == 4 || one.second == NOWHERE && !one.is_signed => {
+                self.access(one)
+            }
             _ => Err(self.declined("an instruction of which nothing is proven")),
         }
     }
@@ -500,7 +604,20 @@ impl Walk<'_> {
         }
         let registers = [one.t, one.second].into_iter().filter(|t| *t != NOWHERE);
         for (t, at) in registers.zip([at, at.wrapping_add(4)]) {
-            if one.load {
+            if one.bytes < 4 && one.load {
+                let bytes = (at..).take(one.bytes.into()).map(|at| self.byte(at));
+                let bytes = bytes.collect::<Result<Vec<_>>>()?;
+                let number = bytes
+                    .iter()
+                    .rev()
+                    .fold(0, |number, byte| number << 8 | u32::from(*byte));
+                self.set(t, Word::Bits(number))?;
+            } else if one.bytes < 4 {
+                let number = self.bits(t)?.to_le_bytes();
+                for (at, byte) in (at..).zip(&number[..one.bytes.into()]) {
+                    self.store_byte(at, *byte)?;
+                }
+            } else if one.load {
                 let word = self.load(at)?;
                 self.set(t, word)?;
             } else {
@@ -519,10 +636,28 @@ impl Walk<'_> {
         }
     }
 
-    /// Keeps the flags of a + b + carry.
-    fn note(&mut self, sets: bool, a: u32, b: u32, carry: bool) {
+    /// a + b + carry for each a from low to high, and its flags.
+    fn sum(&mut self, sets: bool, (low, high): (u32, u32), b: u32, carry: bool) -> Result<Word> {
+        let [least, most] = [low, high].map(|a| flags::of_sum(a, b, carry));
+        // A sum that passes 2³² somewhere in between has no order.
+        if least[2] != most[2] {
+            return Err(self.declined("a sum of bits that are not known"));
+        }
         if sets {
-            self.flags = Some(flags::of_sum(a, b, carry));
+            let is_decided = |i: usize| least[i] == most[i] && (low ^ high) >> 31 == 0;
+            self.flags = [0, 1, 2, 3].map(|i| is_decided(i).then_some(least[i]));
+        }
+        let [low, high] = [low, high].map(|a| a.wrapping_add(b).wrapping_add(carry.into()));
+        Ok(within(low, high))
+    }
+
+    /// Keeps the flags of another result: carry and overflow are those of no sum.
+    fn note(&mut self, sets: bool, result: Word) {
+        if sets {
+            self.flags = match result {
+                Word::Bits(bits) => [Some(bits >> 31 != 0), Some(bits == 0), None, None],
+                _ => [None; 4],
+            };
         }
     }
 
@@ -530,9 +665,8 @@ impl Walk<'_> {
         if condition == ALWAYS {
             return Ok(true);
         }
-        let of = |flags: [bool; 4]| flags::holds(condition, flags.map(Some));
         let unknown = || self.declined("a branch by flags that are not followed");
-        self.flags.and_then(of).ok_or_else(unknown)
+        flags::holds(condition, self.flags).ok_or_else(unknown)
     }
 
     fn words(
@@ -582,7 +716,7 @@ impl Walk<'_> {
 
     fn arithmetic(&mut self, op: Arithmetic, d: u8, n: u8, m: u8) -> Result<()> {
         let (n, m) = (self.real(n)?, self.real(m)?);
-        let (a, b) = (self.node(n), self.node(m));
+        let (a, b) = (self.node(n)?, self.node(m)?);
         let mut node = self.push(match op {
             Arithmetic::Add => Node::Add(a, b),
             Arithmetic::Sub => Node::Sub(a, b),

@@ -308,7 +308,7 @@ fn configured(args: &Args) -> Result<Vec<(Program, Robot)>> {
 fn part(function: Function) -> Part {
     match function {
         Function::Clustered => Part::Clusters,
-        Function::ForwardDynamics => Part::Forward,
+        _ if function.matrix().is_some() => Part::Forward,
         _ => Part::Certificates,
     }
 }
@@ -439,7 +439,7 @@ fn spent(args: &Args, function: Function) -> Spent {
         parts: args.parts,
         points: args.points.unwrap_or(match function {
             // It has the most results: 27 of six joints, 35 of seven.
-            Function::ForwardDynamics => POINTS,
+            _ if function.matrix().is_some() => POINTS,
             _ if args.write_docs.is_some() => PAGE_POINTS,
             _ => POINTS,
         }),

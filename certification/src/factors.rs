@@ -81,6 +81,17 @@ impl Terms {
         }
     }
 
+    /// The number by which a term is a multiple of another, if it is one.
+    fn share(&self, term: Term, of: Term) -> Option<f32> {
+        let Key::Product(a, b) = self.keys[term.key] else {
+            return None;
+        };
+        let other = if a == of.key { b } else { a };
+        let minus = term.minus != of.minus;
+        let number = self.number(Term { key: other, minus });
+        number.filter(|_| a == of.key || b == of.key)
+    }
+
     fn is_zero(&self, term: Term) -> bool {
         self.number(term) == Some(0.0)
     }
@@ -237,6 +248,15 @@ fn roundings(turns: &[Vec<Option<u32>>], subtracted: &[u32], order: Order) -> Ve
     (0..n).map(|i| (0..n).map(|j| of(i, j)).collect()).collect()
 }
 
+/// What a pivot must exceed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Noise {
+    /// A number, kg·m² or kg: infinity if it depends on the position in another way than M.
+    pub least: f64,
+    /// A share of the entry of M in which the pivot begins.
+    pub share: f64,
+}
+
 /// Forward dynamics, taken apart.
 #[derive(Clone, Debug)]
 pub struct Factored {
@@ -244,8 +264,8 @@ pub struct Factored {
     pub graph: Graph,
     /// Of each entry of M, m as above.
     pub roundings: Vec<Vec<u32>>,
-    /// What each pivot is compared with, where it is: the greatest, or infinity if it depends on the position.
-    pub noise: Vec<Option<f64>>,
+    /// What each pivot is compared with, where it is: the greatest.
+    pub noise: Vec<Option<Noise>>,
 }
 
 /// The argument that torques are.
@@ -294,6 +314,7 @@ impl Factored {
             let offset = 4 * (n + n * i + j) as u32;
             graph.outputs.push((offset, moved + entry(i, j)?));
         }
+        let diagonal: Vec<Term> = (0..n).map(|k| lower[k][k]).collect();
         let solved = solve(&mut terms, lower, rest, order);
         for (i, acceleration) in solved.accelerations.iter().enumerate() {
             if code.outputs[i].0 != 4 * i as u32 || mine[code.outputs[i].1] != *acceleration {
@@ -311,8 +332,13 @@ impl Factored {
             let Some(joint) = joint.filter(|_| one.ordering != Ordering::Equal) else {
                 return Err(other(format!("comparison at {:#010x}", one.address)));
             };
-            let least = terms.number(least).map_or(f64::INFINITY, f64::from);
-            noise[joint] = Some(least.max(noise[joint].unwrap_or(0.0)));
+            let known: &mut Noise = noise[joint].get_or_insert_default();
+            if let Some(share) = terms.share(least, diagonal[joint]) {
+                known.share = known.share.max(share.into());
+            } else {
+                let least = terms.number(least).map_or(f64::INFINITY, f64::from);
+                known.least = known.least.max(least);
+            }
         }
         Ok(Self {
             graph,

@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 use crate::bodies::{Body, Position, inertia_matrix};
 use crate::certificate::Output;
 use crate::error::{Error, Result};
-use crate::factors::Factored;
+use crate::factors::{Factored, Noise};
 use crate::floor::{self, Floor};
 use crate::graph::Graph;
 use crate::inertias::Links;
@@ -114,7 +114,10 @@ impl Forward {
         let positions = &robot.whole()[..n];
         forward.floor = floor::prove(bodies, positions, &forward.scales, parts);
         let above = (forward.floor.floor - forward.epsilon) * (1.0 - 4.0 * UNIT);
-        let exceeds = |(noise, h): (&Option<f64>, &f64)| above * h > noise.unwrap_or(0.0);
+        let exceeds = |(noise, h): (&Option<Noise>, &f64)| {
+            let noise = noise.unwrap_or_default();
+            above * h > noise.least && above > noise.share
+        };
         let mut pivots = factored.noise.iter().zip(&forward.scales);
         forward.is_total = pivots.all(exceeds);
         Ok(forward)

@@ -2,23 +2,24 @@
 //!
 //! The walk executes the code with real numbers as nodes of a graph and everything else, addresses and counters, as it is. So it follows
 //! calls and loops with constant bounds. At a branch by a comparison of real numbers it goes on as the state zero does, and notes the
-//! comparison, of which [`crate::paths`] proves that all states of the box decide it so. Calls of the function that the program names
+//! comparison, of which [`crate::paths`] proves that all states of the box decide it so. Operations on the bits of a real number are followed as far as
+//! they are the same for all positive numbers. Calls of the function that the program names
 //! `CERTIFIED_SINES` are not followed: they are inputs, the sine and the cosine of a coordinate.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, HashMap};
 
-use crate::decode::{
-    self, ALWAYS, Access, Arithmetic, Condition, Instruction, Integer, LR, NOWHERE, Operand, PC, SP,
-};
+use crate::decode::{self, Arithmetic, Instruction, Integer, LR, NOWHERE, Operand, PC, SP};
 use crate::error::{Error, Result};
-use crate::flags;
 use crate::graph::{Graph, Guess, Input, Node};
 use crate::image::Image;
 use crate::roots;
 
+mod bits;
+mod memory;
 mod sines;
 
+use bits::within;
 use sines::Sines;
 
 /// Addresses at which nothing lies: of what the arguments point to, a range for each; of the stack; and of the caller.
@@ -51,14 +52,6 @@ pub struct Comparison {
     pub nodes: [usize; 2],
     /// How they are ordered at the state zero, and must be at every state of the box.
     pub ordering: Ordering,
-}
-
-/// Bits from the least to the greatest.
-fn within(low: u32, high: u32) -> Word {
-    match low == high {
-        true => Word::Bits(low),
-        false => Word::Within(low, high),
-    }
 }
 
 /// A function's expression, and where its code lies.
@@ -211,103 +204,9 @@ impl Walk<'_> {
             .ok_or_else(|| self.declined("a core register that nothing has set"))
     }
 
-    fn bits(&self, register: u8) -> Result<u32> {
-        match self.core(register)? {
-            Word::Bits(bits) => Ok(bits),
-            _ => Err(self.declined("an integer operation on a real number")),
-        }
-    }
-
-    /// The least and the greatest bits of a register. Those of a real number are taken as of one that is positive, neither subnormal nor
-    /// infinite, which is noted as a comparison.
-    fn range(&mut self, register: u8) -> Result<(u32, u32)> {
-        match self.core(register)? {
-            Word::Within(low, high) => Ok((low, high)),
-            Word::Real(a) => {
-                let least = self.node(Word::Bits(f32::MIN_POSITIVE.to_bits()))?;
-                match self.compare([a, least])? {
-                    Ordering::Greater => Ok((f32::MIN_POSITIVE.to_bits(), f32::MAX.to_bits())),
-                    _ => {
-                        Err(self.declined("an integer operation on a number that is not positive"))
-                    }
-                }
-            }
-            _ => self.bits(register).map(|bits| (bits, bits)),
-        }
-    }
-
     fn real(&self, register: u8) -> Result<Word> {
         let word = self.real.get(usize::from(register)).copied().flatten();
         word.ok_or_else(|| self.declined("a floating-point register that nothing has set"))
-    }
-
-    fn load(&mut self, address: u32) -> Result<Word> {
-        if address & 3 != 0 {
-            return Err(self.declined("an address that is not a word's"));
-        }
-        if let Some(word) = self.memory.get(&address) {
-            return Ok(*word);
-        }
-        if let [Some(a), Some(b), Some(c), Some(d)] =
-            [0, 1, 2, 3].map(|i| self.bytes.get(&(address + i)))
-        {
-            return Ok(Word::Bits(u32::from_le_bytes([*a, *b, *c, *d])));
-        }
-        if let Some(bits) = self.image.word(address) {
-            return Ok(Word::Bits(bits));
-        }
-        let argument = address.wrapping_sub(ARGUMENTS) / RANGE;
-        if !(1..4).contains(&argument) {
-            return Err(self.declined("memory that nothing has written"));
-        }
-        let input = Input {
-            argument: argument as u8,
-            offset: (address - ARGUMENTS) % RANGE,
-        };
-        if let Some(node) = self.inputs.get(&input) {
-            return Ok(Word::Real(*node));
-        }
-        let node = self.push(Node::Input(input));
-        self.inputs.insert(input, node);
-        Ok(Word::Real(node))
-    }
-
-    fn store(&mut self, address: u32, word: Word) -> Result<()> {
-        let is_input = (ARGUMENTS + RANGE..ARGUMENTS + 4 * RANGE).contains(&address);
-        if address & 3 != 0 || is_input || self.image.word(address).is_some() {
-            return Err(
-                self.declined("a store to an input, to the program, or beside a word's address")
-            );
-        }
-        self.bytes.retain(|at, _| *at & !3 != address);
-        self.memory.insert(address, word);
-        Ok(())
-    }
-
-    fn byte(&self, address: u32) -> Result<u8> {
-        let within = address & 3;
-        let word = match self.memory.get(&(address - within)) {
-            Some(Word::Bits(bits)) => Some(*bits),
-            Some(_) => None,
-            None => self.image.word(address - within),
-        };
-        let byte = word.map(|word| word.to_le_bytes()[within as usize]);
-        let byte = self.bytes.get(&address).copied().or(byte);
-        byte.ok_or_else(|| self.declined("a part of a word that is not known"))
-    }
-
-    /// Of a real number that it is written into, the other bytes are known no longer.
-    fn store_byte(&mut self, address: u32, byte: u8) -> Result<()> {
-        let within = address & 3;
-        let word = address - within;
-        if let Some(Word::Bits(bits)) = self.memory.get(&word) {
-            let mut bytes = bits.to_le_bytes();
-            bytes[within as usize] = byte;
-            return self.store(word, Word::Bits(u32::from_le_bytes(bytes)));
-        }
-        self.memory.remove(&word);
-        self.bytes.insert(address, byte);
-        Ok(())
     }
 
     fn set(&mut self, register: u8, word: Word) -> Result<()> {
@@ -589,129 +488,6 @@ impl Walk<'_> {
             }
             _ => Err(self.declined("an instruction of which nothing is proven")),
         }
-    }
-
-    /// One word or two.
-    fn access(&mut self, one: Access) -> Result<()> {
-        let (base, by) = (self.bits(one.n)?, self.operand(one.offset)?);
-        if one.n == PC {
-            return Err(self.declined("two words beside the code"));
-        }
-        let moved = base.wrapping_add(by);
-        let at = if one.before { moved } else { base };
-        if one.writes_back {
-            self.set(one.n, Word::Bits(moved))?;
-        }
-        let registers = [one.t, one.second].into_iter().filter(|t| *t != NOWHERE);
-        for (t, at) in registers.zip([at, at.wrapping_add(4)]) {
-            if one.bytes < 4 && one.load {
-                let bytes = (at..).take(one.bytes.into()).map(|at| self.byte(at));
-                let bytes = bytes.collect::<Result<Vec<_>>>()?;
-                let number = bytes
-                    .iter()
-                    .rev()
-                    .fold(0, |number, byte| number << 8 | u32::from(*byte));
-                self.set(t, Word::Bits(number))?;
-            } else if one.bytes < 4 {
-                let number = self.bits(t)?.to_le_bytes();
-                for (at, byte) in (at..).zip(&number[..one.bytes.into()]) {
-                    self.store_byte(at, *byte)?;
-                }
-            } else if one.load {
-                let word = self.load(at)?;
-                self.set(t, word)?;
-            } else {
-                let word = self.core(t)?;
-                self.store(at, word)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn operand(&self, operand: Operand) -> Result<u32> {
-        match operand {
-            Operand::Constant(value) => Ok(value),
-            Operand::Register(m, shift) => Ok(self.bits(m)? << shift),
-            Operand::Right(m, shift) => Ok(self.bits(m)? >> shift),
-        }
-    }
-
-    /// a + b + carry for each a from low to high, and its flags.
-    fn sum(&mut self, sets: bool, (low, high): (u32, u32), b: u32, carry: bool) -> Result<Word> {
-        let [least, most] = [low, high].map(|a| flags::of_sum(a, b, carry));
-        // A sum that passes 2³² somewhere in between has no order.
-        if least[2] != most[2] {
-            return Err(self.declined("a sum of bits that are not known"));
-        }
-        if sets {
-            let is_decided = |i: usize| least[i] == most[i] && (low ^ high) >> 31 == 0;
-            self.flags = [0, 1, 2, 3].map(|i| is_decided(i).then_some(least[i]));
-        }
-        let [low, high] = [low, high].map(|a| a.wrapping_add(b).wrapping_add(carry.into()));
-        Ok(within(low, high))
-    }
-
-    /// Keeps the flags of another result: carry and overflow are those of no sum.
-    fn note(&mut self, sets: bool, result: Word) {
-        if sets {
-            self.flags = match result {
-                Word::Bits(bits) => [Some(bits >> 31 != 0), Some(bits == 0), None, None],
-                _ => [None; 4],
-            };
-        }
-    }
-
-    fn holds(&self, condition: Condition) -> Result<bool> {
-        if condition == ALWAYS {
-            return Ok(true);
-        }
-        let unknown = || self.declined("a branch by flags that are not followed");
-        flags::holds(condition, self.flags).ok_or_else(unknown)
-    }
-
-    fn words(
-        &mut self,
-        n: u8,
-        registers: u16,
-        load: bool,
-        down: bool,
-        writes_back: bool,
-    ) -> Result<()> {
-        let (base, bytes) = (self.bits(n)?, 4 * registers.count_ones());
-        let low = if down { base.wrapping_sub(bytes) } else { base };
-        if writes_back {
-            self.set(
-                n,
-                Word::Bits(if down { low } else { base.wrapping_add(bytes) }),
-            )?;
-        }
-        let named = (0..16).filter(|register| registers >> register & 1 != 0);
-        for (address, register) in (low..).step_by(4).zip(named) {
-            if load {
-                let word = self.load(address)?;
-                self.set(register, word)?;
-            } else {
-                let word = self.core(register)?;
-                self.store(address, word)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn reals(&mut self, first: u8, count: u8, address: u32, load: bool) -> Result<()> {
-        for (address, register) in (address..).step_by(4).zip(first..first + count) {
-            if load {
-                let word = self.load(address)?;
-                let Some(place) = self.real.get_mut(usize::from(register)) else {
-                    return Err(self.declined("no such register"));
-                };
-                *place = Some(word);
-            } else {
-                let word = self.real(register)?;
-                self.store(address, word)?;
-            }
-        }
-        Ok(())
     }
 
     fn arithmetic(&mut self, op: Arithmetic, d: u8, n: u8, m: u8) -> Result<()> {

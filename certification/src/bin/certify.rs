@@ -143,6 +143,10 @@ const KEPT: [(&str, Function, &str); 3] = [
     ("so101", Function::Gravity, "gravity_so101.fpcore"),
     (CLUSTERED, Function::Clustered, "four_bar.fpcore"),
 ];
+/// The functions of their own part of the page.
+const FORWARD: [Function; 2] = [Function::ForwardDynamics, Function::CoreForwardDynamics];
+/// The worst states of these, for `host-tests/oracle/forward.py`.
+const WORST: &str = "host-tests/recordings/forward.json";
 const FOLDER: &str = "docs/fpbench";
 const PICTURE: &str = "docs/certificates.svg";
 const CONFIGURED: &str = "docs/accuracy-proven.json";
@@ -195,7 +199,7 @@ fn run(args: &Args) -> Result<String> {
     if args.hashes {
         for program in &programs {
             let image = Image::read(&program.elf)?;
-            let asked = [&*args.function, &[Function::ForwardDynamics]].concat();
+            let asked = [&*args.function, &FORWARD].concat();
             let functions = program.functions(&asked);
             check::hashes(&image, functions, &program.robot, &written()?)?;
         }
@@ -246,7 +250,7 @@ fn run(args: &Args) -> Result<String> {
     let mut certificates = Vec::new();
     for (program, robot) in programs.iter().zip(&robots) {
         let asked = match args.write_docs {
-            Some(_) => [&*args.function, &[Function::ForwardDynamics]].concat(),
+            Some(_) => [&*args.function, &FORWARD].concat(),
             None => args.function.clone(),
         };
         let is_written =
@@ -471,6 +475,9 @@ fn finish(
         let mine: Vec<Certificate> = mine.cloned().collect();
         if written_part == Part::Certificates {
             program::write(&docs.join(PICTURE), &picture::svg(&mine))?;
+        }
+        if written_part == Part::Forward {
+            program::write(&docs.join(WORST), &page::worst_states(&mine)?)?;
         }
         let page = check::page(&written()?, written_part, &page::tables(&mine))?;
         program::write(&docs.join(PAGE), &page)?;

@@ -301,9 +301,11 @@ impl Subject {
         let proven = in_parallel(graph.outputs.len(), |output| {
             let mut bounder = Bounder::new(graph, output, robot, sines, Enclosure::WrittenOut)?;
             let one = graph.of_output(output);
+            let proven = prove(&mut bounder, &robot.whole(), spent.parts);
+            let known = &proven.magnitudes;
             let by_grid = grid::Program::new(&one, robot)
-                .and_then(|program| program.prove(&one, robot, sines, spent.points));
-            Some((prove(&mut bounder, &robot.whole(), spent.parts), by_grid))
+                .and_then(|program| program.prove(&one, robot, sines, spent.points, known));
+            Some((proven, by_grid))
         });
         let mut outputs = Vec::new();
         for (output, ((offset, _), (observed, proven))) in graph

@@ -6,7 +6,8 @@
 //!
 //!   max |T| ≤ max over the grid |T| / cos(π n / N),
 //!
-//! and for several angles one after the other (Ehlich & Zeller, Mathematische Zeitschrift 86, 1964). Between the points of the grid
+//! and for several angles one after the other (Ehlich & Zeller, Mathematische Zeitschrift 86, 1964). Of few angles a kernel says less
+//! (`between`). Between the points of the grid
 //! nothing has to be enclosed, so that what cancels does. The same holds of Σ |c_m| M_m over the coefficients c_m of the monomials of speeds
 //! and accelerations, which is the greatest of the polynomials Σ ± c_m M_m.
 //!
@@ -18,12 +19,14 @@
 //! so that the error of the result is Σ (e_k + d_a d_b) ∂τ/∂v_k with derivatives at v. The same identity, with the errors of the literals, leads
 //! from v to the model's exact value.
 
+mod between;
 mod proof;
 
+pub use between::factor as between;
 pub use proof::Counted;
 
 use std::collections::BTreeMap;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use crate::bound::Bound;
 use crate::graph::{Graph, Node};
@@ -342,8 +345,8 @@ impl Class {
     /// How much more a sum may be between the points of the grid.
     fn between(degrees: &[u8], sizes: &[usize]) -> f64 {
         let factors = degrees.iter().zip(sizes);
-        let cosines = factors.map(|(degree, size)| (PI * f64::from(*degree) / *size as f64).cos());
-        (1.0 + 1e-12) / cosines.product::<f64>()
+        let each = factors.map(|(degree, size)| between::factor((*degree).into(), *size));
+        each.product::<f64>() * (1.0 + 1e-12)
     }
 
     fn with(&self, other: &Self) -> Self {

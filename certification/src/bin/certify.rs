@@ -120,6 +120,7 @@ const PART: f64 = 1.0 / 64.0;
 /// See [`Args::points`].
 const POINTS: usize = 1_000_000;
 const PAGE_POINTS: usize = 5_000_000;
+const LOOSEST: &str = "panda";
 /// Points of each grid and parts of each box of `--configurations`, which proves a hundred of them.
 const CONFIGURED_POINTS: usize = 300_000;
 const CONFIGURED_PARTS: usize = 300;
@@ -268,8 +269,8 @@ fn run(args: &Args) -> Result<String> {
         for function in functions {
             let start = Instant::now();
             let target = Target::of(&image, *function, robot, &emulation)?;
-            let mut one =
-                certificate::certify(program, *function, robot, sines, spent(args, *function))?;
+            let spent = spent(args, *function, &program.robot);
+            let mut one = certificate::certify(program, *function, robot, sines, spent)?;
             one.target = Some(target);
             if args.gappa {
                 check::by_gappa(&image, *function, robot, sines, &one, PART, args.coq)?;
@@ -431,7 +432,7 @@ fn sampled(args: &Args, programs: &[Program], robots: &[Robot]) -> Result<String
     ))
 }
 
-fn spent(args: &Args, function: Function) -> Spent {
+fn spent(args: &Args, function: Function, robot: &str) -> Spent {
     // Of the loop a million states with its three results.
     let states = match function {
         Function::Clustered => 2 * args.states,
@@ -442,7 +443,10 @@ fn spent(args: &Args, function: Function) -> Spent {
     Spent {
         parts: args.parts,
         points: args.points.unwrap_or(match function {
-            // It has the most results: 27 of six joints, 35 of seven.
+            // It has the most results: 27 of six joints, 35 of seven. Those of the engine's bias for a Panda are the loosest.
+            Function::ForwardDynamics if robot == LOOSEST && args.write_docs.is_some() => {
+                PAGE_POINTS
+            }
             _ if function.matrix().is_some() => POINTS,
             _ if args.write_docs.is_some() => PAGE_POINTS,
             _ => POINTS,

@@ -18,15 +18,17 @@ pub enum Counted {
 }
 
 impl Program {
-    /// Bounds the error over all angles, from a grid of at most so many points; `None` if they are too few.
+    /// Bounds the error over all angles, from a grid of at most so many points; `None` if they are too few. Of what the values are known to be
+    /// at most in the box, the lesser bounds count.
     pub fn prove(
         &self,
         graph: &Graph,
         robot: &Robot,
         sines: SineErrors,
         points: usize,
+        known: &[f64],
     ) -> Option<Bound> {
-        self.prove_each(graph, robot, &[sines], Counted::All, points)?
+        self.proven(graph, robot, (&[sines], known), Counted::All, points)?
             .pop()
     }
 
@@ -39,10 +41,24 @@ impl Program {
         counted: Counted,
         points: usize,
     ) -> Option<Vec<Bound>> {
+        self.proven(graph, robot, (sines, &[]), counted, points)
+    }
+
+    fn proven(
+        &self,
+        graph: &Graph,
+        robot: &Robot,
+        (sines, known): (&[SineErrors], &[f64]),
+        counted: Counted,
+        points: usize,
+    ) -> Option<Vec<Bound>> {
         let sizes = self.sizes(&self.degrees, points)?;
         let nodes = graph.nodes.len();
         let rounding = rounding(nodes);
-        let values = self.values(&sizes, rounding);
+        let mut values = self.values(&sizes, rounding);
+        for (value, known) in values.iter_mut().zip(known) {
+            *value = value.min(*known);
+        }
         let weights = sines
             .iter()
             .map(|sines| weights(graph, robot, &values, *sines, counted));

@@ -85,6 +85,8 @@ pub struct Worst {
     pub computed: Vec<f64>,
     /// Their errors by f64.
     pub errors: Vec<f64>,
+    /// What the error of this joint, or of the norm, is as a share of its bound.
+    pub share: f64,
 }
 
 /// γ_m
@@ -200,8 +202,13 @@ impl Forward {
         });
         self.states = effort.states(n + 1);
         self.bodies = bodies.to_vec();
-        let trials = shares.iter().filter_map(|share| exact.at(&share.state));
-        self.worst = trials.map(|trial| trial.of).collect();
+        let worst = |share: &Observed| {
+            Some(Worst {
+                share: share.error,
+                ..exact.at(&share.state)?.of
+            })
+        };
+        self.worst = shares.iter().filter_map(worst).collect();
         for (number, share) in shares.iter().enumerate() {
             if share.error.is_nan() || share.error > 1.0 {
                 return Err(Error::Contradicted {
@@ -282,6 +289,7 @@ impl Exact<'_> {
             qd: qd.to_vec(),
             tau: given,
             computed,
+            share: 0.0,
         };
         Some(Trial {
             matrix,

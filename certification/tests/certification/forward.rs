@@ -6,9 +6,10 @@ use certification::bodies::{Body, Position, inertia_matrix};
 use certification::certificate::{Function, Spent, Subject, expression};
 use certification::error::Error;
 use certification::factors::{Factored, Noise, Order};
-use certification::forward::{Forward, inverse};
+use certification::forward::{Forward, Worst, inverse};
 use certification::graph::{Graph, Node, operands};
 use certification::image::Image;
+use certification::page::RecordedForward;
 use certification::search::Evaluation;
 use certification::state_box::Robot;
 use dynamics_core::Core;
@@ -26,6 +27,9 @@ const CRBA: &str = include_str!("a1_crba.hex");
 /// `Core::<A1Leg>::forward_dynamics`, `crba` and what they read, each line from its address on; and where they begin.
 const CORE: &str = include_str!("a1_core.hex");
 const CORE_FUNCTIONS: [u32; 2] = [0x0800_0ed1, 0x0800_27d5];
+/// The states of the greatest errors, and the page that they are from.
+const WORST: &str = include_str!("../../../host-tests/recordings/forward.json");
+const PAGE: &str = include_str!("../../../docs/certificates.md");
 const BOTH: [Function; 2] = [Function::ForwardDynamics, Function::CoreForwardDynamics];
 
 fn image(function: Function) -> Image {
@@ -329,6 +333,58 @@ fn stays_below_the_bound(function: Function) {
                 "joint {joint}: {error:e} > {:e}",
                 bounds[joint]
             );
+        }
+    }
+}
+
+/// What `forward.py` makes of an error, against what f64 makes of it, as a share of the greatest error of the state.
+fn difference(of: &Worst, exact: &[f64]) -> f64 {
+    let greatest = of
+        .errors
+        .iter()
+        .fold(0.0, |most, error| error.abs().max(most));
+    let computed = of
+        .computed
+        .iter()
+        .zip(exact)
+        .map(|(computed, exact)| computed - exact);
+    let apart = computed
+        .zip(&of.errors)
+        .map(|(precise, error)| (precise - error).abs());
+    apart.fold(0.0, f64::max) / greatest
+}
+
+#[test]
+fn the_worst_errors_of_the_page_are_those_of_fifty_digits() {
+    let recorded: Vec<RecordedForward> = serde_json::from_str(WORST).expect("as certify writes it");
+    assert_eq!(recorded.len(), 10);
+    for one in &recorded {
+        let title = format!("### {}: {}\n", one.robot, one.function.name());
+        let section = PAGE.split_once(&title).expect("it is on the page").1;
+        let rows = section
+            .lines()
+            .filter(|line| line.starts_with("| ") && line.ends_with(" |"));
+        assert_eq!(
+            one.exact.len(),
+            one.worst.len(),
+            "run host-tests/oracle/forward.py"
+        );
+        // The last is of the norm, which stands in a sentence.
+        let joints = one.worst.len() - 1;
+        for (of, row) in one.worst[..joints].iter().zip(rows.skip(1)) {
+            let ratio = format!("| {:.1} |", 1.0 / of.share);
+            assert!(row.ends_with(&ratio), "{title}{row}: {ratio}");
+        }
+        for (of, exact) in one.worst.iter().zip(&one.exact) {
+            let apart = difference(of, exact);
+            assert!(apart < 2e-8, "{title}{apart:e}");
+            // A millionth of the greatest error is found.
+            let (mut wrong, errors) = (exact.clone(), &of.errors);
+            let greatest =
+                (0..errors.len()).max_by(|a, b| errors[*a].abs().total_cmp(&errors[*b].abs()));
+            let greatest = greatest.expect("a joint");
+            wrong[greatest] += 1e-6 * errors[greatest];
+            assert!(difference(of, &wrong) > 2e-8);
         }
     }
 }

@@ -390,6 +390,16 @@ fn the_worst_errors_of_the_page_are_those_of_fifty_digits() {
 }
 
 #[test]
+fn pivots_that_must_exceed_more_of_m_may_be_refused() {
+    let (mut subject, robot) = (subject(Function::ForwardDynamics), robot(3));
+    for (share, is_total) in [(1e-3, true), (1.0, false)] {
+        let factored = subject.factored.as_mut().expect("it is forward dynamics");
+        factored.noise[2] = Some(Noise { least: 0.0, share });
+        assert_eq!(proven(&subject, &robot).is_total, is_total, "{share}");
+    }
+}
+
+#[test]
 fn a_bound_without_one_of_its_parts_is_contradicted() {
     BOTH.into_iter().for_each(parts_are_needed);
 }

@@ -303,9 +303,12 @@ impl Subject {
             let one = graph.of_output(output);
             let proven = prove(&mut bounder, &robot.whole(), spent.parts);
             let known = &proven.magnitudes;
-            let by_grid = grid::Program::new(&one, robot)
-                .and_then(|program| program.prove(&one, robot, sines, spent.points, known));
-            Some((proven, by_grid))
+            let program = grid::Program::new(&one, robot);
+            let program = program.as_ref();
+            let by_grid =
+                program.and_then(|program| program.prove(&one, robot, sines, spent.points, known));
+            let most = program.and_then(|program| program.greatest_value(spent.points));
+            Some((proven, by_grid, most))
         });
         let mut outputs = Vec::new();
         for (output, ((offset, _), (observed, proven))) in graph
@@ -315,7 +318,7 @@ impl Subject {
             .enumerate()
         {
             let name = self.name(*offset as usize / 4, robot.joints.len());
-            let (proven, by_grid) =
+            let (proven, by_grid, most) =
                 proven.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
             let Proven {
                 bound,
@@ -328,6 +331,9 @@ impl Subject {
                 _ => (bound, Proof::Parts),
             };
             let total = bound.total();
+            // By the grid the function is at most so much, and computed by at most the error more.
+            let most = most.map_or(f64::INFINITY, |most| most + total);
+            let range = Interval::new(range.low.max(-most), range.high.min(most));
             if !total.is_finite() {
                 return Err(Error::Infinite { output: output + 1 });
             }

@@ -305,6 +305,7 @@ fn stays_below_the_bound(function: Function) {
     );
     let mut evaluation = Evaluation::new(&subject.walked.graph, &robot);
     let mut rng = fastrand::Rng::with_seed(3);
+    let mut greatest = [0.0_f64; 3];
     for _ in 0..2000 {
         let drawn = robot.whole();
         let drawn = drawn
@@ -321,6 +322,10 @@ fn stays_below_the_bound(function: Function) {
         let exact = Core::<A1Leg>::aba(&at, &tau, &RIGID_BODY).expect("it has inertia");
         let computed: Vec<f64> = evaluation.at(&state).map(|pair| pair.0.into()).collect();
         let matrix = inertia_matrix(&bodies, 3, &q.map(Position::at));
+        for joint in 0..3 {
+            assert!(matrix[joint][joint] <= forward.scales[joint]);
+            greatest[joint] = matrix[joint][joint].max(greatest[joint]);
+        }
         let bounds = forward.bound(
             &matrix,
             &inverse(&matrix).expect("it is positive"),
@@ -334,6 +339,10 @@ fn stays_below_the_bound(function: Function) {
                 bounds[joint]
             );
         }
+    }
+    // The grid knows the greatest entries of M; intervals alone have them up to twice as large.
+    for (scale, greatest) in forward.scales.iter().zip(greatest) {
+        assert!(*scale < 1.1 * greatest, "{scale} {greatest}");
     }
 }
 

@@ -2,13 +2,15 @@
 //!
 //! Frames are those of the library's `Link`: the joint's axis is z. The inertia matrix is that of composite bodies, RBDA (2008), table 6.2.
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::{Error, Result};
 use crate::image::Image;
 use crate::interval::Interval;
 use crate::taylor::{SLOPES, Scalar, Taylor};
 
 /// How a body moves on its parent.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Moves {
     /// Not at all.
     Fixed,
@@ -19,7 +21,7 @@ pub enum Moves {
 }
 
 /// A body.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Body {
     /// The body before it.
     pub parent: Option<usize>,

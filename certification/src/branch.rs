@@ -46,6 +46,8 @@ pub struct Proven {
     pub reached: f64,
     /// All parts, which together are the whole box.
     pub parts: Vec<Part>,
+    /// The greatest absolute value of each node over the box.
+    pub magnitudes: Vec<f64>,
 }
 
 /// Bounds an output over a box by that many parts.
@@ -76,7 +78,15 @@ pub fn prove(bounder: &mut Bounder, whole: &[Interval], most: usize) -> Proven {
     let range = parts
         .iter()
         .fold(Interval::new(f64::INFINITY, f64::NEG_INFINITY), hull);
+    let mut magnitudes = vec![0.0_f64; bounder.values.len()];
+    for part in &parts {
+        bounder.bound(&part.states);
+        for (most, value) in magnitudes.iter_mut().zip(&bounder.values) {
+            *most = most.max(value.magnitude());
+        }
+    }
     Proven {
+        magnitudes,
         bound,
         range,
         reached,

@@ -8,7 +8,7 @@ use crate::bodies;
 use crate::bound::{Bound, Bounder, Enclosure, SineErrors};
 use crate::branch::{Proven, prove};
 use crate::error::{Error, Result};
-use crate::factors::Factored;
+use crate::factors::{Factored, Order};
 use crate::forward::Forward;
 use crate::graph::{Graph, Node};
 use crate::grid;
@@ -37,6 +37,14 @@ pub enum Function {
     #[serde(rename = "forward_dynamics")]
     #[value(name = "forward_dynamics")]
     ForwardDynamics,
+    /// The inertia matrix of the core
+    #[serde(rename = "core_crba")]
+    #[value(name = "core_crba")]
+    CoreCrba,
+    /// Forward dynamics of the core, as that of the engine
+    #[serde(rename = "core_forward_dynamics")]
+    #[value(name = "core_forward_dynamics")]
+    CoreForwardDynamics,
     /// Inverse dynamics of the engine for a robot with a kinematic loop: the program of `four_bar_leg` has no other
     Clustered,
 }
@@ -50,6 +58,8 @@ impl Function {
             Self::Crba => "engine `crba`",
             Self::Core => "core `rnea`",
             Self::ForwardDynamics => "engine `forward_dynamics`",
+            Self::CoreCrba => "core `crba`",
+            Self::CoreForwardDynamics => "core `forward_dynamics`",
             Self::Clustered => "engine `rnea` with a four-bar",
         }
     }
@@ -60,9 +70,25 @@ impl Function {
             Self::Rnea => "CERTIFIED_RNEA",
             Self::Gravity => "CERTIFIED_GRAVITY",
             Self::Crba => "CERTIFIED_CRBA",
-            Self::Core => "CERTIFIED_CORE",
+            Self::Core => "CERTIFIED_CORE_RNEA",
             Self::ForwardDynamics => "CERTIFIED_FORWARD",
+            Self::CoreCrba => "CERTIFIED_CORE_CRBA",
+            Self::CoreForwardDynamics => "CERTIFIED_CORE_FORWARD",
             Self::Clustered => "CERTIFIED_CLUSTERED",
+        }
+    }
+
+    /// Whether its results are the entries of an inertia matrix.
+    pub(crate) fn is_matrix(self) -> bool {
+        matches!(self, Self::Crba | Self::CoreCrba)
+    }
+
+    /// Of forward dynamics, the function whose matrix it factors, and the order of its sums.
+    pub fn matrix(self) -> Option<(Self, Order)> {
+        match self {
+            Self::ForwardDynamics => Some((Self::Crba, Order::Outward)),
+            Self::CoreForwardDynamics => Some((Self::CoreCrba, Order::Inward)),
+            _ => None,
         }
     }
 
@@ -186,11 +212,13 @@ pub fn expression(image: &Image, function: Function) -> Result<Walked> {
     let (effects, _) = image.variable("CERTIFIED_EFFECTS")?;
     let effects = Some(effects);
     let mut walked = match function {
-        Function::Crba => walk(image, address, [None, None, effects])?,
-        Function::ForwardDynamics => walk(image, address, [None, None, None, None, effects])?,
+        Function::Crba | Function::CoreCrba => walk(image, address, [None, None, effects])?,
+        _ if function.matrix().is_some() => {
+            walk(image, address, [None, None, None, None, effects])?
+        }
         _ => walk(image, address, [None, None, None, effects])?,
     };
-    if matches!(function, Function::Clustered | Function::ForwardDynamics) {
+    if function == Function::Clustered || function.matrix().is_some() {
         // The first word says that there are results, which are the next ones.
         let (_, status) = walked.graph.outputs.remove(0);
         if walked.graph.nodes[status] != Node::Literal(0.0) {
@@ -224,12 +252,12 @@ impl Subject {
         let walked = expression(image, function)?;
         let mut graph = walked.graph.clone();
         let mut factored = None;
-        if function == Function::Crba {
+        if function.is_matrix() {
             let n = graph.outputs.len().isqrt();
             let is_upper = |place: usize| place / n <= place % n;
             graph.outputs.retain(|(at, _)| is_upper(*at as usize / 4));
-        } else if function == Function::ForwardDynamics {
-            let apart = Factored::of(&walked, &expression(image, Function::Crba)?.graph)?;
+        } else if let Some((matrix, order)) = function.matrix() {
+            let apart = Factored::of(&walked, &expression(image, matrix)?.graph, order)?;
             graph = apart.graph.clone();
             factored = Some(apart);
         }
@@ -245,10 +273,10 @@ impl Subject {
     fn name(&self, place: usize, joints: usize) -> String {
         let entry = |at: usize| format!("{},{}", at / joints + 1, at % joints + 1);
         match self.function {
-            Function::Crba => entry(place),
-            Function::ForwardDynamics if place < joints => format!("bias {}", place + 1),
-            Function::ForwardDynamics => format!("M {}", entry(place - joints)),
-            _ => (place + 1).to_string(),
+            one if one.is_matrix() => entry(place),
+            one if one.matrix().is_none() => (place + 1).to_string(),
+            _ if place < joints => format!("bias {}", place + 1),
+            _ => format!("M {}", entry(place - joints)),
         }
     }
 
@@ -273,9 +301,15 @@ impl Subject {
         let proven = in_parallel(graph.outputs.len(), |output| {
             let mut bounder = Bounder::new(graph, output, robot, sines, Enclosure::WrittenOut)?;
             let one = graph.of_output(output);
-            let by_grid = grid::Program::new(&one, robot)
-                .and_then(|program| program.prove(&one, robot, sines, spent.points));
-            Some((prove(&mut bounder, &robot.whole(), spent.parts), by_grid))
+            let proven = prove(&mut bounder, &robot.whole(), spent.parts);
+            let known = &proven.magnitudes;
+            let program = grid::Program::new(&one, robot);
+            let program = program.as_ref();
+            let by_grid =
+                program.and_then(|program| program.prove(&one, robot, sines, spent.points, known));
+            let most =
+                program.and_then(|program| program.greatest_value(spent.points, spent.points));
+            Some((proven, by_grid, most))
         });
         let mut outputs = Vec::new();
         for (output, ((offset, _), (observed, proven))) in graph
@@ -285,7 +319,7 @@ impl Subject {
             .enumerate()
         {
             let name = self.name(*offset as usize / 4, robot.joints.len());
-            let (proven, by_grid) =
+            let (proven, by_grid, most) =
                 proven.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
             let Proven {
                 bound,
@@ -298,6 +332,9 @@ impl Subject {
                 _ => (bound, Proof::Parts),
             };
             let total = bound.total();
+            // By the grid the function is at most so much, and computed by at most the error more.
+            let most = most.map_or(f64::INFINITY, |most| most + total);
+            let range = Interval::new(range.low.max(-most), range.high.min(most));
             if !total.is_finite() {
                 return Err(Error::Infinite { output: output + 1 });
             }

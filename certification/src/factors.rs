@@ -81,6 +81,17 @@ impl Terms {
         }
     }
 
+    /// The number by which a term is a multiple of another, if it is one.
+    fn share(&self, term: Term, of: Term) -> Option<f32> {
+        let Key::Product(a, b) = self.keys[term.key] else {
+            return None;
+        };
+        let other = if a == of.key { b } else { a };
+        let minus = term.minus != of.minus;
+        let number = self.number(Term { key: other, minus });
+        number.filter(|_| a == of.key || b == of.key)
+    }
+
     fn is_zero(&self, term: Term) -> bool {
         self.number(term) == Some(0.0)
     }
@@ -149,8 +160,17 @@ struct Solved {
     roundings: Vec<Vec<u32>>,
 }
 
+/// In which order the last substitution subtracts from an acceleration the products with those of the joint's ancestors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// From the base's joint to the parent, as the engine.
+    Outward,
+    /// From the parent to the base's joint, as the core.
+    Inward,
+}
+
 /// The recursion on the lower triangle of M, by rows.
-fn solve(terms: &mut Terms, mut m: Vec<Vec<Term>>, mut x: Vec<Term>) -> Solved {
+fn solve(terms: &mut Terms, mut m: Vec<Vec<Term>>, mut x: Vec<Term>, order: Order) -> Solved {
     let (n, one) = (x.len(), terms.literal(1.0));
     let mut pivots = vec![one; n];
     let mut inverse = vec![one; n];
@@ -183,7 +203,11 @@ fn solve(terms: &mut Terms, mut m: Vec<Vec<Term>>, mut x: Vec<Term>) -> Solved {
     }
     for k in 0..n {
         x[k] = terms.product(x[k], inverse[k]);
-        for i in 0..k {
+        for place in 0..k {
+            let i = match order {
+                Order::Outward => place,
+                Order::Inward => k - 1 - place,
+            };
             let share = terms.product(m[k][i], x[i]);
             x[k] = terms.difference(x[k], share);
         }
@@ -191,12 +215,12 @@ fn solve(terms: &mut Terms, mut m: Vec<Vec<Term>>, mut x: Vec<Term>) -> Solved {
     Solved {
         accelerations: x,
         pivots,
-        roundings: roundings(&turns, &subtracted),
+        roundings: roundings(&turns, &subtracted, order),
     }
 }
 
 /// f + s of each entry, the most of any k.
-fn roundings(turns: &[Vec<Option<u32>>], subtracted: &[u32]) -> Vec<Vec<u32>> {
+fn roundings(turns: &[Vec<Option<u32>>], subtracted: &[u32], order: Order) -> Vec<Vec<u32>> {
     let n = subtracted.len();
     // The product with l_ki and the subtractions from row i, or from torque i, before its own; without such a product all of them.
     let inward = |k: usize, i: usize| match k == i {
@@ -205,9 +229,13 @@ fn roundings(turns: &[Vec<Option<u32>>], subtracted: &[u32]) -> Vec<Vec<u32>> {
     };
     // The same of acceleration k, from which products with the accelerations of its ancestors are subtracted.
     let outward = |k: usize, j: usize| {
-        let last = if k == j { n } else { j + 1 };
+        let before = match order {
+            _ if k == j => 0..n,
+            Order::Outward => 0..j + 1,
+            Order::Inward => j..n,
+        };
         inward(k, j)?;
-        Some(turns[k][..last].iter().flatten().count() as u32)
+        Some(turns[k][before].iter().flatten().count() as u32)
     };
     let of = |i: usize, j: usize| {
         let by = |k: usize| {
@@ -220,6 +248,15 @@ fn roundings(turns: &[Vec<Option<u32>>], subtracted: &[u32]) -> Vec<Vec<u32>> {
     (0..n).map(|i| (0..n).map(|j| of(i, j)).collect()).collect()
 }
 
+/// What a pivot must exceed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Noise {
+    /// A number, kg·m² or kg: infinity if it depends on the position in another way than M.
+    pub least: f64,
+    /// A share of the entry of M in which the pivot begins.
+    pub share: f64,
+}
+
 /// Forward dynamics, taken apart.
 #[derive(Clone, Debug)]
 pub struct Factored {
@@ -227,8 +264,8 @@ pub struct Factored {
     pub graph: Graph,
     /// Of each entry of M, m as above.
     pub roundings: Vec<Vec<u32>>,
-    /// What each pivot is compared with, where it is: the greatest, or infinity if it depends on the position.
-    pub noise: Vec<Option<f64>>,
+    /// What each pivot is compared with, where it is: the greatest.
+    pub noise: Vec<Option<Noise>>,
 }
 
 /// The argument that torques are.
@@ -243,7 +280,7 @@ impl Factored {
     ///
     /// # Errors
     /// [`Error::Factors`] of what is not that of the recursion.
-    pub fn of(forward: &Walked, matrix: &Graph) -> Result<Self> {
+    pub fn of(forward: &Walked, matrix: &Graph, order: Order) -> Result<Self> {
         let (code, n) = (&forward.graph, forward.graph.outputs.len());
         let mut terms = Terms::default();
         let (mine, entries) = (terms.all(code), terms.all(matrix));
@@ -277,7 +314,8 @@ impl Factored {
             let offset = 4 * (n + n * i + j) as u32;
             graph.outputs.push((offset, moved + entry(i, j)?));
         }
-        let solved = solve(&mut terms, lower, rest);
+        let diagonal: Vec<Term> = (0..n).map(|k| lower[k][k]).collect();
+        let solved = solve(&mut terms, lower, rest, order);
         for (i, acceleration) in solved.accelerations.iter().enumerate() {
             if code.outputs[i].0 != 4 * i as u32 || mine[code.outputs[i].1] != *acceleration {
                 return Err(other(format!("acceleration {}", i + 1)));
@@ -294,8 +332,13 @@ impl Factored {
             let Some(joint) = joint.filter(|_| one.ordering != Ordering::Equal) else {
                 return Err(other(format!("comparison at {:#010x}", one.address)));
             };
-            let least = terms.number(least).map_or(f64::INFINITY, f64::from);
-            noise[joint] = Some(least.max(noise[joint].unwrap_or(0.0)));
+            let known: &mut Noise = noise[joint].get_or_insert_default();
+            if let Some(share) = terms.share(least, diagonal[joint]) {
+                known.share = known.share.max(share.into());
+            } else {
+                let least = terms.number(least).map_or(f64::INFINITY, f64::from);
+                known.least = known.least.max(least);
+            }
         }
         Ok(Self {
             graph,

@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 use crate::bodies::{Body, Position, inertia_matrix};
 use crate::certificate::Output;
 use crate::error::{Error, Result};
-use crate::factors::Factored;
+use crate::factors::{Factored, Noise};
 use crate::floor::{self, Floor};
 use crate::graph::Graph;
 use crate::inertias::Links;
@@ -66,6 +66,27 @@ pub struct Forward {
     pub states: usize,
     /// Of each joint, the greatest error of its acceleration as a share of the bound at the same state; then that of the norm.
     pub shares: Vec<Observed>,
+    /// The same states, for a computation in more digits.
+    pub worst: Vec<Worst>,
+    /// What that computation is about.
+    pub bodies: Vec<Body>,
+}
+
+/// Accelerations of the machine code at a state, and how far they are off.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Worst {
+    /// Positions, rad or m.
+    pub q: Vec<f64>,
+    /// Speeds, rad/s or m/s.
+    pub qd: Vec<f64>,
+    /// Torques, N·m or N, numbers of f32.
+    pub tau: Vec<f64>,
+    /// Accelerations of the machine code, rad/s² or m/s².
+    pub computed: Vec<f64>,
+    /// Their errors by f64.
+    pub errors: Vec<f64>,
+    /// What the error of this joint, or of the norm, is as a share of its bound.
+    pub share: f64,
 }
 
 /// γ_m
@@ -114,7 +135,10 @@ impl Forward {
         let positions = &robot.whole()[..n];
         forward.floor = floor::prove(bodies, positions, &forward.scales, parts);
         let above = (forward.floor.floor - forward.epsilon) * (1.0 - 4.0 * UNIT);
-        let exceeds = |(noise, h): (&Option<f64>, &f64)| above * h > noise.unwrap_or(0.0);
+        let exceeds = |(noise, h): (&Option<Noise>, &f64)| {
+            let noise = noise.unwrap_or_default();
+            above * h > noise.least && above > noise.share
+        };
         let mut pivots = factored.noise.iter().zip(&forward.scales);
         forward.is_total = pivots.all(exceeds);
         Ok(forward)
@@ -177,6 +201,14 @@ impl Forward {
             self.shares_of(&trial)
         });
         self.states = effort.states(n + 1);
+        self.bodies = bodies.to_vec();
+        let worst = |share: &Observed| {
+            Some(Worst {
+                share: share.error,
+                ..exact.at(&share.state)?.of
+            })
+        };
+        self.worst = shares.iter().filter_map(worst).collect();
         for (number, share) in shares.iter().enumerate() {
             if share.error.is_nan() || share.error > 1.0 {
                 return Err(Error::Contradicted {
@@ -194,17 +226,17 @@ impl Forward {
     fn shares_of(&self, trial: &Trial) -> Vec<f64> {
         let rho = self.inverse_norm(&trial.inverse);
         if rho * self.epsilon >= 1.0 {
-            return vec![0.0; trial.errors.len() + 1];
+            return vec![0.0; trial.of.errors.len() + 1];
         }
-        let bounds = self.bound(&trial.matrix, &trial.inverse, &trial.computed);
-        let shares = trial.errors.iter().zip(&bounds);
+        let bounds = self.bound(&trial.matrix, &trial.inverse, &trial.of.computed);
+        let shares = trial.of.errors.iter().zip(&bounds);
         let mut shares: Vec<f64> = shares.map(|(error, bound)| error.abs() / bound).collect();
         let size = |x: &[f64]| {
             let squares = x.iter().zip(&self.scales).map(|(x, h)| x * x * h);
             squares.sum::<f64>().sqrt()
         };
-        let bound = rho * (self.beta + self.epsilon * size(&trial.computed));
-        shares.push(size(&trial.errors) / bound);
+        let bound = rho * (self.beta + self.epsilon * size(&trial.of.computed));
+        shares.push(size(&trial.of.errors) / bound);
         shares
     }
 
@@ -227,9 +259,7 @@ impl Forward {
 struct Trial {
     matrix: Matrix,
     inverse: Matrix,
-    /// Accelerations of the machine code, and how far they are off.
-    computed: Vec<f64>,
-    errors: Vec<f64>,
+    of: Worst,
 }
 
 struct Exact<'a> {
@@ -253,11 +283,18 @@ impl Exact<'_> {
         let input = [q, qd, &given].concat();
         let computed: Vec<f64> = self.evaluation.at(&input).map(|one| one.0.into()).collect();
         let error = |i: usize| computed[i] - (qdd[i] + dot(&inverse[i], &more));
-        Some(Trial {
+        let of = Worst {
             errors: (0..n).map(error).collect(),
+            q: q.to_vec(),
+            qd: qd.to_vec(),
+            tau: given,
+            computed,
+            share: 0.0,
+        };
+        Some(Trial {
             matrix,
             inverse,
-            computed,
+            of,
         })
     }
 }

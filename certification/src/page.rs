@@ -2,8 +2,12 @@
 
 use std::fmt::Write as _;
 
+use serde::{Deserialize, Serialize};
+
+use crate::bodies::Body;
 use crate::certificate::{Certificate, Function};
-use crate::forward::Forward;
+use crate::error::{Error, Result};
+use crate::forward::{Forward, Worst};
 
 /// A number in three digits, its power of ten written out.
 pub(crate) fn short(x: f64) -> String {
@@ -27,6 +31,41 @@ pub(crate) fn short(x: f64) -> String {
 
 const SUPERSCRIPTS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
 
+/// The worst states of forward dynamics, for the script that computes them in 50 digits.
+///
+/// # Errors
+/// [`Error::Robot`] of numbers that JSON has not.
+pub fn worst_states(certificates: &[Certificate]) -> Result<String> {
+    let of = |one: &Certificate| {
+        let forward = one.forward.as_ref()?;
+        Some(RecordedForward {
+            robot: one.robot.clone(),
+            function: one.function,
+            bodies: forward.bodies.clone(),
+            worst: forward.worst.clone(),
+            exact: Vec::new(),
+        })
+    };
+    let all: Vec<RecordedForward> = certificates.iter().filter_map(of).collect();
+    serde_json::to_string(&all).map_err(|e| Error::Robot(e.to_string()))
+}
+
+/// What is recorded of them.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct RecordedForward {
+    /// The robot.
+    pub robot: String,
+    /// The function.
+    pub function: Function,
+    /// The robot's bodies.
+    pub bodies: Vec<Body>,
+    /// For each joint the state of its greatest error as a share of the bound, then that of the norm.
+    pub worst: Vec<Worst>,
+    /// The accelerations at these states, which the script adds.
+    #[serde(default)]
+    pub exact: Vec<Vec<f64>>,
+}
+
 /// The tables of some certificates.
 pub fn tables(certificates: &[Certificate]) -> String {
     let mut page = String::new();
@@ -38,7 +77,7 @@ pub fn tables(certificates: &[Certificate]) -> String {
 
 fn table(one: &Certificate) -> String {
     let (what, unit) = match one.function {
-        Function::Crba => ("entry", "kg·m² or kg"),
+        one if one.is_matrix() => ("entry", "kg·m² or kg"),
         _ => ("joint", "N·m or N"),
     };
     let mut text = format!(
@@ -136,7 +175,7 @@ pub(crate) fn ranges(one: &Certificate) -> String {
         let joint = one.joints[i];
         let (q, unit) = (joint.position, if joint.turns { "rad" } else { "m" });
         let mut text = format!("q from {:.2} to {:.2} {unit}", q.low, q.high);
-        if one.function == Function::ForwardDynamics {
+        if one.function.matrix().is_some() {
             let _ = write!(text, ", |q̇| ≤ {:.2} {unit}/s", joint.speed);
         }
         if one.function.is_inverse_dynamics() {

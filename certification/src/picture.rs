@@ -54,10 +54,10 @@ pub fn svg(certificates: &[Certificate]) -> String {
         let (title, unit, part) = match function {
             Function::Rnea => ("Inverse dynamics", "N·m", "joint"),
             Function::Gravity => ("Gravity alone", "N·m", "joint"),
-            Function::Crba => ("Inertia matrix", "kg·m²", "entry"),
+            one if one.is_matrix() => ("Inertia matrix", "kg·m²", "entry"),
             Function::Core => ("Inverse dynamics of the core", "N·m", "joint"),
-            Function::ForwardDynamics => ("Biases and inertia matrix", "SI units", "result"),
-            Function::Clustered => ("Inverse dynamics with a loop", "N·m", "joint"),
+            one if one.matrix().is_some() => ("Biases and inertia matrix", "SI units", "result"),
+            _ => ("Inverse dynamics with a loop", "N·m", "joint"),
         };
         let _ = writeln!(
             svg,

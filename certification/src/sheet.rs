@@ -294,8 +294,8 @@ fn function(entry: &Entry<'_>) -> String {
         row("bits, host = target", &bits);
     }
     let (what, unit) = match one.function {
-        Function::Crba => ("entry", "kg·m² or kg"),
-        Function::ForwardDynamics => ("result", "SI units"),
+        one if one.is_matrix() => ("entry", "kg·m² or kg"),
+        one if one.matrix().is_some() => ("result", "SI units"),
         _ => ("joint", "N·m or N"),
     };
     let _ = writeln!(

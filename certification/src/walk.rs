@@ -2,23 +2,24 @@
 //!
 //! The walk executes the code with real numbers as nodes of a graph and everything else, addresses and counters, as it is. So it follows
 //! calls and loops with constant bounds. At a branch by a comparison of real numbers it goes on as the state zero does, and notes the
-//! comparison, of which [`crate::paths`] proves that all states of the box decide it so. Calls of the function that the program names
+//! comparison, of which [`crate::paths`] proves that all states of the box decide it so. Operations on the bits of a real number are followed as far as
+//! they are the same for all positive numbers. Calls of the function that the program names
 //! `CERTIFIED_SINES` are not followed: they are inputs, the sine and the cosine of a coordinate.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, HashMap};
 
-use crate::decode::{
-    self, ALWAYS, Access, Arithmetic, Condition, Instruction, Integer, LR, NOWHERE, Operand, PC, SP,
-};
+use crate::decode::{self, Arithmetic, Instruction, Integer, LR, NOWHERE, Operand, PC, SP};
 use crate::error::{Error, Result};
-use crate::flags;
 use crate::graph::{Graph, Guess, Input, Node};
 use crate::image::Image;
 use crate::roots;
 
+mod bits;
+mod memory;
 mod sines;
 
+use bits::within;
 use sines::Sines;
 
 /// Addresses at which nothing lies: of what the arguments point to, a range for each; of the stack; and of the caller.
@@ -34,6 +35,8 @@ const MOST: usize = 200_000;
 enum Word {
     /// Bits that do not depend on inputs.
     Bits(u32),
+    /// Bits that lie between two others, as those of a positive number do.
+    Within(u32, u32),
     /// A real number.
     Real(usize),
     /// A guess of the reciprocal root of a real number: a magic number less half of its bits.
@@ -72,8 +75,10 @@ struct Walk<'a> {
     core: [Option<Word>; 16],
     real: [Option<Word>; 32],
     memory: HashMap<u32, Word>,
-    /// Negative, zero, carry, overflow of the last comparison of integers.
-    flags: Option<[bool; 4]>,
+    /// Bytes of words of which not all are known.
+    bytes: HashMap<u32, u8>,
+    /// Negative, zero, carry, overflow, as far as they are known.
+    flags: [Option<bool>; 4],
     /// The conditions of the next instructions: ITSTATE.
     conditions: u8,
     sines: Option<Sines>,
@@ -104,7 +109,8 @@ pub fn walk<const N: usize>(
         core: [None; 16],
         real: [None; 32],
         memory: HashMap::new(),
-        flags: None,
+        bytes: HashMap::new(),
+        flags: [None; 4],
         conditions: 0,
         sines: Sines::of(image),
         compared: None,
@@ -147,7 +153,7 @@ pub fn walk<const N: usize>(
         .collect();
     outputs.sort_by_key(|output| output.0);
     for (offset, word) in outputs {
-        let node = walk.node(word);
+        let node = walk.node(word)?;
         walk.graph.outputs.push((offset, node));
     }
     roots::join_steps(&mut walk.graph);
@@ -174,9 +180,10 @@ impl Walk<'_> {
     }
 
     /// The node of a word that is used as a real number.
-    fn node(&mut self, word: Word) -> usize {
-        match word {
+    fn node(&mut self, word: Word) -> Result<usize> {
+        Ok(match word {
             Word::Real(node) => node,
+            Word::Within(..) => return Err(self.declined("a number of bits that are not known")),
             Word::Guess(a, magic) => self.push(Node::InverseRoot(a, Guess { magic, steps: 0 })),
             Word::Bits(bits) => match self.literals.get(&bits) {
                 Some(node) => *node,
@@ -186,7 +193,7 @@ impl Walk<'_> {
                     node
                 }
             },
-        }
+        })
     }
 
     fn core(&self, register: u8) -> Result<Word> {
@@ -197,53 +204,9 @@ impl Walk<'_> {
             .ok_or_else(|| self.declined("a core register that nothing has set"))
     }
 
-    fn bits(&self, register: u8) -> Result<u32> {
-        match self.core(register)? {
-            Word::Bits(bits) => Ok(bits),
-            _ => Err(self.declined("an integer operation on a real number")),
-        }
-    }
-
     fn real(&self, register: u8) -> Result<Word> {
         let word = self.real.get(usize::from(register)).copied().flatten();
         word.ok_or_else(|| self.declined("a floating-point register that nothing has set"))
-    }
-
-    fn load(&mut self, address: u32) -> Result<Word> {
-        if address & 3 != 0 {
-            return Err(self.declined("an address that is not a word's"));
-        }
-        if let Some(word) = self.memory.get(&address) {
-            return Ok(*word);
-        }
-        if let Some(bits) = self.image.word(address) {
-            return Ok(Word::Bits(bits));
-        }
-        let argument = address.wrapping_sub(ARGUMENTS) / RANGE;
-        if !(1..4).contains(&argument) {
-            return Err(self.declined("memory that nothing has written"));
-        }
-        let input = Input {
-            argument: argument as u8,
-            offset: (address - ARGUMENTS) % RANGE,
-        };
-        if let Some(node) = self.inputs.get(&input) {
-            return Ok(Word::Real(*node));
-        }
-        let node = self.push(Node::Input(input));
-        self.inputs.insert(input, node);
-        Ok(Word::Real(node))
-    }
-
-    fn store(&mut self, address: u32, word: Word) -> Result<()> {
-        let is_input = (ARGUMENTS + RANGE..ARGUMENTS + 4 * RANGE).contains(&address);
-        if address & 3 != 0 || is_input || self.image.word(address).is_some() {
-            return Err(
-                self.declined("a store to an input, to the program, or beside a word's address")
-            );
-        }
-        self.memory.insert(address, word);
-        Ok(())
     }
 
     fn set(&mut self, register: u8, word: Word) -> Result<()> {
@@ -312,19 +275,54 @@ impl Walk<'_> {
                 Ok(())
             }
             I::Add { d, n, by, flags } => {
-                let (a, b) = (self.bits(n)?, self.operand(by)?);
-                self.note(flags, a, b, false);
-                self.set(d, Word::Bits(a.wrapping_add(b)))
+                let (a, b) = (self.range(n)?, self.operand(by)?);
+                let sum = self.sum(flags, a, b, false)?;
+                self.set(d, sum)
             }
             I::Sub { d, n, by } => {
-                let (a, b) = (self.bits(n)?, self.operand(by)?);
-                self.note(true, a, !b, true);
-                self.set(d, Word::Bits(a.wrapping_sub(b)))
+                let (a, b) = (self.range(n)?, self.operand(by)?);
+                let difference = self.sum(true, a, !b, true)?;
+                self.set(d, difference)
             }
             I::Constant { d, value } => {
-                // The short form sets flags; nothing that is followed branches by them.
-                self.flags = None;
+                // Of one halfword it sets flags.
+                if self.next == self.here + 2 {
+                    [self.flags[0], self.flags[1]] = [value >> 31 != 0, value == 0].map(Some);
+                }
                 self.set(d, Word::Bits(value))
+            }
+            I::Address { d, offset } => {
+                let address = ((self.here + 4) & !3).wrapping_add_signed(offset);
+                self.set(d, Word::Bits(address))
+            }
+            I::Not { d, m, flags } => {
+                let result = Word::Bits(!self.bits(m)?);
+                self.note(flags, result);
+                self.set(d, result)
+            }
+            I::MultiplyAdd { d, n, m, a } => {
+                let product = self.bits(n)?.wrapping_mul(self.bits(m)?);
+                let more = if a == NOWHERE { 0 } else { self.bits(a)? };
+                self.set(d, Word::Bits(product.wrapping_add(more)))
+            }
+            I::LeadingZeros { d, m } => {
+                let (low, high) = self.range(m)?;
+                self.set(d, within(high.leading_zeros(), low.leading_zeros()))
+            }
+            I::TableBranch { n, m, shift } => {
+                let table = if n == PC {
+                    self.here + 4
+                } else {
+                    self.bits(n)?
+                };
+                let at = table.wrapping_add(self.bits(m)? << shift);
+                let bytes = [self.byte(at)?, self.byte(at + u32::from(shift))?];
+                let entry = match shift {
+                    0 => bytes[0].into(),
+                    _ => u16::from_le_bytes(bytes),
+                };
+                self.next = self.here + 4 + 2 * u32::from(entry);
+                Ok(())
             }
             I::Upper { d, value } => {
                 let low = self.bits(d)? & 0xffff;
@@ -384,14 +382,14 @@ impl Walk<'_> {
             I::Arithmetic { op, d, n, m } => self.arithmetic(op, d, n, m),
             I::Negate { d, m } => {
                 let word = self.real(m)?;
-                let a = self.node(word);
+                let a = self.node(word)?;
                 let node = self.push(Node::Neg(a));
                 self.real[usize::from(d)] = Some(Word::Real(node));
                 Ok(())
             }
             I::Root { d, m } => {
                 let word = self.real(m)?;
-                let a = self.node(word);
+                let a = self.node(word)?;
                 let node = self.push(Node::Sqrt(a));
                 self.real[usize::from(d)] = Some(Word::Real(node));
                 Ok(())
@@ -399,7 +397,7 @@ impl Walk<'_> {
             I::Compare { d, m } => {
                 let a = self.real(d)?;
                 let b = m.map_or(Ok(Word::Bits(0)), |m| self.real(m))?;
-                self.compared = Some([self.node(a), self.node(b)]);
+                self.compared = Some([self.node(a)?, self.node(b)?]);
                 Ok(())
             }
             I::TakeFlags => self.take_flags(),
@@ -414,7 +412,7 @@ impl Walk<'_> {
                 match halved {
                     Word::Real(a) => self.set(d, Word::Guess(a, magic)),
                     Word::Bits(bits) => self.set(d, Word::Bits(magic.wrapping_sub(bits >> 1))),
-                    Word::Guess(..) => Err(self.declined("a guess of a guess")),
+                    _ => Err(self.declined("a guess of a guess")),
                 }
             }
             I::Integer {
@@ -424,12 +422,15 @@ impl Walk<'_> {
                 by,
                 flags,
             } => {
-                let result = op.of(self.bits(n)?, self.operand(by)?);
-                if flags {
-                    // Carry and overflow are those of no sum.
-                    self.flags = None;
-                }
-                self.set(d, Word::Bits(result))
+                let ((low, high), by) = (self.range(n)?, self.operand(by)?);
+                let result = match op {
+                    _ if low == high => Word::Bits(op.of(low, by)),
+                    Integer::Right => within(op.of(low, by), op.of(high, by)),
+                    Integer::Clear if by == 1 << 31 && high < by => within(low, high),
+                    _ => return Err(self.declined("an integer operation on a real number")),
+                };
+                self.note(flags, result);
+                self.set(d, result)
             }
             I::Copy { d, m } => {
                 self.real[usize::from(d)] = Some(self.real(m)?);
@@ -450,7 +451,7 @@ impl Walk<'_> {
                 }
                 let mut word = self.core(core)?;
                 if let Word::Guess(..) = word {
-                    word = Word::Real(self.node(word));
+                    word = Word::Real(self.node(word)?);
                 }
                 self.real[usize::from(real)] = Some(word);
                 Ok(())
@@ -482,107 +483,16 @@ impl Walk<'_> {
                 self.next = self.bits(m)? & !1;
                 Ok(())
             }
-            I::Access(one) if one.bytes == 4 => self.access(one),
+            I::Access(one) if one.bytes == 4 || one.second == NOWHERE && !one.is_signed => {
+                self.access(one)
+            }
             _ => Err(self.declined("an instruction of which nothing is proven")),
         }
     }
 
-    /// One word or two.
-    fn access(&mut self, one: Access) -> Result<()> {
-        let (base, by) = (self.bits(one.n)?, self.operand(one.offset)?);
-        if one.n == PC {
-            return Err(self.declined("two words beside the code"));
-        }
-        let moved = base.wrapping_add(by);
-        let at = if one.before { moved } else { base };
-        if one.writes_back {
-            self.set(one.n, Word::Bits(moved))?;
-        }
-        let registers = [one.t, one.second].into_iter().filter(|t| *t != NOWHERE);
-        for (t, at) in registers.zip([at, at.wrapping_add(4)]) {
-            if one.load {
-                let word = self.load(at)?;
-                self.set(t, word)?;
-            } else {
-                let word = self.core(t)?;
-                self.store(at, word)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn operand(&self, operand: Operand) -> Result<u32> {
-        match operand {
-            Operand::Constant(value) => Ok(value),
-            Operand::Register(m, shift) => Ok(self.bits(m)? << shift),
-            Operand::Right(m, shift) => Ok(self.bits(m)? >> shift),
-        }
-    }
-
-    /// Keeps the flags of a + b + carry.
-    fn note(&mut self, sets: bool, a: u32, b: u32, carry: bool) {
-        if sets {
-            self.flags = Some(flags::of_sum(a, b, carry));
-        }
-    }
-
-    fn holds(&self, condition: Condition) -> Result<bool> {
-        if condition == ALWAYS {
-            return Ok(true);
-        }
-        let of = |flags: [bool; 4]| flags::holds(condition, flags.map(Some));
-        let unknown = || self.declined("a branch by flags that are not followed");
-        self.flags.and_then(of).ok_or_else(unknown)
-    }
-
-    fn words(
-        &mut self,
-        n: u8,
-        registers: u16,
-        load: bool,
-        down: bool,
-        writes_back: bool,
-    ) -> Result<()> {
-        let (base, bytes) = (self.bits(n)?, 4 * registers.count_ones());
-        let low = if down { base.wrapping_sub(bytes) } else { base };
-        if writes_back {
-            self.set(
-                n,
-                Word::Bits(if down { low } else { base.wrapping_add(bytes) }),
-            )?;
-        }
-        let named = (0..16).filter(|register| registers >> register & 1 != 0);
-        for (address, register) in (low..).step_by(4).zip(named) {
-            if load {
-                let word = self.load(address)?;
-                self.set(register, word)?;
-            } else {
-                let word = self.core(register)?;
-                self.store(address, word)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn reals(&mut self, first: u8, count: u8, address: u32, load: bool) -> Result<()> {
-        for (address, register) in (address..).step_by(4).zip(first..first + count) {
-            if load {
-                let word = self.load(address)?;
-                let Some(place) = self.real.get_mut(usize::from(register)) else {
-                    return Err(self.declined("no such register"));
-                };
-                *place = Some(word);
-            } else {
-                let word = self.real(register)?;
-                self.store(address, word)?;
-            }
-        }
-        Ok(())
-    }
-
     fn arithmetic(&mut self, op: Arithmetic, d: u8, n: u8, m: u8) -> Result<()> {
         let (n, m) = (self.real(n)?, self.real(m)?);
-        let (a, b) = (self.node(n), self.node(m));
+        let (a, b) = (self.node(n)?, self.node(m)?);
         let mut node = self.push(match op {
             Arithmetic::Add => Node::Add(a, b),
             Arithmetic::Sub => Node::Sub(a, b),

@@ -19,6 +19,8 @@ mod recorded;
 #[path = "certification/target.rs"]
 mod target;
 
+use std::cmp::Ordering;
+
 use certification::bound::{Bounder, Enclosure};
 use certification::branch::prove;
 use certification::check::around;
@@ -99,6 +101,37 @@ fn what_is_not_proven_is_declined_with_its_address() {
         matches!(declined, Error::Declined { address, .. } if address == BASE + 0x52),
         "{declined}"
     );
+}
+
+/// Bits of a cosine: less the least of a positive number there is no carry; less one there may be. Then bytes and a table of bytes.
+#[test]
+fn bits_of_a_positive_number_are_followed_as_a_range() {
+    let code = "91ed020a10ee103ab3f5000328bfb1ee400a80ed000a704700bf\
+91ed020a10ee103ab3f17e5f28bfb1ee400a80ed000a7047\
+91ed010a02230df8033c1df8032c022adfe802f00f0f030f00de80ed000a7047";
+    let of = |at: u32| {
+        let mut code = bytes(code);
+        let end = BASE + code.len() as u32;
+        code.extend([12_u32, 4, 8, 0].into_iter().flat_map(u32::to_le_bytes));
+        let image = Image::of(BASE, &code).with_function("CERTIFIED_TRIG", end, 16);
+        walk(&image, BASE + at, [None; 4])
+    };
+    let walked = of(0).expect("it is the same of all of them");
+    let last = *walked.graph.nodes.last().expect("a result");
+    assert_eq!(last, Node::Neg(0));
+    let [one] = walked.comparisons[..] else {
+        panic!("one comparison: {:?}", walked.comparisons);
+    };
+    let least = walked.graph.nodes[one.nodes[1]];
+    assert_eq!((one.nodes[0], least), (0, Node::Literal(f32::MIN_POSITIVE)));
+    assert_eq!(one.ordering, Ordering::Greater);
+    let declined = of(26).expect_err("it depends on the cosine");
+    assert!(matches!(declined, Error::Declined { .. }), "{declined}");
+    // Without the place of cosines all inputs are zero.
+    let declined = walk(&Image::of(BASE, &bytes(code)), BASE, [None; 4]);
+    assert!(declined.is_err());
+    let walked = of(50).expect("the byte is 2, and so is the table's");
+    assert_eq!(walked.graph.outputs, [(0, 0)]);
 }
 
 /// The core in f64 knows nothing of machine code, base parameters and literals.

@@ -96,11 +96,15 @@ static CERTIFIED_RNEA: Inverse<Full> = Engine::<Robot>::rnea;
 #[used]
 static CERTIFIED_GRAVITY: Inverse<(Gravity,)> = Engine::<Robot>::rnea;
 #[used]
-static CERTIFIED_CORE: Inverse<Full> = Core::<Robot>::rnea;
+static CERTIFIED_CORE_RNEA: Inverse<Full> = Core::<Robot>::rnea;
 #[used]
 static CERTIFIED_CRBA: fn(&Trig, &Full) -> MassMatrix<f32, N> = Engine::<Robot>::crba;
 #[used]
 static CERTIFIED_FORWARD: Forward = Engine::<Robot>::forward_dynamics;
+#[used]
+static CERTIFIED_CORE_CRBA: fn(&Trig, &Full) -> MassMatrix<f32, N> = Core::<Robot>::crba;
+#[used]
+static CERTIFIED_CORE_FORWARD: Forward = Core::<Robot>::forward_dynamics;
 
 #[cortex_m_rt::entry]
 fn main() -> ! {

@@ -120,6 +120,7 @@ const PART: f64 = 1.0 / 64.0;
 /// See [`Args::points`].
 const POINTS: usize = 1_000_000;
 const PAGE_POINTS: usize = 5_000_000;
+const LOOSEST: &str = "panda";
 /// Points of each grid and parts of each box of `--configurations`, which proves a hundred of them.
 const CONFIGURED_POINTS: usize = 300_000;
 const CONFIGURED_PARTS: usize = 300;
@@ -147,6 +148,10 @@ const KEPT: [(&str, Function, &str); 3] = [
     ("so101", Function::Gravity, "gravity_so101.fpcore"),
     (CLUSTERED, Function::Clustered, "four_bar.fpcore"),
 ];
+/// The functions of their own part of the page.
+const FORWARD: [Function; 2] = [Function::ForwardDynamics, Function::CoreForwardDynamics];
+/// The worst states of these, for `host-tests/oracle/forward.py`.
+const WORST: &str = "host-tests/recordings/forward.json";
 const FOLDER: &str = "docs/fpbench";
 const PICTURE: &str = "docs/certificates.svg";
 const CONFIGURED: &str = "docs/accuracy-proven.json";
@@ -200,7 +205,7 @@ fn run(args: &Args) -> Result<String> {
     if args.hashes {
         for program in &programs {
             let image = Image::read(&program.elf)?;
-            let asked = [&*args.function, &[Function::ForwardDynamics]].concat();
+            let asked = [&*args.function, &FORWARD].concat();
             let functions = program.functions(&asked);
             check::hashes(&image, functions, &program.robot, &written()?)?;
         }
@@ -248,7 +253,7 @@ fn run(args: &Args) -> Result<String> {
     let mut certificates = Vec::new();
     for (program, robot) in programs.iter().zip(&robots) {
         let asked = match args.write_docs {
-            Some(_) => [&*args.function, &[Function::ForwardDynamics]].concat(),
+            Some(_) => [&*args.function, &FORWARD].concat(),
             None => args.function.clone(),
         };
         let is_written =
@@ -266,8 +271,8 @@ fn run(args: &Args) -> Result<String> {
         for function in functions {
             let start = Instant::now();
             let target = Target::of(&image, *function, robot, &emulation)?;
-            let mut one =
-                certificate::certify(program, *function, robot, sines, spent(args, *function))?;
+            let spent = spent(args, *function, &program.robot);
+            let mut one = certificate::certify(program, *function, robot, sines, spent)?;
             one.target = Some(target);
             if args.gappa {
                 check::by_gappa(&image, *function, robot, sines, &one, PART, args.coq)?;
@@ -310,7 +315,7 @@ fn configured(args: &Args) -> Result<Vec<(Program, Robot)>> {
 fn part(function: Function) -> Part {
     match function {
         Function::Clustered => Part::Clusters,
-        Function::ForwardDynamics => Part::Forward,
+        _ if function.matrix().is_some() => Part::Forward,
         _ => Part::Certificates,
     }
 }
@@ -429,7 +434,7 @@ fn sampled(args: &Args, programs: &[Program], robots: &[Robot]) -> Result<String
     ))
 }
 
-fn spent(args: &Args, function: Function) -> Spent {
+fn spent(args: &Args, function: Function, robot: &str) -> Spent {
     // Of the loop a million states with its three results.
     let states = match function {
         Function::Clustered => 2 * args.states,
@@ -440,9 +445,12 @@ fn spent(args: &Args, function: Function) -> Spent {
     Spent {
         parts: args.parts,
         points: args.points.unwrap_or(match function {
-            // It has the most results: 27 of six joints, 35 of seven.
-            Function::ForwardDynamics => POINTS,
+            // It has the most results: 27 of six joints, 35 of seven. Those of the engine's bias for a Panda are the loosest.
+            Function::ForwardDynamics if robot == LOOSEST && args.write_docs.is_some() => {
+                PAGE_POINTS
+            }
             Function::Clustered => LOOP_POINTS,
+            _ if function.matrix().is_some() => POINTS,
             _ if args.write_docs.is_some() => PAGE_POINTS,
             _ => POINTS,
         }),
@@ -474,6 +482,9 @@ fn finish(
         let mine: Vec<Certificate> = mine.cloned().collect();
         if written_part == Part::Certificates {
             program::write(&docs.join(PICTURE), &picture::svg(&mine))?;
+        }
+        if written_part == Part::Forward {
+            program::write(&docs.join(WORST), &page::worst_states(&mine)?)?;
         }
         let page = check::page(&written()?, written_part, &page::tables(&mine))?;
         program::write(&docs.join(PAGE), &page)?;

@@ -37,6 +37,11 @@ fn multiple_or_shifted(first: u16, second: u16) -> Option<Instruction> {
             by: shifted_by(m, shift, second)?,
             flags: first & 0x10 != 0,
         },
+        0xe8d0 if second & 0xffe0 == 0xf000 => Instruction::TableBranch {
+            n,
+            m,
+            shift: (second >> 4 & 1) as u8,
+        },
         0xe840..=0xe9ff if first & 0x40 != 0 && first & 0x120 != 0 => {
             let bytes = 4 * u32::from(second & 0xff);
             Instruction::Access(Access {
@@ -93,6 +98,10 @@ fn shifted(first: u16, second: u16) -> Option<Instruction> {
 
 /// LSL and LSR by a register: A7.7.69, A7.7.71.
 fn shifted_by_register(first: u16, second: u16) -> Option<Instruction> {
+    if first & 0xfff0 == 0xfab0 && second & 0xf0f0 == 0xf080 {
+        let (d, m) = ((second >> 8 & 15) as u8, (second & 15) as u8);
+        return Some(Instruction::LeadingZeros { d, m });
+    }
     let op = match first & 0xffe0 {
         0xfa00 => Integer::Left,
         0xfa20 => Integer::Right,

@@ -32,19 +32,29 @@ struct Subject<'a> {
     graph: &'a Graph,
     robot: &'a Robot,
     counted: Counted,
+    /// What each value is known to be at most, if it is.
+    known: &'a [f64],
 }
 
 impl Program {
-    /// Bounds the error over all angles, from a grid of at most so many points; `None` if they are too few.
+    /// Bounds the error over all angles, from a grid of at most so many points; `None` if they are too few. Of what the values are known to be
+    /// at most in the box, the lesser bounds count.
     pub fn prove(
         &self,
         graph: &Graph,
         robot: &Robot,
         sines: SineErrors,
         points: usize,
+        known: &[f64],
     ) -> Option<Bound> {
-        self.prove_each(graph, robot, &[sines], Counted::All, points)?
-            .pop()
+        let counted = Counted::All;
+        let subject = Subject {
+            graph,
+            robot,
+            counted,
+            known,
+        };
+        self.proven(subject, &[sines], points)?.pop()
     }
 
     /// The same with each of some kernels of sines: the values of the function are evaluated once for all of them.
@@ -60,7 +70,18 @@ impl Program {
             graph,
             robot,
             counted,
+            known: &[],
         };
+        self.proven(subject, sines, points)
+    }
+
+    fn proven(
+        &self,
+        subject: Subject<'_>,
+        sines: &[SineErrors],
+        points: usize,
+    ) -> Option<Vec<Bound>> {
+        let graph = subject.graph;
         if self.parted.contains(&true) {
             let each = sines.iter();
             return each
@@ -86,7 +107,10 @@ impl Program {
         sines: &[SineErrors],
         at: &Place<'_>,
     ) -> Vec<(f64, Vec<f64>)> {
-        let values = self.values::<L>(at);
+        let mut values = self.values::<L>(at);
+        for ([value, _], known) in values.iter_mut().zip(subject.known) {
+            *value = value.min(*known);
+        }
         let weights = sines
             .iter()
             .map(|sines| self.weights(subject, &values, *sines));
@@ -187,6 +211,7 @@ impl Program {
             graph,
             robot,
             counted,
+            ..
         } = subject;
         let nodes = graph.nodes.len();
         let rounds = counted != Counted::LiteralsAlone;

@@ -31,6 +31,24 @@ impl Sines {
 impl Walk<'_> {
     /// The flags of the comparison of real numbers: those of the state zero.
     pub fn take_flags(&mut self) -> Result<()> {
+        let nodes = self
+            .compared
+            .ok_or_else(|| self.declined("no comparison"))?;
+        let flags = match self.compare(nodes)? {
+            Ordering::Less => [true, false, false, false],
+            Ordering::Equal => [false, true, true, false],
+            Ordering::Greater => [false, false, true, false],
+        };
+        self.flags = flags.map(Some);
+        Ok(())
+    }
+
+    /// The order of two real numbers at the state zero, which is noted.
+    pub fn compare(&mut self, nodes: [usize; 2]) -> Result<Ordering> {
+        let mut known = self.comparisons.iter();
+        if let Some(known) = known.find(|one| one.nodes == nodes) {
+            return Ok(known.ordering);
+        }
         let trig = trig(self.image);
         // Cosines are one, all else is zero.
         let zero = |input: Input| match trig {
@@ -41,9 +59,6 @@ impl Walk<'_> {
         };
         let mut values = Vec::new();
         self.graph.evaluate(zero, &mut values);
-        let nodes = self
-            .compared
-            .ok_or_else(|| self.declined("no comparison"))?;
         let [a, b] = nodes.map(|k| values[k]);
         let ordering = a
             .partial_cmp(&b)
@@ -53,12 +68,7 @@ impl Walk<'_> {
             nodes,
             ordering,
         });
-        self.flags = Some(match ordering {
-            Ordering::Less => [true, false, false, false],
-            Ordering::Equal => [false, true, true, false],
-            Ordering::Greater => [false, false, true, false],
-        });
-        Ok(())
+        Ok(ordering)
     }
 
     /// A call of the function for sines: of a position, the first numbers of the state.
@@ -82,7 +92,7 @@ impl Walk<'_> {
         self.core[..4].fill(None);
         self.core[12] = None;
         self.real[..16].fill(None);
-        self.flags = None;
+        self.flags = [None; 4];
         for (register, at) in at.into_iter().enumerate() {
             self.real[register] = Some(self.load(at)?);
         }

@@ -1,11 +1,15 @@
 //! The bound by a grid of angles, against what is known of it and what is observed.
 
-use super::recorded::{GRAVITY, LITTLE, RNEA, SINES, graph, robot};
+use std::f64::consts::{PI, TAU};
+
 use certification::bound::{Bound, Bounder, Enclosure, SineErrors};
+use certification::branch::prove;
 use certification::graph::{Graph, Input, Node};
 use certification::grid::{Program, between};
 use certification::interval::half_ulp;
-use certification::search::{Effort, search};
+use certification::search::{Effort, Evaluation, search};
+
+use super::recorded::{GRAVITY, LITTLE, RNEA, SINES, graph, robot};
 
 const POINTS: usize = 10_000;
 
@@ -36,7 +40,7 @@ fn of(nodes: &[Node]) -> Graph {
 fn bound(graph: &Graph, points: usize) -> Option<f64> {
     let robot = robot(6);
     let program = Program::new(graph, &robot)?;
-    Some(program.prove(graph, &robot, SINES, points)?.total())
+    Some(program.prove(graph, &robot, SINES, points, &[])?.total())
 }
 
 #[test]
@@ -67,14 +71,81 @@ fn what_lies_between_the_points_is_bounded() {
         let robot = robot(6);
         let program = Program::new(&graph, &robot).expect("one angle");
         program
-            .prove(&graph, &robot, SineErrors::default(), points)
+            .prove(&graph, &robot, SineErrors::default(), points, &[])
             .map(Bound::total)
     };
     let half_ulp_of_a_half = 2.0_f64.powi(-25);
     for points in [5, 7, 9, 31] {
         assert!(error(points) >= Some(half_ulp_of_a_half), "{points}");
     }
+    // By Riesz' factor, 3.24, it would be twice as much.
+    assert!(error(5) < Some(1.01 * half_ulp_of_a_half));
     assert_eq!(error(4), None, "degree two asks for five angles");
+}
+
+/// On 2n + 1 angles the factor is the constant of Lebesgue. A polynomial that is at most one on the grid is found nearly as large.
+#[test]
+fn the_factor_between_the_points_is_enough_and_less_than_riesz() {
+    for (angles, lebesgue) in [(3, 5.0 / 3.0), (5, 1.98885), (7, 2.20221)] {
+        let factor = between(angles / 2, angles);
+        assert!((factor / lebesgue - 1.0).abs() < 1e-2, "{angles}: {factor}");
+    }
+    for (degree, angles) in [(2, 5), (2, 7), (3, 7), (3, 8), (3, 10), (4, 11), (3, 13)] {
+        let factor = between(degree, angles);
+        let riesz = 1.0 / (PI * degree as f64 / angles as f64).cos();
+        assert!(factor <= riesz);
+        // The values at the angles of the grid by which the polynomial of least squares through them is the greatest half way.
+        let mut most = 0.0_f64;
+        for signs in 0..1_u32 << angles {
+            let value = |j: usize| if signs >> j & 1 == 0 { 1.0 } else { -1.0 };
+            let at = |x: f64| {
+                let of = |j: usize| {
+                    let t = x - TAU * j as f64 / angles as f64;
+                    let terms = (1..=degree).map(|m| 2.0 * (m as f64 * t).cos());
+                    value(j) * (1.0 + terms.sum::<f64>()) / angles as f64
+                };
+                (0..angles).map(of).sum::<f64>().abs()
+            };
+            let on_grid = (0..angles).map(|j| at(TAU * j as f64 / angles as f64));
+            let on_grid = on_grid.fold(0.0, f64::max);
+            // Alternating signs leave rounding errors alone.
+            if on_grid > 0.1 {
+                most = most.max(at(PI / angles as f64) / on_grid);
+            }
+        }
+        assert!(most <= factor, "{degree}, {angles}: {most} > {factor}");
+        assert!(most > 0.85 * factor, "{degree}, {angles}: {most} {factor}");
+    }
+}
+
+/// What is known of values lowers the errors, and what is wrong of them is contradicted.
+#[test]
+fn values_that_are_known_to_be_less_count() {
+    let (graph, robot) = (graph(RNEA).of_output(4), robot(6));
+    let program = Program::new(&graph, &robot).expect("angles alone");
+    let bound = |known: &[f64]| {
+        let bound = program.prove(&graph, &robot, SINES, POINTS, known);
+        bound.expect("enough points").total()
+    };
+    let mut bounder = Bounder::new(&graph, 0, &robot, SINES, Enclosure::WrittenOut)
+        .expect("its inputs are the robot's");
+    let known = prove(&mut bounder, &robot.whole(), 200).magnitudes;
+    let mut evaluation = Evaluation::new(&graph, &robot);
+    let whole: Vec<f64> = robot.whole().iter().map(|x| x.high).collect();
+    let (single, _) = evaluation.at(&whole).next().expect("a result");
+    assert!(f64::from(single.abs()) <= known[known.len() - 1]);
+    let observed = search(&graph, &robot, LITTLE, 1)[0].error;
+    assert!(observed <= bound(&known) && bound(&known) < bound(&[]));
+    let product = of(&[Node::Mul(0, 1)]);
+    let program = Program::new(&product, &robot).expect("one angle");
+    let bound = |known: &[f64]| {
+        let bound = program.prove(&product, &robot, SineErrors::default(), 31, known);
+        bound.expect("enough points").total()
+    };
+    // Half of sin 2q is no tenth.
+    let half_ulp_of_a_half = 2.0_f64.powi(-25);
+    assert!(bound(&[1.0, 1.0, 0.51]) >= half_ulp_of_a_half);
+    assert!(bound(&[1.0, 1.0, 0.1]) < half_ulp_of_a_half);
 }
 
 /// The torque of gravity about a vertical axis is zero for any angles: errors of sines do not reach it.
@@ -83,7 +154,7 @@ fn what_cancels_has_no_part_in_the_bound() {
     let (graph, robot) = (graph(GRAVITY).of_output(0), robot(6));
     let program = Program::new(&graph, &robot).expect("angles alone");
     let by_grid = program
-        .prove(&graph, &robot, SINES, POINTS)
+        .prove(&graph, &robot, SINES, POINTS, &[])
         .expect("enough points");
     let by_parts = Bounder::new(&graph, 0, &robot, SINES, Enclosure::WrittenOut)
         .expect("its inputs are the robot's")
@@ -165,7 +236,7 @@ fn positions_and_quotients_are_bounded_by_parts() {
     let robot = robot(1);
     let singular = quotient(3.0);
     let program = Program::new(&singular, &robot).expect("a quotient");
-    assert_eq!(program.prove(&singular, &robot, SINES, 10_000), None);
+    assert_eq!(program.prove(&singular, &robot, SINES, 10_000, &[]), None);
 }
 
 /// sin q cos² q + sin³ q is of degree three by its terms, and sin q.
@@ -199,7 +270,7 @@ fn speeds_are_at_their_greatest() {
     let none = SineErrors::default();
     let robot = robot(6);
     let bound = Program::new(&square, &robot)
-        .and_then(|program| program.prove(&square, &robot, none, 10))
+        .and_then(|program| program.prove(&square, &robot, none, 10, &[]))
         .expect("no angle")
         .total();
     let half_ulp_of_nine = 2.0_f64.powi(-21);

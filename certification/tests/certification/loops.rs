@@ -145,7 +145,7 @@ fn the_four_bar_is_that_of_the_core_within_its_bound() {
             let proven = prove(&mut bounder, &robot.whole(), 500).bound.total();
             let one = walked.graph.of_output(output);
             let program = Program::new(&one, &robot).expect("speeds are not divided by");
-            let grid = program.prove(&one, &robot, SINES, 50_000);
+            let grid = program.prove(&one, &robot, SINES, 50_000, &[]);
             let grid = grid.expect("it closes").total();
             let worst = &observed[output];
             assert!(

@@ -126,7 +126,7 @@ impl Report {
             let shares = each.filter_map(|(key, name)| Some((cycles(key)? / cycles(core)?, name)));
             let fewer = shares.filter(|(share, _)| *share < 1.0);
             fewer
-                .map(|(share, name)| format!("{name} ({share:.3})"))
+                .map(|(share, name)| format!("{name} {share:.3}"))
                 .collect()
         };
         [of(&TORQUES, "rnea"), of(&INERTIA, "crba")].concat()
@@ -148,13 +148,13 @@ impl Report {
         let others = self.of("rnea").filter(|row| row.joints != COMPARED);
         let others = others.map(|row| (row.joints, self.fewer_at(row.joints)));
         let others = others.filter(|(_, names)| !names.is_empty());
-        let others = others.map(|(n, names)| format!("of {n} links by {}", names.join(" and ")));
+        let others = others.map(|(n, names)| format!("{n} links, {}", names.join(", ")));
         match others.collect::<Vec<_>>().join("; ") {
             none if none.is_empty() => {
                 format!("{compared} Nor does one for shorter or longer chains.")
             }
             others => format!(
-                "{compared} For chains of other lengths\nfewer are taken (their share of the core's in brackets) {others}."
+                "{compared} Over chains of\nother lengths an ancestor takes fewer, as a share of the core's: {others}."
             ),
         }
     }

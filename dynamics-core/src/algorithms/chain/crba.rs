@@ -67,7 +67,7 @@ where
     for i in (1..V).rev() {
         let (Some(link), Some(x), Some(row)) = (robot.link(i), kept.get(i), m.rows.get_mut(i))
         else {
-            break; // never happens, and leaves no branch that joins the loop again
+            continue;
         };
         let mut x = X::again(*x, &link, turns);
         let ic = composite(i, &link, beyond);
@@ -85,7 +85,7 @@ where
             let (Some(ancestor), Some(next), Some(entry)) =
                 (robot.link(l), kept.get(l), row.get_mut(l))
             else {
-                break;
+                continue;
             };
             f = x.force_back(f);
             *entry = ancestor.subspace(turns, 0).dot(f);

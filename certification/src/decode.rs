@@ -174,7 +174,7 @@ pub enum Instruction {
     MultiplyAdd { d: u8, n: u8, m: u8, a: u8 },
     /// d = the number of zeros before the first one of m
     LeadingZeros { d: u8, m: u8 },
-    /// Goes on beyond as many halfwords as the table at n, of bytes or halfwords, has at place m.
+    /// TBB, TBH: branches forward by twice entry m of the table at n, whose entries are bytes or halfwords.
     TableBranch { n: u8, m: u8, shift: u8 },
     /// Memory of any size at n + offset.
     Access(Access),

@@ -40,7 +40,7 @@ type Monomial = (u8, u8);
 type Place = (u32, bool);
 type Polynomial = BTreeMap<Monomial, Place>;
 
-/// What a step puts where it says.
+/// What a step computes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     /// What is there, or nothing at first, plus or minus the product of both operands.

@@ -42,7 +42,7 @@ impl Interval {
         self.low.abs().max(self.high.abs())
     }
 
-    /// How far its ends are apart.
+    /// Its width.
     #[inline]
     pub fn width(self) -> f64 {
         self.high - self.low

@@ -1,4 +1,4 @@
-//! What a program is evaluated with: numbers, or numbers that are known within a radius.
+//! The numbers with which a program is evaluated: f64, or intervals as midpoint and radius.
 
 use super::{Kind, Step};
 use crate::interval::Interval;
@@ -8,7 +8,7 @@ pub(super) const LANES: usize = 8;
 
 /// A coefficient at some points.
 pub(super) trait Lanes: Copy + Default {
-    /// What lies in a range.
+    /// A number of which an interval is known.
     fn within(range: Interval) -> Self;
     /// Sets one of them to the sine or cosine that the host computes.
     fn set(&mut self, lane: usize, value: f64);

@@ -26,7 +26,7 @@ pub enum Counted {
 /// The power of all points that each part has: with more of them the lattice loses less and a part more.
 const PER_PART: f64 = 0.375;
 
-/// What is bounded.
+/// The function whose error is bounded, and the errors that count.
 #[derive(Clone, Copy)]
 struct Subject<'a> {
     graph: &'a Graph,

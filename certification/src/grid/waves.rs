@@ -13,7 +13,7 @@ use super::classes::{Place, Weighted};
 use super::lanes::Plain;
 use super::{Lattice, Program};
 
-/// What is left out of the coefficients relative to all of them, by which degrees are told.
+/// The degree of a polynomial is the least beyond which the coefficients are at most this share of all; the proof adds those that are left out.
 const NEGLIGIBLE: f64 = 1e-9;
 /// More than the rounding of a transform of one angle, relative to twice the greatest value.
 const ROUNDED: f64 = 1e-14;

@@ -9,7 +9,7 @@ use crate::engine::acceleration_field::{AccelerationField, Wrench, u_of};
 use crate::engine::folding::{Folded, Mat3, Vec3};
 use crate::scalar::Real;
 
-/// What a joint stands on.
+/// What a joint is placed on: the body before it, or the end of a link that bends.
 #[derive(Clone, Copy)]
 pub(super) struct Stand<R> {
     pub(super) field: AccelerationField<R>,

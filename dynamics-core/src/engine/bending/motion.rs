@@ -23,7 +23,7 @@ pub(crate) trait Moves<R: Real> {
 #[derive(Clone, Copy)]
 pub(crate) struct Mode<R> {
     pub(crate) eta: Folded<R>,
-    /// Of damping.
+    /// The rate that damping acts on.
     pub(crate) damped: Folded<R>,
     pub(crate) velocity: Folded<R>,
     /// The velocity in the velocity products.

@@ -17,10 +17,10 @@ const ROUNDING: f64 = 1e-14;
 
 /// A robot whose links bend, compiled. Of each joint, the modes of the body behind it.
 pub(crate) trait Bends: Compiled {
-    /// Where all bodies that move are known to turn about parallel axes, if the base is at rest, the integrals are sums of those
-    /// that the equations tell apart elsewhere.
+    /// For a base at rest. Of a body that can only turn about z, one integral stands for the sum of two that the equations otherwise
+    /// distinguish.
     const AT_REST: &'static [BendingLink];
-    /// Of any motion of the base.
+    /// For any motion of the base.
     const MOVING: &'static [BendingLink];
     /// The joints with the inertia of what is fixed on the end of each body, without the point that its mass is.
     const END_JOINTS: &'static [Joint];

@@ -165,7 +165,7 @@ const fn end_of(ends: &[Option<DVec3>], body: usize) -> Option<DVec3> {
     if body < ends.len() { ends[body] } else { None }
 }
 
-/// A place from the end of a link, zero where it misses that by rounding alone.
+/// A place relative to the end of a link; components that are zero up to rounding are zero.
 const fn apart(place: DVec3, end: DVec3) -> DVec3 {
     let limit = 4.0 * f64::EPSILON * (end.x.abs() + end.y.abs() + end.z.abs());
     let d = add(place, scale(end, -1.0));

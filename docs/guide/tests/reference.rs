@@ -10,7 +10,7 @@ use std::sync::LazyLock;
 use crate::links::{between, files, prose, root};
 
 /// Items of other crates and of written files, options, and parameters.
-const OTHERS: [&str; 9] = [
+const OTHERS: [&str; 10] = [
     "BODY",
     "Deserialize",
     "Format",
@@ -20,6 +20,7 @@ const OTHERS: [&str; 9] = [
     "PYTHONPATH",
     "R",
     "Serialize",
+    "T",
 ];
 
 /// The crates whose items the guide names, as `cargo` and as `rustdoc` call them.

@@ -297,7 +297,7 @@ impl<T, K> Bending<Engine<T, K>> {
     /// Walker & Orin (1982), method 1, over known zeros.
     ///
     /// # Example
-    /// That of [`Bending::forward_dynamics`](Bending::<Engine<()>>::forward_dynamics).
+    /// That of `forward_dynamics` of the same type.
     #[inline(never)]
     #[must_use]
     pub fn crba<R: Real, E, const B: usize, const Q: usize, const V: usize, const M: usize>(

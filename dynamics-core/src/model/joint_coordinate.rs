@@ -172,10 +172,14 @@ fn sin_cos<R: Real, K: Kernel<R>, const NEAR: bool>(q: R) -> (R, R) {
 mod tests {
     use super::JointCoordinate;
     use crate::scalar::{Native, Real};
+    use crate::state::JointTrig;
+    use crate::{Engine, model::Robot, robots::Ur5e};
+
+    fn bits<R: Real>(turn: JointCoordinate<R>) -> [u64; 3] {
+        [turn.q, turn.sin, turn.cos].map(|x| x.to_f64().to_bits())
+    }
 
     fn same_bits<R: Real, const N: usize>(q: [R; N]) {
-        let bits =
-            |turn: JointCoordinate<R>| [turn.q, turn.sin, turn.cos].map(|x| x.to_f64().to_bits());
         let together = JointCoordinate::of_all::<Native, false, N>(&q);
         let alone = q.map(JointCoordinate::with_kernel::<Native>);
         assert_eq!(together.map(bits), alone.map(bits));
@@ -197,5 +201,21 @@ mod tests {
         in_both([a, b, c, d, e, f, g]);
         in_both([h, g, f, e, d, c, b, a]);
         in_both([1e9, -3e9, 1e5, 7e7, h, 0.1, -0.7, e, a, b, c, d]);
+    }
+
+    #[test]
+    fn the_engine_reduces_only_angles_that_limits_allow() {
+        let q = [0.0, -0.0, 1.3, -2.9, 7e7, 3e4_f32];
+        let [any, near] = [
+            q.map(JointCoordinate::with_kernel::<Native>),
+            q.map(JointCoordinate::revolute_bounded::<Native>),
+        ];
+        let [any, near] = [any.map(bits), near.map(bits)];
+        assert_eq!(
+            JointTrig::new(&Ur5e::MODEL_F32, &q).coordinates.map(bits),
+            any
+        );
+        assert_eq!(Engine::<Ur5e>::joint_trig(&q).coordinates.map(bits), near);
+        assert_ne!(any, near);
     }
 }

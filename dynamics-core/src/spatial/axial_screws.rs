@@ -226,7 +226,8 @@ impl<R: Real> Screw<R> {
         }
     }
 
-    /// A symmetric matrix, turned back about z, whose trace across z stays as it is. 16 flops.
+    /// A symmetric matrix, turned back about z, whose trace across z stays as it is. 16 flops. An entry gets roundings of the largest one of
+    /// its block, as it does by general rotations.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn symmetric_back_by_trace(&self, m: &Symmetric<R>) -> Symmetric<R> {
         let twice = m.xy + m.xy;

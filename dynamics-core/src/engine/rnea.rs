@@ -43,7 +43,8 @@ where
     E: Effect<R, B, V>,
 {
     let base = base::<R, E, B, V>(effects, C::LENGTH);
-    let mut tau = [R::ZERO; V];
+    // A constant: a loop that clears the torques would keep the sines before it from the pass that needs them.
+    let mut tau = const { [R::ZERO; V] };
     let mut task = Task {
         turns: &trig.coordinates,
         back: &back.coordinates,
@@ -159,6 +160,7 @@ where
     E: Effect<R, B, V>,
 {
     let joint = CompiledJoint::<C, I>::JOINT;
+    let at = Displacement::of::<C, Q, I>(task.turns);
     let (qd, qdd) = (&task.state.qd, &task.state.qdd);
     if CompiledJoint::<C, I>::COUNT > 1 {
         let rates = SeveralRates {
@@ -166,11 +168,10 @@ where
             products: Twist::of::<C, V, I>(qd, E::VELOCITY_PRODUCTS),
             accel: Twist::of::<C, V, I>(qdd, E::ACCELERATIONS),
         };
-        let at = Displacement::of::<C, Q, I>(task.turns);
         return (at, parent.across_several::<C, I>(&at, &rates));
     }
-    // Rates are loaded before sines and cosines.
-    let (qd, qdd) = (qd[I], qdd[I]);
+    // q̈ is loaded before q̇: registers are saved less often.
+    let (qdd, qd) = (qdd[I], qd[I]);
     let unit = if joint.prismatic {
         Folded::constant(C::LENGTH_INV)
     } else {
@@ -181,7 +182,6 @@ where
         omega_products: Folded::runtime_if(E::VELOCITY_PRODUCTS, qd) * unit,
         accel: Folded::runtime_if(E::ACCELERATIONS, qdd) * unit,
     };
-    let at = Displacement::of::<C, Q, I>(task.turns);
     if const { is_round::<R, C, E, B, V, I>() } {
         // No turn changes what this body does to the others.
         return (at, parent.across_revolute::<false>(joint, at.turn, rates));

@@ -42,15 +42,32 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    let base = base::<R, E, B, V>(effects, C::LENGTH);
-    // A constant: a loop that clears the torques would keep the sines before it from the pass that needs them.
+    // A constant: behind a loop that clears the torques the compiler would reverse the order of the sines and spill more of them.
     let mut tau = const { [R::ZERO; V] };
+    write_torques::<R, C, E, B, Q, V>(trig, back, state, effects, &mut tau);
+    tau
+}
+
+/// The same into `tau`, which holds zeros.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn write_torques<R, C, E, const B: usize, const Q: usize, const V: usize>(
+    trig: &JointTrig<R, Q>,
+    back: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    effects: &E,
+    tau: &mut [R; V],
+) where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    let base = base::<R, E, B, V>(effects, C::LENGTH);
     let mut task = Task {
         turns: &trig.coordinates,
         back: &back.coordinates,
         state,
         effects,
-        tau: &mut tau,
+        tau,
     };
     for_each_joint!(J, {
         if const { CompiledJoint::<C, J>::IS_ON_BASE && !has_subtree_functions::<C>(E::WRENCH) }
@@ -74,7 +91,6 @@ where
             visit(&mut task);
         }
     });
-    tau
 }
 
 /// A function that visits a joint.
@@ -160,7 +176,6 @@ where
     E: Effect<R, B, V>,
 {
     let joint = CompiledJoint::<C, I>::JOINT;
-    let at = Displacement::of::<C, Q, I>(task.turns);
     let (qd, qdd) = (&task.state.qd, &task.state.qdd);
     if CompiledJoint::<C, I>::COUNT > 1 {
         let rates = SeveralRates {
@@ -168,9 +183,10 @@ where
             products: Twist::of::<C, V, I>(qd, E::VELOCITY_PRODUCTS),
             accel: Twist::of::<C, V, I>(qdd, E::ACCELERATIONS),
         };
+        let at = Displacement::of::<C, Q, I>(task.turns);
         return (at, parent.across_several::<C, I>(&at, &rates));
     }
-    // q̈ is loaded before q̇: registers are saved less often.
+    // Rates are loaded before sines and cosines, and q̈ first: less is spilled.
     let (qdd, qd) = (qdd[I], qd[I]);
     let unit = if joint.prismatic {
         Folded::constant(C::LENGTH_INV)
@@ -182,6 +198,7 @@ where
         omega_products: Folded::runtime_if(E::VELOCITY_PRODUCTS, qd) * unit,
         accel: Folded::runtime_if(E::ACCELERATIONS, qdd) * unit,
     };
+    let at = Displacement::of::<C, Q, I>(task.turns);
     if const { is_round::<R, C, E, B, V, I>() } {
         // No turn changes what this body does to the others.
         return (at, parent.across_revolute::<false>(joint, at.turn, rates));

@@ -36,7 +36,7 @@ where
         taken(T::MODEL.name, &T::MODEL.links, &ends);
         ends
     };
-    const TREE: &'static BendingTree<B, V> = &compile_bending(&T::MODEL, 0.0, &Self::ENDS);
+    const TREE: &'static BendingTree<B, V> = &compile_bending(&T::MODEL, 0.0, Some(&Self::ENDS));
     const MOVING_LINKS: [BendingLink; V] = {
         let BendingTree { tree, on_ends, .. } = Self::TREE;
         let (mut links, mut body) = ([BendingLink::RIGID; V], 0);

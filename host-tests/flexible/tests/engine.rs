@@ -98,6 +98,24 @@ impl BendingRobot<4, 3, 3, 5> for Flipped {
     );
 }
 
+/// An arm without modes: two parallel axes, 0.4 m apart, and a slide along them.
+struct Scara;
+
+impl Robot<3, 3, 3> for Scara {
+    const MODEL: ArmModel<f64, 3> = ArmModel::new(
+        "scara",
+        [
+            lump("upper", BASE, Joint::revolute([0.0, 0.0, 1.0])),
+            lump("fore", 0, Joint::revolute([0.0, 0.0, 1.0])).xyz([0.4, 0.0, 0.0]),
+            lump("quill", 1, Joint::prismatic([0.0, 0.0, 1.0])),
+        ],
+    );
+}
+
+impl BendingRobot<3, 3, 3, 0> for Scara {
+    const MODES: Modes<f64, 0> = Modes::new(&Self::MODEL, &[]);
+}
+
 /// A drag on each body.
 struct Drag;
 
@@ -215,6 +233,7 @@ fn engine_and_core_bend_alike_under_every_effect() {
     scenes::<Spatial, _, 2, 2, 6>(Payload::<f64, 1>::from_inertia);
     scenes::<Flipped, _, 4, 3, 5>(Payload::<f64, 3>::from_inertia);
     scenes::<Tree, _, 9, 7, 5>(Payload::<f64, 7>::from_inertia);
+    scenes::<Scara, _, 3, 3, 0>(Payload::<f64, 2>::from_inertia);
 }
 
 /// A difference of a part in 10⁹ of one stiffness, one integral or one place is found.

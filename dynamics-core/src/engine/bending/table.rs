@@ -15,7 +15,7 @@ pub(crate) const MODES: usize = 6;
 /// What an integral over products of two modes has at most from rounding, of those of the modes themselves.
 const ROUNDING: f64 = 1e-14;
 
-/// A robot whose links bend, compiled. Of each joint, the modes of the body behind it.
+/// A robot whose links bend, compiled, in m. Of each joint, the modes of the body behind it.
 pub(crate) trait Bends: Compiled {
     /// For a base at rest. Of a body that can only turn about z, one integral stands for the sum of two that the equations otherwise
     /// distinguish.

@@ -207,7 +207,7 @@ impl<T, K> Bending<Core<T, K>> {
     /// [`ModalFeedforward::tick`].
     ///
     /// # Errors
-    /// [`FlexibleError`] if a number is not finite; the modes are then unchanged.
+    /// Those of [`ModalFeedforward::tick`]; the modes are then unchanged.
     #[inline(never)]
     pub fn tick<R: Table, E, const B: usize, const Q: usize, const V: usize, const M: usize>(
         feedforward: &mut ModalFeedforward<R, M>,
@@ -322,7 +322,8 @@ impl<T, K> Bending<Engine<T, K>> {
     /// That of [`Bending::rnea`] without accelerations, of [`Bending::crba`], and (V + M)³ / 3 flops.
     ///
     /// # Errors
-    /// [`FlexibleError`] names a joint or a mode that moves no inertia; so it does where an input is NaN.
+    /// [`FlexibleError`] names a joint or a mode that moves no inertia, or whose acceleration is not finite. A coordinate on which
+    /// nothing depends, such as the angle about a vertical axis on the base, is not read.
     ///
     /// ```
     /// # use dynamics_core::flexible::{Beam, BendingRobot, FlexibleLink, Modes, Shape};
@@ -435,7 +436,7 @@ impl<T, K> Bending<Engine<T, K>> {
     /// Two calls of [`Bending::rnea`] and one of [`Bending::modal_dynamics`] without it, sines and cosines once.
     ///
     /// # Errors
-    /// [`FlexibleError`] if a number is not finite; the modes are then unchanged.
+    /// Those of [`ModalFeedforward::tick`]; the modes are then unchanged.
     ///
     /// ```
     /// # use dynamics_core::flexible::{Beam, BendingRobot, FlexibleLink, Modes, Shape};

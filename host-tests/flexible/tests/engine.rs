@@ -300,6 +300,27 @@ fn the_engine_names_modes_that_are_not_finite() {
 }
 
 #[test]
+fn the_engine_does_not_read_a_coordinate_without_effect() {
+    let (scene, bent) = (RIGID_BODY, State::at([]));
+    let state = State {
+        q: [f64::NAN, 0.3, 0.1],
+        qd: [1.0; 3],
+        qdd: [2.0; 3],
+    };
+    let mut feedforward = ModalFeedforward { bent };
+    let tau = Bending::<Engine<Scara>>::tick(&mut feedforward, &state, &scene, 1e-3);
+    let tau = tau.expect("finite torques");
+    let found = Bending::<Engine<Scara>>::forward_dynamics(&state, &bent, &tau, &scene);
+    let found = found.expect("finite accelerations").joints;
+    assert!(
+        found.iter().all(|qdd| (qdd - 2.0).abs() < 1e-12),
+        "{found:?}"
+    );
+    let core = Bending::<Core<Scara>>::forward_dynamics(&state, &bent, &tau, &scene);
+    assert_eq!(core, Err(FlexibleError::Joint(0)));
+}
+
+#[test]
 fn forward_dynamics_of_engine_and_core_agree() {
     let gears = LoadFriction::of_efficiency([0.8; 7], [0.75; 7], Width::new(0.01));
     let scene = (RIGID_BODY, Elasticity, Armature([0.1; 7]), gears);

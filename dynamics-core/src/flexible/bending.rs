@@ -32,7 +32,8 @@ pub trait BendingRobot<const B: usize, const Q: usize, const V: usize, const M: 
 /// The algorithms of the module for a robot and modes known at compile time: `Bending<Core<T>>` or `Bending<Engine<T>>`.
 ///
 /// The engine folds the integrals of the modes as it does all constants of a robot: of links that bend in the plane in which they
-/// move, most are zero. It takes robots whose joints have one degree of freedom.
+/// move, most are zero. It takes robots of up to 64 joints and modes in all, whose joints have one degree of freedom, and whose
+/// bodies on fixed joints do not bend; others do not compile.
 ///
 /// ```
 /// use dynamics_core::effects::{Elasticity, RIGID_BODY};
@@ -277,7 +278,7 @@ impl<T, K> Bending<Engine<T, K>> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
-        const { taken::<R, E, B, V>() };
+        const { taken::<T, R, E, B, Q, V, M>() };
         let trig = state
             .configuration()
             .trig_or(Engine::<T, K>::trig_source::<B, V>());
@@ -310,7 +311,7 @@ impl<T, K> Bending<Engine<T, K>> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
-        const { taken::<R, E, B, V>() };
+        const { taken::<T, R, E, B, Q, V, M>() };
         let trig = q.trig_or(Engine::<T, K>::trig_source::<B, V>());
         inertia::<T, R, E, B, Q, V, M>(trig.borrow(), eta, effects)
     }
@@ -370,7 +371,7 @@ impl<T, K> Bending<Engine<T, K>> {
         E: Effect<R, B, V>,
     {
         const {
-            taken::<R, E, B, V>();
+            taken::<T, R, E, B, Q, V, M>();
             accelerates::<R, E, B, V>();
         };
         let trig = state
@@ -415,7 +416,7 @@ impl<T, K> Bending<Engine<T, K>> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
-        const { taken::<R, E, B, V>() };
+        const { taken::<T, R, E, B, Q, V, M>() };
         let trig = state
             .configuration()
             .trig_or(Engine::<T, K>::trig_source::<B, V>());
@@ -476,7 +477,7 @@ impl<T, K> Bending<Engine<T, K>> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
-        const { taken::<R, E, B, V>() };
+        const { taken::<T, R, E, B, Q, V, M>() };
         let trig: JointTrig<R, Q> = Engine::<T, K>::joint_trig(&reference.q);
         let mut bent = feedforward.ahead(h);
         let force = inverse::<T, R, E, B, Q, V, M>(&trig, reference, &bent, effects).modes;
@@ -544,11 +545,13 @@ where
     bending_inertia::<R, CompiledModes<T, B, Q, V, M>, E, B, Q, V, M, false>(trig, eta, effects).2
 }
 
-/// A scene that the engine takes with modes.
-const fn taken<R: Real, E, const B: usize, const V: usize>()
+/// A robot and a scene that the engine takes with modes.
+const fn taken<T, R: Real, E, const B: usize, const Q: usize, const V: usize, const M: usize>()
 where
+    T: BendingRobot<B, Q, V, M>,
     E: Effect<R, B, V>,
 {
+    let _ = CompiledModes::<T, B, Q, V, M>::ENDS;
     let () = Scene::<R, E, B, V>::OF_CORE;
     no_gyroscopic_rotors::<R, E, B, V>();
 }

@@ -22,12 +22,16 @@ impl<T, const B: usize, const Q: usize, const V: usize, const M: usize> Compiled
 where
     T: BendingRobot<B, Q, V, M>,
 {
-    const ENDS: [Option<DVec3>; B] = {
+    /// The ends of the links that bend, of a robot that the engine takes with its modes.
+    pub(super) const ENDS: [Option<DVec3>; B] = {
         assert!(MODES == MODES_PER_LINK);
-        assert!(
-            V + M <= 64,
-            "the engine takes up to 64 joints and modes; use `Core`"
-        );
+        if V + M > 64 {
+            Text::EMPTY
+                .with("robot `")
+                .with(T::MODEL.name)
+                .with("`: the engine takes up to 64 joints and modes; use `Core`")
+                .panic();
+        }
         let (mut ends, mut k) = ([None; B], 0);
         while k < M {
             ends[T::MODES.links[k]] = Some(T::MODES.each[k].end);

@@ -4,7 +4,6 @@ use core::marker::PhantomData;
 
 use glam::{DMat3, DVec3};
 
-use super::link::MODES_PER_LINK;
 use super::{BendingRobot, Modes};
 use crate::engine::{
     BendingLink, BendingMode, BendingTree, Bends, BodyPlacement, Compiled, Joint, JointMotion,
@@ -24,7 +23,6 @@ where
 {
     /// The ends of the links that bend, of a robot that the engine takes with its modes.
     pub(super) const ENDS: [Option<DVec3>; B] = {
-        assert!(MODES == MODES_PER_LINK);
         if V + M > 64 {
             Text::EMPTY
                 .with("robot `")

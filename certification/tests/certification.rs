@@ -23,12 +23,14 @@ use std::cmp::Ordering;
 
 use certification::bound::{Bounder, Enclosure};
 use certification::branch::prove;
+use certification::certificate::Function;
 use certification::check::around;
 use certification::error::Error;
 use certification::gappa::{self, Script};
 use certification::graph::{Graph, Input, Node};
 use certification::image::Image;
 use certification::interval::{Interval, half_ulp};
+use certification::program::{CLUSTERED, Program};
 use certification::search::{Evaluation, search};
 use certification::state_box::{Robot, Sector};
 use certification::walk::walk;
@@ -103,6 +105,22 @@ fn what_is_not_proven_is_declined_with_its_address() {
     );
 }
 
+#[test]
+fn a_byte_stored_into_an_input_or_the_program_is_declined() {
+    // strb r0, [r1, #4], or at sp - 4; vldr s0, [r1, #4]; vstr s0, [r0]; bx lr
+    for (store, inputs, is_declined) in [
+        ("0871", None, true),
+        ("0871", Some(BASE), true),
+        ("0df8040c", None, false),
+    ] {
+        let code = bytes(&format!("{store}91ed010a80ed000a7047"));
+        let said = walk(&Image::of(BASE, &code), BASE, [None, inputs, None, None]);
+        let at_the_store =
+            |said| matches!(said, Error::Declined { address, .. } if address == BASE);
+        assert_eq!(said.err().is_some_and(at_the_store), is_declined, "{store}");
+    }
+}
+
 /// Bits of a cosine: less the least of a positive number there is no carry; less one there may be. Then bytes and a table of bytes.
 #[test]
 fn bits_of_a_positive_number_are_followed_as_a_range() {
@@ -132,6 +150,18 @@ fn bits_of_a_positive_number_are_followed_as_a_range() {
     assert!(declined.is_err());
     let walked = of(50).expect("the byte is 2, and so is the table's");
     assert_eq!(walked.graph.outputs, [(0, 0)]);
+}
+
+#[test]
+fn a_function_that_is_asked_for_twice_is_proven_once() {
+    let of = |robot: &str| Program {
+        robot: robot.to_owned(),
+        elf: Vec::new(),
+        rustc: String::new(),
+    };
+    let asked = [Function::Core, Function::Rnea, Function::Core];
+    assert_eq!(of("ur5e").functions(&asked), asked[..2]);
+    assert_eq!(of(CLUSTERED).functions(&asked), [Function::Clustered]);
 }
 
 /// The core in f64 knows nothing of machine code, base parameters and literals.

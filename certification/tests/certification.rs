@@ -16,6 +16,8 @@ mod limits;
 mod loops;
 #[path = "certification/recorded.rs"]
 mod recorded;
+#[path = "certification/slides.rs"]
+mod slides;
 #[path = "certification/target.rs"]
 mod target;
 
@@ -41,9 +43,9 @@ use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use recorded::{BASE, GRAVITY, LITTLE, RNEA, SINES, bytes, graph, robot};
 
-/// Assembled by hand: `good` at 0, `loop` at 0x30, `absolute` at 0x44, `spoil` at 0x4e.
+/// Assembled by hand: `good` at 0, `loop` at 0x30, `convert` at 0x44, `spoil` at 0x4e.
 const CODE: &str = "80b591ed010ad1ed020a92ed011a60ee011a20ee812a71eee01af6ee082a22ee622ac0ed001a32ee212a80ed012a80bd032391ed010a30ee000a013b\
-fbd180ed000a704791ed010ab0eec00a704791ed010a82ed000a7047";
+fbd180ed000a704791ed010ab8eec00a704791ed010a82ed000a7047";
 fn function(at: u32) -> Result<Graph, Error> {
     walk(&Image::of(BASE, &bytes(CODE)), BASE + at, [None; 4]).map(|walked| walked.graph)
 }
@@ -93,7 +95,7 @@ fn an_it_block_executes_what_its_conditions_let() {
 
 #[test]
 fn what_is_not_proven_is_declined_with_its_address() {
-    let declined = function(0x44).expect_err("an absolute value");
+    let declined = function(0x44).expect_err("a conversion");
     assert!(
         matches!(declined, Error::Declined { address, .. } if address == BASE + 0x48),
         "{declined}"

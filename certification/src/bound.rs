@@ -187,6 +187,7 @@ impl Bounder {
                 Node::Literal(0.0) => (Interval::default(), 0.0),
                 Node::Literal(x) => (Interval::point(x.into()), half_ulp(f64::from(x).abs())),
                 Node::Neg(a) => (-values[a], 0.0),
+                Node::Abs(a) => (values[a].abs(), 0.0),
                 Node::InverseRoot(a, _) => {
                     let exact = Interval::point(1.0) / values[a].root();
                     let is_tried = roots::RANGE.contains(&values[a].low)
@@ -231,11 +232,13 @@ impl Bounder {
         }
     }
 
-    /// The derivatives of a quotient or root by its operands, at any point between exact and computed values.
+    /// The derivatives of a quotient or root by its operands, at any point between exact and computed values. |a| has none at zero, but the mean value
+    /// theorem with any number from −1 to 1 there (Lebourg 1975).
     fn slopes_of(&self, k: usize) -> [Interval; 2] {
         let (values, one) = (&self.values, Interval::point(1.0));
         let first = match self.graph.nodes[k] {
             Node::Div(_, b) => return [one / values[b], -(values[k] / values[b])],
+            Node::Abs(_) => Interval::new(-1.0, 1.0),
             Node::Sqrt(a) => one / values[a].root().times(2.0),
             Node::InverseRoot(a, _) => -(one / (values[a] * values[a].root()).times(2.0)),
             _ => Interval::default(),

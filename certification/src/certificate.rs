@@ -387,7 +387,7 @@ pub fn certify(
     let outputs = subject.outputs(robot, sines, spent)?;
     let forward = subject.factored.as_ref().map(|factored| {
         let bodies = bodies::read(&image)?;
-        let mut forward = Forward::prove(factored, &outputs, &bodies, robot, FLOOR_PARTS)?;
+        let mut forward = Forward::prove(factored, &outputs, &bodies, robot, sines, FLOOR_PARTS)?;
         forward.search(&walked.graph, &bodies, robot, spent.search)?;
         Ok::<_, Error>(forward)
     });

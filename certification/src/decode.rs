@@ -134,6 +134,8 @@ pub enum Instruction {
     Arithmetic { op: Arithmetic, d: u8, n: u8, m: u8 },
     /// d = −m
     Negate { d: u8, m: u8 },
+    /// d = |m|
+    Absolute { d: u8, m: u8 },
     /// d = √m
     Root { d: u8, m: u8 },
     /// Compares d with m, or with zero if there is none.

@@ -18,7 +18,7 @@ use std::cmp::Ordering;
 use std::collections::HashMap;
 
 use crate::error::{Error, Result};
-use crate::graph::{Graph, Input, Node, operands};
+use crate::graph::{Graph, Guess, Input, Node, operands};
 use crate::walk::Walked;
 
 /// A value up to its sign: what it is computed from, by number.
@@ -31,12 +31,13 @@ enum Key {
     Sum(usize, usize, bool),
     Product(usize, usize),
     Quotient(usize, usize),
-    /// What the recursion does not have, by node.
-    Other(usize),
+    Absolute(usize),
+    Root(Term),
+    InverseRoot(Term, Guess),
 }
 
 /// A value: its number, and whether it is negated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 struct Term {
     key: usize,
     minus: bool,
@@ -135,7 +136,7 @@ impl Terms {
     /// The terms of a graph's nodes.
     fn all(&mut self, graph: &Graph) -> Vec<Term> {
         let mut terms: Vec<Term> = Vec::new();
-        for (k, node) in graph.nodes.iter().enumerate() {
+        for node in &graph.nodes {
             let term = match *node {
                 Node::Input(input) => self.of(Key::Input(input), false),
                 Node::Literal(x) => self.literal(x),
@@ -144,7 +145,12 @@ impl Terms {
                 Node::Sub(a, b) => self.difference(terms[a], terms[b]),
                 Node::Mul(a, b) => self.product(terms[a], terms[b]),
                 Node::Div(a, b) => self.quotient(terms[a], terms[b]),
-                Node::Sqrt(_) | Node::InverseRoot(..) => self.of(Key::Other(k), false),
+                Node::Abs(a) => match self.number(terms[a]) {
+                    Some(x) => self.literal(x.abs()),
+                    None => self.of(Key::Absolute(terms[a].key), false),
+                },
+                Node::Sqrt(a) => self.of(Key::Root(terms[a]), false),
+                Node::InverseRoot(a, guess) => self.of(Key::InverseRoot(terms[a], guess), false),
             };
             terms.push(term);
         }
@@ -251,7 +257,7 @@ fn roundings(turns: &[Vec<Option<u32>>], subtracted: &[u32], order: Order) -> Ve
 /// What a pivot must exceed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Noise {
-    /// A number, kg·m² or kg: infinity if it depends on the position in another way than M.
+    /// A number, kg·m² or kg: infinity if it depends on torques.
     pub least: f64,
     /// A share of the entry of M in which the pivot begins.
     pub share: f64,
@@ -266,6 +272,8 @@ pub struct Factored {
     pub roundings: Vec<Vec<u32>>,
     /// What each pivot is compared with, where it is: the greatest.
     pub noise: Vec<Option<Noise>>,
+    /// The joints whose pivots are compared with what depends on the state in another way than M, and the nodes of the graph that this is.
+    pub others: Vec<(usize, usize)>,
 }
 
 /// The argument that torques are.
@@ -321,13 +329,14 @@ impl Factored {
                 return Err(other(format!("acceleration {}", i + 1)));
             }
         }
-        let mut noise = vec![None; n];
+        let (mut noise, mut others) = (vec![None; n], Vec::new());
         for one in &forward.comparisons {
-            let [a, b] = one.nodes.map(|node| mine[node]);
-            let (pivot, least) = match one.ordering {
+            let [a, b] = one.nodes;
+            let (pivot, node) = match one.ordering {
                 Ordering::Less => (b, a),
                 _ => (a, b),
             };
+            let (pivot, least) = (mine[pivot], mine[node]);
             let joint = solved.pivots.iter().position(|known| *known == pivot);
             let Some(joint) = joint.filter(|_| one.ordering != Ordering::Equal) else {
                 return Err(other(format!("comparison at {:#010x}", one.address)));
@@ -335,15 +344,20 @@ impl Factored {
             let known: &mut Noise = noise[joint].get_or_insert_default();
             if let Some(share) = terms.share(least, diagonal[joint]) {
                 known.share = known.share.max(share.into());
+            } else if let Some(number) = terms.number(least) {
+                known.least = known.least.max(number.into());
+            } else if depends[node] {
+                // The box does not bound torques.
+                known.least = f64::INFINITY;
             } else {
-                let least = terms.number(least).map_or(f64::INFINITY, f64::from);
-                known.least = known.least.max(least);
+                others.push((joint, node));
             }
         }
         Ok(Self {
             graph,
             roundings: solved.roundings,
             noise,
+            others,
         })
     }
 }

@@ -35,7 +35,7 @@ pub struct Form {
     pub rotations: Vec<Rotation>,
     /// The nodes whose rounding errors the sum has beside these.
     pub errors: Sum,
-    /// Of adjoints, those of quotients and roots, and of which operand: the first or the second.
+    /// Of adjoints, those of quotients, roots and absolute values, and of which operand: the first or the second.
     pub steep: Vec<(usize, usize)>,
 }
 
@@ -163,7 +163,7 @@ pub fn of_adjoints(graph: &Graph, leaves: &[Option<Leaf>]) -> Vec<Form> {
                 steep[a].push((k, 0));
                 steep[b].push((k, 1));
             }
-            Node::Sqrt(a) | Node::InverseRoot(a, _) => steep[a].push((k, 0)),
+            Node::Sqrt(a) | Node::InverseRoot(a, _) | Node::Abs(a) => steep[a].push((k, 0)),
             Node::Input(_) | Node::Literal(_) => {}
         }
     }

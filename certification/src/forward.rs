@@ -23,6 +23,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::bodies::{Body, Position, inertia_matrix};
+use crate::bound::{Bounder, Enclosure, SineErrors};
 use crate::certificate::Output;
 use crate::error::{Error, Result};
 use crate::factors::{Factored, Noise};
@@ -96,7 +97,8 @@ fn gamma(roundings: u32) -> f64 {
 }
 
 impl Forward {
-    /// Of the bounds of what [`Factored::graph`] has as results, for a robot of these bodies. The floor is proven by at most so many parts.
+    /// Of the bounds of what [`Factored::graph`] has as results, with sines of these errors, for a robot of these bodies. The floor is proven by at
+    /// most so many parts.
     ///
     /// # Errors
     /// [`Error::Factors`] of inertias beyond what f32 is taken for.
@@ -105,6 +107,7 @@ impl Forward {
         outputs: &[Output],
         bodies: &[Body],
         robot: &Robot,
+        sines: SineErrors,
         parts: usize,
     ) -> Result<Self> {
         let n = robot.joints.len();
@@ -140,7 +143,10 @@ impl Forward {
             above * h > noise.least && above > noise.share
         };
         let mut pivots = factored.noise.iter().zip(&forward.scales);
-        forward.is_total = pivots.all(exceeds);
+        let exceeds_others = |(joint, node): &(usize, usize)| {
+            above * forward.scales[*joint] > greatest_over(&factored.graph, *node, robot, sines)
+        };
+        forward.is_total = pivots.all(exceeds) && factored.others.iter().all(exceeds_others);
         Ok(forward)
     }
 
@@ -252,6 +258,22 @@ impl Forward {
             x = moved.iter().map(|x| x / length).collect();
         }
         length * (1.0 - 1e-12)
+    }
+}
+
+/// At least the greatest number that a node has over the box, as it is computed.
+pub fn greatest_over(graph: &Graph, node: usize, robot: &Robot, sines: SineErrors) -> f64 {
+    let graph = Graph {
+        nodes: graph.nodes.clone(),
+        outputs: vec![(0, node)],
+    };
+    let Some(mut bounder) = Bounder::new(&graph, 0, robot, sines, Enclosure::Plain) else {
+        return f64::INFINITY;
+    };
+    bounder.bound(&robot.whole());
+    match bounder.is_finite() {
+        true => bounder.range().high,
+        false => f64::INFINITY,
     }
 }
 

@@ -50,6 +50,7 @@ pub fn fpcore(graph: &Graph, output: usize, robot: &Robot, name: &str) -> Option
             // Which the code rounds otherwise: see the top.
             Node::InverseRoot(a, _) => format!("(cast (! :precision real (/ 1 (sqrt v{a}))))"),
             Node::Neg(a) => format!("(- v{a})"),
+            Node::Abs(a) => format!("(fabs v{a})"),
         };
         let _ = writeln!(bindings, "   [v{k} {value}]");
     }

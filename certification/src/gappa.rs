@@ -54,11 +54,16 @@ pub fn script(bounder: &Bounder) -> Script {
             // Its error was found by trying every number, as that of a sine.
             Node::InverseRoot(a, _) => (Some(format!("1 / sqrt(v{a}) + e{k}")), false),
             Node::Neg(a) => (Some(format!("-v{a}")), false),
+            Node::Abs(a) => (Some(format!("|v{a}|")), false),
             Node::Add(a, b) => (Some(format!("v{a} + v{b}")), true),
             Node::Sub(a, b) => (Some(format!("v{a} - v{b}")), true),
             Node::Mul(a, b) => (Some(format!("v{a} * v{b}")), true),
         };
         let error = bounder.errors[k];
+        if let Node::Abs(_) = node {
+            let slope = range(&format!("s{k}"), Interval::new(-1.0, 1.0));
+            script.given.push(slope);
+        }
         script.given.push(range(&v, bounder.values[k]));
         script
             .given
@@ -124,6 +129,7 @@ fn slope(node: Node, (k, operand): (usize, usize)) -> String {
     match (node, operand) {
         (Node::Div(_, b), 0) => format!("w{k} / v{b}"),
         (Node::Div(a, b), _) => format!("(-w{k}) * ((v{a} / v{b}) / v{b})"),
+        (Node::Abs(_), _) => format!("w{k} * s{k}"),
         (Node::Sqrt(a), _) => format!("w{k} / (2 * sqrt(v{a}))"),
         (Node::InverseRoot(a, _), _) => format!("(-w{k}) / (2 * (v{a} * sqrt(v{a})))"),
         _ => "0".to_owned(),

@@ -30,10 +30,12 @@ pub enum Node {
     InverseRoot(usize, Guess),
     /// −a, exact
     Neg(usize),
+    /// |a|, exact
+    Abs(usize),
 }
 
 /// A guess of 1/√x, the number whose bits are a magic number less half of those of x, and the steps y + y (½ − ½ x y²) from there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Guess {
     /// The magic number.
     pub magic: u32,
@@ -66,6 +68,7 @@ impl Node {
             Self::Sqrt(a) => Self::Sqrt(to(a)),
             Self::InverseRoot(a, guess) => Self::InverseRoot(to(a), guess),
             Self::Neg(a) => Self::Neg(to(a)),
+            Self::Abs(a) => Self::Abs(to(a)),
         }
     }
 }
@@ -93,6 +96,8 @@ pub trait Number: Copy + std::ops::Neg<Output = Self> {
     fn div(self, b: Self) -> Self;
     /// √a
     fn sqrt(self) -> Self;
+    /// |a|
+    fn abs(self) -> Self;
     /// 1/√a
     fn inverse_root(self, guess: Guess) -> Self;
 }
@@ -118,6 +123,9 @@ macro_rules! number {
             fn sqrt(self) -> Self {
                 <$type>::sqrt(self)
             }
+            fn abs(self) -> Self {
+                <$type>::abs(self)
+            }
             fn inverse_root(self, guess: Guess) -> Self {
                 $inverse_root(guess, self)
             }
@@ -141,6 +149,7 @@ impl Graph {
                 Node::Sqrt(a) => values[a].sqrt(),
                 Node::InverseRoot(a, guess) => values[a].inverse_root(guess),
                 Node::Neg(a) => -values[a],
+                Node::Abs(a) => values[a].abs(),
             };
             values.push(value);
         }
@@ -182,8 +191,10 @@ impl Graph {
 
     /// The number of rounded operations.
     pub fn operations(&self) -> usize {
-        let rounds =
-            |node: &&Node| !matches!(node, Node::Input(_) | Node::Literal(_) | Node::Neg(_));
+        let rounds = |node: &&Node| {
+            use Node::{Abs, Input, Literal, Neg};
+            !matches!(node, Input(_) | Literal(_) | Neg(_) | Abs(_))
+        };
         self.nodes.iter().filter(rounds).count()
     }
 }
@@ -193,6 +204,6 @@ pub fn operands(node: Node) -> [Option<usize>; 2] {
     match node {
         Node::Input(_) | Node::Literal(_) => [None, None],
         Node::Add(a, b) | Node::Sub(a, b) | Node::Mul(a, b) | Node::Div(a, b) => [Some(a), Some(b)],
-        Node::Sqrt(a) | Node::InverseRoot(a, _) | Node::Neg(a) => [Some(a), None],
+        Node::Sqrt(a) | Node::InverseRoot(a, _) | Node::Neg(a) | Node::Abs(a) => [Some(a), None],
     }
 }

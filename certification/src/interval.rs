@@ -96,6 +96,12 @@ impl Interval {
 }
 
 impl Interval {
+    /// |x|
+    #[inline]
+    pub fn abs(self) -> Self {
+        Self::new(self.low.max(-self.high).max(0.0), self.magnitude())
+    }
+
     /// √x of the numbers that have one.
     #[inline]
     pub fn root(self) -> Self {

@@ -46,12 +46,19 @@ pub fn build(robot: &str, options: &import::Options) -> Result<Program> {
 }
 
 impl Program {
-    /// The functions that it has, of those that are asked for.
-    pub fn functions<'a>(&self, asked: &'a [Function]) -> &'a [Function] {
-        match self.robot.as_str() {
+    /// The functions that it has, of those that are asked for, each once.
+    pub fn functions(&self, asked: &[Function]) -> Vec<Function> {
+        let asked = match self.robot.as_str() {
             CLUSTERED => &[Function::Clustered],
             _ => asked,
+        };
+        let mut functions = Vec::new();
+        for function in asked {
+            if !functions.contains(function) {
+                functions.push(*function);
+            }
         }
+        functions
     }
 }
 

@@ -380,20 +380,9 @@ impl Walk<'_> {
                 Ok(())
             }
             I::Arithmetic { op, d, n, m } => self.arithmetic(op, d, n, m),
-            I::Negate { d, m } => {
-                let word = self.real(m)?;
-                let a = self.node(word)?;
-                let node = self.push(Node::Neg(a));
-                self.real[usize::from(d)] = Some(Word::Real(node));
-                Ok(())
-            }
-            I::Root { d, m } => {
-                let word = self.real(m)?;
-                let a = self.node(word)?;
-                let node = self.push(Node::Sqrt(a));
-                self.real[usize::from(d)] = Some(Word::Real(node));
-                Ok(())
-            }
+            I::Negate { d, m } => self.function(Node::Neg, d, m),
+            I::Absolute { d, m } => self.function(Node::Abs, d, m),
+            I::Root { d, m } => self.function(Node::Sqrt, d, m),
             I::Compare { d, m } => {
                 let a = self.real(d)?;
                 let b = m.map_or(Ok(Word::Bits(0)), |m| self.real(m))?;
@@ -488,6 +477,14 @@ impl Walk<'_> {
             }
             _ => Err(self.declined("an instruction of which nothing is proven")),
         }
+    }
+
+    fn function(&mut self, of: fn(usize) -> Node, d: u8, m: u8) -> Result<()> {
+        let word = self.real(m)?;
+        let a = self.node(word)?;
+        let node = self.push(of(a));
+        self.real[usize::from(d)] = Some(Word::Real(node));
+        Ok(())
     }
 
     fn arithmetic(&mut self, op: Arithmetic, d: u8, n: u8, m: u8) -> Result<()> {

@@ -16,6 +16,8 @@ mod limits;
 mod loops;
 #[path = "certification/recorded.rs"]
 mod recorded;
+#[path = "certification/slides.rs"]
+mod slides;
 #[path = "certification/target.rs"]
 mod target;
 
@@ -23,12 +25,14 @@ use std::cmp::Ordering;
 
 use certification::bound::{Bounder, Enclosure};
 use certification::branch::prove;
+use certification::certificate::Function;
 use certification::check::around;
 use certification::error::Error;
 use certification::gappa::{self, Script};
 use certification::graph::{Graph, Input, Node};
 use certification::image::Image;
 use certification::interval::{Interval, half_ulp};
+use certification::program::{CLUSTERED, Program};
 use certification::search::{Evaluation, search};
 use certification::state_box::{Robot, Sector};
 use certification::walk::walk;
@@ -39,9 +43,9 @@ use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use recorded::{BASE, GRAVITY, LITTLE, RNEA, SINES, bytes, graph, robot};
 
-/// Assembled by hand: `good` at 0, `loop` at 0x30, `absolute` at 0x44, `spoil` at 0x4e.
+/// Assembled by hand: `good` at 0, `loop` at 0x30, `convert` at 0x44, `spoil` at 0x4e.
 const CODE: &str = "80b591ed010ad1ed020a92ed011a60ee011a20ee812a71eee01af6ee082a22ee622ac0ed001a32ee212a80ed012a80bd032391ed010a30ee000a013b\
-fbd180ed000a704791ed010ab0eec00a704791ed010a82ed000a7047";
+fbd180ed000a704791ed010ab8eec00a704791ed010a82ed000a7047";
 fn function(at: u32) -> Result<Graph, Error> {
     walk(&Image::of(BASE, &bytes(CODE)), BASE + at, [None; 4]).map(|walked| walked.graph)
 }
@@ -91,7 +95,7 @@ fn an_it_block_executes_what_its_conditions_let() {
 
 #[test]
 fn what_is_not_proven_is_declined_with_its_address() {
-    let declined = function(0x44).expect_err("an absolute value");
+    let declined = function(0x44).expect_err("a conversion");
     assert!(
         matches!(declined, Error::Declined { address, .. } if address == BASE + 0x48),
         "{declined}"
@@ -101,6 +105,22 @@ fn what_is_not_proven_is_declined_with_its_address() {
         matches!(declined, Error::Declined { address, .. } if address == BASE + 0x52),
         "{declined}"
     );
+}
+
+#[test]
+fn a_byte_stored_into_an_input_or_the_program_is_declined() {
+    // strb r0, [r1, #4], or at sp - 4; vldr s0, [r1, #4]; vstr s0, [r0]; bx lr
+    for (store, inputs, is_declined) in [
+        ("0871", None, true),
+        ("0871", Some(BASE), true),
+        ("0df8040c", None, false),
+    ] {
+        let code = bytes(&format!("{store}91ed010a80ed000a7047"));
+        let said = walk(&Image::of(BASE, &code), BASE, [None, inputs, None, None]);
+        let at_the_store =
+            |said| matches!(said, Error::Declined { address, .. } if address == BASE);
+        assert_eq!(said.err().is_some_and(at_the_store), is_declined, "{store}");
+    }
 }
 
 /// Bits of a cosine: less the least of a positive number there is no carry; less one there may be. Then bytes and a table of bytes.
@@ -132,6 +152,18 @@ fn bits_of_a_positive_number_are_followed_as_a_range() {
     assert!(declined.is_err());
     let walked = of(50).expect("the byte is 2, and so is the table's");
     assert_eq!(walked.graph.outputs, [(0, 0)]);
+}
+
+#[test]
+fn a_function_that_is_asked_for_twice_is_proven_once() {
+    let of = |robot: &str| Program {
+        robot: robot.to_owned(),
+        elf: Vec::new(),
+        rustc: String::new(),
+    };
+    let asked = [Function::Core, Function::Rnea, Function::Core];
+    assert_eq!(of("ur5e").functions(&asked), asked[..2]);
+    assert_eq!(of(CLUSTERED).functions(&asked), [Function::Clustered]);
 }
 
 /// The core in f64 knows nothing of machine code, base parameters and literals.

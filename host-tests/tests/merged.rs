@@ -255,6 +255,18 @@ fn another_number_of_bodies_is_refused_and_named() {
 }
 
 #[test]
+fn a_parent_that_is_not_listed_before_is_refused() {
+    let last = A1::MODEL.links.len() - 1;
+    for (body, parent) in [(0, 0), (2, 99), (last, last)] {
+        let mut robot = A1::MODEL;
+        robot.links[body].parent = parent;
+        let error = robot.try_merged::<12>().expect_err("no parent");
+        assert_eq!(error.body, robot.links[body].name);
+        assert_eq!(error.problem, Problem::Parent);
+    }
+}
+
+#[test]
 #[should_panic(expected = "robot `a1`: 12 of its bodies move, not M = 13")]
 fn the_constant_form_panics_with_the_numbers() {
     let _: Merged<16, 13, 12, 12> = A1::MODEL.merged();

@@ -207,7 +207,7 @@ fn run(args: &Args) -> Result<String> {
             let image = Image::read(&program.elf)?;
             let asked = [&*args.function, &FORWARD].concat();
             let functions = program.functions(&asked);
-            check::hashes(&image, functions, &program.robot, &written()?)?;
+            check::hashes(&image, &functions, &program.robot, &written()?)?;
         }
         for (path, text) in kept(&docs, &programs, &robots)? {
             check::file(&path, &text)?;
@@ -257,12 +257,9 @@ fn run(args: &Args) -> Result<String> {
             None => args.function.clone(),
         };
         let is_written =
-            |function: &&Function| args.write_docs.is_none() || args.writes(part(**function));
-        let functions: Vec<&Function> = program
-            .functions(&asked)
-            .iter()
-            .filter(is_written)
-            .collect();
+            |function: &Function| args.write_docs.is_none() || args.writes(part(*function));
+        let mut functions = program.functions(&asked);
+        functions.retain(is_written);
         if functions.is_empty() {
             continue;
         }
@@ -270,12 +267,12 @@ fn run(args: &Args) -> Result<String> {
         let emulation = emulation::run(program, robot).map_err(|error| error.to_string());
         for function in functions {
             let start = Instant::now();
-            let target = Target::of(&image, *function, robot, &emulation)?;
-            let spent = spent(args, *function, &program.robot);
-            let mut one = certificate::certify(program, *function, robot, sines, spent)?;
+            let target = Target::of(&image, function, robot, &emulation)?;
+            let spent = spent(args, function, &program.robot);
+            let mut one = certificate::certify(program, function, robot, sines, spent)?;
             one.target = Some(target);
             if args.gappa {
-                check::by_gappa(&image, *function, robot, sines, &one, PART, args.coq)?;
+                check::by_gappa(&image, function, robot, sines, &one, PART, args.coq)?;
             }
             eprintln!(
                 "{}: {}: {:.0} s",
@@ -390,8 +387,8 @@ fn benchmarks(
     let mut written = Vec::new();
     for (program, robot) in programs.iter().zip(robots) {
         for function in program.functions(&args.function) {
-            let file = folder.join(file_name(&program.robot, *function));
-            program::write(&file, &benchmark(program, robot, *function)?)?;
+            let file = folder.join(file_name(&program.robot, function));
+            program::write(&file, &benchmark(program, robot, function)?)?;
             written.push(file.display().to_string());
         }
     }
@@ -419,7 +416,7 @@ fn sampled(args: &Args, programs: &[Program], robots: &[Robot]) -> Result<String
     let mut sampled = 0;
     for (program, robot) in programs.iter().zip(robots) {
         for function in program.functions(&args.function) {
-            check::sampled(&Image::read(&program.elf)?, *function, robot, &mut rng)?;
+            check::sampled(&Image::read(&program.elf)?, function, robot, &mut rng)?;
             eprintln!(
                 "{}: {}: accepted by Gappa and Coq",
                 program.robot,

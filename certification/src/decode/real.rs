@@ -50,7 +50,7 @@ pub fn real_memory(first: u16, second: u16) -> Option<Instruction> {
 
 /// Data processing and moves: A6.4, A6.6.
 pub fn real_data(first: u16, second: u16) -> Option<Instruction> {
-    use Instruction::{Compare, Copy, Negate, Real, Root, TakeFlags, Transfer};
+    use Instruction::{Absolute, Compare, Copy, Negate, Real, Root, TakeFlags, Transfer};
     if second >> 8 & 15 != 10 {
         return None;
     }
@@ -85,6 +85,7 @@ pub fn real_data(first: u16, second: u16) -> Option<Instruction> {
         }
         (0xb0, true) => match (first & 15, second >> 7 & 1) {
             (0, 0) => Some(Copy { d, m }),
+            (0, 1) => Some(Absolute { d, m }),
             (1, 0) => Some(Negate { d, m }),
             (1, 1) => Some(Root { d, m }),
             // Of numbers the form that signals NaNs is the same.

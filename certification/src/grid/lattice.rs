@@ -39,11 +39,7 @@ impl Lattice {
     /// That of at most so many points which loses least; `None` if these degrees ask for more.
     pub fn best(degrees: &[usize], most: usize) -> Option<Self> {
         let mut sizes: Vec<usize> = degrees.iter().map(|n| 2 * n + 1).collect();
-        let points = |sizes: &[usize]| {
-            let all = sizes.iter().try_fold(1_usize, |a, b| a.checked_mul(*b));
-            all.filter(|all| *all <= most)
-        };
-        points(&sizes)?;
+        counted(&sizes, most)?;
         loop {
             // What is gained for the points that it takes, both as logarithms.
             let mut best = (0.0, None);
@@ -54,7 +50,7 @@ impl Lattice {
                     tried[i] = larger;
                     let gain =
                         (here / between(*n, larger)).ln() / (larger as f64 / sizes[i] as f64).ln();
-                    if gain > best.0 && points(&tried).is_some() {
+                    if gain > best.0 && counted(&tried, most).is_some() {
                         best = (gain, Some(tried));
                     }
                 }
@@ -79,6 +75,12 @@ impl Lattice {
                 .map(|(above, n)| above[usize::from(*n)])
                 .product::<f64>()
     }
+}
+
+/// The number of points of so many angles of each joint; `None` if there are more than so many.
+pub(super) fn counted(sizes: &[usize], most: usize) -> Option<usize> {
+    let all = sizes.iter().try_fold(1_usize, |a, b| a.checked_mul(*b));
+    all.filter(|all| *all <= most)
 }
 
 /// How much more a polynomial of a degree may be between so many angles, more than twice the degree.

@@ -10,13 +10,19 @@
 use std::f64::consts::TAU;
 
 use super::classes::{Place, Weighted};
-use super::lanes::Plain;
+use super::lanes::{LANES, Plain};
+use super::lattice::counted;
 use super::{Lattice, Program};
 
 /// The degree of a polynomial is the least beyond which the coefficients are at most this share of all; the proof adds those that are left out.
 const NEGLIGIBLE: f64 = 1e-9;
-/// More than the rounding of a transform of one angle, relative to twice the greatest value.
+/// More than the rounding of a transform of one angle, relative to twice the greatest value, up to the degree [`HIGHEST`].
+///
+/// With u = 2⁻⁵³ an angle 2π j/N is off by at most 2.4 u, relative to 2π. The angle of a wave is off by its degree times that, of degree three by one
+/// rounding more: with that of the sine at most 7.3 · 10⁻¹⁵. A sum of nine products adds 1.3 · 10⁻¹⁵.
 const ROUNDED: f64 = 1e-14;
+/// Of functions that are of a higher degree in an angle, nothing is said.
+const HIGHEST: usize = 4;
 
 /// 1, cos θ, sin θ, cos 2θ, … of an angle, up to a degree.
 fn waves(angle: f64, degree: usize) -> impl Iterator<Item = f64> {
@@ -163,27 +169,29 @@ impl Spectrum {
 }
 
 impl Program {
-    /// At least the greatest absolute value of the function, from at most so many points of the grid, and of a finer one; `None` if they are too few.
+    /// At least the greatest absolute value of the function, from at most so many points of the grid, and of a finer one; `None` if they are too few,
+    /// or if it is of a degree above four in an angle.
     pub fn greatest_value(&self, points: usize, fine: usize) -> Option<f64> {
         let last = (self.sums.len() / 2).checked_sub(1)?;
         if self.parted.contains(&true) {
             return None;
         }
         let degrees = self.highest(&self.degrees[last..=last]);
+        if degrees.iter().any(|n| *n > HIGHEST) {
+            return None;
+        }
         let sizes: Vec<usize> = degrees.iter().map(|n| 2 * n + 1).collect();
+        let count = counted(&sizes, points)?;
         let lattice = Lattice::new(sizes, &degrees);
-        let count = lattice.points();
         let at = Place {
             lattice: &lattice,
             part: &[],
             rounding: super::proof::rounding(last + 1),
         };
         let terms: &Weighted = &self.sums[last];
-        let mut values = vec![Vec::with_capacity(count); terms.len()];
-        if count > points {
-            return None;
-        }
-        let all = (0..count).step_by(super::lanes::LANES);
+        let room = || Vec::with_capacity(count.next_multiple_of(LANES));
+        let mut values: Vec<Vec<f64>> = terms.iter().map(|_| room()).collect();
+        let all = (0..count).step_by(LANES);
         self.at_points::<Plain>(&self.steps[..self.forward], &at, all, |x| {
             for (values, (place, _)) in values.iter_mut().zip(terms) {
                 values.extend(x[*place as usize]);

@@ -37,9 +37,14 @@ impl Walk<'_> {
         Ok(Word::Real(node))
     }
 
+    /// Whether a word is an input or the program's: a load has it whatever was stored.
+    fn is_given(&self, word: u32) -> bool {
+        let is_input = (ARGUMENTS + RANGE..ARGUMENTS + 4 * RANGE).contains(&word);
+        is_input || self.image.word(word).is_some()
+    }
+
     pub(super) fn store(&mut self, address: u32, word: Word) -> Result<()> {
-        let is_input = (ARGUMENTS + RANGE..ARGUMENTS + 4 * RANGE).contains(&address);
-        if address & 3 != 0 || is_input || self.image.word(address).is_some() {
+        if address & 3 != 0 || self.is_given(address) {
             return Err(
                 self.declined("a store to an input, to the program, or beside a word's address")
             );
@@ -65,6 +70,9 @@ impl Walk<'_> {
     pub(super) fn store_byte(&mut self, address: u32, byte: u8) -> Result<()> {
         let within = address & 3;
         let word = address - within;
+        if self.is_given(word) {
+            return Err(self.declined("a store to a byte of an input or of the program"));
+        }
         if let Some(Word::Bits(bits)) = self.memory.get(&word) {
             let mut bytes = bits.to_le_bytes();
             bytes[within as usize] = byte;

@@ -75,7 +75,7 @@ fn proven(subject: &Subject, robot: &Robot) -> Forward {
     };
     let outputs = subject.outputs(robot, SINES, spent).expect("bounds");
     let factored = subject.factored.as_ref().expect("it is forward dynamics");
-    Forward::prove(factored, &outputs, &bodies(), robot, 2000).expect("bounds")
+    Forward::prove(factored, &outputs, &bodies(), robot, SINES, 2000).expect("bounds")
 }
 
 fn search(forward: &Forward, code: &Graph, robot: &Robot) -> Result<(), Error> {

@@ -90,7 +90,9 @@ fn the_factor_between_the_points_is_enough_and_less_than_riesz() {
         let factor = between(angles / 2, angles);
         assert!((factor / lebesgue - 1.0).abs() < 1e-2, "{angles}: {factor}");
     }
-    for (degree, angles) in [(2, 5), (2, 7), (3, 7), (3, 8), (3, 10), (4, 11), (3, 13)] {
+    let up_to_nine =
+        (1..=4).flat_map(|n| (2 * n + 1..=9.min(4 * n)).map(move |angles| (n, angles)));
+    for (degree, angles) in up_to_nine.chain([(3, 10), (4, 11), (3, 13)]) {
         let factor = between(degree, angles);
         let riesz = 1.0 / (PI * degree as f64 / angles as f64).cos();
         assert!(factor <= riesz);
@@ -114,7 +116,16 @@ fn the_factor_between_the_points_is_enough_and_less_than_riesz() {
             }
         }
         assert!(most <= factor, "{degree}, {angles}: {most} > {factor}");
-        assert!(most > 0.85 * factor, "{degree}, {angles}: {most} {factor}");
+        // On the fewest angles the polynomials are those of any signs.
+        let reached = if angles == 2 * degree + 1 {
+            0.999
+        } else {
+            0.85
+        };
+        assert!(
+            most > reached * factor,
+            "{degree}, {angles}: {most} {factor}"
+        );
     }
 }
 
@@ -164,39 +175,6 @@ fn what_cancels_has_no_part_in_the_bound() {
         "{by_grid:?} {by_parts:?}"
     );
     assert!(by_grid.total() < 0.3 * by_parts.total());
-}
-
-/// Interpolation of signs on the fewest angles is as large between them as the bound says.
-#[test]
-fn a_polynomial_reaches_the_bound_between_the_points() {
-    for degree in 1..=4 {
-        for size in 2 * degree + 1..=4 * degree {
-            let bound = between(degree, size);
-            let angle = |j: f64| std::f64::consts::TAU * j / size as f64;
-            // Σ_k cos k(θ − θ_j) with these signs is of the degree, and at the points at most its own greatest value there.
-            let mut most = 0.0_f64;
-            for pattern in 0..1_u32 << size {
-                let sign = |j: usize| f64::from(pattern >> j & 1) * 2.0 - 1.0;
-                let at = |theta: f64| -> f64 {
-                    let waves = |j: usize| {
-                        let wave = |k: usize| 2.0 * (k as f64 * (theta - angle(j as f64))).cos();
-                        sign(j) * (1.0 + (1..=degree).map(wave).sum::<f64>())
-                    };
-                    (0..size).map(waves).sum()
-                };
-                let on_grid = (0..size).map(|j| at(angle(j as f64)).abs());
-                let on_grid = on_grid.fold(1e-9, f64::max);
-                most = most.max(at(angle(0.5)).abs() / on_grid);
-                if size > 9 {
-                    break;
-                }
-            }
-            assert!(most <= bound, "{degree} {size}: {most} {bound}");
-            if size == 2 * degree + 1 {
-                assert!(size > 9 || most > 0.999 * bound, "{degree}: {most} {bound}");
-            }
-        }
-    }
 }
 
 #[test]
@@ -261,6 +239,30 @@ fn a_greatest_value_knows_what_cancels() {
         }
         assert!(greatest(100) < 1.01 * most, "{}", greatest(100));
     }
+}
+
+/// sin⁴ q is 3/8 − ½ cos 2q + ⅛ cos 4q. Of the fifth power a wave may be off by more than the proof adds.
+#[test]
+fn a_greatest_value_of_a_higher_degree_or_too_many_points_is_declined() {
+    let greatest = |graph: &Graph, joints: usize| {
+        let program = Program::new(graph, &robot(joints)).expect("angles alone");
+        program.greatest_value(1_000_000, 1_000_000)
+    };
+    let products = [0, 3, 4, 5].map(|before| Node::Mul(before, 0));
+    let power = |n: usize| of(&products[..n - 1]);
+    let most = greatest(&power(4), 6).expect("nine angles");
+    assert!((1.0..1.01).contains(&most), "{most}");
+    assert_eq!(greatest(&power(5), 6), None);
+    // Three angles of each of 41 joints are more points than a number has.
+    let sine = |joint: u32| {
+        let (argument, offset) = (1, 12 * joint + 4);
+        Node::Input(Input { argument, offset })
+    };
+    let mut nodes: Vec<Node> = (0..41).map(sine).collect();
+    nodes.push(Node::Mul(0, 1));
+    nodes.extend((2..41).map(|joint| Node::Mul(39 + joint, joint)));
+    let outputs = vec![(0, nodes.len() - 1)];
+    assert_eq!(greatest(&Graph { nodes, outputs }, 41), None);
 }
 
 /// A square of a speed is as large at −3 as at 3, and its error that of nine.

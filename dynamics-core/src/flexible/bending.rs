@@ -32,7 +32,8 @@ pub trait BendingRobot<const B: usize, const Q: usize, const V: usize, const M: 
 /// The algorithms of the module for a robot and modes known at compile time: `Bending<Core<T>>` or `Bending<Engine<T>>`.
 ///
 /// The engine folds the integrals of the modes as it does all constants of a robot: of links that bend in the plane in which they
-/// move, most are zero. It takes robots whose joints have one degree of freedom.
+/// move, most are zero. It takes robots of up to 64 joints and modes in all, whose joints have one degree of freedom, and whose
+/// bodies on fixed joints do not bend; others do not compile.
 ///
 /// ```
 /// use dynamics_core::effects::{Elasticity, RIGID_BODY};
@@ -207,7 +208,7 @@ impl<T, K> Bending<Core<T, K>> {
     /// [`ModalFeedforward::tick`].
     ///
     /// # Errors
-    /// [`FlexibleError`] if a number is not finite; the modes are then unchanged.
+    /// Those of [`ModalFeedforward::tick`]; the modes are then unchanged.
     #[inline(never)]
     pub fn tick<R: Table, E, const B: usize, const Q: usize, const V: usize, const M: usize>(
         feedforward: &mut ModalFeedforward<R, M>,
@@ -277,7 +278,7 @@ impl<T, K> Bending<Engine<T, K>> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
-        const { taken::<R, E, B, V>() };
+        const { taken::<T, R, E, B, Q, V, M>() };
         let trig = state
             .configuration()
             .trig_or(Engine::<T, K>::trig_source::<B, V>());
@@ -310,7 +311,7 @@ impl<T, K> Bending<Engine<T, K>> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
-        const { taken::<R, E, B, V>() };
+        const { taken::<T, R, E, B, Q, V, M>() };
         let trig = q.trig_or(Engine::<T, K>::trig_source::<B, V>());
         inertia::<T, R, E, B, Q, V, M>(trig.borrow(), eta, effects)
     }
@@ -322,7 +323,8 @@ impl<T, K> Bending<Engine<T, K>> {
     /// That of [`Bending::rnea`] without accelerations, of [`Bending::crba`], and (V + M)³ / 3 flops.
     ///
     /// # Errors
-    /// [`FlexibleError`] names a joint or a mode that moves no inertia; so it does where an input is NaN.
+    /// [`FlexibleError`] names a joint or a mode that moves no inertia, or whose acceleration is not finite. A coordinate on which
+    /// nothing depends, such as the angle about a vertical axis on the base, is not read.
     ///
     /// ```
     /// # use dynamics_core::flexible::{Beam, BendingRobot, FlexibleLink, Modes, Shape};
@@ -369,7 +371,7 @@ impl<T, K> Bending<Engine<T, K>> {
         E: Effect<R, B, V>,
     {
         const {
-            taken::<R, E, B, V>();
+            taken::<T, R, E, B, Q, V, M>();
             accelerates::<R, E, B, V>();
         };
         let trig = state
@@ -414,7 +416,7 @@ impl<T, K> Bending<Engine<T, K>> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
-        const { taken::<R, E, B, V>() };
+        const { taken::<T, R, E, B, Q, V, M>() };
         let trig = state
             .configuration()
             .trig_or(Engine::<T, K>::trig_source::<B, V>());
@@ -435,7 +437,7 @@ impl<T, K> Bending<Engine<T, K>> {
     /// Two calls of [`Bending::rnea`] and one of [`Bending::modal_dynamics`] without it, sines and cosines once.
     ///
     /// # Errors
-    /// [`FlexibleError`] if a number is not finite; the modes are then unchanged.
+    /// Those of [`ModalFeedforward::tick`]; the modes are then unchanged.
     ///
     /// ```
     /// # use dynamics_core::flexible::{Beam, BendingRobot, FlexibleLink, Modes, Shape};
@@ -475,7 +477,7 @@ impl<T, K> Bending<Engine<T, K>> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
-        const { taken::<R, E, B, V>() };
+        const { taken::<T, R, E, B, Q, V, M>() };
         let trig: JointTrig<R, Q> = Engine::<T, K>::joint_trig(&reference.q);
         let mut bent = feedforward.ahead(h);
         let force = inverse::<T, R, E, B, Q, V, M>(&trig, reference, &bent, effects).modes;
@@ -543,11 +545,13 @@ where
     bending_inertia::<R, CompiledModes<T, B, Q, V, M>, E, B, Q, V, M, false>(trig, eta, effects).2
 }
 
-/// A scene that the engine takes with modes.
-const fn taken<R: Real, E, const B: usize, const V: usize>()
+/// A robot and a scene that the engine takes with modes.
+const fn taken<T, R: Real, E, const B: usize, const Q: usize, const V: usize, const M: usize>()
 where
+    T: BendingRobot<B, Q, V, M>,
     E: Effect<R, B, V>,
 {
+    let _ = CompiledModes::<T, B, Q, V, M>::ENDS;
     let () = Scene::<R, E, B, V>::OF_CORE;
     no_gyroscopic_rotors::<R, E, B, V>();
 }

@@ -4,7 +4,6 @@ use core::marker::PhantomData;
 
 use glam::{DMat3, DVec3};
 
-use super::link::MODES_PER_LINK;
 use super::{BendingRobot, Modes};
 use crate::engine::{
     BendingLink, BendingMode, BendingTree, Bends, BodyPlacement, Compiled, Joint, JointMotion,
@@ -22,12 +21,15 @@ impl<T, const B: usize, const Q: usize, const V: usize, const M: usize> Compiled
 where
     T: BendingRobot<B, Q, V, M>,
 {
-    const ENDS: [Option<DVec3>; B] = {
-        assert!(MODES == MODES_PER_LINK);
-        assert!(
-            V + M <= 64,
-            "the engine takes up to 64 joints and modes; use `Core`"
-        );
+    /// The ends of the links that bend, of a robot that the engine takes with its modes.
+    pub(super) const ENDS: [Option<DVec3>; B] = {
+        if V + M > 64 {
+            Text::EMPTY
+                .with("robot `")
+                .with(T::MODEL.name)
+                .with("`: the engine takes up to 64 joints and modes; use `Core`")
+                .panic();
+        }
         let (mut ends, mut k) = ([None; B], 0);
         while k < M {
             ends[T::MODES.links[k]] = Some(T::MODES.each[k].end);
@@ -36,7 +38,7 @@ where
         taken(T::MODEL.name, &T::MODEL.links, &ends);
         ends
     };
-    const TREE: &'static BendingTree<B, V> = &compile_bending(&T::MODEL, 0.0, &Self::ENDS);
+    const TREE: &'static BendingTree<B, V> = &compile_bending(&T::MODEL, 0.0, Some(&Self::ENDS));
     const MOVING_LINKS: [BendingLink; V] = {
         let BendingTree { tree, on_ends, .. } = Self::TREE;
         let (mut links, mut body) = ([BendingLink::RIGID; V], 0);

@@ -114,7 +114,8 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     /// Two calls of [`rnea()`], one of [`crba`](super::crba()) for the modes alone, and M³ / 3 flops.
     ///
     /// # Errors
-    /// [`FlexibleError::Mode`] if a number is not finite; the modes are then unchanged.
+    /// [`FlexibleError`] names a mode that moves no inertia or whose acceleration is not finite, or a joint whose torque is
+    /// not; the modes are then unchanged.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn tick<D, E, const B: usize, const Q: usize, const V: usize>(
         &mut self,

@@ -10,7 +10,7 @@ use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State, entry};
 
-/// The inertia of joints and modes is not positive definite, or a number is NaN.
+/// The inertia of joints and modes is not positive definite, or a result is not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -42,7 +42,7 @@ impl core::error::Error for FlexibleError {}
 /// That of [`rnea()`] and [`crba()`], and (V + M)³ / 3 flops.
 ///
 /// # Errors
-/// [`FlexibleError`] names a joint or a mode that moves no inertia; so it does where an input is NaN.
+/// [`FlexibleError`] names a joint or a mode that moves no inertia, or whose acceleration is not finite.
 ///
 /// # Example
 /// ```

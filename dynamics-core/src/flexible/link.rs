@@ -2,8 +2,10 @@
 
 use core::fmt;
 
+use crate::engine::MODES;
+
 /// The most modes of one link.
-pub const MODES_PER_LINK: usize = 6;
+pub const MODES_PER_LINK: usize = MODES;
 
 /// A vector, and a matrix by rows, of a description.
 pub(super) type Row = [f64; 3];

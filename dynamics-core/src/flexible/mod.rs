@@ -13,7 +13,7 @@
 //! | [`modal_dynamics`] | accelerations of the modes along a given motion of the joints |
 //! | [`step()`] | a step of simulation, stable for modes of any frequency |
 //! | [`ModalFeedforward`] | torques along a reference, with the modes' motion under it |
-//! | [`Bending`] | all of these but [`step()`] for a robot known at compile time, by the textbook or by the engine |
+//! | [`Bending`] | all of these but [`step()`] and [`ModalFeedforward::at_rest`] for a robot known at compile time, by the textbook or by the engine |
 //!
 //! The torques that move the *joints* along a reference are a sound inverse: the modes move under it as those of links
 //! whose joints are clamped, and settle. The torques that would move the *tip* along one are not: the tip of a link that

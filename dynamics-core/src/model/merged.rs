@@ -45,7 +45,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// [`Model::try_merged`] for `const` items.
     ///
     /// # Panics
-    /// If M is another number than [`Model::moving_bodies`]; in a `const` item that is a compile error.
+    /// As [`Model::try_merged`] has errors; in a `const` item that is a compile error.
     #[track_caller]
     pub const fn merged<const M: usize>(&self) -> Merged<B, M, Q, V> {
         match self.try_merged() {
@@ -84,7 +84,8 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// `places[i].placement`, a wrench on body i by its `transpose_mul` to the carrying body.
     ///
     /// # Errors
-    /// [`Problem::Bodies`] names the robot, if M is another number than [`Model::moving_bodies`].
+    /// [`Problem::Bodies`] names the robot, if M is another number than [`Model::moving_bodies`]; [`Problem::Parent`] names
+    /// a body whose parent is not listed before it: the fields of a model can be changed after its check.
     ///
     /// # Source
     /// RBDA (2008), (2.66), of two bodies that are rigidly connected.
@@ -105,6 +106,12 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
         let (mut count, mut i) = (0, 0);
         while i < B {
             let link = &self.links[i];
+            if link.parent != BASE && link.parent >= i {
+                return Err(ModelError {
+                    body: link.name,
+                    problem: Problem::Parent,
+                });
+            }
             let carrier = if link.parent == BASE {
                 ON_BASE
             } else {

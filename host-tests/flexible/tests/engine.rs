@@ -98,6 +98,24 @@ impl BendingRobot<4, 3, 3, 5> for Flipped {
     );
 }
 
+/// An arm without modes: two parallel axes, 0.4 m apart, and a slide along them.
+struct Scara;
+
+impl Robot<3, 3, 3> for Scara {
+    const MODEL: ArmModel<f64, 3> = ArmModel::new(
+        "scara",
+        [
+            lump("upper", BASE, Joint::revolute([0.0, 0.0, 1.0])),
+            lump("fore", 0, Joint::revolute([0.0, 0.0, 1.0])).xyz([0.4, 0.0, 0.0]),
+            lump("quill", 1, Joint::prismatic([0.0, 0.0, 1.0])),
+        ],
+    );
+}
+
+impl BendingRobot<3, 3, 3, 0> for Scara {
+    const MODES: Modes<f64, 0> = Modes::new(&Self::MODEL, &[]);
+}
+
 /// A drag on each body.
 struct Drag;
 
@@ -215,30 +233,39 @@ fn engine_and_core_bend_alike_under_every_effect() {
     scenes::<Spatial, _, 2, 2, 6>(Payload::<f64, 1>::from_inertia);
     scenes::<Flipped, _, 4, 3, 5>(Payload::<f64, 3>::from_inertia);
     scenes::<Tree, _, 9, 7, 5>(Payload::<f64, 7>::from_inertia);
+    scenes::<Scara, _, 3, 3, 0>(Payload::<f64, 2>::from_inertia);
 }
 
-/// A difference of a part in 10⁹ of one stiffness, one integral or one place is found.
+/// A difference of a part in 10⁹ of the largest stiffness, of one integral or of one place is found.
 #[test]
 fn a_wrong_table_is_found() {
-    struct Off;
-    impl Robot<2, 2, 2> for Off {
+    struct Off<const WHAT: usize>;
+    impl<const WHAT: usize> Robot<2, 2, 2> for Off<WHAT> {
         const MODEL: ArmModel<f64, 2> = Planar::MODEL;
     }
-    impl BendingRobot<2, 2, 2, 4> for Off {
+    impl<const WHAT: usize> BendingRobot<2, 2, 2, 4> for Off<WHAT> {
         const MODES: Modes<f64, 4> = {
             let mut upper = link(&UPPER, 0, &[Shape::BendZ(1), Shape::BendZ(2)]);
-            upper.modes[1].moments[2][0] *= 1.0 + 1e-9;
+            *match WHAT {
+                0 => &mut upper.stiffness[1][1],
+                1 => &mut upper.modes[1].moments[2][0],
+                _ => &mut upper.end[0],
+            } *= 1.0 + 1e-9;
             let lower = link(&LOWER, 1, &[Shape::BendZ(1), Shape::BendZ(2)]);
             Modes::new(&Self::MODEL, &[upper, lower])
         };
     }
     let mut numbers = Numbers::new(5);
     let (state, bent) = (numbers.state::<2>(JOINTS), numbers.state::<4>(MODES));
-    let [right, wrong] = [
-        Bending::<Core<Planar>>::rnea(&state, &bent, &RIGID_BODY),
-        Bending::<Engine<Off>>::rnea(&state, &bent, &RIGID_BODY),
-    ];
-    assert!(apart(&wrong, &right) > 1e-11);
+    let scene = (RIGID_BODY, Elasticity);
+    let right = Bending::<Core<Planar>>::rnea(&state, &bent, &scene);
+    let found = [
+        Bending::<Engine<Off<0>>>::rnea(&state, &bent, &scene),
+        Bending::<Engine<Off<1>>>::rnea(&state, &bent, &scene),
+        Bending::<Engine<Off<2>>>::rnea(&state, &bent, &scene),
+    ]
+    .map(|wrong| apart(&wrong, &right));
+    assert!(found.iter().all(|&error| error > 1e-11), "{found:?}");
 }
 
 #[test]
@@ -278,6 +305,27 @@ fn the_engine_names_modes_that_are_not_finite() {
     bent.qd[1] = f64::INFINITY;
     let found = Bending::<Engine<Planar>>::modal_dynamics(&State::at([0.3; 2]), &bent, &scene);
     assert!(matches!(found, Err(FlexibleError::Mode(_))), "{found:?}");
+}
+
+#[test]
+fn the_engine_does_not_read_a_coordinate_without_effect() {
+    let (scene, bent) = (RIGID_BODY, State::at([]));
+    let state = State {
+        q: [f64::NAN, 0.3, 0.1],
+        qd: [1.0; 3],
+        qdd: [2.0; 3],
+    };
+    let mut feedforward = ModalFeedforward { bent };
+    let tau = Bending::<Engine<Scara>>::tick(&mut feedforward, &state, &scene, 1e-3);
+    let tau = tau.expect("finite torques");
+    let found = Bending::<Engine<Scara>>::forward_dynamics(&state, &bent, &tau, &scene);
+    let found = found.expect("finite accelerations").joints;
+    assert!(
+        found.iter().all(|qdd| (qdd - 2.0).abs() < 1e-12),
+        "{found:?}"
+    );
+    let core = Bending::<Core<Scara>>::forward_dynamics(&state, &bent, &tau, &scene);
+    assert_eq!(core, Err(FlexibleError::Joint(0)));
 }
 
 #[test]

@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 
 use glam::{DMat3, DVec3};
 
+use super::for_each_mode;
 use crate::engine::compile::{
     BodyPlacement, Compiled, CompiledJoint, Joint, JointMotion, mat_add, outer,
 };
@@ -11,11 +12,18 @@ use crate::math::const_eval::{add, scale};
 use crate::model::Link;
 
 /// The most modes of one link.
-pub(crate) const MODES: usize = 6;
+pub(crate) const MODES: usize = {
+    let mut count = 0;
+    for_each_mode!(K, {
+        assert!(K == count);
+        count += 1;
+    });
+    count
+};
 /// What an integral over products of two modes has at most from rounding, of those of the modes themselves.
 const ROUNDING: f64 = 1e-14;
 
-/// A robot whose links bend, compiled. Of each joint, the modes of the body behind it.
+/// A robot whose links bend, compiled, in m. Of each joint, the modes of the body behind it.
 pub(crate) trait Bends: Compiled {
     /// For a base at rest. Of a body that can only turn about z, one integral stands for the sum of two that the equations otherwise
     /// distinguish.

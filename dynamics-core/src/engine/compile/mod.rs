@@ -42,16 +42,22 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
     negligible: f64,
 ) -> CompiledTree<B, V> {
-    compile_bending(model, negligible, &[None; B]).tree
+    compile_bending(model, negligible, None).tree
 }
 
-/// The same of a robot whose links bend: `ends` has the end of each body that does, in its aligned frame. On it are the joints
-/// of its children, whose places are those from the end.
+/// The same of a robot with modes: `ends` has the end of each body that bends, in its aligned frame. On it are the joints of its
+/// children, whose places are those from the end. Without modes there are no ends.
 pub(crate) const fn compile_bending<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
     negligible: f64,
-    ends: &[Option<DVec3>; B],
+    ends: Option<&[Option<DVec3>; B]>,
 ) -> BendingTree<B, V> {
+    // Coordinates of modes are in m, and beside them those of joints.
+    let in_meters = ends.is_some();
+    let ends = match ends {
+        Some(ends) => ends,
+        None => &[None; B],
+    };
     let mut joints = [PADDING_JOINT; V];
     let mut places = [AT_BASE; B];
     let mut bent = [None; V];
@@ -116,8 +122,7 @@ pub(crate) const fn compile_bending<const B: usize, const Q: usize, const V: usi
     regroup(&mut joints, &bent, &mut on_ends);
     prune(&mut joints, negligible);
     regroup_for_matrix(&mut joints);
-    // Coordinates of modes are in m.
-    let length = if bends(ends) {
+    let length = if in_meters {
         1.0
     } else {
         unit_of_length(&joints)
@@ -148,17 +153,6 @@ pub(crate) const fn compile_bending<const B: usize, const Q: usize, const V: usi
         on_ends,
         is_on_end,
     }
-}
-
-const fn bends(ends: &[Option<DVec3>]) -> bool {
-    let mut i = 0;
-    while i < ends.len() {
-        if ends[i].is_some() {
-            return true;
-        }
-        i += 1;
-    }
-    false
 }
 
 const fn end_of(ends: &[Option<DVec3>], body: usize) -> Option<DVec3> {

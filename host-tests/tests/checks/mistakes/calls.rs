@@ -2,7 +2,8 @@
 
 use dynamics_core::algorithms;
 use dynamics_core::effects::*;
-use dynamics_core::model::{ArmModel, Calibrated};
+use dynamics_core::flexible::{Beam, Bending, BendingRobot, FlexibleLink, Modes, Shape};
+use dynamics_core::model::{ArmModel, BASE, Body, Calibrated, Joint, Model, Robot};
 use dynamics_core::robots::{Iiwa14, Panda, Ur5e};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
@@ -26,6 +27,37 @@ pub fn base_parameters(at: &State<f64, 7, 7>, other: Calibrated<Iiwa14, f64, 7, 
     let Ok(base) = Engine::<Iiwa14>::base_parameters(&other, &()) else { return };
     let _ = Engine::<Panda>::rnea(at, &(RIGID_BODY, base)); //~ the base parameters are those of another robot
     let _ = Core::<Iiwa14>::rnea(at, &(RIGID_BODY, base)); //~ base parameters are the engine's
+}
+
+const BEAM: Beam = Beam::new(0.5, 0.8).bending([4.0, 4.0]);
+const fn rod(joint: Joint<f64>) -> Body {
+    Body::new("rod", BASE, joint).mass(BEAM.mass()).com(BEAM.com()).inertia(BEAM.inertia())
+}
+const ROD: Body = rod(Joint::revolute([0.0, 1.0, 0.0]));
+const fn bends(body: usize) -> FlexibleLink {
+    match BEAM.link(body, &[Shape::BendZ(1)]) { Ok(link) => link, Err(_) => panic!() }
+}
+
+pub struct Comb;
+impl Robot<64, 64, 64> for Comb {
+    const MODEL: ArmModel<f64, 64> = Model::new("comb", [ROD; 64]);
+}
+impl BendingRobot<64, 64, 64, 1> for Comb {
+    const MODES: Modes<f64, 1> = Modes::new(&Self::MODEL, &[bends(0)]);
+}
+
+pub struct Mast;
+impl Robot<2, 1, 1> for Mast {
+    const MODEL: Model<f64, 2, 1, 1> = Model::new("mast", [ROD, rod(Joint::fixed())]);
+}
+impl BendingRobot<2, 1, 1, 1> for Mast {
+    const MODES: Modes<f64, 1> = Modes::new(&Self::MODEL, &[bends(1)]);
+}
+
+pub fn bent(comb: &State<f32, 64, 64>, mast: &State<f32, 1, 1>) {
+    let _ = Bending::<Engine<Comb>>::rnea(comb, mast, &RIGID_BODY); //~ robot `comb`: the engine takes up to 64 joints and modes; use `Core`
+    let _ = Bending::<Engine<Mast>>::rnea(mast, mast, &RIGID_BODY); //~ robot `mast`, body `rod`: a body on a fixed joint bends, which the engine does not take beside modes
+    let _ = Bending::<Core<Mast>>::rnea(mast, mast, &RIGID_BODY);
 }
 
 /// The hook is forgotten.

@@ -232,8 +232,8 @@ impl Bounder {
         }
     }
 
-    /// The derivatives of a quotient or root by its operands, at any point between exact and computed values. |a| has none at zero, but the mean value
-    /// theorem with any number from −1 to 1 there (Lebourg 1975).
+    /// The derivatives of a quotient, a root or an absolute value by its operands, at any point between exact and computed values. |a| has none at zero;
+    /// the mean value theorem holds with a number from −1 to 1 there (Lebourg 1975).
     fn slopes_of(&self, k: usize) -> [Interval; 2] {
         let (values, one) = (&self.values, Interval::point(1.0));
         let first = match self.graph.nodes[k] {

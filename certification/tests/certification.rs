@@ -41,7 +41,7 @@ use dynamics_core::effects::{Gravity, RIGID_BODY};
 use dynamics_core::model::Robot as _;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
-use recorded::{BASE, GRAVITY, LITTLE, RNEA, SINES, bytes, graph, robot};
+use recorded::{BASE, GRAVITY, LITTLE, RNEA, SINES, bytes, gappa_is_installed, graph, robot};
 
 /// Assembled by hand: `good` at 0, `loop` at 0x30, `convert` at 0x44, `spoil` at 0x4e.
 const CODE: &str = "80b591ed010ad1ed020a92ed011a60ee011a20ee812a71eee01af6ee082a22ee622ac0ed001a32ee212a80ed012a80bd032391ed010a30ee000a013b\
@@ -292,12 +292,7 @@ fn intervals_are_rounded_outward() {
 /// Twenty scripts with one thing wrong each, of one that is right.
 #[test]
 fn gappa_accepts_a_part_and_rejects_corrupted_ones() {
-    if std::process::Command::new("gappa")
-        .arg("--version")
-        .output()
-        .is_err()
-    {
-        eprintln!("not tested: Gappa is not installed (Debian: gappa)");
+    if !gappa_is_installed() {
         return;
     }
     let (graph, robot) = (graph(GRAVITY), robot(6));

@@ -23,7 +23,7 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::state::State;
 use firmware_demo::robots::FourBarLeg;
 
-use super::recorded::{BASE, LITTLE, SINES, bytes, robot};
+use super::recorded::{BASE, LITTLE, SINES, bytes, gappa_is_installed, robot};
 
 /// `Clustered::<Engine<FourBarLeg>>::rnea` with its kernel of sines as a call, behind a function that passes the gravity.
 const FOUR_BAR: &str = include_str!("four_bar.hex");
@@ -212,12 +212,7 @@ fn a_box_with_a_singular_posture_is_declined() {
 
 #[test]
 fn gappa_checks_quotients_and_roots_and_refuses_wrong_ones() {
-    if std::process::Command::new("gappa")
-        .arg("--version")
-        .output()
-        .is_err()
-    {
-        eprintln!("not tested: Gappa is not installed (Debian: gappa)");
+    if !gappa_is_installed() {
         return;
     }
     let (walked, robot) = (four_bar(), leg(0.6));

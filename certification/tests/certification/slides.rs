@@ -19,7 +19,7 @@ use dynamics_core::model::{BASE as NONE, Body, Joint as Of, Model, Robot as _};
 use dynamics_core::state::State;
 
 use super::limits;
-use super::recorded::{BASE, EFFECTS, LITTLE, SINES, bytes, robot};
+use super::recorded::{BASE, EFFECTS, LITTLE, SINES, bytes, gappa_is_installed, robot};
 
 /// Assembled by hand: |3 x − 1|.
 const CODE: &str = "92ed000af0ee080a20ee200af7ee000a30ee600ab0eec00a80ed000a7047";
@@ -76,12 +76,7 @@ fn an_absolute_value_has_the_error_of_its_operand() {
 
 #[test]
 fn gappa_checks_an_absolute_value_and_refuses_wrong_ones() {
-    if std::process::Command::new("gappa")
-        .arg("--version")
-        .output()
-        .is_err()
-    {
-        eprintln!("not tested: Gappa is not installed (Debian: gappa)");
+    if !gappa_is_installed() {
         return;
     }
     let walked = walk(&Image::of(BASE, &bytes(CODE)), BASE, [None; 4]);

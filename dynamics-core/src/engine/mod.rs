@@ -103,7 +103,7 @@ pub(crate) use compile::{
 };
 use gate::EngineScene;
 pub(crate) use rnea::joint_state;
-use rnea::torques;
+use rnea::{torques, write_torques};
 pub(crate) use subtree::has_subtree_functions;
 
 /// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel `K`.
@@ -219,7 +219,7 @@ impl<T, K> Engine<T, K> {
         } else {
             trig
         };
-        Engine::<T>::run(trig, back, state.state(), effects)
+        torques::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(trig, back, state.state(), effects)
     }
 }
 
@@ -246,7 +246,7 @@ where
 }
 
 impl<T> Engine<T> {
-    /// The recursion of [`rnea`]; `back` is `trig` as the inward pass loads it.
+    /// The recursion of [`rnea`] for clusters, whose sines are known; `back` is `trig` as the inward pass loads it.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn run<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         trig: &JointTrig<R, Q>,
@@ -259,6 +259,10 @@ impl<T> Engine<T> {
         E: Effect<R, B, V>,
     {
         const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        torques::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(trig, back, state, effects)
+        let mut tau = [R::ZERO; V];
+        write_torques::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(
+            trig, back, state, effects, &mut tau,
+        );
+        tau
     }
 }

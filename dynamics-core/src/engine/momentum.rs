@@ -148,9 +148,12 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    let mut result = MomentumAndDrift {
-        p: [R::ZERO; V],
-        beta: [R::ZERO; V],
+    // A constant, as in `rnea`.
+    let mut result = const {
+        MomentumAndDrift {
+            p: [R::ZERO; V],
+            beta: [R::ZERO; V],
+        }
     };
     let mut base = unaccelerated::<R, E, B, V>(effects, C::LENGTH);
     if !DRIFT {

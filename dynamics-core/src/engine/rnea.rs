@@ -42,14 +42,32 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
+    // A constant: behind a loop that clears the torques the compiler would reverse the order of the sines and spill more of them.
+    let mut tau = const { [R::ZERO; V] };
+    write_torques::<R, C, E, B, Q, V>(trig, back, state, effects, &mut tau);
+    tau
+}
+
+/// The same into `tau`, which holds zeros.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn write_torques<R, C, E, const B: usize, const Q: usize, const V: usize>(
+    trig: &JointTrig<R, Q>,
+    back: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    effects: &E,
+    tau: &mut [R; V],
+) where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
     let base = base::<R, E, B, V>(effects, C::LENGTH);
-    let mut tau = [R::ZERO; V];
     let mut task = Task {
         turns: &trig.coordinates,
         back: &back.coordinates,
         state,
         effects,
-        tau: &mut tau,
+        tau,
     };
     for_each_joint!(J, {
         if const { CompiledJoint::<C, J>::IS_ON_BASE && !has_subtree_functions::<C>(E::WRENCH) }
@@ -73,7 +91,6 @@ where
             visit(&mut task);
         }
     });
-    tau
 }
 
 /// A function that visits a joint.
@@ -169,8 +186,8 @@ where
         let at = Displacement::of::<C, Q, I>(task.turns);
         return (at, parent.across_several::<C, I>(&at, &rates));
     }
-    // Rates are loaded before sines and cosines.
-    let (qd, qdd) = (qd[I], qdd[I]);
+    // Rates are loaded before sines and cosines, and q̈ first: less is spilled.
+    let (qdd, qd) = (qdd[I], qd[I]);
     let unit = if joint.prismatic {
         Folded::constant(C::LENGTH_INV)
     } else {

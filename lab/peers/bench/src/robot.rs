@@ -11,8 +11,9 @@ use crate::ours::Merged;
 use crate::subject::{Row, Subject, interleaved};
 use crate::{Manifest, dynibo, foreign, ours};
 
-/// States in a timed batch; the recording is gone through again until there are so many.
-const BATCH: usize = 256;
+/// States in a timed batch; the recording is gone through again until there are so many. All matrices of a G1 then fit into a
+/// cache of 1 MiB, as one does in a control loop: of 256, the time of storing them differed from one start to the next.
+const BATCH: usize = 64;
 
 /// Ours in f64, and in f32 if that is compared, over a robot that is known while compiling.
 pub type Known<const Q: usize, const V: usize> =

@@ -42,3 +42,6 @@ pub(super) fn bounded(r: f32, inside: bool, x: f32) -> f32 {
 /// Whether the processor computes several numbers at once, so that sines of several joints together take less time than one by
 /// one.
 pub(crate) const VECTORS: bool = cfg!(any(target_feature = "sse2", target_feature = "neon"));
+
+/// Whether it also loads several numbers from places of their own at once.
+pub(super) const GATHERS: bool = cfg!(target_feature = "avx2");

@@ -1,7 +1,7 @@
 //! A table of one turn, and Taylor's polynomials from its nearest entry.
 
 use super::Kernel;
-use super::kernel::bounded;
+use super::kernel::{GATHERS, bounded};
 use crate::math::const_eval;
 
 /// Sine and cosine of the nearest of `N` (a power of two) angles of a turn, turned on by the rest r, |r| ≤ π/N, by
@@ -62,6 +62,17 @@ impl<const N: usize, const ORDER: usize, const PARTS: usize> Table<N, ORDER, PAR
         entries
     };
 
+    /// The same as words, the sine's bits below those of the cosine: one gather loads both, where of pairs it would load one.
+    const WORDS: [u64; N] = {
+        let (mut words, mut k) = ([0; N], 0);
+        while k < N {
+            let Pair { sin, cos } = Self::ENTRIES[k];
+            words[k] = ((cos.to_bits() as u64) << 32) | sin.to_bits() as u64;
+            k += 1;
+        }
+        words
+    };
+
     /// 2π/N in parts, all but the last so short that they are exact times k: 11 bits for |k| < 2¹³, 6 for 2¹⁸.
     const STEP: [f32; PARTS] = {
         let short = if PARTS == 2 { 0x1fff } else { 0x3_ffff };
@@ -107,7 +118,15 @@ impl<const N: usize, const ORDER: usize, const PARTS: usize> Kernel<f32>
             }
         };
         let r = bounded(r, t.to_bits() & OUTSIDE == 0, x);
-        let Pair { sin: s, cos: c } = const { &Self::ENTRIES }[at];
+        let Pair { sin: s, cos: c } = if GATHERS {
+            let word = (const { &Self::WORDS })[at];
+            Pair {
+                sin: f32::from_bits(word as u32),
+                cos: f32::from_bits((word >> 32) as u32),
+            }
+        } else {
+            (const { &Self::ENTRIES })[at]
+        };
         let u = r * r;
         let sixth = || r + r * (u * (-1.0 / 6.0));
         // sin r and cos r − 1.

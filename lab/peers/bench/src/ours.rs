@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 
 use dynamics_core::algorithms::frame::Local;
 use dynamics_core::algorithms::{self, NotPositiveDefinite, OsimInverse};
-use dynamics_core::effects::{Coriolis, Effect, Gravity, RIGID_BODY};
+use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
 use dynamics_core::model::{Model, OnBody, Robot, model};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::Force;
@@ -64,10 +64,20 @@ pub fn inverse<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, const
     algorithm: &str,
     states: &[State<R, Q, V>],
 ) -> Vec<Subject<R>> {
+    // The scene is a constant of each call, as in firmware.
     match algorithm {
-        "rnea" => under::<T, R, _, B, Q, V>(states, &RIGID_BODY),
-        "bias" => under::<T, R, _, B, Q, V>(states, &BIAS),
-        "gravity" => under::<T, R, _, B, Q, V>(states, &GRAVITY),
+        "rnea" => vec![
+            rows("core", states, |s| Core::<T>::rnea(s, &RIGID_BODY)),
+            rows("engine", states, |s| Engine::<T>::rnea(s, &RIGID_BODY)),
+        ],
+        "bias" => vec![
+            rows("core", states, |s| Core::<T>::rnea(s, &BIAS)),
+            rows("engine", states, |s| Engine::<T>::rnea(s, &BIAS)),
+        ],
+        "gravity" => vec![
+            rows("core", states, |s| Core::<T>::rnea(s, &GRAVITY)),
+            rows("engine", states, |s| Engine::<T>::rnea(s, &GRAVITY)),
+        ],
         _ => Vec::new(),
     }
 }
@@ -78,7 +88,7 @@ pub fn dynamics<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, cons
     states: &[State<R, Q, V>],
 ) -> Vec<Subject<R>> {
     match algorithm {
-        "rnea" => under::<T, R, _, B, Q, V>(states, &RIGID_BODY),
+        "rnea" => inverse::<T, R, B, Q, V>(algorithm, states),
         "crba" => vec![
             squares("core", states, |s| Core::<T>::crba(&s.q, &RIGID_BODY)),
             squares("engine", states, |s| Engine::<T>::crba(&s.q, &RIGID_BODY)),
@@ -113,20 +123,6 @@ pub fn arm<T: Robot<B, N, N>, R: Real, const B: usize, const N: usize, const TIP
         ],
         _ => inverse::<T, R, B, N, N>(algorithm, states),
     }
-}
-
-fn under<T, R: Real, E, const B: usize, const Q: usize, const V: usize>(
-    states: &[State<R, Q, V>],
-    effects: &'static E,
-) -> Vec<Subject<R>>
-where
-    T: Robot<B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    vec![
-        rows("core", states, |s| Core::<T>::rnea(s, effects)),
-        rows("engine", states, |s| Engine::<T>::rnea(s, effects)),
-    ]
 }
 
 /// A function that gives N numbers a state.

@@ -260,22 +260,27 @@ const tests = {
       const scale = Math.max(1, ...double.map(Math.abs));
       must(single.every((x, i) => Math.abs(x - double[i]) < 1e-4 * scale), `${key}: f32 ${single} f64 ${double}`);
     }
-    await page.select("#robot", "ur5e");
-    const ways = await page.evaluate(async () => {
-      const found = [];
-      for (let i = 0; i <= Number(document.getElementById("way").max); i++) {
-        const slider = document.getElementById("way");
-        slider.value = i;
-        slider.dispatchEvent(new Event("input"));
-        await new Promise((done) => setTimeout(done, 260));
-        await play.work(1);
-        found.push([document.getElementById("way-name").textContent, document.getElementById("way-now").textContent]);
-      }
-      return found;
-    });
-    must(ways.length > 5 && ways.every(([, now]) => now.endsWith("N·m")), `ways without an error of now: ${ways.join("; ")}`);
+    const ways = [];
+    for (const key of ["ur5e", "panda", "a1_leg"].filter((key) => keys.includes(key))) {
+      await page.select("#robot", key);
+      await settled(page);
+      const found = await page.evaluate(async () => {
+        const found = [];
+        for (let i = 0; i <= Number(document.getElementById("way").max); i++) {
+          const slider = document.getElementById("way");
+          slider.value = i;
+          slider.dispatchEvent(new Event("input"));
+          await new Promise((done) => setTimeout(done, 260));
+          await play.work(1);
+          found.push([document.getElementById("way-name").textContent, document.getElementById("way-now").textContent]);
+        }
+        return found;
+      });
+      must(found.length > 5 && found.every(([, now]) => now.endsWith("N·m")), `${key}: ways without an error of now: ${found.join("; ")}`);
+      ways.push(...found);
+    }
     must(problems.length === 0, `errors on the page: ${problems}`);
-    say("moves", `${keys.length} robots, ${ways.length} ways of the UR5e's front, keyboard and pointer`);
+    say("moves", `${keys.length} robots, ${ways.length} ways of the robots' fronts, keyboard and pointer`);
     await page.close();
   },
 

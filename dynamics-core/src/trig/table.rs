@@ -139,3 +139,17 @@ impl<const N: usize, const ORDER: usize, const PARTS: usize> Kernel<f32>
         (s + (s * dc + c * ds), c + (c * dc - s * ds))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Table;
+
+    #[test]
+    fn a_word_has_the_bits_of_its_pair() {
+        type Default = Table<128, 3>;
+        for (word, pair) in Default::WORDS.iter().zip(Default::ENTRIES) {
+            let (low, high) = (*word as u32, (word >> 32) as u32);
+            assert_eq!((low, high), (pair.sin.to_bits(), pair.cos.to_bits()));
+        }
+    }
+}

@@ -259,6 +259,7 @@ impl<T> Engine<T> {
         E: Effect<R, B, V>,
     {
         const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        // Not a constant, as in `torques`: where sines are known it costs instructions (decision 13).
         let mut tau = [R::ZERO; V];
         write_torques::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(
             trig, back, state, effects, &mut tau,

@@ -148,7 +148,7 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    // A constant, as in `rnea`.
+    // A constant, for the order of the sines: see `torques` of `rnea`.
     let mut result = const {
         MomentumAndDrift {
             p: [R::ZERO; V],

@@ -48,7 +48,7 @@ where
     tau
 }
 
-/// The same into `tau`, which holds zeros.
+/// The torques of [`torques`], written into `tau`, which holds zeros.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn write_torques<R, C, E, const B: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,

@@ -43,5 +43,5 @@ pub(super) fn bounded(r: f32, inside: bool, x: f32) -> f32 {
 /// one.
 pub(crate) const VECTORS: bool = cfg!(any(target_feature = "sse2", target_feature = "neon"));
 
-/// Whether it also loads several numbers from places of their own at once.
+/// Whether the processor has gathers, which load several numbers at once, each from an address of its own.
 pub(super) const GATHERS: bool = cfg!(target_feature = "avx2");

@@ -62,7 +62,8 @@ impl<const N: usize, const ORDER: usize, const PARTS: usize> Table<N, ORDER, PAR
         entries
     };
 
-    /// The same as words, the sine's bits below those of the cosine: one gather loads both, where of pairs it would load one.
+    /// The same entries as words, the sine in the low half: LLVM loads sines and cosines of several angles by one gather, where it takes a
+    /// second one for the cosines of pairs.
     const WORDS: [u64; N] = {
         let (mut words, mut k) = ([0; N], 0);
         while k < N {

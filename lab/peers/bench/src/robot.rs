@@ -11,8 +11,8 @@ use crate::ours::Merged;
 use crate::subject::{Row, Subject, interleaved};
 use crate::{Manifest, dynibo, foreign, ours};
 
-/// States in a timed batch; the recording is gone through again until there are so many. All matrices of a G1 then fit into a
-/// cache of 1 MiB, as one does in a control loop: of 256, the time of storing them differed from one start to the next.
+/// States in a timed batch; the recording is gone through again until there are so many. The matrices of a G1 then fit into a cache
+/// of 1 MiB, as the one of a control loop does; those of 256 states did not, and times differed by a fifth between starts.
 const BATCH: usize = 64;
 
 /// Ours in f64, and in f32 if that is compared, over a robot that is known while compiling.

@@ -76,7 +76,7 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 #[doc(alias = "forward dynamics")]
 #[doc(alias = "FDab")]
 #[doc(alias = "FD")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: impl RobotState<R, Q, V>,
@@ -136,7 +136,7 @@ pub(super) struct JointFactor<R: Real> {
 }
 
 /// The three passes of table 7.1; each coordinate's torque or its acceleration is `given`.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
@@ -174,7 +174,7 @@ where
 }
 
 /// Pass 1: vᵢ, cᵢ = v × S q̇ + S̊ q̇, and, of each body alone, Iᴬ = I and pᴬ = v ×* I v − fˣ.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn outward_velocities<'a, R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &'a D,
     trig: &JointTrig<R, Q>,
@@ -227,7 +227,7 @@ fn outward_velocities<'a, R: Real, D, E, const B: usize, const Q: usize, const V
 }
 
 /// Pass 2: Iᴬ and pᴬ of every articulated body, and U, D and u of every coordinate.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn inward_inertias<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     bodies: &mut [Body<'_, R>],
@@ -286,7 +286,7 @@ where
 }
 
 /// Pass 3: q̈ᵢ = D⁻¹ (u − Uᵀ a′) with a′ = X a_λ + c, and aᵢ = a′ + S q̈. The factors are used in reverse order.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[allow(
     clippy::too_many_arguments,
     reason = "what the other two passes have left, and what they had"
@@ -342,7 +342,7 @@ where
 /// Whether a body is decoupled from its parent: no constraint, no prescribed motion, no inertia at the joint.
 ///
 /// The body's acceleration is then independent of the parent's; without it free fall is exact.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn is_free<R: Real, E, const B: usize, const V: usize>(
     link: &LinkView<'_, R>,
     effects: &E,

@@ -27,7 +27,7 @@ pub(super) struct ArticulatedPass<R: Real, const B: usize, const V: usize> {
 }
 
 /// Eliminates every coordinate, from the tips to the base. Some 390 flops per revolute joint.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn eliminate<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     turns: &[JointCoordinate<R>; Q],

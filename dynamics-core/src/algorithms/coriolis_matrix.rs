@@ -74,7 +74,7 @@ struct Body<'a, R: Real> {
 /// ```
 #[doc(alias = "Christoffel symbols")]
 #[doc(alias = "computeCoriolisMatrix")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn coriolis_matrix<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

@@ -49,7 +49,7 @@ use crate::state::{Configuration, JointTrig};
 #[doc(alias = "JSIM")]
 #[doc(alias = "inertia matrix")]
 #[doc(alias = "mass matrix")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn crba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -90,7 +90,7 @@ struct Body<'a, R: Real> {
 }
 
 /// The two passes.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,

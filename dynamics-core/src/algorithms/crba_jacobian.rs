@@ -54,7 +54,7 @@ struct Body<'a, R: Real> {
 /// assert_eq!(jacobian[5].lin.length(), 0.0); // the last joint does not move its own origin
 /// ```
 #[doc(alias = "modified composite-rigid-body method")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn crba_jacobian<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

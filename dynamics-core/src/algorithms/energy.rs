@@ -35,7 +35,7 @@ use crate::state::{Configuration, RobotState, entry};
 /// let energy = |state| kinetic_energy(&Ur5e::MODEL, state, &());
 /// assert_eq!(energy(&twice), 4.0 * energy(&turning));
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn kinetic_energy<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -91,7 +91,7 @@ where
 /// let energy = |lift| potential_energy(&Ur5e::MODEL, &[0.0, lift, 0.0, 0.0, 0.0, 0.0], &Gravity::EARTH);
 /// assert!(energy(-1.57_f64) > energy(0.0) + 50.0); // upright
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn potential_energy<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

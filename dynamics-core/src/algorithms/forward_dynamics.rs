@@ -46,7 +46,7 @@ use crate::state::{Configuration, RobotState};
 /// As [`ltdl`].
 #[doc(alias = "forward_dynamics_crba")]
 #[doc(alias = "FDcrb")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn forward_dynamics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: impl RobotState<R, Q, V>,

@@ -44,7 +44,7 @@ use crate::state::{Configuration, RobotState, State, entry};
 /// # Errors
 /// [`NotPositiveDefinite`] names a coordinate with a given torque that moves no inertia, as [`aba`](super::aba()) does.
 #[doc(alias = "HD")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn hybrid_dynamics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: impl RobotState<R, Q, V>,
@@ -68,7 +68,7 @@ where
 }
 
 /// Pass 2 of a coordinate with a prescribed motion, which stays part of the articulated body: pᴬ + U q̈, U and sᵀ pᴬ.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn prescribed_factor<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,
@@ -87,7 +87,7 @@ where
 }
 
 /// Pass 3 of a coordinate with a prescribed motion: its torque, from the load Uᵀ a′ + sᵀ U q̈ + sᵀ pᴬ of the articulated body.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn prescribed_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,

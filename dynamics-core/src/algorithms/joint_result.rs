@@ -35,7 +35,7 @@ impl<R: Real, const V: usize> JointResult<R, V> {
         qdd: [R::ZERO; V],
     };
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn set(&mut self, joint: usize, tau: R, qdd: R) {
         if let (Some(t), Some(a)) = (self.tau.get_mut(joint), self.qdd.get_mut(joint)) {
             (*t, *a) = (tau, qdd);
@@ -43,7 +43,7 @@ impl<R: Real, const V: usize> JointResult<R, V> {
     }
 
     /// Sets the accelerations of a free joint: those of the body relative to its parent's.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn set_relative(&mut self, link: &LinkView<'_, R>, a: Motion<R>, parent: Motion<R>) {
         let [ang, lin] = [a.ang - parent.ang, a.lin - parent.lin].map(R::Vec3::array);
         for (joint, &qdd) in link.coordinates().zip(ang.iter().chain(&lin)) {

@@ -34,7 +34,7 @@ pub(crate) struct Magnitude<R> {
 }
 
 impl<R: Real> From<&SpatialInertia<R>> for Magnitude<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn from(body: &SpatialInertia<R>) -> Self {
         let [x, y, z] = body.rotational.cols().map(Vector::array);
         Self {
@@ -46,7 +46,7 @@ impl<R: Real> From<&SpatialInertia<R>> for Magnitude<R> {
 }
 
 impl<R: Real> AddAssign for Magnitude<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add_assign(&mut self, o: Self) {
         self.mass += o.mass;
         self.first_moment += o.first_moment;
@@ -56,13 +56,13 @@ impl<R: Real> AddAssign for Magnitude<R> {
 
 impl<R: Real> Magnitude<R> {
     /// The same about the origin of the parent's frame, from which the body's is at `pos`. 10 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn at_parent(&self, pos: R::Vec3) -> Self {
         self.at_distance(length::<R>(pos))
     }
 
     /// The same about a point at most `r` away. 7 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn at_distance(&self, r: R) -> Self {
         let moment = self.first_moment + r * self.mass;
         Self {
@@ -73,7 +73,7 @@ impl<R: Real> Magnitude<R> {
     }
 
     /// The largest sᵀ Iᶜ s.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn along(&self, s: &MotionSubspace<R>) -> R {
         match s {
             MotionSubspace::RevoluteZ => self.second,
@@ -86,7 +86,7 @@ impl<R: Real> Magnitude<R> {
 }
 
 /// |x| + |y| + |z|, a bound of the length without a root.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn length<R: Real>(v: R::Vec3) -> R {
     let [x, y, z] = v.array();
     x.abs() + y.abs() + z.abs()
@@ -101,7 +101,7 @@ pub(super) struct PivotCheck<R> {
 
 impl<R: Real> PivotCheck<R> {
     /// Of a joint that moves bodies of `magnitude`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(magnitude: Magnitude<R>) -> Self {
         let inherited = [R::ZERO; MOST];
         Self {
@@ -112,7 +112,7 @@ impl<R: Real> PivotCheck<R> {
 
     /// Whether `d`, the pivot of coordinate `k` of the joint, which is coordinate `joint` of the robot, is not NaN and
     /// exceeds rounding errors.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn check(
         &mut self,
         (link, k): (&LinkView<'_, R>, usize),

@@ -56,7 +56,7 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 #[doc(alias = "computed torque")]
 #[doc(alias = "inverse dynamics")]
 #[doc(alias = "ID")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn rnea<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -97,7 +97,7 @@ struct Body<R: Real> {
 }
 
 /// The two passes.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
@@ -177,7 +177,7 @@ where
 }
 
 /// vᵢ from X v_λ; zero if no effect needs velocities. Featherstone & Orin (3).
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn velocity<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     _: &E,
     link: &LinkView<'_, R>,
@@ -197,7 +197,7 @@ where
 
 /// aᵢ from X a_parent: S q̈ with [`crate::effects::Inertia`], S̊ q̇ + v × S q̇ with [`crate::effects::Coriolis`].
 /// Featherstone & Orin (4).
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn acceleration<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     _: &E,
     link: &LinkView<'_, R>,
@@ -219,7 +219,7 @@ where
 }
 
 /// Iᵢ aᵢ + vᵢ ×* Iᵢ vᵢ, as far as the effects need it. Featherstone & Orin (5).
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn net_force<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     i: usize,
@@ -242,7 +242,7 @@ where
 }
 
 /// fˣ, the wrench of the environment on body `i`; zero if no effect has one. Featherstone & Orin (6).
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn external_force<R: Real, E, T: Topology, const B: usize, const V: usize>(
     effects: &E,
     i: usize,

@@ -78,7 +78,7 @@ struct Body<R: Real> {
 #[doc(alias = "modified Newton-Euler")]
 #[doc(alias = "Christoffel symbols")]
 #[doc(alias = "passivity-based control")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn rnea_two_velocities<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

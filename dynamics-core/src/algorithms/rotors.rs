@@ -11,7 +11,7 @@ use crate::state::{State, entry};
 
 /// The couple that the rotor of a joint exerts on the parent link, in the body's frame, and the torque at the rotor due
 /// to the parent's acceleration, ρ I z·α_λ.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn rotor<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,
@@ -36,7 +36,7 @@ where
 }
 
 /// U, and the force of the rotor's spin: mounted on the parent's side of the joint, it rotates with the joint's q̈.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn with_rotor<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,

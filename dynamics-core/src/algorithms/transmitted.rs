@@ -34,7 +34,7 @@ use crate::state::State;
 /// # Source
 /// Duclusaud, Passault, Padois & Ly, "Extended friction models for the physics simulation of servo actuators" (2025).
 #[doc(alias = "gear efficiency")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn transmitted_torque<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

@@ -35,7 +35,7 @@ pub(crate) struct PerBody<A, T, const B: usize> {
 }
 
 /// The base's quantity, for the bodies of `robot` to follow.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn per_body<A: Copy, D, R: Real, const B: usize, const Q: usize, const V: usize>(
     _: &D,
     base: A,
@@ -53,7 +53,7 @@ where
 
 impl<A: Copy, T: Topology, const B: usize> PerBody<A, T, B> {
     /// That of the parent of `link`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn parent<R: Real>(&self, link: &LinkView<'_, R>) -> A {
         if T::CHAIN {
             self.last
@@ -63,7 +63,7 @@ impl<A: Copy, T: Topology, const B: usize> PerBody<A, T, B> {
     }
 
     /// Adds that of the next body.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn push(&mut self, value: A) {
         if T::CHAIN {
             self.last = value;
@@ -76,12 +76,12 @@ impl<A: Copy, T: Topology, const B: usize> PerBody<A, T, B> {
 /// A value that a body stores: on processors with vectors a copy that `complete` has changed, elsewhere the value in its place, which takes
 /// less code.
 #[cfg(any(target_feature = "sse2", target_feature = "neon"))]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn read<T: Copy>(stored: &T, complete: impl FnOnce(T) -> T) -> impl Deref<Target = T> {
     struct Completed<T>(T);
     impl<T> Deref for Completed<T> {
         type Target = T;
-        #[cfg_attr(not(debug_assertions), inline(always))]
+        #[cfg_attr(optimised, inline(always))]
         fn deref(&self) -> &T {
             &self.0
         }
@@ -91,7 +91,7 @@ fn read<T: Copy>(stored: &T, complete: impl FnOnce(T) -> T) -> impl Deref<Target
 }
 
 #[cfg(not(any(target_feature = "sse2", target_feature = "neon")))]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn read<T: Copy>(stored: &T, _: impl FnOnce(T) -> T) -> impl Deref<Target = T> {
     // Or a sum that was passed on would be lost.
     const { assert!(!VECTORS) };
@@ -99,7 +99,7 @@ fn read<T: Copy>(stored: &T, _: impl FnOnce(T) -> T) -> impl Deref<Target = T> {
 }
 
 /// A link that was stored, of a `robot` whose kinds of joint are known at compile time: the compiler does not see them in memory.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn recalled<'a, D, R: Real, const B: usize, const Q: usize, const V: usize>(
     _: &D,
     link: &LinkView<'a, R>,
@@ -122,7 +122,7 @@ impl<A: Copy + AddAssign> Passed<A> {
     pub(crate) const NONE: Self = Self(None);
 
     /// The complete sum of the body that the pass has come to, which has stored its `own`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn onto<'a>(&mut self, own: &'a A) -> impl Deref<Target = A> + use<'a, A> {
         let passed = if VECTORS { self.0.take() } else { None };
         read(own, move |mut sum| {
@@ -134,7 +134,7 @@ impl<A: Copy + AddAssign> Passed<A> {
     }
 
     /// Adds what the body `i`, `link`, has for the `sum` of its parent.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn add<R: Real>(&mut self, link: &LinkView<'_, R>, i: usize, sum: &mut A, value: A) {
         if VECTORS && link.parent.wrapping_add(1) == i {
             self.0 = Some(value);
@@ -148,14 +148,14 @@ impl<A: Copy + AddAssign> Passed<A> {
 pub(crate) struct Inward<'a, A>(&'a mut [A]);
 
 /// From the last body to the first.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn inward<A>(bodies: &mut [A]) -> Inward<'_, A> {
     Inward(bodies)
 }
 
 impl<'a, A> Inward<'a, A> {
     /// The next body, and those before it, among which is its parent: their count is the body's number.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn next(&mut self) -> Option<(&'a mut A, &mut [A])> {
         let (body, before) = core::mem::take(&mut self.0).split_last_mut()?;
         self.0 = before;

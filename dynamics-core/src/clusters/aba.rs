@@ -153,7 +153,7 @@ where
     /// assert!(light.iter().zip(same).all(|(a, b)| (a - b).abs() < 1e-9)); // twice the torque on twice the mass
     /// # Ok::<(), dynamics_core::clusters::ForwardError>(())
     /// ```
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn aba<D, E>(&self, robot: &D, tau: &[R; Y], effects: &E) -> Result<[R; Y], ForwardError>
     where
         D: RobotModel<R, B, Q, V>,

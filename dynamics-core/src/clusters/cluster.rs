@@ -87,7 +87,7 @@ pub struct ClusterMotion<R, const M: usize, const N: usize> {
 
 impl<R: Real, const M: usize, const N: usize> ClusterMotion<R, M, N> {
     /// Gᵀ τ: the torques at y that do the work of the joints' torques τ.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn torque(&self, tau: &[R; M]) -> [R; N] {
         core::array::from_fn(|k| {
             let mut terms = self.g.iter().zip(tau).map(|(row, &tau)| row[k] * tau);
@@ -104,7 +104,7 @@ impl<R: Real, const M: usize, const N: usize> ClusterMotion<R, M, N> {
 }
 
 /// aᵀ b, without a loop and without an addition to zero.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
     let mut sum = R::ZERO;
     for_each_joint!(K, {
@@ -117,7 +117,7 @@ pub(super) fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
 }
 
 /// Adds gᵏ τ to each of the sums, or begins them.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn add_torque<R: Real, const N: usize>(sums: &mut [Option<R>; N], g: &[R; N], tau: R) {
     for_each_joint!(K, {
         if Index::<K, N>::IS_BELOW {
@@ -127,7 +127,7 @@ pub(super) fn add_torque<R: Real, const N: usize>(sums: &mut [Option<R>; N], g: 
 }
 
 /// Adds a term to a sum, or begins it: without an addition to zero.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn add<R: Real>(sum: &mut Option<R>, term: R) {
     *sum = Some(sum.map_or(term, |sum| sum + term));
 }

@@ -29,7 +29,7 @@ pub struct Clustered<A>(PhantomData<A>);
 pub struct Unbounded<K>(PhantomData<K>);
 
 impl<R, K: Kernel<R>> Kernel<R> for Unbounded<K> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn sin_cos(x: R) -> (R, R) {
         K::sin_cos(x)
     }
@@ -82,7 +82,7 @@ where
     type Robot = T;
     type Kernel = Unbounded<K>;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn free_turns<const P: usize, const Y: usize>(q: &[R; Q], turns: &mut [JointCoordinate<R>; Q])
     where
         T: ClusteredRobot<B, Q, V, P, Y>,
@@ -96,7 +96,7 @@ where
         }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn rnea<E: Effect<R, B, V>>(
         trig: &JointTrig<R, Q>,
         state: &State<R, Q, V>,
@@ -115,7 +115,7 @@ where
     type Robot = T;
     type Kernel = K;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn free_turns<const P: usize, const Y: usize>(q: &[R; Q], turns: &mut [JointCoordinate<R>; Q])
     where
         T: ClusteredRobot<B, Q, V, P, Y>,
@@ -127,7 +127,7 @@ where
         });
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn rnea<E: Effect<R, B, V>>(
         trig: &JointTrig<R, Q>,
         state: &State<R, Q, V>,
@@ -248,7 +248,7 @@ impl<A> Clustered<A> {
 }
 
 /// The tree's state, and the motions of its clusters.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn evaluate<
     R,
     A,

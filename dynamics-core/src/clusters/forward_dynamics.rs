@@ -106,7 +106,7 @@ impl<T, K> Clustered<Engine<T, K>> {
 }
 
 /// x with M x = b by M = L D Lᵀ, or the first coordinate whose pivot is none.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn solve<R: Real, const Y: usize>(m: MassMatrix<R, Y>, b: [R; Y]) -> Result<[R; Y], usize> {
     let (mut rows, mut x, mut d_inv) = (m.rows, b, [R::ZERO; Y]);
     for k in 0..Y {

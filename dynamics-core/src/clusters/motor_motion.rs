@@ -121,7 +121,7 @@ where
 {
     /// The motors' positions, velocities and accelerations, in the places of `y`, of which this is the motion: see
     /// [`Clustered::motors`].
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn motors(&self, y: &State<R, P, Y>) -> State<R, P, Y> {
         let (set, layout) = (const { T::CLUSTERS }, Self::LAYOUT);
         let mut out = *y;

@@ -94,7 +94,7 @@ where
     ///
     /// # Errors
     /// [`ClusterProblem::NotFinite`] names a cluster of which a torque is not finite.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn to_motors(&self, tau: &[R; Y]) -> Result<MotorTorques<R, Y>, ClusterError> {
         let mut out = MotorTorques {
             tau: *tau,
@@ -136,7 +136,7 @@ where
 
 impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
     /// The torques of the I-th cluster's motors.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn put_motors<
         R: Real,
         T: ClusteredRobot<B, Q, V, P, Y>,
@@ -172,7 +172,7 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
 }
 
 /// τ_a, and whether it is damped, from G_a by rows, τ at y and the reciprocals of the rates below which it is damped.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn solve<R: Real, const N: usize>(
     g: &[[R; N]; N],
     tau: &[R; N],
@@ -199,7 +199,7 @@ fn solve<R: Real, const N: usize>(
     clippy::needless_range_loop,
     reason = "iterators that skip entries are not unrolled: 3000 cycles of six motors, in place of 1220"
 )]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn eliminate<R: Real, const N: usize>(
     mut a: [[R; N]; N],
     mut b: [R; N],
@@ -245,7 +245,7 @@ fn eliminate<R: Real, const N: usize>(
     (b, regular)
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn transposed<R: Real, const N: usize>(g: &[[R; N]; N]) -> [[R; N]; N] {
     core::array::from_fn(|k| g.each_ref().map(|motor| motor[k]))
 }

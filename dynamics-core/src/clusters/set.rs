@@ -98,7 +98,7 @@ pub(super) mod sealed {
 
 impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
     /// Evaluates the cluster, which is the I-th, and fills in the tree's coordinates that it drives.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn place<
         R: Real,
         K: Kernel<R>,
@@ -155,7 +155,7 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
     }
 
     /// Gᵀ τ of the I-th cluster.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn put_torque<
         R: Real,
         T: ClusteredRobot<B, Q, V, P, Y>,
@@ -201,7 +201,7 @@ macro_rules! tuple {
             type Motions<R: Real> = ($(ClusterMotion<R, $m, $n>,)*);
             const SIZES: &'static [[usize; 2]] = &[$([$m, $n]),*];
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn evaluate<
                 R: Real,
                 K: Kernel<R>,
@@ -219,7 +219,7 @@ macro_rules! tuple {
                 Ok(($(self.$at.place::<R, K, T, $at, B, Q, V, P, Y>(y, tree)?,)*))
             }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn torque<
                 R: Real,
                 T: ClusteredRobot<B, Q, V, P, Y, Clusters = Self>,
@@ -236,7 +236,7 @@ macro_rules! tuple {
                 $(Driven::<$name, $m, $n>::put_torque::<R, T, $at, B, Q, V, P, Y>(&motions.$at, tau, out);)*
             }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn motors<
                 R: Real,
                 T: ClusteredRobot<B, Q, V, P, Y, Clusters = Self>,
@@ -254,7 +254,7 @@ macro_rules! tuple {
                 Ok(())
             }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn row<R: Real>(motions: &Self::Motions<R>, cluster: usize, row: usize) -> (&[R], R) {
                 match cluster {
                     $($at => match motions.$at.g.get(row) {

@@ -99,13 +99,13 @@ where
     pub(super) const LAYOUT: &'static Layout<Q, V> = TreeLayout::<T, B, Q, V, P, Y>::LAYOUT;
 
     /// γ(y), G ẏ and G ÿ + Ġ ẏ: the state of the tree with its sines and cosines.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn state(&self) -> StateWithTrig<'_, R, Q, V> {
         self.trig.with(&self.tree)
     }
 
     /// γ(y) with its sines and cosines.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn configuration(&self) -> &JointTrig<R, Q> {
         &self.trig
     }
@@ -123,7 +123,7 @@ where
     ///
     /// # Cost
     /// 2 M N flops for each cluster.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn torque(&self, tau: &[R; V]) -> [R; Y] {
         let mut out = [R::ZERO; Y];
         let layout = Self::LAYOUT;
@@ -186,7 +186,7 @@ where
     }
 
     /// Torques or accelerations at y, all of which are finite.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn finite(of_y: [R; Y]) -> Result<[R; Y], ClusterError> {
         if all_finite(&of_y) {
             Ok(of_y)
@@ -212,7 +212,7 @@ where
     }
 
     /// Row v of G, beginning at a place of ẏ, and the entry of Ġ ẏ.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn row(&self, v: usize) -> (usize, &[R], R) {
         let layout = Self::LAYOUT;
         match layout.cluster.get(v) {

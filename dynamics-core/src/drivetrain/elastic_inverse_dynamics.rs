@@ -154,7 +154,7 @@ impl<R: Real, const V: usize> ElasticCommand<R, V> {
     };
 
     /// The motor of joint i at q, whose spring transmits τ with these derivatives: θ = q + τ/k, τ_m = J θ̈ + b θ̇ + τ.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn set<const Q: usize>(
         &mut self,
         i: usize,

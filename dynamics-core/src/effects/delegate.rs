@@ -31,7 +31,7 @@ pub trait Forwarder<R: Real, const B: usize, const V: usize> {
 
 /// The sum of the values that are present.
 #[doc(hidden)]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn sum<R: Real>(a: Option<R>, b: Option<R>) -> Option<R> {
     match (a, b) {
         (Some(a), Some(b)) => Some(a + b),
@@ -135,7 +135,7 @@ macro_rules! delegate_effect {
                 &[$(<$inner as $crate::effects::Effect<$R, $B, $V>>::ONCE),*],
             );
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn torque(&self, joint: usize, at: $crate::effects::JointState<$R>, tau: &mut $R) {
                 let $this = self;
                 if const { ($on) & ($joints) } {
@@ -143,7 +143,7 @@ macro_rules! delegate_effect {
                 }
             }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn derivatives(
                 &self,
                 joint: usize,
@@ -156,7 +156,7 @@ macro_rules! delegate_effect {
                 }
             }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn inertia(&self, joint: usize) -> Option<$R> {
                 let $this = self;
                 let sum = None;
@@ -176,13 +176,13 @@ macro_rules! delegate_effect {
         impl<$($generics)*> $crate::effects::Forwarder<$R, $B, $V> for $type
         $(where $($bounds)*)?
         {
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn forward_field(&self, g: &mut <$R as $crate::scalar::Real>::Vec3) {
                 let $this = self;
                 $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::GRAVITY_FIELD.add, &$to, g);)*
             }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn forward_base(
                 &self,
                 velocity: &mut $crate::spatial::Motion<$R>,
@@ -192,7 +192,7 @@ macro_rules! delegate_effect {
                 $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::BASE.add, &$to, velocity, acceleration);)*
             }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn forward_wrench(
                 &self,
                 body: usize,
@@ -203,7 +203,7 @@ macro_rules! delegate_effect {
                 $($crate::effects::hook::add_wrench::<$R, $inner, $B, $V>(&$to, body, at, fx);)*
             }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn forward_payload(
                 &self,
                 body: usize,
@@ -213,13 +213,13 @@ macro_rules! delegate_effect {
                 $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::ADDED_INERTIA.add, &$to, body, inertia);)*
             }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn forward_spin(&self, joint: usize, coupling: &mut $R) {
                 let $this = self;
                 $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::ROTOR.add, &$to, joint, coupling);)*
             }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn forward_load(
                 &self,
                 joint: usize,
@@ -230,7 +230,7 @@ macro_rules! delegate_effect {
                 $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::LOAD_FRICTION.factors, &$to, joint, at, factors);)*
             }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn forward_load_slopes(
                 &self,
                 joint: usize,
@@ -241,7 +241,7 @@ macro_rules! delegate_effect {
                 $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::LOAD_FRICTION.slopes, &$to, joint, at, slopes);)*
             }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn forward_regrouped(
                 &self,
                 joint: usize,
@@ -254,7 +254,7 @@ macro_rules! delegate_effect {
     };
     (@advance [] $on:expr, [$R:ty, $B:tt, $V:tt] |$this:ident| $rest:tt) => {};
     (@advance [advance] $on:expr, [$R:ty, $B:tt, $V:tt] |$this:ident| { $($inner:ty => $to:expr),* }) => {
-        #[cfg_attr(not(debug_assertions), inline(always))]
+        #[cfg_attr(optimised, inline(always))]
         fn advance(&mut self, joint: usize, at: $crate::effects::JointState<$R>, h: $R) {
             let $this = self;
             if const { $on } {

@@ -115,7 +115,7 @@ where
 }
 
 /// Links that bend do not carry rotors that spin as bodies.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) const fn no_gyroscopic_rotors<R: Real, E, const B: usize, const V: usize>()
 where
     E: Effect<R, B, V>,

@@ -102,7 +102,7 @@
 //! }
 //! ```
 //!
-//! Machine code: a hook is a constant, so that its call is a direct one; a function with `#[cfg_attr(not(debug_assertions), inline(always))]` in place
+//! Machine code: a hook is a constant, so that its call is a direct one; a function with `#[cfg_attr(optimised, inline(always))]` in place
 //! of a closure is inlined at every level of optimisation.
 //!
 //! A forwarder has the hooks of its effects: none, `with` each of theirs, `through` a function that calls them

@@ -29,7 +29,7 @@ pub struct JointState<R> {
 
 impl<R> JointState<R> {
     /// At the position q, rad or m, and the velocity q̇, rad/s or m/s.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub const fn new(q: R, qd: R) -> Self {
         Self { q, qd }
     }

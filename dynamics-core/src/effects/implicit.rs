@@ -38,7 +38,7 @@ pub struct Implicit<'a, E, R, const V: usize> {
 
 impl<'a, E, R: Real, const V: usize> Implicit<'a, E, R, V> {
     /// `effects` for a step of `h` seconds from `state`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn new<D, const B: usize, const Q: usize>(
         robot: &D,
         state: &State<R, Q, V>,
@@ -62,7 +62,7 @@ impl<'a, E, R: Real, const V: usize> Implicit<'a, E, R, V> {
     }
 
     /// The same for motors of the torques `tau`, N·m or N, on which load-dependent friction depends.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn under<D, const B: usize, const Q: usize>(
         robot: &D,
         state: &State<R, Q, V>,
@@ -97,12 +97,12 @@ struct AtEndOfStep<R, const V: usize> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for AtEndOfStep<R, V> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         *tau += self.h * (entry(&self.derivatives, joint).dq * at.qd);
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn inertia(&self, joint: usize) -> Option<R> {
         let derivatives = entry(&self.derivatives, joint);
         Some(self.h * (derivatives.dqd + self.h * derivatives.dq))

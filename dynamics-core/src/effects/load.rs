@@ -9,7 +9,7 @@ use crate::scalar::{Real, positive_part};
 use crate::state::{State, entry};
 
 /// Adds the friction of one joint's gear to the torque τ of all else.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn load_friction<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     joint: usize,
@@ -25,7 +25,7 @@ pub(crate) fn load_friction<R: Real, E, const B: usize, const V: usize>(
 }
 
 /// The same for all coordinates of a joint.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn load_frictions<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,
@@ -45,7 +45,7 @@ pub(crate) fn load_frictions<R: Real, E, const B: usize, const Q: usize, const V
 
 /// What of the motor's torque x is left for all else, τ. Where the load drives and cannot turn the gear, 1 + b + a sgn x ≤ 0, it
 /// is not finite: that takes a friction which holds, not one of a smooth sign.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn transmitted<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     joint: usize,
@@ -64,7 +64,7 @@ where
 }
 
 /// Adds −∂τ/∂q̇ of [`transmitted`] to the derivatives of one joint, where it is positive.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn add_load_slope<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     joint: usize,
@@ -87,7 +87,7 @@ pub(crate) fn add_load_slope<R: Real, E, const B: usize, const V: usize>(
 }
 
 /// a and b of one joint.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn factors<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     joint: usize,
@@ -107,7 +107,7 @@ where
 }
 
 /// The motors' torques of all coordinates without the friction of their gears, for forward dynamics.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn all_transmitted<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: &State<R, Q, V>,
@@ -132,7 +132,7 @@ where
 }
 
 /// Algorithms that do not know which torque a gear transmits do not take friction that depends on it.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) const fn no_load_friction<R: Real, E, const B: usize, const V: usize>()
 where
     E: Effect<R, B, V>,

@@ -194,7 +194,7 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Sized {
     const ONCE: Once = Once::NONE;
 
     /// Adds to the torque τ that the motor of `joint` must supply independently of its acceleration, N·m or N.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         const { gates::has_hook::<R, Self, B, V>() };
         let _ = (joint, at, tau);
@@ -202,20 +202,20 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Sized {
 
     /// Adds to the derivatives ∂τ/∂q and ∂τ/∂q̇ of what `torque` adds, where a plant is to treat it
     /// implicitly: see [`Implicit`].
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         let _ = (joint, at, derivatives);
     }
 
     /// The inertia at `joint`, kg·m² or kg, which the library adds to M's diagonal and, times q̈, to the torque.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn inertia(&self, joint: usize) -> Option<R> {
         let _ = joint;
         None
     }
 
     /// Advances the effect's internal state of `joint` (bristles, a motor's current) by h seconds.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn advance(&mut self, joint: usize, at: JointState<R>, h: R) {
         let _ = (joint, at, h);
     }

@@ -10,7 +10,7 @@ use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::{State, entry};
 
 /// The field g, in base coordinates.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn field<R: Real, E, const B: usize, const V: usize>(effects: &E) -> R::Vec3
 where
     E: Effect<R, B, V>,
@@ -28,7 +28,7 @@ where
 }
 
 /// v₀ and a₀ of the base, a₀ less the field g: gravity is an acceleration of the base. RBDA (5.20).
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn base_motion<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
 ) -> (Motion<R>, Motion<R>)
@@ -45,7 +45,7 @@ where
 }
 
 /// v₀ and a₀ of the base.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn base_given<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
 ) -> (Motion<R>, Motion<R>)
@@ -60,7 +60,7 @@ where
 }
 
 /// The inertia of body `i` with the contributions of the effects, in its aligned frame.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn body_inertia<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     i: usize,
@@ -91,7 +91,7 @@ where
 }
 
 /// Whether body `i` carries a payload.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn is_loaded<R: Real, E, const B: usize, const V: usize>(i: usize) -> bool
 where
     E: Effect<R, B, V>,
@@ -100,7 +100,7 @@ where
 }
 
 /// fˣ on body `i`, in its aligned frame; `pose` and `v` are that frame's.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn body_wrench<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     i: usize,
@@ -134,7 +134,7 @@ where
 }
 
 /// The state that joint hooks read of velocity coordinate k.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn joint_state<R: Real, const Q: usize, const V: usize>(
     link: &LinkView<'_, R>,
     state: &State<R, Q, V>,
@@ -147,7 +147,7 @@ pub(crate) fn joint_state<R: Real, const Q: usize, const V: usize>(
 }
 
 /// Adds to the torques of one joint's coordinates those of the effects, inertia times q̈ included.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn joint_torques<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,
@@ -167,7 +167,7 @@ pub(crate) fn joint_torques<R: Real, E, const B: usize, const Q: usize, const V:
 }
 
 /// The torque of the effects at one joint's coordinate at q̈ = 0.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn joint_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,
@@ -184,7 +184,7 @@ where
 
 /// Adds the torque of the effects at one joint's coordinate, and its first two derivatives, along a course with these derivatives
 /// of q from the second to the fourth. ∂τ/∂q and ∂τ/∂q̇ are taken as constant.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn add_joint_torque_rates<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     joint: usize,
@@ -207,7 +207,7 @@ pub(crate) fn add_joint_torque_rates<R: Real, E, const B: usize, const V: usize>
 }
 
 /// Adds what stands at `joint` to an entry of M's diagonal.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn add_inertia<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     joint: usize,
@@ -221,7 +221,7 @@ pub(crate) fn add_inertia<R: Real, E, const B: usize, const V: usize>(
 }
 
 /// ρ I z of the rotor that spins about the axis of this joint's only coordinate.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn rotor_force<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,
@@ -237,7 +237,7 @@ where
 }
 
 /// ρ I (q̈ z + q̇ ω × z): the couple that the parent link exerts on such a rotor, in the body's aligned frame.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn gyroscopic<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,

@@ -16,7 +16,7 @@ macro_rules! tuple {
 
 /// The empty scene.
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for () {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn torque(&self, _: usize, _: JointState<R>, _: &mut R) {}
 }
 

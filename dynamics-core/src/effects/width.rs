@@ -23,7 +23,7 @@ pub struct Width<R> {
 
 impl<R: Real> Width<R> {
     /// Of a speed or depth.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn new(width: R) -> Self {
         Self {
             inverse: R::ONE / width.abs(),
@@ -36,7 +36,7 @@ impl<R: Real> Width<R> {
     }
 
     /// Its reciprocal.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn inverse(self) -> R {
         self.inverse
     }

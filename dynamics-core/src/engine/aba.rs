@@ -84,7 +84,7 @@ struct Task<'a, R, E, const Q: usize, const V: usize> {
     x: &'a mut [R; V],
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn accelerate<R, C, E, const B: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
@@ -142,7 +142,7 @@ type Outward<R, E, const Q: usize, const V: usize> =
     fn(&mut Task<'_, R, E, Q, V>, [<R as Real>::Vec3; 2]);
 
 /// The inward pass: the articulated inertia of joint I and its bias force, in the parent's frame.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn inward<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
 ) -> (Articulated<R>, Wrench<R>)
@@ -210,7 +210,7 @@ where
 }
 
 /// The outward pass: the acceleration of joint I, from its parent's α and a.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn outward<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     [alpha, a]: [R::Vec3; 2],

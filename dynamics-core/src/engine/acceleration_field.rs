@@ -67,7 +67,7 @@ impl<R: Real> Wrench<R> {
     };
 
     /// The component along a joint's coordinate at the origin: N·m about its axis, or N along it.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn along(&self, joint: &Joint, length_inv: Folded<R>) -> Folded<R> {
         if joint.prismatic {
             self.f.along_axis(joint.axis) * length_inv
@@ -79,7 +79,7 @@ impl<R: Real> Wrench<R> {
     }
 
     /// The same in the frame of joint I's parent and about its origin.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn to_parent<C, const I: usize>(self, at: &Displacement<R>) -> Self
     where
         C: Compiled,
@@ -88,7 +88,7 @@ impl<R: Real> Wrench<R> {
     }
 
     /// The same in the joint's frame.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn turned<C, const I: usize>(self, at: &Displacement<R>) -> Self
     where
         C: Compiled,
@@ -100,7 +100,7 @@ impl<R: Real> Wrench<R> {
     }
 
     /// The same in the frame of joint I's parent and about its origin, from the joint's frame.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn turned_to_parent<C, const I: usize>(self, at: &Displacement<R>) -> Self
     where
         C: Compiled,
@@ -115,7 +115,7 @@ impl<R: Real> Wrench<R> {
 
 impl<R: Real> Add for Wrench<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
         Self {
             f: self.f + o.f,
@@ -133,7 +133,7 @@ impl<R: Real> Inertia<R> {
     };
 
     /// The wrench of a unit acceleration along a joint's coordinate.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn wrench_of(&self, joint: &Joint, length_inv: Folded<R>) -> Wrench<R> {
         let (zero, [hx, hy, hz], s) = (Folded::ZERO, self.moment.0, &self.second);
         if joint.prismatic {
@@ -174,7 +174,7 @@ impl<R: Real> Inertia<R> {
     }
 
     /// The inertia left to a body.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of(joint: &Joint) -> Self {
         Self {
             mass: Folded::constant(joint.mass),
@@ -184,7 +184,7 @@ impl<R: Real> Inertia<R> {
     }
 
     /// The inertia left to a body in M.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn in_matrix(joint: &Joint) -> Self {
         Self {
             second: Sym3::of(&Mat3::constant(&joint.matrix_second)),
@@ -193,7 +193,7 @@ impl<R: Real> Inertia<R> {
     }
 
     /// The inertia left to a body on a base that may move.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn second_moment_only(joint: &Joint) -> Self {
         Self {
             second: Sym3::of(&Mat3::constant(&joint.second_moment_only)),
@@ -203,7 +203,7 @@ impl<R: Real> Inertia<R> {
 
     /// The inertia that loaded base parameters leave to a body, which coordinate `by` moves; what is zero of every robot is a
     /// known zero.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn loaded(body: &RegroupedInertia<R>, by: &Joint, base_moves: bool) -> Self {
         let ([x, y, z], [xx, xy, xz, yy, yz]) = (
             body.moment.map(Folded::runtime),
@@ -243,7 +243,7 @@ impl<R: Real> Inertia<R> {
     }
 
     /// The same in the frame of joint I's parent and about its origin.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn to_parent<C, const I: usize>(self, at: &Displacement<R>) -> Self
     where
         C: Compiled,
@@ -252,7 +252,7 @@ impl<R: Real> Inertia<R> {
     }
 
     /// The same in the frame of joint I.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn turned<C, const I: usize>(self, at: &Displacement<R>) -> Self
     where
         C: Compiled,
@@ -265,7 +265,7 @@ impl<R: Real> Inertia<R> {
     }
 
     /// The same in the frame of joint I's parent and about its origin, from the joint's frame.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn turned_to_parent<C, const I: usize>(self, at: &Displacement<R>) -> Self
     where
         C: Compiled,
@@ -287,7 +287,7 @@ impl<R: Real> Inertia<R> {
 
 impl<R: Real> Add for Inertia<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
         Self {
             mass: self.mass + o.mass,
@@ -310,7 +310,7 @@ impl<R: Real> AccelerationField<R> {
     };
 
     /// The field of a child behind joint I of one coordinate.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn across<C: Compiled, const I: usize>(
         &self,
         at: &Displacement<R>,
@@ -325,7 +325,7 @@ impl<R: Real> AccelerationField<R> {
     }
 
     /// The field of a child behind a revolute joint: in the axes of the child, or in those that it has at q = 0.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn across_revolute<const TURNED: bool>(
         &self,
         joint: &Joint,
@@ -352,7 +352,7 @@ impl<R: Real> AccelerationField<R> {
     }
 
     /// The field of a child behind a prismatic joint at q, in units of length.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn across_prismatic(&self, joint: &Joint, q: Folded<R>, rates: JointRates<R>) -> Self {
         let rot = Mat3::constant(&joint.rot);
         let p = Vec3::constant(joint.pos) + rot.0[2].scale(q);
@@ -377,7 +377,7 @@ impl<R: Real> AccelerationField<R> {
     }
 
     /// The field of a child behind a screw joint: a rotation, then a translation that it drives.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn across_screw(&self, joint: &Joint, at: &Displacement<R>, rates: JointRates<R>) -> Self {
         let turned = self.across_revolute::<true>(joint, at.turn, rates);
         let pitch = Folded::constant(joint.pitch);
@@ -395,7 +395,7 @@ impl<R: Real> AccelerationField<R> {
     /// The field of a child behind joint I, a planar, spherical or free one: v_J is the velocity of the body in the
     /// joint's frame, by the body's axes, so that α = E α_λ + ω̇_J + E ω_λ × ω_J and
     /// a = E a_λ(p) + v̇_J + (ω + E ω_λ) × v_J.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn across_several<C: Compiled, const I: usize>(
         &self,
         at: &Displacement<R>,
@@ -423,7 +423,7 @@ impl<R: Real> AccelerationField<R> {
     }
 
     /// The wrench that accelerates the body's inertia: f = m a + U h, n = h × a + axial(U Σ − Σ Uᵀ).
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn wrench(&self, body: &Inertia<R>) -> Wrench<R> {
         let (mass, h) = (body.mass, body.moment);
         let ([x, y, z], [wx, wy, wz]) = (self.u.0, self.omega_products.0);
@@ -444,7 +444,7 @@ impl<R: Real> AccelerationField<R> {
 }
 
 /// U = \[α\]× + \[ω\]×\[ω\]×.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn u_of<R: Real>(alpha: Vec3<R>, omega: Vec3<R>) -> Mat3<R> {
     let ([ax, ay, az], [wx, wy, wz]) = (alpha.0, omega.0);
     let (xz, yz, xy) = (wx * wz, wy * wz, wx * wy);
@@ -457,7 +457,7 @@ pub(super) fn u_of<R: Real>(alpha: Vec3<R>, omega: Vec3<R>) -> Mat3<R> {
 }
 
 /// α_x, α_y and U from ω, α_z and U's z column.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn complete<R: Real>(
     omega: Vec3<R>,
     az: Folded<R>,
@@ -477,7 +477,7 @@ fn complete<R: Real>(
 
 /// Rz(q)ᵀ Rᵀ v: from the parent's frame into the body's, or Rᵀ v. A function, not a closure: closures are inlined too late
 /// for the tags to fold.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn enter<R: Real, const TURNED: bool>(
     rot: &Mat3<R>,
     turn: JointCoordinate<R>,
@@ -492,7 +492,7 @@ pub(crate) fn enter<R: Real, const TURNED: bool>(
 }
 
 /// A vector along the joint's axis.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn along_z<R: Real>(z: Folded<R>) -> Vec3<R> {
     Vec3([Folded::ZERO, Folded::ZERO, z])
 }

@@ -27,7 +27,7 @@ pub(crate) struct Articulated<R> {
 
 impl<R: Real> Articulated<R> {
     /// A rigid body's: I = tr Σ 1 − Σ, H = \[h\]×, A = m 1.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of(body: &Inertia<R>) -> Self {
         let (s, m, zero) = (body.second, body.mass, Folded::ZERO);
         let [x, y, z] = body.moment.0;
@@ -55,7 +55,7 @@ impl<R: Real> Articulated<R> {
     }
 
     /// The wrench of a unit acceleration along a joint's coordinate: the column of its axis.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn wrench_of(&self, joint: &Joint, length_inv: Folded<R>) -> Wrench<R> {
         let axis = joint.axis;
         if joint.prismatic {
@@ -80,7 +80,7 @@ impl<R: Real> Articulated<R> {
     }
 
     /// The inertia with a joint free: minus U Uᵀ/d.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn minus_joint(self, n: Vec3<R>, f: Vec3<R>, d_inv: Folded<R>) -> Self {
         let ([fx, fy, fz], minus) = (f.scale(d_inv).0, -d_inv);
         let [hx, hy, hz] = self.coupling.0;
@@ -92,7 +92,7 @@ impl<R: Real> Articulated<R> {
     }
 
     /// The same in the frame of joint I's parent and about its origin; RBDA (2.66).
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn to_parent<C, const I: usize>(self, at: &Displacement<R>) -> Self
     where
         C: Compiled,
@@ -124,7 +124,7 @@ impl<R: Real> Articulated<R> {
     }
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn column<R: Real>([x, y, z]: [Vec3<R>; 3], axis: usize) -> Vec3<R> {
     match axis {
         0 => x,
@@ -135,7 +135,7 @@ fn column<R: Real>([x, y, z]: [Vec3<R>; 3], axis: usize) -> Vec3<R> {
 
 impl<R: Real> Add for Articulated<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
         Self {
             ang: self.ang + o.ang,

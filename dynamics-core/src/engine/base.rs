@@ -10,7 +10,7 @@ use crate::spatial::Motion;
 
 /// The base without its acceleration: a = −g, its velocity if it moves, and its pose, in units of length; all other values are
 /// known zeros.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn unaccelerated<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     length: f64,
@@ -51,7 +51,7 @@ where
 
 /// The motion of the base: a = −g plus its own acceleration, in units of length. If it is at rest, all other values are
 /// known zeros.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn base<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     length: f64,
@@ -72,7 +72,7 @@ where
 
 /// The field of a base of the velocity of `field`, with its spatial acceleration, and with the products of its velocity if they
 /// are asked for.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn accelerated<R: Real>(
     mut field: AccelerationField<R>,
     a: Motion<R>,
@@ -105,7 +105,7 @@ fn accelerated<R: Real>(
 }
 
 /// The motion of the base without gravity, and its pose: all of it, whatever the effects need.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn carried<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     length: f64,

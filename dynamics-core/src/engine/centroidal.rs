@@ -133,7 +133,7 @@ impl<T, K> Engine<T, K> {
         Force::new(h.ang - centre.cross(h.lin), h.lin)
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn all_bodies<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
         state: S,
         effects: &E,
@@ -196,13 +196,13 @@ impl<T, K> Engine<T, K> {
 }
 
 /// A momentum in units of length as one in SI units.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn force<R: Real>(all: &Totals<R>, length: f64) -> Force<R> {
     let h = all.momentum;
     Force::new(h.n.get(), h.f.scale(Folded::constant(1.0 / length)).get())
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn matrix<R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize>(
     turns: &[JointCoordinate<R>; Q],
     effects: &E,
@@ -242,12 +242,12 @@ where
     type Inward = Inertia<R>;
     const NOTHING: Inertia<R> = Inertia::NONE;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &Pose<R>) -> Pose<R> {
         parent.transformed_by::<C, I>(&Displacement::of::<C, Q, I>(self.turns))
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn leave<const I: usize>(&mut self, at: &Pose<R>, inner: Inertia<R>) -> Inertia<R> {
         let body = inertia::<R, C, E, B, Q, V, I>(self.effects, true) + inner;
         for_each_joint!(K, {
@@ -260,7 +260,7 @@ where
 }
 
 /// The momentum of a body at unit rate of a joint at its origin, about the base's origin and along its axes.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn column<R: Real>(
     at: &Pose<R>,
     body: &Inertia<R>,

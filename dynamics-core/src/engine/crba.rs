@@ -78,7 +78,7 @@ struct Task<'a, R, E, const Q: usize, const V: usize> {
 
 impl<R: Real, E, const Q: usize, const V: usize> Task<'_, R, E, Q, V> {
     /// Writes the entry of joint I and the joint on the base.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn both<C: Compiled, const I: usize>(&mut self, entry: Folded<R>) {
         let (root, entry) = (CompiledJoint::<C, I>::ROOT, entry.get());
         self.m.rows[I][root] = entry;
@@ -87,7 +87,7 @@ impl<R: Real, E, const Q: usize, const V: usize> Task<'_, R, E, Q, V> {
 }
 
 /// Writes M(q), both triangles; what is zero by the tree's branches stays as it is.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn mass_matrix<R, C, E, const B: usize, const Q: usize, const V: usize>(
     turns: &[JointCoordinate<R>; Q],
     effects: &E,
@@ -118,7 +118,7 @@ type Composite<R, E, const Q: usize, const V: usize> =
 /// Writes the columns of joint I and of its descendants; returns their inertia in the parent's frame, or what joints on
 /// parallel axes feel of it. `root` is the motion of the joint on the base at rate −1, in the frame of the parent, or in that of the
 /// last ancestor on parallel axes.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn composite<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     root: &Twist<R>,
@@ -200,7 +200,7 @@ const fn keeps_axis(motion: JointMotion) -> bool {
 
 /// Column I of M: its diagonal entry, and the wrench of joint I's unit acceleration, in the joint's frame, projected on each
 /// ancestor. Where it meets `root`, that of the joint on the base, their product is the entry of both.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     diagonal: Folded<R>,
@@ -244,7 +244,7 @@ fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usiz
 }
 
 /// Of the inertia `spin` that joint I's own rotation feels, what those of the children on parallel axes do not contain.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn own_spin<R, C, E, const B: usize, const V: usize, const I: usize>(spin: Folded<R>) -> Folded<R>
 where
     R: Real,

@@ -11,7 +11,7 @@ use crate::trig::Kernel;
 
 impl<C: Compiled, const I: usize> CompiledJoint<C, I> {
     /// Writes the sine and cosine, or the unit quaternion and other positions, that coordinate I brings.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn turn<R: Real, K: Kernel<R>, const Q: usize>(
         q: &[R; Q],
         turns: &mut [JointCoordinate<R>; Q],
@@ -49,7 +49,7 @@ pub(crate) struct Displacement<R> {
 
 impl<R: Real> Displacement<R> {
     /// That of joint I.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of<C: Compiled, const Q: usize, const I: usize>(
         turns: &[JointCoordinate<R>; Q],
     ) -> Self {
@@ -89,13 +89,13 @@ impl<R: Real> Displacement<R> {
     }
 
     /// The same with a sine and cosine that are loaded again.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn with_turn(self, turn: JointCoordinate<R>) -> Self {
         Self { turn, ..self }
     }
 
     /// From the parent's frame to the body's: `rot` is the constant rotation of the joint's frame.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn enter<C: Compiled, const I: usize>(&self, rot: &Mat3<R>, v: Vec3<R>) -> Vec3<R> {
         let v = rot.transpose_mul(v);
         match CompiledJoint::<C, I>::MOTION {
@@ -109,7 +109,7 @@ impl<R: Real> Displacement<R> {
     }
 
     /// From the body's frame to the joint's.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn leave<C: Compiled, const I: usize>(&self, v: Vec3<R>) -> Vec3<R> {
         match CompiledJoint::<C, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
@@ -122,7 +122,7 @@ impl<R: Real> Displacement<R> {
     }
 
     /// The same of a symmetric matrix.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn leave_symmetric<C: Compiled, const I: usize>(&self, s: Sym3<R>) -> Sym3<R> {
         match CompiledJoint::<C, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
@@ -137,7 +137,7 @@ impl<R: Real> Displacement<R> {
     }
 
     /// The same of any matrix.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn leave_matrix<C: Compiled, const I: usize>(&self, m: &Mat3<R>) -> Mat3<R> {
         match CompiledJoint::<C, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
@@ -150,7 +150,7 @@ impl<R: Real> Displacement<R> {
     }
 
     /// Eᵀ M E.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn leave_both<C: Compiled, const I: usize>(&self, m: &Mat3<R>) -> Mat3<R> {
         let [x, y, z] = m.0;
         let half = Mat3([
@@ -168,7 +168,7 @@ impl<R: Real> Displacement<R> {
     }
 
     /// The body's axes along those of the frame of which `joint` holds the axes of the joint's frame.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn axes<C: Compiled, const I: usize>(&self, joint: &Mat3<R>) -> Mat3<R> {
         let [x, y, z] = joint.0;
         match CompiledJoint::<C, I>::MOTION {
@@ -185,7 +185,7 @@ impl<R: Real> Displacement<R> {
     }
 
     /// The translation in the frame of which `joint` holds the axes of the joint's frame, in units of length.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn along<C: Compiled, const I: usize>(&self, joint: &Mat3<R>) -> Vec3<R> {
         match CompiledJoint::<C, I>::MOTION {
             JointMotion::Slide | JointMotion::Screw => joint.0[2].scale(self.slide),
@@ -195,7 +195,7 @@ impl<R: Real> Displacement<R> {
     }
 
     /// The translation in the frame of the parent, in units of length.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn shift<C: Compiled, const I: usize>(&self) -> Vec3<R> {
         match CompiledJoint::<C, I>::MOTION {
             JointMotion::Slide | JointMotion::Screw => {
@@ -206,7 +206,7 @@ impl<R: Real> Displacement<R> {
         }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn sin_cos(&self) -> (Folded<R>, Folded<R>) {
         (
             Folded::runtime(self.turn.sin),
@@ -216,13 +216,13 @@ impl<R: Real> Displacement<R> {
 }
 
 /// The position of the number `k`.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn position<R: Real, const Q: usize>(turns: &[JointCoordinate<R>; Q], k: usize) -> Folded<R> {
     Folded::runtime(turns[k].q)
 }
 
 /// The matrix of the unit quaternion whose coordinates begin at `first`.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn attitude<R: Real, const Q: usize>(turns: &[JointCoordinate<R>; Q], first: usize) -> Mat3<R> {
     let q = [first, first + 1, first + 2, first + 3].map(|k| turns[k].q);
     let [x, y, z] = rotation(q).cols().map(Vec3::runtime);

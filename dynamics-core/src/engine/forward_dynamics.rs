@@ -73,7 +73,7 @@ impl<T, K> Engine<T, K> {
     /// let [first, ..] = Engine::<Ur5e>::transmitted_torque(&moving, &[5.0; 6], &gears);
     /// assert!((first - 4.0).abs() < 1e-6); // 5 / 1.25
     /// ```
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     #[must_use]
     pub fn transmitted_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: &State<R, Q, V>,
@@ -89,7 +89,7 @@ impl<T, K> Engine<T, K> {
 }
 
 /// The torques behind the gears while their motors supply `tau`.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn behind_gears<R: Real, C, E, const B: usize, const Q: usize, const V: usize>(
     state: &State<R, Q, V>,
     tau: &[R; V],
@@ -112,7 +112,7 @@ where
 }
 
 /// τ − C(q, q̇), the torque that is left to accelerate.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn remaining<R: Real, C, E, const B: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
@@ -139,7 +139,7 @@ where
     rest
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn accelerate<R, C, E, const B: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,

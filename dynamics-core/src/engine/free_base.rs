@@ -171,7 +171,7 @@ impl<R: Real, E: Effect<R, B, V>, const B: usize, const V: usize> FreeScene<R, E
 }
 
 /// The force on the base whose components are the first coordinates.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn first<R: Real, const V: usize>(tau: &[R; V]) -> Force<R> {
     Force::new(
         R::Vec3::new(tau[0], tau[1], tau[2]),
@@ -180,7 +180,7 @@ fn first<R: Real, const V: usize>(tau: &[R; V]) -> Force<R> {
 }
 
 /// The motion of the base that the force `lacking` gives all bodies, which is added to its rates.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn step<R: Real, const V: usize>(
     all: &CompositeInertia<R>,
     lacking: &Force<R>,
@@ -197,7 +197,7 @@ fn step<R: Real, const V: usize>(
 }
 
 /// A force about the origin of the base of the description and along its axes, in the frame of the free body.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn in_base<R: Real, C: Compiled, const Q: usize>(
     turns: &[JointCoordinate<R>; Q],
     h: Force<R>,
@@ -221,7 +221,7 @@ fn in_base<R: Real, C: Compiled, const Q: usize>(
 type Columns<R, const V: usize> = [[R; 6]; V];
 
 /// The composite inertia of the free body and its descendants in its own frame, and the columns of the descendants.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn composite<R: Real, C, E, const B: usize, const Q: usize, const V: usize>(
     turns: &[JointCoordinate<R>; Q],
     effects: &E,
@@ -258,7 +258,7 @@ type Composite<R, E, const Q: usize, const V: usize> =
     fn(&[JointCoordinate<R>; Q], &E, &mut Columns<R, V>) -> Inertia<R>;
 
 /// The inertia of the body behind joint I and of its descendants, in its frame.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn with_descendants<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],
     effects: &E,
@@ -286,7 +286,7 @@ where
 }
 
 /// The same in the frame of the parent; writes the joint's columns.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn at_parent<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],
     effects: &E,
@@ -310,7 +310,7 @@ where
 }
 
 /// Adds to the torques what the joints of the descendants need for an acceleration of the base.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn spread<R: Real, C: Compiled, const Q: usize, const V: usize>(
     turns: &[JointCoordinate<R>; Q],
     columns: &Columns<R, V>,
@@ -327,7 +327,7 @@ type Outward<R, const Q: usize, const V: usize> =
     fn(&[JointCoordinate<R>; Q], &Columns<R, V>, [Vec3<R>; 2], &mut [R; V]);
 
 /// α and a of the body behind joint I reach its children.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn to_children<R: Real, C: Compiled, const Q: usize, const V: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],
     columns: &Columns<R, V>,
@@ -349,7 +349,7 @@ fn to_children<R: Real, C: Compiled, const Q: usize, const V: usize, const I: us
 }
 
 /// Joint I and its descendants, from α and a of the parent.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn outward<R: Real, C: Compiled, const Q: usize, const V: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],
     columns: &Columns<R, V>,

@@ -79,7 +79,7 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn hybrid<R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
@@ -140,7 +140,7 @@ where
 }
 
 /// Row J of M up to its diagonal, with the entries of the identity where J or the column's coordinate is not free.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn hold<R: Real, C: Compiled, const V: usize, const J: usize>(
     rows: &mut [[R; V]; V],
     free: &[bool; V],
@@ -154,7 +154,7 @@ fn hold<R: Real, C: Compiled, const V: usize, const J: usize>(
 }
 
 /// M x, without what is zero by the branches of the tree.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn times<R: Real, C: Compiled, const V: usize>(m: &MassMatrix<R, V>, x: &[R; V]) -> [R; V] {
     let mut product = [R::ZERO; V];
     for_each_joint!(J, {
@@ -173,7 +173,7 @@ fn times<R: Real, C: Compiled, const V: usize>(m: &MassMatrix<R, V>, x: &[R; V])
 }
 
 /// Row J of M times x.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn row<R: Real, C: Compiled, const V: usize, const J: usize>(
     m: &MassMatrix<R, V>,
     x: &[R; V],

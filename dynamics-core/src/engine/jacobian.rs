@@ -75,7 +75,7 @@ impl<T, K> Engine<T, K> {
 }
 
 /// The Jacobian of a body in the frame F.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn jacobian<
     R: Real,
     C: Compiled,
@@ -97,7 +97,7 @@ pub(super) fn jacobian<
 }
 
 /// The columns of the joints that move the body; zero for others.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn columns<R: Real, C, const Q: usize, const V: usize, const BODY: usize>(
     turns: &[JointCoordinate<R>; Q],
 ) -> [Motion<R>; V]
@@ -126,7 +126,7 @@ type Reach<R, const Q: usize, const V: usize> =
 
 /// Writes the columns of joint I and of its descendants; returns the offset of the body's origin from the
 /// parent's, in base coordinates, m. `parent` holds the axes of the parent's frame.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn reach<R: Real, C, const Q: usize, const V: usize, const BODY: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],
     parent: &Mat3<R>,

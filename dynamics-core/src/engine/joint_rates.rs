@@ -38,7 +38,7 @@ impl<R: Real> Twist<R> {
     };
 
     /// The motion of a joint's body at this rate of its coordinate.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn along(joint: &Joint, length_inv: f64, rate: Folded<R>) -> Self {
         let mut motion = Self::ZERO;
         if joint.prismatic {
@@ -53,7 +53,7 @@ impl<R: Real> Twist<R> {
     }
 
     /// A motion of the parent as one of the body behind joint I.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn carried<C: Compiled, const I: usize>(&self, at: &Displacement<R>) -> Self {
         let joint = CompiledJoint::<C, I>::JOINT;
         let rot = Mat3::constant(&joint.rot);
@@ -65,7 +65,7 @@ impl<R: Real> Twist<R> {
     }
 
     /// The motion of joint I, a planar, spherical or free one, of all `rates`; zero unless it is needed.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of<C: Compiled, const V: usize, const I: usize>(
         rates: &[R; V],
         needed: bool,
@@ -87,7 +87,7 @@ impl<R: Real> Twist<R> {
     }
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn three<R: Real, const V: usize>(rates: &[R; V], first: usize, needed: bool) -> [Folded<R>; 3] {
     [
         rate(rates, first, needed),
@@ -96,7 +96,7 @@ fn three<R: Real, const V: usize>(rates: &[R; V], first: usize, needed: bool) ->
     ]
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn rate<R: Real, const V: usize>(rates: &[R; V], k: usize, needed: bool) -> Folded<R> {
     Folded::runtime_if(needed, rates[k])
 }

@@ -243,7 +243,7 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn poses<R: Real, C: Compiled, L, const N: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,
 ) -> [Pose<R>; N]
@@ -258,7 +258,7 @@ where
     walk::<R, C, L, N, Q, V, false>(trig, &resting, &AccelerationField::RESTING).poses
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn motions<R: Real, C: Compiled, L, const N: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
@@ -271,7 +271,7 @@ where
 }
 
 /// The poses of the bodies L and, if the joints have RATES, their motions.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn walk<
     R: Real,
     C: Compiled,
@@ -320,7 +320,7 @@ where
     const NOTHING: Nothing = Nothing;
     const JOINTS: u64 = joints::<C>(&L::NUMBERS);
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &AccelerationField<R>) -> AccelerationField<R> {
         let rates = Rates {
             qd: &self.state.qd,
@@ -334,7 +334,7 @@ where
         field
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn leave<const I: usize>(&mut self, _: &AccelerationField<R>, _: Nothing) -> Nothing {
         Nothing
     }
@@ -346,7 +346,7 @@ where
     L: Bodies<N>,
 {
     /// Writes the poses and motions of the bodies L that move with joint I, or stand on the base.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn see<const I: usize>(&mut self, field: &AccelerationField<R>) {
         const { Named::<C, L, N, I, 0>::ARE_FEW };
         for_each_joint!(K, {
@@ -364,7 +364,7 @@ where
 }
 
 /// Pose, velocity and spatial acceleration of a body, in its own frame.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn motion_of<R: Real>(
     field: &AccelerationField<R>,
     place: &'static BodyPlacement,
@@ -385,7 +385,7 @@ fn motion_of<R: Real>(
 }
 
 /// A motion in the body's own frame.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn own<R: Real>(rot: &Mat3<R>, ang: Vec3<R>, lin: Vec3<R>) -> Motion<R> {
     Motion::new(rot.transpose_mul(ang).get(), rot.transpose_mul(lin).get())
 }

@@ -35,7 +35,7 @@ impl<T, K> Engine<T, K> {
     /// # Errors
     /// [`NotPositiveDefinite`] names the outermost joint whose pivot is NaN or does not exceed 32 roundings of M_ii, as
     /// [`ltdl`](crate::algorithms::ltdl()) does: it moves no inertia when its descendants are free.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn ltdl<R: Real, const B: usize, const Q: usize, const V: usize>(
         m: &MassMatrix<R, V>,
     ) -> Result<Ltdl<R, V>, NotPositiveDefinite>
@@ -61,7 +61,7 @@ impl<T, K> Engine<T, K> {
     ///
     /// # Source
     /// RBDA (2008), table 6.4.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     #[must_use]
     pub fn solve<R: Real, const B: usize, const Q: usize, const V: usize>(
         factor: &Ltdl<R, V>,
@@ -78,7 +78,7 @@ impl<T, K> Engine<T, K> {
 
 /// M's lower triangle becomes L; returns the reciprocals of D, whose pivots must exceed `noise`. Those that are certain to, in any
 /// state of numbers, are looked at only if that of a joint on the base does not, to which a NaN spreads.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn decompose<R: Real, C, const V: usize>(
     m: &mut [[R; V]; V],
     noise: &[R; V],
@@ -112,7 +112,7 @@ where
 }
 
 /// Row K of L, and its share of the rows of its ancestors.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn eliminate<R: Real, C, const V: usize, const K: usize>(m: &mut [[R; V]; V], d_inv: R)
 where
     C: Compiled,
@@ -134,7 +134,7 @@ where
 }
 
 /// Row I less `l` times row K.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn subtract<R: Real, C, const V: usize, const K: usize, const I: usize>(m: &mut [[R; V]; V], l: R)
 where
     C: Compiled,
@@ -150,7 +150,7 @@ where
 type Row<R, const V: usize> = fn(&[[R; V]; V], &mut [R; V]);
 
 /// Lᵀ y = τ, D z = y, L x = z, in place.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn substitute<R: Real, C, const V: usize>(
     l: &[[R; V]; V],
     d_inv: &[R; V],
@@ -176,7 +176,7 @@ pub(crate) fn substitute<R: Real, C, const V: usize>(
 }
 
 /// Subtracts from x_I the products with the entries of its ancestors.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn scatter<R: Real, C, const V: usize, const I: usize>(l: &[[R; V]; V], x: &mut [R; V])
 where
     C: Compiled,
@@ -189,7 +189,7 @@ where
 }
 
 /// Subtracts the products with x_I from the entries of its ancestors.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn gather<R: Real, C, const V: usize, const I: usize>(l: &[[R; V]; V], x: &mut [R; V])
 where
     C: Compiled,

@@ -146,7 +146,7 @@ pub struct Engine<T, K = Native>(PhantomData<(T, K)>);
 
 impl<T, K> Engine<T, K> {
     /// The sines and cosines of the configuration q, for every algorithm of a tick.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     #[must_use]
     pub fn joint_trig<R: Real, const B: usize, const Q: usize, const V: usize>(
         q: &[R; Q],
@@ -239,7 +239,7 @@ where
     T: Robot<B, Q, V>,
     K: Kernel<R>,
 {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn compute(&self, q: &[R; Q]) -> JointTrig<R, Q> {
         Engine::<T, K>::joint_trig(q)
     }
@@ -247,7 +247,7 @@ where
 
 impl<T> Engine<T> {
     /// The recursion of [`rnea`] for clusters, whose sines are known; `back` is `trig` as the inward pass loads it.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn run<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         trig: &JointTrig<R, Q>,
         back: &JointTrig<R, Q>,

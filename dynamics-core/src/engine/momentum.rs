@@ -105,7 +105,7 @@ impl<T, K> Engine<T, K> {
     }
 
     /// p and β, or p and Cᵀ q̇ if there is no DRIFT.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn momenta<R: Real, S, E, const B: usize, const Q: usize, const V: usize, const DRIFT: bool>(
         state: S,
         effects: &E,
@@ -136,7 +136,7 @@ impl<T, K> Engine<T, K> {
 }
 
 /// The recursion of p and β; `back` is `trig` as it is loaded on returning.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn momenta<R, C, E, const B: usize, const Q: usize, const V: usize, const DRIFT: bool>(
     trig: &JointTrig<R, Q>,
     back: &JointTrig<R, Q>,
@@ -202,7 +202,7 @@ type Visit<R, E, const Q: usize, const V: usize> =
     fn(&mut Task<'_, R, E, Q, V>, &AccelerationField<R>) -> Carried<R>;
 
 /// Visits joint I and its descendants; returns what they carry about the origin of the parent, in its frame.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn visit<
     R,
     C,
@@ -291,7 +291,7 @@ where
 }
 
 /// The velocities of the body behind joint I.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn across<R: Real, C: Compiled, const V: usize, const I: usize>(
     parent: &AccelerationField<R>,
     at: &Displacement<R>,
@@ -321,7 +321,7 @@ type Entries<R, E, const Q: usize, const V: usize> =
 type Hold<R, E, const Q: usize, const V: usize> = fn(&mut Task<'_, R, E, Q, V>, &Wrench<R>);
 
 /// The entries of p and of Cᵀ q̇ of coordinate I, whose body moves as `body` and has with its descendants the momentum `h`.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn entries<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     body: &AccelerationField<R>,
@@ -342,7 +342,7 @@ fn entries<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usi
 }
 
 /// The same of all coordinates of a joint.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn several_entries<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     body: &AccelerationField<R>,
@@ -367,7 +367,7 @@ fn several_entries<R, C, E, const B: usize, const Q: usize, const V: usize, cons
 }
 
 /// Subtracts from the entry of coordinate I what carries `load` and what the effects at the joint need.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn hold<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     load: &Wrench<R>,
@@ -384,7 +384,7 @@ fn hold<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>
 }
 
 /// The same of all coordinates of a joint.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn hold_several<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     load: &Wrench<R>,
@@ -408,7 +408,7 @@ fn hold_several<R, C, E, const B: usize, const Q: usize, const V: usize, const I
 }
 
 /// The momentum I v of a body: m v + ω × h, and h × v + tr(Σ) ω − Σ ω.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn momentum<R: Real>(body: &AccelerationField<R>, inertia: &Inertia<R>) -> Wrench<R> {
     let (s, [wx, wy, wz]) = (&inertia.second, body.omega.0);
     let (xy, xz, yz) = (s.xx + s.yy, s.xx + s.zz, s.yy + s.zz);
@@ -424,7 +424,7 @@ pub(super) fn momentum<R: Real>(body: &AccelerationField<R>, inertia: &Inertia<R
 }
 
 /// The entry of Cᵀ q̇ of a coordinate: (v × S)ᵀ h = −Sᵀ (v ×* h).
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn rate<R: Real, C: Compiled, const I: usize>(
     body: &AccelerationField<R>,
     h: &Wrench<R>,

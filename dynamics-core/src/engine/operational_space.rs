@@ -189,7 +189,7 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn of_rows<R: Real, T, K, E, const M: usize, const B: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,
     rows: [[R; V]; M],
@@ -207,7 +207,7 @@ where
 }
 
 /// Λ⁻¹ of a body from the columns of its J, which become those of J L⁻¹, in place.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn mobility<R: Real, C: Compiled, const V: usize, const BODY: usize>(
     l: &[[R; V]; V],
     d_inv: &[R; V],
@@ -231,7 +231,7 @@ fn mobility<R: Real, C: Compiled, const V: usize, const BODY: usize>(
 }
 
 /// Subtracts from the columns of joint I's ancestors its own, times their entries of L.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn scatter<R: Real, C: Compiled, const V: usize, const I: usize>(
     l: &[[R; V]; V],
     columns: &mut [Motion<R>; V],

@@ -44,7 +44,7 @@ impl<R: Real> Felt<R> {
     };
 
     /// Those of a body and of the inertia `spin` that turns about z alone feel; `root` is the motion of the joint on the base, in its frame.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of(body: &Inertia<R>, spin: Folded<R>, root: &Twist<R>) -> Self {
         let (s, [ex, ey, _]) = (&body.second, root.ang.0);
         // Of a unit vector: u·Σu = Σ_yy + u_x ((Σ_xx − Σ_yy) u_x + 2 Σ_xy u_y).
@@ -60,7 +60,7 @@ impl<R: Real> Felt<R> {
     }
 
     /// The wrench of the joint's unit acceleration without what only the joint on the base feels of it, in the joint's frame.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn wrench<C: Compiled, const I: usize>(&self, at: &Displacement<R>) -> Wrench<R> {
         let [hx, hy, _] = at.leave::<C, I>(self.moment).0;
         Wrench {
@@ -70,7 +70,7 @@ impl<R: Real> Felt<R> {
     }
 
     /// The same sums in the frame of joint I's parent and about its origin; `root` is in that frame.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn to_parent<C: Compiled, const I: usize>(
         self,
         at: &Displacement<R>,
@@ -93,7 +93,7 @@ impl<R: Real> Felt<R> {
     }
 
     /// The inertia that the joint on the base feels of them, as a Σ in its frame.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn on_root(&self) -> Inertia<R> {
         let mut inertia = Inertia::NONE;
         inertia.second.xx = self.of_root;
@@ -103,7 +103,7 @@ impl<R: Real> Felt<R> {
 
 impl<R: Real> Add for Felt<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
         Self {
             mass: self.mass + o.mass,

@@ -37,14 +37,14 @@ pub(super) struct Nothing;
 
 impl Add for Nothing {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, _: Self) -> Self {
         self
     }
 }
 
 /// Visits all joints; returns the sum over those on the base.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn sweep<R: Real, C: Compiled, P: Pass<R, C>>(
     pass: &mut P,
     base: &P::Outward,
@@ -56,7 +56,7 @@ pub(super) fn sweep<R: Real, C: Compiled, P: Pass<R, C>>(
 type Visit<R, C, P> = fn(&mut P, &<P as Pass<R, C>>::Outward) -> <P as Pass<R, C>>::Inward;
 
 /// Visits the children of joint I, or the joints on the base.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn children<R: Real, C: Compiled, P: Pass<R, C>, const I: usize>(
     pass: &mut P,
     body: &P::Outward,
@@ -78,7 +78,7 @@ fn children<R: Real, C: Compiled, P: Pass<R, C>, const I: usize>(
 }
 
 /// Visits joint I and its descendants.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn visit<R: Real, C: Compiled, P: Pass<R, C>, const I: usize>(
     pass: &mut P,
     parent: &P::Outward,
@@ -96,7 +96,7 @@ impl<R: Real, C: Compiled, P: Pass<R, C>, const I: usize, const J: usize> Step<R
 }
 
 /// The field of the body behind joint I, from that of its parent, with its pose if the parent's is known.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn moved<R: Real, C: Compiled, const Q: usize, const V: usize, const I: usize>(
     parent: &AccelerationField<R>,
     turns: &[JointCoordinate<R>; Q],

@@ -115,20 +115,20 @@ pub(crate) struct Singular(u32);
 
 impl Singular {
     /// Whether a joint was noted.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn is_any(self) -> bool {
         self.0 != 0
     }
 
     /// Notes joint J unless its pivot is a number and more than `noise`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn note<R: Real, const J: usize>(&mut self, pivot: R, noise: R) {
         let exceeds = pivot > noise;
         self.0 |= u32::from(!exceeds) << J;
     }
 
     /// The error of the outermost joint that was noted.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn outermost(self) -> Result<(), NotPositiveDefinite> {
         match self.0.checked_ilog2() {
             None => Ok(()),
@@ -140,7 +140,7 @@ impl Singular {
 }
 
 /// The pivots that rounding may leave of a singular M: of each joint, kg·m² or kg.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn noise<R, C, E, const B: usize, const Q: usize, const V: usize>(
     turns: &[JointCoordinate<R>; Q],
     effects: &E,
@@ -167,7 +167,7 @@ where
 }
 
 /// Whether the pivots of forward dynamics exceed their noise in any state, of joints on a parent: of numbers, only a NaN does not.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn certain<R, C, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
 ) -> [bool; V]
@@ -208,7 +208,7 @@ where
 
 /// The same of joint I. A pivot that exceeds it has a finite reciprocal: neither the smallest numbers nor, of an infinite
 /// inertia, infinity does.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn of_joint<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],
     effects: &E,
@@ -224,7 +224,7 @@ where
 }
 
 /// The largest inertia that joint I could move, without its rotor's: a constant of robots without slides and payload.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn largest_inertia<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],
     effects: &E,
@@ -268,7 +268,7 @@ where
 }
 
 /// How far coordinate I has moved its body's origin, m.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn slide<R: Real, C: Compiled, const Q: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],
 ) -> R {
@@ -284,7 +284,7 @@ fn slide<R: Real, C: Compiled, const Q: usize, const I: usize>(
 }
 
 /// Adds the payloads that joint I moves to the inertia that it could move.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn loaded<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     mut size: R,
@@ -318,7 +318,7 @@ where
 }
 
 /// The largest inertia of a payload about an axis that is no further than `reach` from its body's origin.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn of_load<R: Real>(load: &SpatialInertia<R>, reach: R) -> R {
     let [x, y, z] = load.rotational.cols().map(Vector::array);
     let [hx, hy, hz] = load.first_moment.array();

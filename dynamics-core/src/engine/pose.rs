@@ -35,7 +35,7 @@ impl<R: Real> Pose<R> {
     };
 
     /// The pose of a child behind joint I.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn transformed_by<C: Compiled, const I: usize>(&self, at: &Displacement<R>) -> Self {
         let joint = CompiledJoint::<C, I>::JOINT;
         let [x, y, z] = Mat3::constant(&joint.rot).0;
@@ -48,7 +48,7 @@ impl<R: Real> Pose<R> {
     }
 
     /// The pose of the same body's point at `p`, in its axes.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn moved(&self, p: Vec3<R>) -> Self {
         Self {
             origin: self.origin + self.axes.mul(p),
@@ -57,7 +57,7 @@ impl<R: Real> Pose<R> {
     }
 
     /// The same with axes that `to_axes` turns to from these.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn turned(&self, to_axes: &Mat3<R>) -> Self {
         let [x, y, z] = to_axes.rows();
         Self {
@@ -67,7 +67,7 @@ impl<R: Real> Pose<R> {
     }
 
     /// ᵘX₀ of a body of the description: from the base to its own frame.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of(&self, place: &BodyPlacement, length: Folded<R>) -> Xform<R> {
         let [x, y, z] = Mat3::constant(&place.rot).0;
         let axes = [self.axes.mul(x), self.axes.mul(y), self.axes.mul(z)];

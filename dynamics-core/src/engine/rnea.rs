@@ -30,7 +30,7 @@ pub(crate) struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
 }
 
 /// The recursion of inverse dynamics; `back` is `trig` as the inward pass loads it.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn torques<R, C, E, const B: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,
     back: &JointTrig<R, Q>,
@@ -49,7 +49,7 @@ where
 }
 
 /// The torques of [`torques`], written into `tau`, which holds zeros.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn write_torques<R, C, E, const B: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,
     back: &JointTrig<R, Q>,
@@ -98,7 +98,7 @@ pub(crate) type Visit<R, E, const Q: usize, const V: usize> =
     fn(&mut Task<'_, R, E, Q, V>, &AccelerationField<R>) -> Wrench<R>;
 
 /// Visits joint I and its descendants; returns the wrench that they need from the parent, in its frame.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn visit<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     parent: &AccelerationField<R>,
@@ -165,7 +165,7 @@ where
 }
 
 /// The displacement of joint I, and the field of the body behind it from that of the parent.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn across<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &Task<'_, R, E, Q, V>,
     parent: &AccelerationField<R>,
@@ -218,7 +218,7 @@ where
 }
 
 /// ρ I (q̈ z + q̇ ω × z): the couple that the parent exerts on the rotor of joint I.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn spin<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &Task<'_, R, E, Q, V>,
     field: &AccelerationField<R>,
@@ -235,7 +235,7 @@ where
 }
 
 /// The torque of the motor of coordinate I, which carries `total`.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn drive<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     total: &Wrench<R>,
@@ -256,7 +256,7 @@ pub(super) fn drive<R, C, E, const B: usize, const Q: usize, const V: usize, con
 }
 
 /// The same of all coordinates of a joint.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn drive_several<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     total: &Wrench<R>,
@@ -280,7 +280,7 @@ fn drive_several<R, C, E, const B: usize, const Q: usize, const V: usize, const 
 }
 
 /// What effects at coordinate I read.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn joint_state<R: Real, C: Compiled, const Q: usize, const V: usize, const I: usize>(
     state: &State<R, Q, V>,
 ) -> JointState<R> {
@@ -292,7 +292,7 @@ pub(crate) fn joint_state<R: Real, C: Compiled, const Q: usize, const V: usize, 
 }
 
 /// The inertia of the body behind joint I, with its payloads; all of Σ if the base moves.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn inertia<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     base_moves: bool,
@@ -307,7 +307,7 @@ where
 }
 
 /// The same in M, and the inertia that only the rotation of its own joint feels.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn matrix_inertia<
     R,
     C,
@@ -335,7 +335,7 @@ where
     (with_payloads::<R, C, E, B, Q, V, I>(effects, body), spin)
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn with_payloads<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     body: Inertia<R>,
@@ -357,7 +357,7 @@ where
 }
 
 /// The same without payloads: the description's, or that of the loaded base parameters.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn own_inertia<R: Real, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     base_moves: bool,
@@ -384,7 +384,7 @@ where
 }
 
 /// Adds the payloads of the bodies on joint I, which are given in those bodies' own frames, to its inertia.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn loaded<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     mut body: Inertia<R>,
@@ -415,7 +415,7 @@ where
 }
 
 /// Adds the payload of one body, at `place`.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn with_load<R, E, const B: usize, const V: usize>(
     effects: &E,
     of: usize,
@@ -460,7 +460,7 @@ where
 }
 
 /// Subtracts the wrenches fˣ of the bodies on joint I.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn environment<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     field: &AccelerationField<R>,
@@ -494,7 +494,7 @@ where
 }
 
 /// The wrench fˣ of one body, which the effects give in its own frame, in that of its joint.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn exerted<R, E, const B: usize, const V: usize>(
     effects: &E,
     body: usize,

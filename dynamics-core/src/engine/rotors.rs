@@ -31,7 +31,7 @@ impl<C: Compiled, const I: usize> OnlyCoordinate<C, I> {
 }
 
 /// ρ I of the rotor of joint I; a known zero without one.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn coupling<R: Real, C: Compiled, E, const B: usize, const V: usize, const I: usize>(
     effects: &E,
 ) -> Folded<R>
@@ -47,7 +47,7 @@ where
 }
 
 /// What joint I feels of `carried`: with it the couple ρ I z·x by which the rotor follows a motion x of the parent, its ω or α.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn felt<R: Real, C: Compiled, E, const B: usize, const V: usize, const I: usize>(
     effects: &E,
     carried: Wrench<R>,
@@ -72,7 +72,7 @@ where
 }
 
 /// What the parent of joint I bears of `carried`: with it a couple on the rotor, in the frame of the joint's body.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn borne<R: Real, E, const B: usize, const V: usize>(
     _: &E,
     carried: Wrench<R>,

@@ -64,7 +64,7 @@ pub(crate) fn root_subtree<
 }
 
 /// Visits joint J on joint I, whose field is `parent`.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn visit_child<
     R,
     C,
@@ -143,7 +143,7 @@ where
 }
 
 /// A vector that is a known zero unless an effect needs it.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn runtime_if<R: Real>(needed: bool, v: R::Vec3) -> Vec3<R> {
     let [x, y, z] = v.array();
     Vec3([

@@ -24,7 +24,7 @@ use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
     /// τ = ID(q, q̇, q̈) and its derivatives τ̇ and τ̈, along a course with these third and fourth derivatives of q.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn torque_rates<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: &State<R, Q, V>,
         jerk: &[R; V],
@@ -92,7 +92,7 @@ type Visit<R, E, const Q: usize, const V: usize> =
     fn(&mut Task<'_, R, E, Q, V>, &Field<R>) -> WrenchSeries<R>;
 
 /// Visits joint I and its descendants; returns the wrench that they need from the parent, in its frame.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn visit<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     parent: &Field<R>,
@@ -169,7 +169,7 @@ struct Field<R> {
 
 impl<R: Real> Field<R> {
     /// That of a base at rest, where a = −g.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn at_rest(a: Vec3<R>) -> Self {
         Self {
             omega: Series([Vec3::ZERO; 3]),
@@ -181,7 +181,7 @@ impl<R: Real> Field<R> {
     }
 
     /// The field of a child behind a revolute joint.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn across_revolute(
         &self,
         joint: &Joint,
@@ -216,7 +216,7 @@ impl<R: Real> Field<R> {
     }
 
     /// The field of a child behind a prismatic joint at q, in units of length.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn across_prismatic(
         &self,
         joint: &Joint,
@@ -253,7 +253,7 @@ impl<R: Real> Field<R> {
     }
 
     /// The wrench that accelerates the body's inertia.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn wrench(&self, body: &Inertia<R>) -> WrenchSeries<R> {
         let ([a0, a1, a2], [u0, u1, u2]) = (self.a.0, &self.u.0);
         let [s0, s1, s2] = &self.squares;
@@ -268,7 +268,7 @@ impl<R: Real> Field<R> {
 }
 
 /// α and U from ω ωᵀ, α_z and U's z column: linear in all three, so for each coefficient.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn completed<R: Real>(squares: &Sym3<R>, az: Folded<R>, along: Vec3<R>) -> (Vec3<R>, Mat3<R>) {
     let (s, [uxz, uyz, uzz]) = (squares, along.0);
     let (ax, ay) = (s.yz - uyz, uxz - s.xz);
@@ -281,7 +281,7 @@ fn completed<R: Real>(squares: &Sym3<R>, az: Folded<R>, along: Vec3<R>) -> (Vec3
 }
 
 /// The wrench of an inertia, f = m a + U h and n = h × a + axial(U Σ − Σ Uᵀ), linear in a, U and ω ωᵀ: for each coefficient.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn wrench<R: Real>(body: &Inertia<R>, a: Vec3<R>, u: &Mat3<R>, squares: &Sym3<R>) -> Wrench<R> {
     let (m, [x, y, z]) = (&body.second, u.0);
     // U_yy − U_zz and the others by its symmetric part.
@@ -308,7 +308,7 @@ struct WrenchSeries<R> {
 impl<R: Real> WrenchSeries<R> {
     /// The same, computed before the children's fields: the compiler does not see through it. Left to itself, it mixes the bodies
     /// and keeps more numbers than there are registers, which takes an eighth of the cycles more.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn finished(self) -> Self {
         let (f, n) = black_box((self.f.0.map(Vec3::get), self.n.0.map(Vec3::get)));
         Self {
@@ -318,7 +318,7 @@ impl<R: Real> WrenchSeries<R> {
     }
 
     /// The same in the frame of joint I's parent and about its origin.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn to_parent<C: Compiled, const I: usize>(
         self,
         turn: &Turn<R>,

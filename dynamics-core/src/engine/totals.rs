@@ -34,7 +34,7 @@ pub(super) struct Totals<R> {
 
 impl<R: Real> Add for Totals<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
         Self {
             mass: self.mass + o.mass,
@@ -48,7 +48,7 @@ impl<R: Real> Add for Totals<R> {
 
 impl<R: Real> Totals<R> {
     /// With those of the children, whose rotors turn with the body of the angular velocity ω.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn carrying(self, inner: Self, omega: Vec3<R>) -> Self {
         let along = omega.dot(inner.spin);
         let sum = self + inner;
@@ -59,14 +59,14 @@ impl<R: Real> Totals<R> {
     }
 
     /// The centre of mass, m; the base's origin if there is no mass. And 1/m, 1/kg; then zero.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn centre(&self, length: f64) -> (R::Vec3, R) {
         centre(self.mass, self.moment, length)
     }
 }
 
 /// The centre of mass of a mass and a first moment in units of length, m, and the reciprocal of the mass, 1/kg.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn centre<R: Real>(mass: Folded<R>, moment: Vec3<R>, length: f64) -> (R::Vec3, R) {
     let mass = (mass * Folded::constant(1.0 / (length * length))).get();
     let mass_inv = if mass > R::ZERO {
@@ -80,7 +80,7 @@ pub(super) fn centre<R: Real>(mass: Folded<R>, moment: Vec3<R>, length: f64) -> 
 
 /// The totals of all bodies of a robot at rates `qd`, or at rest without them, with what is fixed to the base. With WHOLE, of
 /// which the momentum needs all of Σ.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn totals<
     R: Real,
     C: Compiled,
@@ -118,7 +118,7 @@ where
 }
 
 /// What is fixed to the base.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn fixed<R: Real>(at_base: &'static Distribution) -> Inertia<R> {
     Inertia {
         mass: Folded::constant(at_base.mass),
@@ -128,7 +128,7 @@ pub(super) fn fixed<R: Real>(at_base: &'static Distribution) -> Inertia<R> {
 }
 
 /// The totals of one body.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn of_body<R: Real>(body: &AccelerationField<R>, own: &Inertia<R>) -> Totals<R> {
     let h = momentum(body, own);
     Totals {
@@ -162,7 +162,7 @@ where
         spin: Vec3::ZERO,
     };
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &AccelerationField<R>) -> AccelerationField<R> {
         let none = [R::ZERO; V];
         let rates = Rates {
@@ -175,7 +175,7 @@ where
         moved::<R, C, Q, V, I>(parent, self.turns, &rates)
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn leave<const I: usize>(
         &mut self,
         body: &AccelerationField<R>,
@@ -207,7 +207,7 @@ where
 }
 
 /// Twice the energy of what stands at the coordinates of joint I.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn rotors<R: Real, C: Compiled, E, const B: usize, const V: usize, const I: usize>(
     effects: &E,
     qd: &[R; V],

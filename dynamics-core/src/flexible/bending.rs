@@ -489,7 +489,7 @@ impl<T, K> Bending<Engine<T, K>> {
     }
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn inverse<T, R: Real, E, const B: usize, const Q: usize, const V: usize, const M: usize>(
     trig: &JointTrig<R, Q>,
     joints: &State<R, Q, V>,
@@ -506,7 +506,7 @@ where
     JointsAndModes { joints, modes }
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn inertia<T, R: Real, E, const B: usize, const Q: usize, const V: usize, const M: usize>(
     trig: &JointTrig<R, Q>,
     eta: &[R; M],
@@ -532,7 +532,7 @@ where
 }
 
 /// The inertia of the modes alone.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn of_modes<T, R: Real, E, const B: usize, const Q: usize, const V: usize, const M: usize>(
     trig: &JointTrig<R, Q>,
     eta: &[R; M],

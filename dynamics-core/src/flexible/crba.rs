@@ -79,7 +79,7 @@ impl<R: Real, const V: usize, const M: usize> FlexibleInertia<R, V, M> {
 ///
 /// # Example
 /// That of [`forward_dynamics`](super::forward_dynamics()).
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn crba<R: Real, D, E, const B: usize, const Q: usize, const V: usize, const M: usize>(
     robot: &D,
@@ -96,7 +96,7 @@ where
 }
 
 /// The inertia of the modes alone: the block that the motion of modes along a given one of the joints needs.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn modal_inertia<
     R: Real,
     D,
@@ -121,7 +121,7 @@ where
 }
 
 /// The two passes; without `JOINTS` those blocks stay zero that joints have.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn sweep<
     R: Real,
     D,

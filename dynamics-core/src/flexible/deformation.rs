@@ -14,7 +14,7 @@ use crate::state::entry;
 
 /// Adds the change of a link's inertia by the deformation η of one mode, about the joint. With Φ = ∫ φ rᵀ dm, which is
 /// `moments`, ∫ r rᵀ dm changes by Σ ηₖ (Φₖ + ∫ r₀ φₖᵀ dm).
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn deform<R: Real>(
     inertia: &mut SpatialInertia<R>,
     mode: &Integrals<R>,
@@ -33,14 +33,14 @@ pub(super) fn deform<R: Real>(
 
 impl<R: Real, const M: usize> Modes<R, M> {
     /// ∫ φₖ·φₗ dm: the inertia between two modes of a link.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn inertia(&self, k: usize, l: usize) -> R {
         let product = self.products.get(k).and_then(|row| row.get(l));
         product.map_or(R::ZERO, trace::<R>)
     }
 
     /// Φₖ = ∫ φₖ rᵀ dm of the deformed link.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn moments(&self, k: usize, range: &Range<usize>, eta: &[R; M]) -> R::Mat3 {
         let (Some(mode), Some(products)) = (self.each.get(k), self.products.get(k)) else {
             return R::Mat3::ZERO;
@@ -56,13 +56,13 @@ impl<R: Real, const M: usize> Modes<R, M> {
 }
 
 /// ∫ r × φ dm of ∫ φ rᵀ dm.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn axial<R: Real>(moments: &R::Mat3) -> R::Vec3 {
     let [x, y, z] = moments.cols().map(R::Vec3::array);
     R::Vec3::new(y[2] - z[1], z[0] - x[2], x[1] - y[0])
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn trace<R: Real>(m: &R::Mat3) -> R {
     let [x, y, z] = m.cols().map(R::Vec3::array);
     x[0] + y[1] + z[2]
@@ -84,7 +84,7 @@ pub(super) struct End<R: Real> {
 
 impl<R: Real> End<R> {
     /// From the displacement and the parameters.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of([shift, g]: [R::Vec3; 2], rest: R::Vec3) -> Self {
         let two = R::from_f64(2.0);
         Self {
@@ -96,7 +96,7 @@ impl<R: Real> End<R> {
 
     /// The transform from the link's frame to a body on its end, from the same transform of the undeformed link, whose end
     /// is at `rest`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn xform(&self, x: &Xform<R>, rest: R::Vec3) -> Xform<R> {
         let ([x_0, y_0, z_0], [dx, dy, dz]) = (self.g.array(), (self.g * self.scale).array());
         let diagonal = self.scale - R::ONE;
@@ -113,13 +113,13 @@ impl<R: Real> End<R> {
     }
 
     /// The angular velocity of ġ.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn omega(&self, g_dot: R::Vec3) -> R::Vec3 {
         (g_dot + self.g.cross(g_dot)) * self.scale
     }
 
     /// The velocity relative to the link.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn velocity(&self, [shift, g_dot]: [R::Vec3; 2]) -> Motion<R> {
         let ang = self.omega(g_dot);
         Motion::new(ang, shift + self.point.cross(ang))
@@ -127,7 +127,7 @@ impl<R: Real> End<R> {
 
     /// Adds the velocity and the acceleration of the end relative to the link to those of the link, with the terms that the
     /// effects have.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn add<E, const B: usize, const V: usize>(
         &self,
         _: &E,
@@ -157,7 +157,7 @@ impl<R: Real> End<R> {
     }
 
     /// A force on the end, as the moment by which ½ ψ of a mode is multiplied and the force by which φ is.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn load(&self, f: Force<R>) -> Force<R> {
         let moment = f.ang - self.point.cross(f.lin);
         Force::new((moment - self.g.cross(moment)) * self.scale, f.lin)
@@ -166,7 +166,7 @@ impl<R: Real> End<R> {
 
 impl<R: Real, const M: usize> Modes<R, M> {
     /// Displacement and Rodrigues parameters of the end of a link at each of these coordinates, or their rates.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn at_end<const N: usize>(
         &self,
         range: &Range<usize>,
@@ -186,7 +186,7 @@ impl<R: Real, const M: usize> Modes<R, M> {
     }
 
     /// The end of a link undeformed.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn rest(&self, range: &Range<usize>) -> R::Vec3 {
         let mode = self.each.get(range.start);
         mode.map_or(R::Vec3::ZERO, |mode| mode.end)

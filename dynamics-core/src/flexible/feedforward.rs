@@ -116,7 +116,7 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     /// # Errors
     /// [`FlexibleError`] names a mode that moves no inertia or whose acceleration is not finite, or a joint whose torque is
     /// not; the modes are then unchanged.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn tick<D, E, const B: usize, const Q: usize, const V: usize>(
         &mut self,
         robot: &D,
@@ -140,7 +140,7 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     }
 
     /// The modes after h seconds, extrapolated by η̈.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn ahead(&self, h: R) -> State<R, M, M> {
         let mut bent = self.bent;
         advance(&mut bent, &self.bent.qdd, h);
@@ -148,7 +148,7 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     }
 
     /// Stores the modes of a tick and returns its torques.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn accept<const V: usize>(
         &mut self,
         bent: State<R, M, M>,
@@ -162,7 +162,7 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
 }
 
 /// Corrects extrapolated modes, of this inertia and with this force on them, by the change δ of η̈; `elastic` has their stiffness.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn correct<R: Real, const M: usize>(
     bent: &mut State<R, M, M>,
     m: &[[R; M]; M],

@@ -68,7 +68,7 @@ impl core::error::Error for FlexibleError {}
 /// assert!((tau.joints[0] - 2.0).abs() < 1e-12 && tau.modes[0].abs() < 1e-12);
 /// # Ok::<(), dynamics_core::flexible::FlexibleError>(())
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn forward_dynamics<
     R: Real,
     D,
@@ -124,7 +124,7 @@ where
 ///
 /// # Example
 /// That of [`ModalFeedforward`](super::ModalFeedforward).
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn modal_dynamics<
     R: Real,
     D,
@@ -156,7 +156,7 @@ where
 }
 
 /// The accelerations of the modes that need these forces at rest.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn accelerations<R: Real, const M: usize>(
     m: &[[R; M]; M],
     force: [R; M],
@@ -172,7 +172,7 @@ impl<R: Real, const V: usize, const M: usize> FlexibleInertia<R, V, M> {
     ///
     /// # Errors
     /// [`FlexibleError`] names the first coordinate whose pivot is not positive.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn solve(
         &self,
         forces: &JointsAndModes<R, V, M>,
@@ -225,7 +225,7 @@ pub(super) struct Factors<R, const N: usize> {
 
 impl<R: Real, const N: usize> Factors<R, N> {
     /// The number of the first row whose pivot is not positive, beyond what rounding leaves of it, is the error.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(matrix: &[[R; N]; N]) -> Result<Self, usize> {
         let (mut rows, mut d_inv) = (*matrix, [R::ZERO; N]);
         let noise = R::EPSILON * R::from_f64(N as f64);
@@ -259,7 +259,7 @@ impl<R: Real, const N: usize> Factors<R, N> {
     }
 
     /// L⁻¹ x.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn forward(&self, mut x: [R; N]) -> [R; N] {
         for i in 0..N {
             let row = self

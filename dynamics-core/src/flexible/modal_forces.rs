@@ -20,7 +20,7 @@ pub(super) struct Outer<R: Real> {
 
 impl<R: Real> Outer<R> {
     /// That of the base, with a₀ = −g.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn base<E, const B: usize, const V: usize>(effects: &E) -> Self
     where
         E: Effect<R, B, V>,
@@ -34,7 +34,7 @@ impl<R: Real> Outer<R> {
     }
 
     /// The same motion in another frame.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn moved<E, const B: usize, const V: usize>(&self, _: &E, x: &Xform<R>) -> Self
     where
         E: Effect<R, B, V>,
@@ -54,7 +54,7 @@ impl<R: Real> Outer<R> {
     }
 
     /// The force I a + v ×* I v that accelerates a body; without `Coriolis` I a.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn net_force<E, const B: usize, const V: usize>(
         &self,
         _: &E,
@@ -73,7 +73,7 @@ impl<R: Real> Outer<R> {
 
 /// The force that accelerates a link with modes, and those that accelerate its modes: ∫ a dm, ∫ r × a dm and
 /// ∫ φₖ·a dm of a = p̈ + α × r + ω × (ω × r) + 2 ω × φ η̇ + φ η̈. The latter are added to `of_modes`, with K η + D η̇.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn net_force<R: Real, E, const B: usize, const V: usize, const M: usize>(
     effects: &E,
     (modes, range): (&Modes<R, M>, &Range<usize>),
@@ -141,7 +141,7 @@ where
 
 impl<R: Real, const M: usize> Modes<R, M> {
     /// K η + D η̇ of mode k by mode l.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn elasticity(&self, k: usize, l: usize, [eta, rate]: [R; 2]) -> R {
         match (self.stiffness.get(k), self.damping.get(k)) {
             (Some(stiffness), Some(damping)) => {
@@ -152,7 +152,7 @@ impl<R: Real, const M: usize> Modes<R, M> {
     }
 
     /// The force on mode k of a load on the end of its link: see [`End::load`](super::deformation::End::load).
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn work(&self, k: usize, load: Force<R>) -> R {
         let work = |mode: &Integrals<R>| mode.half_turn.dot(load.ang) + mode.shift.dot(load.lin);
         self.each.get(k).map_or(R::ZERO, work)

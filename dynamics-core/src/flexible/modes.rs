@@ -77,7 +77,7 @@ impl<R: Real, const M: usize> Modes<R, M> {
     }
 
     /// The modes of body `i`: they follow each other.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of_body(&self, i: usize) -> core::ops::Range<usize> {
         let count = |is: fn(usize, usize) -> bool| {
             let links = self.links.iter();

@@ -73,7 +73,7 @@ use crate::state::{Configuration, RobotState, State};
 /// assert!((sagging.joints[0] - straight.joints[0]).abs() < 1e-12);
 /// assert!(sagging.modes[0] < straight.modes[0]);
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn rnea<R: Real, D, E, const B: usize, const Q: usize, const V: usize, const M: usize>(
     robot: &D,

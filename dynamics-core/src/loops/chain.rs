@@ -8,7 +8,7 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Motion, Xform};
 
 /// The bodies from `at` inward to `ancestor`, without it.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn inward<'a, R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &'a D,
     mut at: usize,
@@ -28,7 +28,7 @@ where
 }
 
 /// The nearest body that carries both, or the base.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn common_ancestor<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     [mut p, mut s]: [usize; 2],
@@ -61,7 +61,7 @@ pub(super) struct LoopBodies<R: Real, const B: usize> {
 
 impl<R: Real, const B: usize> LoopBodies<R, B> {
     /// No bodies, to be filled where it stands.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) const fn blank() -> Self {
         Self {
             xforms: Vec::new(),
@@ -70,7 +70,7 @@ impl<R: Real, const B: usize> LoopBodies<R, B> {
     }
 
     /// Those of loops between these pairs of bodies and their common ancestors.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn set<'b, D, const Q: usize, const V: usize>(
         &mut self,
         robot: &D,
@@ -97,7 +97,7 @@ impl<R: Real, const B: usize> LoopBodies<R, B> {
 
     /// From the aligned frame of `ancestor` to a frame on body `at`; puts the columns of its Jacobian relative to `ancestor`
     /// with their coordinates.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of_frame<D, const Q: usize, const V: usize>(
         &self,
         robot: &D,
@@ -119,7 +119,7 @@ impl<R: Real, const B: usize> LoopBodies<R, B> {
     }
 
     /// The columns alone.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn columns<D, const Q: usize, const V: usize>(
         &self,
         robot: &D,
@@ -139,7 +139,7 @@ impl<R: Real, const B: usize> LoopBodies<R, B> {
     }
 
     /// The velocity of a frame on body `at` relative to `ancestor` and its acceleration at q̈ = 0, in its own coordinates.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn motion<D, const Q: usize, const V: usize>(
         &self,
         robot: &D,
@@ -181,7 +181,7 @@ pub(super) enum Column<R: Real> {
 }
 
 impl<R: Real> Column<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn motion(self) -> Motion<R> {
         match self {
             Self::Turn(motion) => motion,
@@ -190,7 +190,7 @@ impl<R: Real> Column<R> {
     }
 
     /// −X S, the motion of the other side.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn opposite(self, x: &Xform<R>) -> Motion<R> {
         match self {
             Self::Turn(motion) => -(*x * motion),
@@ -200,7 +200,7 @@ impl<R: Real> Column<R> {
 }
 
 /// The columns of X S.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn subspace<R: Real>(
     link: &LinkView<'_, R>,
     turns: &[JointCoordinate<R>],
@@ -242,7 +242,7 @@ fn subspace<R: Real>(
 }
 
 /// X⁻¹
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn inverse<R: Real>(x: &Xform<R>) -> Xform<R> {
     Xform {
         rot: x.rot.transpose(),

@@ -44,7 +44,7 @@ pub struct Constraints<R: Real, const V: usize, const L: usize, const C: usize> 
 
 impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, L, C> {
     /// The largest error of position relative to the size of its loop, and its row.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn worst(&self) -> (R, usize) {
         let mut worst = (R::ZERO, 0);
         for (row, (&error, &size)) in self.position.iter().zip(&self.size).enumerate() {
@@ -57,13 +57,13 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
     }
 
     /// One over the size of the loop of each row.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn scale(&self) -> [R; C] {
         self.size.map(|size| R::ONE / size)
     }
 
     /// The rows of K over the sizes of their loops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn scaled(&self) -> [[R; V]; C] {
         let mut rows = self.jacobian;
         for (row, by) in rows.iter_mut().zip(self.scale()) {
@@ -73,19 +73,19 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
     }
 
     /// The errors of position over the sizes of their loops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn error(&self) -> [R; C] {
         scaled(self.position, &self.scale())
     }
 
     /// k over the sizes of the loops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn scaled_bias(&self) -> [R; C] {
         scaled(self.bias, &self.scale())
     }
 
     /// Row `row` of K q̈, with what stabilises it.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn wanted(&self, row: usize, by: Stabilisation<R>) -> R {
         let errors =
             by.velocity * entry(&self.velocity, row) + by.position * entry(&self.position, row);
@@ -121,14 +121,14 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
     }
 
     /// Whether coordinate `i` moves loop `of` and no other.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn is_own(&self, i: usize, of: usize) -> bool {
         self.own_loop.get(i) == Some(&of)
     }
 
     /// # Errors
     /// [`LoopError::NotFinite`] with the name of the first loop of which a number is not finite.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn check<const A: usize>(&self, loops: &Loops<L, C, A>) -> Result<(), LoopError> {
         // The size of a loop is not finite where an entry of K is not.
         let all = [&self.size, &self.position, &self.velocity, &self.bias];
@@ -146,7 +146,7 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
 }
 
 /// Numbers of rows times those of the scale.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn scaled<R: Real, const C: usize>(mut rows: [R; C], scale: &[R; C]) -> [R; C] {
     for (x, &scale) in rows.iter_mut().zip(scale) {
         *x *= scale;
@@ -188,7 +188,7 @@ pub(super) fn scaled<R: Real, const C: usize>(mut rows: [R; C], scale: &[R; C]) 
 /// assert_eq!(stretched.position, [0.0; 5]); // the rod reaches the piston
 /// assert!(stretched.velocity.iter().any(|error| error.abs() > 0.3)); // m/s: the crank alone would lift its end
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn constraints<
     R: Real,
@@ -218,7 +218,7 @@ where
 
 impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, L, C> {
     /// Nothing, to be filled where it stands: it is large.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn blank() -> Self {
         Self {
             jacobian: [[R::ZERO; V]; C],
@@ -233,7 +233,7 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
     }
 
     /// K and φ of constraints that are blank, and the bodies between the ends of the loops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn set_positions<D, const B: usize, const Q: usize, const A: usize>(
         &mut self,
         robot: &D,
@@ -313,7 +313,7 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
     }
 
     /// K q̇ and k.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn set_rates<D, const B: usize, const Q: usize, const A: usize>(
         &mut self,
         robot: &D,

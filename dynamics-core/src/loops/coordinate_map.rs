@@ -92,7 +92,7 @@ pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
 /// that still moves with all actuated coordinates held, and the coordinate; [`LoopError::NotFinite`] the first loop of
 /// which a number is not finite. Near a dead point of the motors there is a damped map: [`Drive::Singular`].
 #[doc(alias = "explicit constraints")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn coordinate_map<
     R: Real,
     D,
@@ -122,7 +122,7 @@ where
 
 impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V, C, A> {
     /// Nothing, to be filled where it stands: it is large.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn blank<const L: usize>(loops: &Loops<L, C, A>) -> Self {
         let elimination = Elimination::blank();
         Self {
@@ -135,7 +135,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn set<D, const B: usize, const Q: usize, const L: usize>(
         &mut self,
         robot: &D,
@@ -210,7 +210,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     }
 
     /// How many actuated coordinates there are: of robots of run time fewer than A, which is then V at least.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn motors(&self) -> usize {
         if const { A < V } {
             return A;
@@ -219,13 +219,13 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     }
 
     /// q̇ = G ẏ from the rates of the actuated coordinates; of a redundantly driven robot the independent ones count.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn velocity(&self, rates: &[R; A]) -> [R; V] {
         self.elimination.complete(&self.spread(rates))
     }
 
     /// q̈ = G ÿ + ġ from the accelerations of the actuated coordinates and the k of [`Constraints::bias`].
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn acceleration(&self, accelerations: &[R; A], bias: &[R; C]) -> [R; V] {
         let mut qdd = self.elimination.particular(&scaled(*bias, &self.scale));
         subtract(&mut qdd, -R::ONE, &self.velocity(accelerations));
@@ -235,7 +235,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     /// The torques of the actuated coordinates that do what torques of all coordinates would: Gᵀ τ_a = Gᵀ τ, N·m or N.
     ///
     /// Of several, that with the least sum of squares, in which an N counts as an N·m.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn torque(&self, tau: &[R; V]) -> [R; A] {
         let mut wanted = [R::ZERO; A];
         for ((wanted, &joint), &independent) in
@@ -265,13 +265,13 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     }
 
     /// The λ that takes the place of the torques `rest` = τ − τ_a.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn lambda(&self, rest: &[R; V]) -> [R; C] {
         scaled(self.elimination.lambda(rest), &self.scale)
     }
 
     /// Numbers of the independent coordinates in their places of all coordinates.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn spread(&self, of_actuated: &[R; A]) -> [R; V] {
         let mut all = [R::ZERO; V];
         let places = self.actuated.iter().zip(&self.independent);
@@ -284,7 +284,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     }
 
     /// The row of G of one coordinate, in the places of the actuated ones.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn row(&self, joint: usize) -> [R; A] {
         let mut g = [R::ZERO; A];
         if const { A >= V } && joint >= V {

@@ -297,7 +297,7 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
         Force::new(back.transpose_mul(force.ang), back.transpose_mul(force.lin))
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn constraint<R: Real>(&self, joint: &LoopJoint, x: Xform<R>) -> JointConstraint<R> {
         let kind = joint.joint.kind;
         let pitch = match kind {
@@ -308,7 +308,7 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     }
 
     /// Each loop joint, with the transforms from the aligned frames of its predecessor and successor to its own.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn ends<R: Real>(&self) -> impl Iterator<Item = (&LoopJoint, [Xform<R>; 2])> {
         let frames = self.frames.iter();
         let xforms = frames.map(|ends| ends.each_ref().map(Frame::xform::<R>));
@@ -316,7 +316,7 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     }
 
     /// Which coordinates are not actuated.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn passive<const V: usize>(&self) -> [bool; V] {
         let mut passive = [true; V];
         for &at in &self.actuated {

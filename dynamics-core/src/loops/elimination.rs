@@ -87,7 +87,7 @@ pub(super) struct Elimination<R, const V: usize, const C: usize> {
 
 impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     /// Nothing, to be filled where it stands: it is large.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn blank() -> Self {
         Self {
             rows: [[R::ZERO; V]; C],
@@ -101,7 +101,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
 
     /// The elimination of K, pivots in the coordinates `first` before those in others, of rows over the sizes of their
     /// loops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn eliminate<const L: usize, const A: usize>(
         &mut self,
         closing: &Constraints<R, V, L, C>,
@@ -127,7 +127,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
 
     /// With complete pivoting, from the start; `SCALED`: of rows over the sizes of their loops. Those of forward dynamics are
     /// not, whose digits depend on every rounding of K.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn completely<const SCALED: bool, const L: usize>(
         &mut self,
         closing: &Constraints<R, V, L, C>,
@@ -159,7 +159,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// The largest entry of the rows without a pivot in the columns allowed. Those with a pivot are zero there.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn largest(&self, allowed: impl Fn(usize) -> bool, weights: &[R; C]) -> Option<(usize, usize)> {
         let (mut largest, mut place) = (R::select(RANK_TOLERANCE.0, RANK_TOLERANCE.1), None);
         for (i, (row, &weight)) in self.rows.iter().zip(weights).enumerate() {
@@ -177,7 +177,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// Makes a column a unit column.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn pivot(&mut self, row: usize, column: usize) {
         let (Some(&pivot_row), Some(&pivot_transform)) =
             (self.rows.get(row), self.transform.get(row))
@@ -210,7 +210,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     /// Pivots in each loop's own coordinates first, listed in their order; whether every row, or every coordinate of `first`,
     /// has a pivot that is not near to singular: there complete pivoting decides. `FACTORS`: for the factors of K, with a
     /// right-hand side, in place of T.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn loop_by_loop<const FACTORS: bool, const L: usize, const A: usize>(
         &mut self,
         closing: &Constraints<R, V, L, C>,
@@ -236,7 +236,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
 
     /// Pivots of more than `least` in some rows and the columns allowed, the largest first. Makes the rest of their
     /// columns zero in the rows without a pivot.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn forward<const FACTORS: bool>(
         &mut self,
         rows: Range<usize>,
@@ -308,7 +308,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// Subtracts the row of a pivot from those that are open.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn subtract_row(&mut self, (row, column): (usize, usize), open: &[usize], rows: Range<usize>) {
         let pivot = self.rows.get(row).map(|row| entry(row, column));
         let reciprocal = R::ONE / pivot.unwrap_or_default();
@@ -332,7 +332,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// Divides the row of a pivot by it, and subtracts it from those that are open, the right-hand side likewise.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn subtract_scaled(
         &mut self,
         (row, column): (usize, usize),
@@ -370,7 +370,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// T, and unit columns for the pivots, from the last pivot to the first.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn substitute_back(&mut self, order: &[(usize, usize)]) {
         let free = self.free.get(..self.freedom).unwrap_or_default();
         let mut earlier = order;
@@ -415,7 +415,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// Lists the columns without a pivot.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn find_free(&mut self) {
         self.freedom = 0;
         for (column, &row) in self.row_of.iter().enumerate() {
@@ -427,7 +427,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// Which rows have a pivot.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn loop_rows(&self) -> LoopRows<C> {
         LoopRows {
             independent: self.column_of.map(|column| column != NONE),
@@ -435,20 +435,20 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// The coordinates without a pivot, which the others depend on.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn free(&self) -> impl DoubleEndedIterator<Item = usize> {
         let free = self.free.get(..self.freedom).unwrap_or_default();
         free.iter().copied()
     }
 
     /// The row of the pivot of a column.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn row_of(&self, column: usize) -> Option<&[R; V]> {
         self.rows.get(entry(&self.row_of, column))
     }
 
     /// x with K x = 0, of given free coordinates.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn complete(&self, free: &[R; V]) -> [R; V] {
         let mut x = *free;
         let mut given: Vec<(usize, R), V> = Vec::new();
@@ -465,7 +465,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// x with K x = `right`, of free coordinates that are zero.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn particular(&self, right: &[R; C]) -> [R; V] {
         let mut x = [R::ZERO; V];
         for (transform, &column) in self.transform.iter().zip(&self.column_of) {
@@ -477,7 +477,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// Entry `free` of Gᵀ τ.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn transposed(&self, free: usize, tau: &[R; V]) -> R {
         let mut sum = entry(tau, free);
         for (row, &column) in self.rows.iter().zip(&self.column_of) {
@@ -489,7 +489,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// λ with Kᵀ λ = `torque` in the coordinates with a pivot.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn lambda(&self, torque: &[R; V]) -> [R; C] {
         let mut lambda = [R::ZERO; C];
         for (transform, &column) in self.transform.iter().zip(&self.column_of) {
@@ -502,7 +502,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
 }
 
 /// Removes a number from a list without an order.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn take<const N: usize>(list: &mut Vec<usize, N>, at: usize) -> Option<usize> {
     let taken = list.get(at).copied();
     if let (Some(last), Some(place)) = (list.pop(), list.get_mut(at)) {
@@ -511,14 +511,14 @@ fn take<const N: usize>(list: &mut Vec<usize, N>, at: usize) -> Option<usize> {
     taken
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
     let products = a.iter().zip(b).map(|(&a, &b)| a * b);
     products.fold(R::ZERO, |sum, product| sum + product)
 }
 
 /// a −= factor b.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn subtract<R: Real, const N: usize>(a: &mut [R; N], factor: R, b: &[R; N]) {
     for (a, &b) in a.iter_mut().zip(b) {
         *a -= factor * b;

@@ -23,7 +23,7 @@ pub(super) struct Factors<'a, R, const V: usize, const C: usize> {
 
 impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
     /// No factors yet, to be filled where they stand.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn blank(k: &'a mut Elimination<R, V, C>) -> Self {
         Self {
             k,
@@ -33,7 +33,7 @@ impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
     }
 
     /// Factors K, and eliminates b with its rows.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn set<const L: usize, const A: usize>(
         &mut self,
         closing: &Constraints<R, V, L, C>,
@@ -54,7 +54,7 @@ impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
     }
 
     /// Back substitution, from the last pivot to the first, of b and of the columns without a pivot.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn substitute_back(&mut self) {
         let mut order: &[(usize, usize)] = &self.order;
         while let Some((&(row, column), before)) = order.split_last() {
@@ -86,19 +86,19 @@ impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
     }
 
     /// Which rows of K have a pivot.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn loop_rows(&self) -> LoopRows<C> {
         self.k.loop_rows()
     }
 
     /// The coordinates without a pivot, which the others depend on.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn free(&self) -> impl DoubleEndedIterator<Item = usize> {
         self.k.free()
     }
 
     /// x with K x = b, of free coordinates that are zero.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn solution(&self) -> [R; V] {
         let mut x = [R::ZERO; V];
         for (&right, &column) in self.right.iter().zip(&self.k.column_of) {
@@ -110,7 +110,7 @@ impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
     }
 
     /// The column of G of a free coordinate: the motion of all at its unit rate.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn motion(&self, free: usize) -> [R; V] {
         let mut x = [R::ZERO; V];
         for (row, &column) in self.k.rows.iter().zip(&self.k.column_of) {
@@ -125,7 +125,7 @@ impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
     }
 
     /// λ with Kᵀ λ = `torque` in the coordinates with a pivot.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn force(&self, mut torque: [R; V]) -> [R; C] {
         if self.order.is_empty() {
             return self.k.lambda(&torque);

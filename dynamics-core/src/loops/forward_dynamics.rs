@@ -85,7 +85,7 @@ pub struct LoopMotion<R: Real, const V: usize, const L: usize, const C: usize> {
 /// first loop that a number which is not finite reaches.
 #[doc(alias = "constraintDynamics")]
 #[doc(alias = "closed loops")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn forward_dynamics<
     R: Real,
     D,

@@ -81,7 +81,7 @@ pub struct LoopTorque<R: Real, const Q: usize, const V: usize, const C: usize, c
 /// the result is not finite: a torque never is NaN.
 #[doc(alias = "closed loops")]
 #[doc(alias = "parallel robot")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn inverse_dynamics<
     R: Real,
     D,
@@ -141,7 +141,7 @@ where
 
 impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     /// Of numbers of all coordinates those of the actuated ones.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn of_actuated<R: Real, const V: usize>(&self, all: &[R; V]) -> [R; A] {
         self.actuated.map(|joint| entry(all, joint))
     }

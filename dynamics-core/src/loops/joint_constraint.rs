@@ -41,7 +41,7 @@ pub(super) struct JointConstraint<R: Real> {
 
 impl<R: Real> JointConstraint<R> {
     /// Tᵀ m.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn across(&self, m: Motion<R>) -> [R; MOST] {
         let ([p, q, r], [x, y, z], o) = (m.ang.array(), m.lin.array(), R::ZERO);
         match self.kind {
@@ -58,7 +58,7 @@ impl<R: Real> JointConstraint<R> {
     }
 
     /// T λ.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn force(&self, lambda: [R; MOST]) -> Force<R> {
         let ([a, b, c, d, e, f], o) = (lambda, R::ZERO);
         let force = |[p, q, r]: [R; 3], [x, y, z]: [R; 3]| {
@@ -109,7 +109,7 @@ impl<R: Real> JointConstraint<R> {
     }
 
     /// Ṫᵀ v of the relative velocity v: what Tᵀ a lacks of the derivative of Tᵀ v.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn apparent(&self, v: Motion<R>) -> [R; MOST] {
         let mut apparent = [R::ZERO; MOST];
         if self.kind == Universal {
@@ -122,7 +122,7 @@ impl<R: Real> JointConstraint<R> {
     }
 
     /// z × u, the direction of a universal joint's couple: u is the first axis, z the second.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn normal(&self) -> R::Vec3 {
         let [u, ..] = self.x.rot.cols();
         let [x, y, _] = u.array();

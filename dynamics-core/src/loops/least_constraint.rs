@@ -24,7 +24,7 @@ pub(super) struct Metric<'a, R, const V: usize> {
 }
 
 impl<'a, R: Real, const V: usize> Metric<'a, R, V> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of<D, const B: usize, const Q: usize>(
         robot: &'a D,
         factors: &'a [[R; V]; V],
@@ -39,13 +39,13 @@ impl<'a, R: Real, const V: usize> Metric<'a, R, V> {
         }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn parent(&self, i: usize) -> usize {
         parent_of(self.lambda, i)
     }
 
     /// L⁻ᵀ τ. V² flops on a chain, less on a tree. RBDA (2008), table 6.5.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of_torque(&self, tau: &[R; V]) -> [R; V] {
         let mut x = *tau;
         for (i, row) in self.factors.iter().enumerate().rev() {
@@ -61,7 +61,7 @@ impl<'a, R: Real, const V: usize> Metric<'a, R, V> {
     }
 
     /// L q̈. V² flops on a chain, less on a tree.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of_acceleration(&self, qdd: &[R; V]) -> [R; V] {
         let mut x = *qdd;
         for (i, (row, x)) in self.factors.iter().zip(&mut x).enumerate() {
@@ -75,7 +75,7 @@ impl<'a, R: Real, const V: usize> Metric<'a, R, V> {
     }
 
     /// Lᵀ x. V² flops on a chain, less on a tree.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn to_torque(&self, x: &[R; V]) -> [R; V] {
         let mut tau = *x;
         for (i, (row, &x_i)) in self.factors.iter().zip(x).enumerate() {
@@ -89,7 +89,7 @@ impl<'a, R: Real, const V: usize> Metric<'a, R, V> {
     }
 
     /// D x
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn weigh(&self, mut x: [R; V]) -> [R; V] {
         for (x, &d) in x.iter_mut().zip(&self.d) {
             *x *= d;
@@ -114,7 +114,7 @@ struct Motion<R, const V: usize> {
 
 impl<R: Real, const V: usize> Orthogonal<R, V> {
     /// No motions, to be filled where it stands: it is large.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) const fn blank() -> Self {
         Self {
             motions: Vec::new(),
@@ -122,7 +122,7 @@ impl<R: Real, const V: usize> Orthogonal<R, V> {
     }
 
     /// By the modified method of Gram and Schmidt, twice for each motion.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn set(&mut self, metric: &Metric<'_, R, V>, motions: impl Iterator<Item = [R; V]>) {
         let least = R::EPSILON * R::from_f64(ROUNDINGS);
         for mut qdd in motions {
@@ -158,7 +158,7 @@ impl<R: Real, const V: usize> Orthogonal<R, V> {
 
     /// Adds to q̈ the motion that takes L q̈ nearest to a goal at the distance z, given as D z. Leaves of it what no motion
     /// reaches.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn approach(&self, weighed: &mut [R; V], qdd: &mut [R; V]) {
         for motion in &self.motions {
             let along = dot(&motion.q, weighed) * motion.inverse;
@@ -168,7 +168,7 @@ impl<R: Real, const V: usize> Orthogonal<R, V> {
     }
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn parent_of<const V: usize>(lambda: &[usize; V], i: usize) -> usize {
     lambda.get(i).copied().unwrap_or(BASE)
 }

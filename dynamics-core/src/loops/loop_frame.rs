@@ -30,7 +30,7 @@ impl Frame {
     }
 
     /// From the body's aligned frame to this one.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn xform<R: Real>(&self) -> Xform<R> {
         let [x, y, z] = self.rot.each_ref().map(select::<R>);
         Xform {
@@ -45,7 +45,7 @@ pub(super) const fn both(v: DVec3) -> Both {
     (v, [v[0] as f32, v[1] as f32, v[2] as f32])
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn select<R: Real>(&([x, y, z], [p, q, r]): &Both) -> R::Vec3 {
     R::Vec3::new(R::select(x, p), R::select(y, q), R::select(z, r))
 }

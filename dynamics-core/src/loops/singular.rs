@@ -63,7 +63,7 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
 
 impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     /// Whether ς exceeds ε for certain: T K_p = 1, and no left inverse has a lesser sum of squares than K_p's, 1/ς².
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn is_regular(&self, passive: &[bool; V], threshold: R) -> bool {
         let mut squares = R::ZERO;
         for (transform, &column) in self.transform.iter().zip(&self.column_of) {

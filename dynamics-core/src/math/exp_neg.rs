@@ -14,7 +14,7 @@
 /// assert!((exp_neg(1.0) - 0.367_879_44).abs() < 4e-8);
 /// assert_eq!((exp_neg(0.0), exp_neg(f32::INFINITY)), (1.0, 0.0));
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn exp_neg(x: f32) -> f32 {
     const ROUND: f32 = 12_582_912.0;
     const P: [f32; 5] = [

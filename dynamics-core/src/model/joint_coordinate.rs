@@ -22,21 +22,21 @@ pub struct JointCoordinate<R> {
 
 impl<R: Real> JointCoordinate<R> {
     /// A rotation by q rad.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn revolute(q: R) -> Self {
         let (sin, cos) = q.sin_cos();
         Self { q, sin, cos }
     }
 
     /// A rotation by q rad, its sine and cosine by the kernel K.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn with_kernel<K: Kernel<R>>(q: R) -> Self {
         let (sin, cos) = K::sin_cos(q);
         Self { q, sin, cos }
     }
 
     /// A rotation by q rad, |q| ≤ 100, its sine and cosine by the kernel K.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn revolute_bounded<K: Kernel<R>>(q: R) -> Self {
         let (sin, cos) = K::sin_cos_near(q);
         Self { q, sin, cos }
@@ -45,7 +45,7 @@ impl<R: Real> JointCoordinate<R> {
     /// Rotations by all of q, each with the bits of [`Self::with_kernel`], or of [`Self::revolute_bounded`] if `NEAR`.
     ///
     /// A loop of sines alone is one that compilers vectorise, as they do not where each is followed by other work.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of_all<K: Kernel<R>, const NEAR: bool, const Q: usize>(q: &[R; Q]) -> [Self; Q] {
         // For seven and eight joints, with LLVM 22: in f32 straight-line code of four becomes vectors, in f64 a loop that is too long
         // to be unrolled. Of other numbers the plain loop takes less time.
@@ -67,7 +67,7 @@ impl<R: Real> JointCoordinate<R> {
     }
 
     /// A coordinate that is not an angle.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn linear(q: R) -> Self {
         Self {
             q,
@@ -76,7 +76,7 @@ impl<R: Real> JointCoordinate<R> {
     }
 
     /// Rz(q)ᵀ E for every column of E: from the frame before the turn into the one after. 18 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn about_z(self, e: &R::Mat3) -> R::Mat3 {
         let [x, y, z] = e.cols().map(|column| {
             let [x, y, z] = column.array();
@@ -87,7 +87,7 @@ impl<R: Real> JointCoordinate<R> {
     }
 
     /// The same about x. 18 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn about_x(self, e: &R::Mat3) -> R::Mat3 {
         let [x, y, z] = e.cols().map(|column| {
             let [x, y, z] = column.array();
@@ -100,7 +100,7 @@ impl<R: Real> JointCoordinate<R> {
 
 /// The rotation of coordinates into a body whose attitude is the unit quaternion (x, y, z, w).
 /// RBDA (4.12). 30 flops.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn rotation<R: Real>([x, y, z, w]: [R; 4]) -> R::Mat3 {
     let (x2, y2, z2) = (x + x, y + y, z + z);
     let (xx, yy, zz) = (x * x2, y * y2, z * z2);
@@ -117,7 +117,7 @@ pub(crate) fn rotation<R: Real>([x, y, z, w]: [R; 4]) -> R::Mat3 {
 /// A quaternion at unit length. One that has drifted, |p|² = 1 + ε with |ε| < 1/8, by one step of Newton's iteration
 /// for 1/|p|: no root, no division; its length is then 1 to 3ε²/8. Any other by its length; [`rotation`] interprets the
 /// quaternion zero as no rotation. 29 flops.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn near_unit<R: Real>(p: [R; 4]) -> [R; 4] {
     let [x, y, z, w] = p;
     let squared = (x * x + y * y) + (z * z + w * w);
@@ -128,7 +128,7 @@ pub(crate) fn near_unit<R: Real>(p: [R; 4]) -> [R; 4] {
 }
 
 /// Rotations by all of q: four angles of each of W places at a time, of which the last place may overlap the one before it.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn by_fours<R: Real, K: Kernel<R>, const NEAR: bool, const W: usize, const Q: usize>(
     q: &[R; Q],
 ) -> [JointCoordinate<R>; Q] {
@@ -159,7 +159,7 @@ fn by_fours<R: Real, K: Kernel<R>, const NEAR: bool, const W: usize, const Q: us
 }
 
 /// (sin q, cos q), of a joint that stays within ±100 rad if `NEAR`.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn sin_cos<R: Real, K: Kernel<R>, const NEAR: bool>(q: R) -> (R, R) {
     if NEAR {
         K::sin_cos_near(q)

@@ -99,13 +99,13 @@ impl JointKinds {
         Self::NONE.with(JointKind::Revolute).with(JointKind::Fixed);
 
     /// Whether each is one of these.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) const fn are_revolute(self) -> bool {
         self.0 & !Self::REVOLUTE.0 == 0
     }
 
     /// Whether each is one of these or fixed: all positions are angles.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) const fn are_revolute_or_fixed(self) -> bool {
         self.0 & !Self::REVOLUTE.with(JointKind::Fixed).0 == 0
     }
@@ -123,13 +123,13 @@ impl JointKinds {
     }
 
     /// Whether this kind is one of them.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) const fn has(self, kind: JointKind) -> bool {
         self.0 & (1 << kind as u16) != 0
     }
 
     /// `kind`, which is one of these, in a form from which the compiler can prove that it is.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(self, kind: JointKind) -> JointKind {
         use JointKind::*;
         match kind {
@@ -147,7 +147,7 @@ impl JointKinds {
         }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     const fn first(self) -> JointKind {
         let kinds = JointKind::ALL;
         let mut i = 0;

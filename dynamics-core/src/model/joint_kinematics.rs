@@ -15,7 +15,7 @@ use JointKind::*;
 
 impl<R: Real> LinkView<'_, R> {
     /// Its entries of the joints' sines and cosines: those of its angles, its quaternion at unit length.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn pose<K: Kernel<R>>(&self, q: &[R], turns: &mut [JointCoordinate<R>]) {
         let (count, _) = self.kind.coordinates();
         let (angles, quaternion) = self.kind.angles();
@@ -39,7 +39,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// ⁱX_λ(i) = X_J ᵀX: from the parent's aligned frame to the body's, at the configuration `turns`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn xform(&self, turns: &[JointCoordinate<R>]) -> Xform<R> {
         let e = &self.placement.rot;
         let q = |k| entry(turns, self.idx_q + k);
@@ -55,14 +55,14 @@ impl<R: Real> LinkView<'_, R> {
 
     /// The same, of which the rotation is given: the origin is a constant of most joints, so that storing it costs more than
     /// computing it.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn xform_of(&self, rot: R::Mat3, turns: &[JointCoordinate<R>]) -> Xform<R> {
         let pos = self.origin(turns);
         Xform { rot, pos }
     }
 
     /// Whether the link is turned from its parent about x, and shifted along x and along its own axis, exactly.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn is_placed_by_screws(&self) -> bool {
         let ([x, y, z], [_, r_y, r_z]) = (
             self.placement.rot.cols().map(Vector::array),
@@ -73,7 +73,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// The same transform of a link that [is placed by screws](Self::is_placed_by_screws).
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn screws(&self, turns: &[JointCoordinate<R>]) -> AxialScrews<R> {
         let [[_, cos, _], [_, sin, _]] = [1, 2].map(|k| self.placement.rot.cols()[k].array());
         let [_, y, z] = self.placement.pos.array();
@@ -81,7 +81,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// The same, of which the shift along z is given.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn screws_of(&self, along_z: R, turns: &[JointCoordinate<R>]) -> AxialScrews<R> {
         let [_, y, z] = self.placement.rot.cols().map(Vector::array);
         let [along_x, _, _] = self.placement.pos.array();
@@ -101,7 +101,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// The origin of the body in its parent's aligned frame, m.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn origin(&self, turns: &[JointCoordinate<R>]) -> R::Vec3 {
         let (e, r) = (&self.placement.rot, self.placement.pos);
         let q = |k| entry(turns, self.idx_q + k).q;
@@ -116,7 +116,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// S q̇: the velocity of the joint, where `rates` is all of q̇ (or S q̈ of all of q̈).
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn motion(&self, turns: &[JointCoordinate<R>], rates: &[R]) -> Motion<R> {
         let zero = R::Vec3::ZERO;
         let rate = |k| entry(rates, self.idx_v + k);
@@ -139,7 +139,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// m + S q̇, without additions of the zeros of S.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn plus_motion(
         &self,
         m: Motion<R>,
@@ -156,7 +156,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// a + S̊ q̇ + v × S q̇: an acceleration with the velocity products of the body and its joint.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn plus_velocity_product(
         &self,
         a: Motion<R>,
@@ -168,7 +168,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// a + (S̊ + v × S) y, where S changes by the joint's velocity in all of q̇, `rates`, and `y` is another velocity.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn plus_subspace_rate(
         &self,
         a: Motion<R>,
@@ -196,13 +196,13 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// a + ω × S q̇ of a joint that turns: α and the acceleration of the origin, which lies on the axis; w is the body's angular velocity.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn plus_turning_product(&self, a: Motion<R>, rates: &[R], w: R::Vec3) -> Motion<R> {
         Motion::new(plus_cross_z(a.ang, w, entry(rates, self.idx_v)), a.lin)
     }
 
     /// Column k of S̊ + v × S, the rate of S in a body of velocity v.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn column_rate(
         &self,
         turns: &[JointCoordinate<R>],
@@ -228,7 +228,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// Column k of S: the velocity of the joint at unit rate of its coordinate k.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn column(&self, turns: &[JointCoordinate<R>], k: usize) -> Motion<R> {
         let zero = R::Vec3::ZERO;
         match self.kind {
@@ -248,7 +248,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// Column k of S.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn subspace(&self, turns: &[JointCoordinate<R>], k: usize) -> MotionSubspace<R> {
         match self.kind {
             JointKind::Revolute | JointKind::Continuous => MotionSubspace::RevoluteZ,
@@ -258,7 +258,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// Sᵀ f: the components of a force along the joint's coordinates, stored in their entries of `tau`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn project(&self, turns: &[JointCoordinate<R>], f: Force<R>, tau: &mut [R]) {
         let ([nx, ny, nz], [fx, fy, fz]) = (f.ang.array(), f.lin.array());
         let mut put = |values: &[R]| {
@@ -285,7 +285,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// (v × S + S̊)ᵀ f: the components of a force along the rate of S in a body of velocity v.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn project_rate(
         &self,
         turns: &[JointCoordinate<R>],
@@ -306,27 +306,27 @@ impl<R: Real> LinkView<'_, R> {
 }
 
 /// A vector along z.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn z<R: Real>(z: R) -> R::Vec3 {
     R::Vec3::new(R::ZERO, R::ZERO, z)
 }
 
 /// a + v × z r.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn plus_cross_z<R: Real>(a: R::Vec3, v: R::Vec3, r: R) -> R::Vec3 {
     let ([x, y, z], [vx, vy, _]) = (a.array(), v.array());
     R::Vec3::new(x + vy * r, y - vx * r, z)
 }
 
 /// The last row of a matrix: z of the turned frame.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn row_z<R: Real>(m: &R::Mat3) -> R::Vec3 {
     let [x, y, z] = m.cols().map(|column| column.array()[2]);
     R::Vec3::new(x, y, z)
 }
 
 /// The k-th unit vector of M⁶.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn unit<R: Real>(k: usize) -> Motion<R> {
     let at = |i| if i == k { R::ONE } else { R::ZERO };
     Motion::new(

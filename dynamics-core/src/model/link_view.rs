@@ -18,7 +18,7 @@ pub struct LinkView<'a, R: Real> {
 
 impl<R: Real> Deref for LinkView<'_, R> {
     type Target = Link<R>;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn deref(&self) -> &Link<R> {
         self.link
     }
@@ -26,7 +26,7 @@ impl<R: Real> Deref for LinkView<'_, R> {
 
 impl<'a, R: Real> LinkView<'a, R> {
     /// Link `i`, its joint one of `kinds`; `single`: every body has one coordinate.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn new(i: usize, link: &'a Link<R>, kinds: JointKinds, single: bool) -> Self {
         let (idx_q, idx_v) = if single {
             (i, i)
@@ -42,7 +42,7 @@ impl<'a, R: Real> LinkView<'a, R> {
     }
 
     /// The same link, its joint one of `kinds`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of_kinds(self, kinds: JointKinds) -> Self {
         Self {
             kind: kinds.of(self.kind),
@@ -51,25 +51,25 @@ impl<'a, R: Real> LinkView<'a, R> {
     }
 
     /// The kind of its joint.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn kind(&self) -> JointKind {
         self.kind
     }
 
     /// Index of its first position in q.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn idx_q(&self) -> usize {
         self.idx_q
     }
 
     /// Index of its first velocity in q̇.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn idx_v(&self) -> usize {
         self.idx_v
     }
 
     /// Its velocity coordinates, as indices of q̇.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn coordinates(&self) -> core::ops::Range<usize> {
         let (_, count) = self.kind.coordinates();
         if count == 0 {
@@ -80,7 +80,7 @@ impl<'a, R: Real> LinkView<'a, R> {
 
     /// The position that belongs to the velocity coordinate k; zero where none does, as with the ω of
     /// a quaternion.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn position(&self, q: &[R], k: usize) -> R {
         let (_, quaternion) = self.kind.angles();
         let place = k - self.idx_v;

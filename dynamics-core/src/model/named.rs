@@ -27,14 +27,14 @@ pub trait BodyNumber: sealed::Sealed + Copy {
 }
 
 impl BodyNumber for usize {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn number(self) -> usize {
         self
     }
 }
 
 impl<const BODY: usize> BodyNumber for OnBody<BODY> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn number(self) -> usize {
         BODY
     }

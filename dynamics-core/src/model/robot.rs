@@ -42,7 +42,7 @@ impl<T: Robot<N, N, N>, const N: usize> Arm<N> for T {}
 /// use dynamics_core::{model::model, robots::Ur5e};
 /// assert_eq!(model::<f32, Ur5e, 6, 6, 6>().links[1].name, "upper_arm");
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn model<R: Real, T, const B: usize, const Q: usize, const V: usize>()
 -> &'static Model<R, B, Q, V>
 where

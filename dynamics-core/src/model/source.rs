@@ -35,20 +35,20 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
 
     /// The same robot as one of revolute joints only, if all joints of a model loaded at run time are revolute. None if the
     /// robot is known at compile time.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn as_all_revolute(&self) -> Option<AllRevolute<'_, R, B, Q, V>> {
         None
     }
 
     /// The same robot as a chain of revolute joints, if a model loaded at run time is one: for algorithms that are compiled a
     /// second time for this case. None if the robot is known at compile time.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn as_revolute_chain(&self) -> Option<RevoluteChain<'_, R, B, Q, V>> {
         None
     }
 
     /// Whether [`RobotModel::SCREWS`] holds, of a robot whose joints turn.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn has_screws(&self) -> bool {
         let asked = || self.links().all(|link| link.is_placed_by_screws());
         const { Self::SCREWS }.unwrap_or_else(asked)
@@ -56,13 +56,13 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
 
     /// The same robot as one of revolute and fixed joints only, if a model loaded at run time is one and has fixed joints. Only on
     /// processors with vectors: the flash of others is short for one more form of each algorithm.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn as_revolute_or_fixed(&self) -> Option<RevoluteOrFixed<'_, R, B, Q, V>> {
         None
     }
 
     /// The links, parents first, each with the properties of its joint that are known at compile time.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn links<'a>(&'a self) -> impl DoubleEndedIterator<Item = LinkView<'a, R>> + ExactSizeIterator
     where
         R: 'a,
@@ -72,7 +72,7 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     }
 
     /// Link `i`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn link<'a>(&'a self, i: usize) -> Option<LinkView<'a, R>>
     where
         R: 'a,
@@ -89,24 +89,24 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
     const MAY_BE_REVOLUTE: bool = B == Q && B == V;
     const MAY_HAVE_FIXED: bool = VECTORS && B > V && Q == V;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn model(&self) -> &Self {
         self
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn as_all_revolute(&self) -> Option<AllRevolute<'_, R, B, Q, V>> {
         let only = Self::MAY_BE_REVOLUTE && self.kinds.are_revolute();
         only.then_some(AllRevolute(self))
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn as_revolute_chain(&self) -> Option<RevoluteChain<'_, R, B, Q, V>> {
         let only = Self::MAY_BE_REVOLUTE && self.kinds.are_revolute() & self.chain;
         only.then_some(AllRevolute(self))
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn as_revolute_or_fixed(&self) -> Option<RevoluteOrFixed<'_, R, B, Q, V>> {
         let only = Self::MAY_HAVE_FIXED && self.kinds.are_revolute_or_fixed();
         only.then_some(RevoluteOrFixed(self))
@@ -141,7 +141,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize, const SERIAL: bool
     const CHAIN: bool = SERIAL;
     const SINGLE: bool = true;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn model(&self) -> &Model<R, B, Q, V> {
         self.0
     }
@@ -160,7 +160,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
     type Kernel = Native;
     const KINDS: JointKinds = JointKinds::REVOLUTE_OR_FIXED;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn model(&self) -> &Model<R, B, Q, V> {
         self.0
     }
@@ -195,7 +195,7 @@ where
     const SINGLE: bool = T::MODEL.kinds().are_single() && B == Q && B == V;
     const SCREWS: Option<bool> = Some(T::MODEL.has_screws());
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn model(&self) -> &Model<R, B, Q, V> {
         model::<R, T, B, Q, V>()
     }
@@ -269,7 +269,7 @@ where
     // Its placements can change, and code for both forms takes 4 kB more.
     const SCREWS: Option<bool> = Some(false);
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn model(&self) -> &Model<R, B, Q, V> {
         &self.model
     }

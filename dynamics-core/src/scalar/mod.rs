@@ -122,23 +122,23 @@ macro_rules! real {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             const MAX_TRUNC: f64 = -($whole::MIN as f64);
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn from_f64(x: f64) -> Self {
                 x as $r
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn to_f64(self) -> f64 {
                 f64::from(self)
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn sin_cos(self) -> (Self, Self) {
                 $sin_cos(self)
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn sin_cos_near(self) -> (Self, Self) {
                 $near(self)
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn exp_neg(self) -> Self {
                 $exp_neg(self)
             }
@@ -152,7 +152,7 @@ macro_rules! real {
             }
             const EPSILON: Self = <$r>::EPSILON;
             const MIN_POSITIVE: Self = <$r>::MIN_POSITIVE;
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn rsqrt(self) -> Self {
                 // Halves the exponent, then Newton's iteration for 1/y² = x. Of a NaN's bits anything may become.
                 let halved = self.to_bits() >> 1;
@@ -163,24 +163,24 @@ macro_rules! real {
                 }
                 y
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn abs(self) -> Self {
                 <$r>::abs(self)
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn is_finite(self) -> bool {
                 <$r>::is_finite(self)
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn clamped(self, lo: Self, hi: Self) -> Self {
                 let x = if self > lo { self } else { lo };
                 if x < hi { x } else { hi }
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn trunc_saturating(self) -> Self {
                 (self as $whole) as $r
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn to_u32(self) -> u32 {
                 self as u32
             }
@@ -189,7 +189,7 @@ macro_rules! real {
             ) -> Model<Self, B, Q, V> {
                 $cast(model)
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn model<T, const B: usize, const Q: usize, const V: usize>()
             -> &'static Model<Self, B, Q, V>
             where
@@ -197,12 +197,12 @@ macro_rules! real {
             {
                 const { &T::$model }
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn either(condition: bool, yes: Self, no: Self) -> Self {
                 let mask = <$bits>::from(condition).wrapping_neg();
                 <$r>::from_bits((yes.to_bits() & mask) | (no.to_bits() & !mask))
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn select($double: f64, $single: f32) -> Self {
                 let _ = ($double, $single);
                 $pick

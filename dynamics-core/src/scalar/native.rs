@@ -8,11 +8,11 @@ use crate::trig::Kernel;
 pub struct Native;
 
 impl<R: Real> Kernel<R> for Native {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn sin_cos(x: R) -> (R, R) {
         x.sin_cos()
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn sin_cos_near(x: R) -> (R, R) {
         x.sin_cos_near()
     }

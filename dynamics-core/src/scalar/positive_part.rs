@@ -8,7 +8,7 @@ use crate::scalar::Real;
 /// use dynamics_core::scalar::positive_part;
 /// assert_eq!((positive_part(3.0_f32), positive_part(-3.0_f32)), (3.0, 0.0));
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn positive_part<R: Real>(x: R) -> R {
     R::from_f64(0.5) * (x + x.abs())
 }

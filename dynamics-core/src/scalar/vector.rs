@@ -68,19 +68,19 @@ macro_rules! glam {
     ($r:ident, $vec:path, $mat:path) => {
         impl Vector<$r> for $vec {
             const ZERO: Self = Self::ZERO;
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn new(x: $r, y: $r, z: $r) -> Self {
                 Self::new(x, y, z)
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn array(self) -> [$r; 3] {
                 [self.x, self.y, self.z]
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn dot(self, other: Self) -> $r {
                 self.dot(other)
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn cross(self, other: Self) -> Self {
                 self.cross(other)
             }
@@ -89,19 +89,19 @@ macro_rules! glam {
         impl Matrix<$r> for $mat {
             const ZERO: Self = Self::ZERO;
             const IDENTITY: Self = Self::IDENTITY;
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn from_cols(x: $vec, y: $vec, z: $vec) -> Self {
                 Self::from_cols(x, y, z)
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn cols(self) -> [$vec; 3] {
                 [self.x_axis, self.y_axis, self.z_axis]
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn transpose(self) -> Self {
                 Self::transpose(&self)
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn transpose_mul(self, v: $vec) -> $vec {
                 <$vec>::new(self.x_axis.dot(v), self.y_axis.dot(v), self.z_axis.dot(v))
             }

@@ -38,14 +38,14 @@ pub struct Actuator<R> {
 
 impl<R: Real> Actuator<R> {
     /// The present torque, N·m.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn torque(&self) -> R {
         self.torque_constant * self.current
     }
 
     /// The steady-state torque of a command at the joint's speed, N·m: within the current limit and below the
     /// torque-speed curve k (U − k ω)/R; above the no-load speed the back-EMF brakes.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn saturated_torque(&self, command: R, speed: R) -> R {
         let k = self.torque_constant;
         let wanted = (command / k).clamped(-self.current_limit, self.current_limit);
@@ -58,7 +58,7 @@ impl<R: Real> Actuator<R> {
     /// Advances the current by h seconds at a constant command (N·m) and speed (rad/s), exactly.
     ///
     /// A NaN is treated as the most negative command: check commands before.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn advance(&mut self, command: R, speed: R, h: R) {
         let goal = self.saturated_torque(command, speed) / self.torque_constant;
         self.current = goal + (self.current - goal) * (h / self.lag).exp_neg();

@@ -35,7 +35,7 @@ pub trait Dynamics<R, const Q: usize, const V: usize> {
 
 impl<R: Real, const V: usize> StepIncrement<R, V> {
     /// State after h seconds; its q̈ is the step's mean.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn end<const Q: usize>(
         &self,
         mechanics: &impl Dynamics<R, Q, V>,

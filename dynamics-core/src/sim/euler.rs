@@ -13,7 +13,7 @@ use crate::state::State;
 pub struct Euler;
 
 impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for Euler {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn step(&self, robot: &impl Dynamics<R, Q, V>, at: &State<R, Q, V>, _h: R) -> Step<R, V> {
         Ok(StepIncrement::constant(at.qd, robot.acceleration(at)?))
     }
@@ -24,7 +24,7 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for Euler {
 pub struct SemiImplicit;
 
 impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for SemiImplicit {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn step(&self, robot: &impl Dynamics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
         let qdd = robot.acceleration(at)?;
         Ok(StepIncrement::constant(add_scaled(at.qd, h, &qdd), qdd))

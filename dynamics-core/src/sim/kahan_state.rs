@@ -40,7 +40,7 @@ impl<R: Real, const V: usize, const COMPENSATED: bool> KahanState<R, V, COMPENSA
     }
 
     /// Advances by a step of h seconds.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn add(&mut self, rates: &StepIncrement<R, V>, h: R) {
         let [lost_q, lost_qd] = &mut self.lost;
         add::<R, COMPENSATED>(&mut self.state.q, lost_q, &rates.qd, h);
@@ -48,7 +48,7 @@ impl<R: Real, const V: usize, const COMPENSATED: bool> KahanState<R, V, COMPENSA
     }
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn add<R: Real, const COMPENSATED: bool>(sums: &mut [R], lost: &mut [R], rates: &[R], h: R) {
     for ((sum, lost), &rate) in sums.iter_mut().zip(lost).zip(rates) {
         if COMPENSATED {

@@ -14,7 +14,7 @@ use crate::state::State;
 pub struct LinearlyImplicit;
 
 impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for LinearlyImplicit {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn step(&self, robot: &impl Dynamics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
         let qdd = robot.implicit_acceleration(at, h)?;
         Ok(StepIncrement::constant(add_scaled(at.qd, h, &qdd), qdd))

@@ -23,7 +23,7 @@ use crate::state::State;
 pub struct RungeKutta;
 
 impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for RungeKutta {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn step(&self, robot: &impl Dynamics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
         let rates = |at: &State<R, Q, V>| {
             let qdd = robot.acceleration(at)?;

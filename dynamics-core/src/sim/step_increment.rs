@@ -18,7 +18,7 @@ pub struct StepIncrement<R, const V: usize> {
 
 impl<R: Real, const V: usize> StepIncrement<R, V> {
     /// A velocity and an acceleration that are constant over the step.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn constant(qd: [R; V], qdd: [R; V]) -> Self {
         let half_difference = None;
         Self {
@@ -42,7 +42,7 @@ impl<R: Real, const V: usize> StepIncrement<R, V> {
     /// let [x, y, z, w] = quarters.configuration_after(&ball, &neutral(&ball), core::f64::consts::PI);
     /// assert!([x, y, z, w].iter().all(|part| (part - 0.5).abs() < 1e-15));
     /// ```
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn configuration_after<D, const B: usize, const Q: usize>(
         &self,
         robot: &D,
@@ -65,7 +65,7 @@ impl<R: Real, const V: usize> StepIncrement<R, V> {
 }
 
 /// x + h ẋ.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn add_scaled<R: Real, const V: usize>(mut x: [R; V], h: R, rates: &[R; V]) -> [R; V] {
     for (x, &rate) in x.iter_mut().zip(rates) {
         *x += h * rate;

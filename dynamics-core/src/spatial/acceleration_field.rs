@@ -19,7 +19,7 @@ pub(crate) struct AccelerationField<R: Real> {
 
 impl<R: Real> AccelerationField<R> {
     /// Of the angular velocity ω, the angular acceleration α and the acceleration a of the origin. 15 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn new(w: R::Vec3, at_origin: Motion<R>) -> Self {
         let ([wx, wy, wz], [x, y, z]) = (w.array(), at_origin.ang.array());
         let (xx, yy, zz) = (wx * wx, wy * wy, wz * wz);
@@ -36,7 +36,7 @@ impl<R: Real> AccelerationField<R> {
     }
 
     /// α, and the acceleration of the origin of a frame that is fixed in the body, in its axes. 48 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn moved(&self, x: &Xform<R>) -> Motion<R> {
         Motion::new(
             x.rot * self.ang,
@@ -45,7 +45,7 @@ impl<R: Real> AccelerationField<R> {
     }
 
     /// a + U r. 18 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn plus_gradient(&self, a: R::Vec3, r: R::Vec3) -> R::Vec3 {
         let ([ux, uy, uz], [x, y, z]) = (self.gradient.cols(), r.array());
         a + uz * z + uy * y + ux * x
@@ -54,7 +54,7 @@ impl<R: Real> AccelerationField<R> {
 
 impl<R: Real> SpatialInertia<R> {
     /// The couple about z of [`Self::force_in`] alone, of a body whose axis z stands still, so that ω and α lie along it. 5 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn couple_about_z(&self, a: Motion<R>) -> Force<R> {
         let [_, _, _, _, _, zz] = self.upper();
         let ([hx, hy, _], [ax, ay, _]) = (self.first_moment.array(), a.lin.array());
@@ -66,7 +66,7 @@ impl<R: Real> SpatialInertia<R> {
     /// I a + v ×* I v of a body that moves with a field: m a + U h, and ∫ r × U r dm + h × a. 66 flops beyond the products of ω.
     ///
     /// Of 867 orders of these sums 14 keep every hard case within its bounds; this one runs from left to right.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn force_in(&self, field: &AccelerationField<R>, w: R::Vec3) -> Force<R> {
         let [xx, xy, xz, yy, yz, zz] = self.upper();
         let ([wx, wy, wz], [x, y, z]) = (w.array(), field.ang.array());

@@ -28,20 +28,20 @@ pub(crate) struct AxialScrews<R> {
 
 impl<R: Real> Screw<R> {
     /// The components across the axis of a vector, in the turned frame. 6 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn turn(&self, [a, b]: [R; 2]) -> [R; 2] {
         [self.cos * a + self.sin * b, self.cos * b - self.sin * a]
     }
 
     /// The same back. 6 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn turn_back(&self, [a, b]: [R; 2]) -> [R; 2] {
         [self.cos * a - self.sin * b, self.sin * a + self.cos * b]
     }
 
     /// The block across the axis of a matrix, turned back. 24 flops, of a symmetric block 21; by its trace, which stays as it is, 11 and 10
     /// would do, with roundings of the larger entry in the smaller.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn block_back(&self, [x, y]: [[R; 2]; 2]) -> [[R; 2]; 2] {
         let ([xx, xy], [yx, yy]) = (self.turn_back(x), self.turn_back(y));
         let ([xx, yx], [xy, yy]) = (self.turn_back([xx, yx]), self.turn_back([xy, yy]));
@@ -52,7 +52,7 @@ impl<R: Real> Screw<R> {
 /// X m. 32 flops.
 impl<R: Real> Mul<Motion<R>> for AxialScrews<R> {
     type Output = Motion<R>;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn mul(self, m: Motion<R>) -> Motion<R> {
         let (x, z) = (&self.about_x, &self.about_z);
         let ([wx, wy, wz], [vx, vy, vz]) = (m.ang.array(), m.lin.array());
@@ -66,13 +66,13 @@ impl<R: Real> Mul<Motion<R>> for AxialScrews<R> {
 
 impl<R: Real> AxialScrews<R> {
     /// A bound of the distance between the two origins.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn distance(&self) -> R {
         self.about_x.shift.abs() + self.about_z.shift.abs()
     }
 
     /// Xᵀ f. 32 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn transpose_mul(&self, f: Force<R>) -> Force<R> {
         let (x, z) = (&self.about_x, &self.about_z);
         let ([nx, ny, nz], [fx, fy, fz]) = (f.ang.array(), f.lin.array());
@@ -86,14 +86,14 @@ impl<R: Real> AxialScrews<R> {
     }
 
     /// Xᵀ Iᶜ X. 64 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn composite_at_parent(&self, ic: &CompositeInertia<R>) -> CompositeInertia<R> {
         let ic = self.about_z.composite_back_about_z(ic).renamed();
         self.about_x.composite_back_about_z(&ic).renamed().renamed()
     }
 
     /// Xᵀ Iᵃ X. 230 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn articulated_at_parent(
         &self,
         ia: &ArticulatedInertia<R>,
@@ -106,7 +106,7 @@ impl<R: Real> AxialScrews<R> {
     }
 
     /// The same where nothing resists a turn about z, nor does in the frame between the screws. 174 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn free_at_parent(&self, ia: &FreeAboutZ<R>) -> ArticulatedInertia<R> {
         self.about_x
             .free_back_about_x(&self.about_z.free_back_about_z(ia))
@@ -115,7 +115,7 @@ impl<R: Real> AxialScrews<R> {
 
 impl<R: Real> Screw<R> {
     /// The inertia of a body that turns freely about z, before the screw about z. 99 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn free_back_about_z(&self, ia: &FreeAboutZ<R>) -> FreeAboutZ<R> {
         let mass = self.symmetric_back(&ia.mass);
         let ([hxx, hxy, hxz], [hyx, hyy, hyz]) = (ia.coupling_x.array(), ia.coupling_y.array());
@@ -137,7 +137,7 @@ impl<R: Real> Screw<R> {
     }
 
     /// The same before the screw about x, in which rows y and z are shares of what was row y. 75 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn free_back_about_x(&self, ia: &FreeAboutZ<R>) -> ArticulatedInertia<R> {
         let (s, c) = (self.sin, self.cos);
         let mass = self.symmetric_back(&ia.mass.renamed()).renamed().renamed();
@@ -170,7 +170,7 @@ impl<R: Real> Screw<R> {
     }
 
     /// An articulated inertia before the screw, about z. 115 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn articulated_back_about_z(&self, ia: &ArticulatedInertia<R>) -> ArticulatedInertia<R> {
         let (i, mass) = (
             self.symmetric_back(&ia.inertia),
@@ -203,7 +203,7 @@ impl<R: Real> Screw<R> {
     }
 
     /// The inertia of bodies that move as one before the screw, about z. 32 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn composite_back_about_z(&self, ic: &CompositeInertia<R>) -> CompositeInertia<R> {
         let i = self.symmetric_back_by_trace(&ic.inertia);
         let [hx, hy, hz] = ic.first_moment.array();
@@ -228,7 +228,7 @@ impl<R: Real> Screw<R> {
 
     /// A symmetric matrix, turned back about z, whose trace across z stays as it is. 16 flops. An entry gets roundings of the largest one of
     /// its block, as it does by general rotations.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn symmetric_back_by_trace(&self, m: &Symmetric<R>) -> Symmetric<R> {
         let twice = m.xy + m.xy;
         let w = self.sin * (m.xx - m.yy) + self.cos * twice;
@@ -245,7 +245,7 @@ impl<R: Real> Screw<R> {
     }
 
     /// A symmetric matrix, turned back about z. 27 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn symmetric_back(&self, m: &Symmetric<R>) -> Symmetric<R> {
         let [[xx, xy], [_, yy]] = self.block_back([[m.xx, m.xy], [m.xy, m.yy]]);
         let [xz, yz] = self.turn_back([m.xz, m.yz]);
@@ -267,7 +267,7 @@ trait Renamed {
 }
 
 impl<R: Real> Renamed for Symmetric<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn renamed(&self) -> Self {
         Self {
             xx: self.yy,
@@ -281,7 +281,7 @@ impl<R: Real> Renamed for Symmetric<R> {
 }
 
 impl<R: Real> Renamed for CompositeInertia<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn renamed(&self) -> Self {
         let [x, y, z] = self.first_moment.array();
         Self {
@@ -293,7 +293,7 @@ impl<R: Real> Renamed for CompositeInertia<R> {
 }
 
 impl<R: Real> Renamed for ArticulatedInertia<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn renamed(&self) -> Self {
         let [x, y, z] = self.coupling.cols().map(|column| {
             let [x, y, z] = column.array();

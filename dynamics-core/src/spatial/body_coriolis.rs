@@ -27,7 +27,7 @@ pub(crate) struct BodyCoriolis<R: Real> {
 
 impl<R: Real> BodyCoriolis<R> {
     /// Of a body of velocity v. 83 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn new(inertia: &SpatialInertia<R>, v: Motion<R>) -> Self {
         let (h, [hx, hy, hz]) = (inertia.first_moment, inertia.first_moment.array());
         let columns = inertia.rotational.cols();
@@ -46,7 +46,7 @@ impl<R: Real> BodyCoriolis<R> {
     }
 
     /// Adds the part of a rotor: half of the couple ω_w × h of an angular momentum h.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn add_rotor(&mut self, h: R::Vec3) {
         let unit = R::Mat3::IDENTITY.cols();
         let [x, y, z] = unit.map(|unit| unit.cross(h) * R::from_f64(0.5));
@@ -54,7 +54,7 @@ impl<R: Real> BodyCoriolis<R> {
     }
 
     /// Xᵀ B X: the same of the body as a part of its parent. 119 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn at_parent(&self, x: &Xform<R>) -> Self {
         let momentum = x.rot.transpose_mul(self.momentum);
         let unit = R::Mat3::IDENTITY.cols();
@@ -64,7 +64,7 @@ impl<R: Real> BodyCoriolis<R> {
     }
 
     /// The couple Bᵀ m; its force is zero. 27 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn transpose_mul(&self, m: Motion<R>) -> R::Vec3 {
         self.couple.transpose_mul(m.ang) + self.momentum.cross(m.lin)
     }
@@ -73,14 +73,14 @@ impl<R: Real> BodyCoriolis<R> {
 /// B w. 24 flops.
 impl<R: Real> Mul<Motion<R>> for BodyCoriolis<R> {
     type Output = Force<R>;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn mul(self, w: Motion<R>) -> Force<R> {
         Force::new(self.couple * w.ang, w.ang.cross(self.momentum))
     }
 }
 
 impl<R: Real> AddAssign for BodyCoriolis<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add_assign(&mut self, o: Self) {
         self.couple += o.couple;
         self.momentum += o.momentum;

@@ -16,7 +16,7 @@ pub(crate) struct CompositeInertia<R: Real> {
 }
 
 impl<R: Real> From<SpatialInertia<R>> for CompositeInertia<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn from(i: SpatialInertia<R>) -> Self {
         Self {
             mass: i.mass,
@@ -27,7 +27,7 @@ impl<R: Real> From<SpatialInertia<R>> for CompositeInertia<R> {
 }
 
 impl<R: Real> AddAssign for CompositeInertia<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add_assign(&mut self, o: Self) {
         self.mass += o.mass;
         self.first_moment += o.first_moment;
@@ -51,7 +51,7 @@ impl<R: Real> CompositeInertia<R> {
     }
 
     /// Iᶜ s, the force of unit acceleration along a column of S.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn along(&self, s: &MotionSubspace<R>) -> Force<R> {
         let [x, y, _] = self.first_moment.array();
         let zero = R::ZERO;
@@ -72,7 +72,7 @@ impl<R: Real> CompositeInertia<R> {
 
     /// The motion m with Iᶜ m = f, RBDA (2.74): about the centre of mass, rotation and translation are decoupled. None
     /// if there is no mass, or no inertia about some axis. 130 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn solve(&self, f: Force<R>) -> Option<Motion<R>> {
         let mass_inv = R::ONE / self.mass;
         let c = self.first_moment * mass_inv;
@@ -94,7 +94,7 @@ impl<R: Real> CompositeInertia<R> {
     }
 
     /// Xᵀ Iᶜ X: the same inertia at the parent's frame. RBDA (2.66). 107 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn at_parent(&self, x: &Xform<R>) -> Self {
         let (h, r) = (x.rot.transpose_mul(self.first_moment), x.pos);
         let moment = h + r * self.mass;
@@ -129,7 +129,7 @@ pub(crate) struct ArticulatedInertia<R: Real> {
 }
 
 impl<R: Real> From<SpatialInertia<R>> for ArticulatedInertia<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn from(i: SpatialInertia<R>) -> Self {
         let ([x, y, z], zero) = (i.first_moment.array(), R::ZERO);
         Self {
@@ -145,7 +145,7 @@ impl<R: Real> From<SpatialInertia<R>> for ArticulatedInertia<R> {
 }
 
 impl<R: Real> AddAssign for ArticulatedInertia<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add_assign(&mut self, o: Self) {
         self.inertia += o.inertia;
         self.coupling += o.coupling;
@@ -155,7 +155,7 @@ impl<R: Real> AddAssign for ArticulatedInertia<R> {
 
 /// Adds the inertia of a rigid body. 15 flops.
 impl<R: Real> AddAssign<SpatialInertia<R>> for ArticulatedInertia<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add_assign(&mut self, o: SpatialInertia<R>) {
         let [hx, hy, hz] = o.first_moment.array();
         let [[xx, yx, zx], [xy, yy, zy], [xz, yz, zz]] = self.coupling.cols().map(Vector::array);
@@ -173,7 +173,7 @@ impl<R: Real> AddAssign<SpatialInertia<R>> for ArticulatedInertia<R> {
 
 impl<R: Real> ArticulatedInertia<R> {
     /// Iᴬ m. 66 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn times(&self, m: Motion<R>) -> Force<R> {
         Force::new(
             self.inertia.times(m.ang) + self.coupling * m.lin,
@@ -182,7 +182,7 @@ impl<R: Real> ArticulatedInertia<R> {
     }
 
     /// U = Iᴬ s, for a column of S.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn along(&self, s: &MotionSubspace<R>) -> Force<R> {
         let [x, y, z] = self.coupling.cols();
         match s {
@@ -196,7 +196,7 @@ impl<R: Real> ArticulatedInertia<R> {
     }
 
     /// Iᴬ − U Uᵀ / D: what remains when the joint is free. RBDA (7.43). 48 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn minus_outer(&self, u: Force<R>, d_inv: R) -> Self {
         let (n, f) = (u.ang * d_inv, u.lin * d_inv);
         let [fx, fy, fz] = f.array();
@@ -208,7 +208,7 @@ impl<R: Real> ArticulatedInertia<R> {
     }
 
     /// Iᴬ − U Uᵀ / D of a joint that turns about z without an inertia of its own, D = Uᵀ s. 35 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn free_about_z(&self, u: Force<R>, d_inv: R) -> FreeAboutZ<R> {
         let ([ux, uy, _], f) = (u.ang.array(), u.lin * d_inv);
         let (nx, ny) = (ux * d_inv, uy * d_inv);
@@ -224,7 +224,7 @@ impl<R: Real> ArticulatedInertia<R> {
     }
 
     /// Xᵀ Iᴬ X: the same inertia at the parent's frame. RBDA (2.66). 270 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn at_parent(&self, x: &Xform<R>) -> Self {
         Self {
             inertia: self.inertia.turned_back(&x.rot),
@@ -236,7 +236,7 @@ impl<R: Real> ArticulatedInertia<R> {
 
     /// The same inertia about the point from which its frame's origin is at r: H + r× M, and Ī + r× Hᵀ − (H + r× M) r×,
     /// whose upper triangle is written out. 75 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn at_distance(&self, r: R::Vec3) -> Self {
         let (i, h, mass) = (self.inertia, self.coupling, self.mass);
         let [mx, my, mz] = mass.columns().map(|column| r.cross(column));
@@ -274,7 +274,7 @@ pub(crate) struct FreeAboutZ<R: Real> {
 
 impl<R: Real> FreeAboutZ<R> {
     /// Iᵃ c for a velocity product c = v × S q̇ of the joint, whose components along z are zero. 35 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn times_across(&self, c: Motion<R>) -> Force<R> {
         let ([wx, wy, _], [vx, vy, _]) = (c.ang.array(), c.lin.array());
         let ([hxx, hxy, hxz], [hyx, hyy, hyz]) = (self.coupling_x.array(), self.coupling_y.array());
@@ -294,7 +294,7 @@ impl<R: Real> FreeAboutZ<R> {
     }
 
     /// Xᵀ Iᵃ X: the same inertia at the parent's frame, E's rows x and y alone turning Ī and H. 227 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn at_parent(&self, x: &Xform<R>) -> ArticulatedInertia<R> {
         let [[xx, yx, _], [xy, yy, _], [xz, yz, _]] = x.rot.cols().map(Vector::array);
         let (ex, ey) = (R::Vec3::new(xx, xy, xz), R::Vec3::new(yx, yy, yz));

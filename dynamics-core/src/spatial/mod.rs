@@ -100,47 +100,47 @@ macro_rules! vector_space {
                 lin: R::Vec3::ZERO,
             };
             #[doc = concat!("A ", $what, " from its angular and linear parts.")]
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             pub const fn new(ang: R::Vec3, lin: R::Vec3) -> Self {
                 Self { ang, lin }
             }
         }
         impl<R: Real> Add for $t<R> {
             type Output = Self;
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn add(self, o: Self) -> Self {
                 Self::new(self.ang + o.ang, self.lin + o.lin)
             }
         }
         impl<R: Real> Sub for $t<R> {
             type Output = Self;
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn sub(self, o: Self) -> Self {
                 Self::new(self.ang - o.ang, self.lin - o.lin)
             }
         }
         impl<R: Real> Neg for $t<R> {
             type Output = Self;
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn neg(self) -> Self {
                 Self::new(-self.ang, -self.lin)
             }
         }
         impl<R: Real> Mul<R> for $t<R> {
             type Output = Self;
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn mul(self, s: R) -> Self {
                 Self::new(self.ang * s, self.lin * s)
             }
         }
         impl<R: Real> AddAssign for $t<R> {
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn add_assign(&mut self, o: Self) {
                 *self = *self + o;
             }
         }
         impl<R: Real> SubAssign for $t<R> {
-            #[cfg_attr(not(debug_assertions), inline(always))]
+            #[cfg_attr(optimised, inline(always))]
             fn sub_assign(&mut self, o: Self) {
                 *self = *self - o;
             }
@@ -152,7 +152,7 @@ vector_space!(Force, "force");
 
 impl<R: Real> Motion<R> {
     /// Six NaNs: the motion of a body that the robot does not have.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn nan() -> Self {
         let none = R::from_f64(f64::NAN);
         let none = R::Vec3::new(none, none, none);
@@ -167,13 +167,13 @@ impl<R: Real> Motion<R> {
     /// let v = Motion::<f32>::new(Vec3::Z, Vec3::X);
     /// assert_eq!(v.dot(Force::new(Vec3::Z * 3.0, Vec3::X * 4.0)), 7.0);
     /// ```
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn dot(self, f: Force<R>) -> R {
         self.ang.dot(f.ang) + self.lin.dot(f.lin)
     }
 
     /// m × m₂, the rate of change of m₂ moving with velocity m. RBDA (2.31). 30 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn cross(self, m: Self) -> Self {
         Self::new(
             self.ang.cross(m.ang),
@@ -182,7 +182,7 @@ impl<R: Real> Motion<R> {
     }
 
     /// m ×* f, the rate of change of f moving with velocity m. RBDA (2.32). 30 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn cross_force(self, f: Force<R>) -> Force<R> {
         Force::new(
             self.ang.cross(f.ang) + self.lin.cross(f.lin),
@@ -199,7 +199,7 @@ impl<R: Real> Xform<R> {
     };
 
     /// Xᵀ f: a force from B to A coordinates, RBDA table 2.6. 39 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn transpose_mul(&self, f: Force<R>) -> Force<R> {
         let lin = self.rot.transpose_mul(f.lin);
         Force::new(self.rot.transpose_mul(f.ang) + self.pos.cross(lin), lin)
@@ -209,7 +209,7 @@ impl<R: Real> Xform<R> {
 /// X m: a motion from A to B coordinates, RBDA table 2.6. 39 flops.
 impl<R: Real> Mul<Motion<R>> for Xform<R> {
     type Output = Motion<R>;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn mul(self, m: Motion<R>) -> Motion<R> {
         Motion::new(self.rot * m.ang, self.rot * (m.lin - self.pos.cross(m.ang)))
     }
@@ -218,7 +218,7 @@ impl<R: Real> Mul<Motion<R>> for Xform<R> {
 /// ᶜX_B ᴮX_A, RBDA table 2.6. 63 flops.
 impl<R: Real> Mul for Xform<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn mul(self, first: Self) -> Self {
         Self {
             rot: self.rot * first.rot,
@@ -230,7 +230,7 @@ impl<R: Real> Mul for Xform<R> {
 impl<R: Real> SpatialInertia<R> {
     /// I a + v ×* I v: the force that accelerates a body moving with v. RBDA (2.58), written out by
     /// the acceleration a + ω × v of the origin's point. 102 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn force(&self, a: Motion<R>, v: Motion<R>) -> Force<R> {
         let w = v.ang;
         let point = a.lin + w.cross(v.lin);
@@ -243,7 +243,7 @@ impl<R: Real> SpatialInertia<R> {
     }
 
     /// v ×* I v: the force that keeps a body moving with v without acceleration. [`Self::force`] without its zeros, 69 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn bias_force(&self, v: Motion<R>) -> Force<R> {
         let (w, h) = (v.ang, self.first_moment);
         let point = w.cross(v.lin);
@@ -254,7 +254,7 @@ impl<R: Real> SpatialInertia<R> {
     }
 
     /// Ī w, reading the upper triangle of Ī. 15 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn turn(&self, w: R::Vec3) -> R::Vec3 {
         let ([xx, xy, xz, yy, yz, zz], [x, y, z]) = (self.upper(), w.array());
         R::Vec3::new(
@@ -265,7 +265,7 @@ impl<R: Real> SpatialInertia<R> {
     }
 
     /// The upper triangle of Ī: xx, xy, xz, yy, yz, zz.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn upper(&self) -> [R; 6] {
         let [x, y, z] = self.rotational.cols();
         let ([xx, _, _], [xy, yy, _], [xz, yz, zz]) = (x.array(), y.array(), z.array());
@@ -313,7 +313,7 @@ impl<R: Real> SpatialInertia<R> {
 
 impl<R: Real> Add for SpatialInertia<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
         Self {
             mass: self.mass + o.mass,
@@ -326,7 +326,7 @@ impl<R: Real> Add for SpatialInertia<R> {
 /// I v: momentum from velocity, force from acceleration. RBDA (2.63). 45 flops.
 impl<R: Real> Mul<Motion<R>> for SpatialInertia<R> {
     type Output = Force<R>;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn mul(self, m: Motion<R>) -> Force<R> {
         Force::new(
             self.rotational * m.ang + self.first_moment.cross(m.lin),

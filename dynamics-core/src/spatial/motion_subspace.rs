@@ -16,7 +16,7 @@ pub(crate) enum MotionSubspace<R: Real> {
 
 impl<R: Real> MotionSubspace<R> {
     /// sᵀ f.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn dot(&self, f: Force<R>) -> R {
         match self {
             Self::RevoluteZ => f.ang.array()[2],
@@ -26,7 +26,7 @@ impl<R: Real> MotionSubspace<R> {
     }
 
     /// m + s rate.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn add_scaled_to(&self, m: Motion<R>, rate: R) -> Motion<R> {
         match self {
             Self::RevoluteZ => Motion::new(raised(m.ang, rate), m.lin),
@@ -37,7 +37,7 @@ impl<R: Real> MotionSubspace<R> {
 }
 
 /// v + z r.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn raised<R: Real>(v: R::Vec3, r: R) -> R::Vec3 {
     let [x, y, z] = v.array();
     R::Vec3::new(x, y, z + r)

@@ -17,7 +17,7 @@ pub(crate) struct Symmetric<R> {
 
 impl<R: Real> Symmetric<R> {
     /// m 1.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn diagonal(m: R) -> Self {
         Self {
             xx: m,
@@ -40,7 +40,7 @@ impl<R: Real> Symmetric<R> {
     };
 
     /// Its columns.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn columns(&self) -> [R::Vec3; 3] {
         [
             R::Vec3::new(self.xx, self.xy, self.xz),
@@ -50,7 +50,7 @@ impl<R: Real> Symmetric<R> {
     }
 
     /// The upper triangle of a matrix.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of(m: &R::Mat3) -> Self {
         let [x, y, z] = m.cols();
         let ([xx, _, _], [xy, yy, _], [xz, yz, zz]) = (x.array(), y.array(), z.array());
@@ -65,13 +65,13 @@ impl<R: Real> Symmetric<R> {
     }
 
     /// Row and column z.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn column_z(&self) -> R::Vec3 {
         R::Vec3::new(self.xz, self.yz, self.zz)
     }
 
     /// Σ v. 15 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn times(&self, v: R::Vec3) -> R::Vec3 {
         let [x, y, z] = v.array();
         R::Vec3::new(
@@ -82,7 +82,7 @@ impl<R: Real> Symmetric<R> {
     }
 
     /// The matrix less a bᵀ, of whose products only the upper triangle is used. 12 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn minus_outer(&self, a: R::Vec3, b: R::Vec3) -> Self {
         let ([ax, ay, az], [bx, by, bz]) = (a.array(), b.array());
         Self {
@@ -97,7 +97,7 @@ impl<R: Real> Symmetric<R> {
 
     /// Eᵀ Σ E in 59 flops instead of 75: Σ is zz 1, a matrix without a third column, and \[v\]×; the
     /// first is what it was, the last turns as v does, and the trace spares a product.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn turned_back(&self, e: &R::Mat3) -> Self {
         let [x, y, z] = e.cols().map(Vector::array);
         let (c, f) = (self.xz, self.yz);
@@ -118,7 +118,7 @@ impl<R: Real> Symmetric<R> {
 }
 
 /// Eᵀ H E of any matrix, split as [`Symmetric::turned_back`] does. 77 flops instead of 90.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn turned_back<R: Real>(h: &R::Mat3, e: &R::Mat3) -> R::Mat3 {
     let [x, y, z] = e.cols().map(Vector::array);
     let [[xx, yx, zx], [xy, yy, zy], [xz, yz, zz]] = h.cols().map(Vector::array);
@@ -140,21 +140,21 @@ pub(crate) fn turned_back<R: Real>(h: &R::Mat3, e: &R::Mat3) -> R::Mat3 {
 }
 
 /// A row times a matrix without a third column.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn row_times<R: Real>([x, y, z]: [R; 3], l: &[[R; 2]; 3]) -> [R; 2] {
     let [[a, b], [c, d], [e, f]] = *l;
     [x * a + y * c + z * e, x * b + y * d + z * f]
 }
 
 /// The scalar product with the first two of three.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn along<R: Real>([a, b]: [R; 2], [x, y, _]: [R; 3]) -> R {
     a * x + b * y
 }
 
 impl<R: Real> Add for Symmetric<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
         Self {
             xx: self.xx + o.xx,
@@ -168,7 +168,7 @@ impl<R: Real> Add for Symmetric<R> {
 }
 
 impl<R: Real> AddAssign for Symmetric<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }

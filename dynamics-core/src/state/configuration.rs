@@ -34,7 +34,7 @@ pub trait Configuration<R, const Q: usize>: sealed::Sealed {
     fn trig_or(&self, source: impl TrigSource<R, Q>) -> impl Borrow<JointTrig<R, Q>>;
 
     /// The sines and cosines: its own, or those of [`JointTrig::new`] for `robot`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn trig_of<D, const B: usize, const V: usize>(&self, robot: &D) -> impl Borrow<JointTrig<R, Q>>
     where
         R: Real,
@@ -47,7 +47,7 @@ pub trait Configuration<R, const Q: usize>: sealed::Sealed {
 impl<R, const Q: usize> Configuration<R, Q> for [R; Q] {
     const PRECOMPUTED: bool = false;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn trig_or(&self, source: impl TrigSource<R, Q>) -> impl Borrow<JointTrig<R, Q>> {
         source.compute(self)
     }
@@ -56,7 +56,7 @@ impl<R, const Q: usize> Configuration<R, Q> for [R; Q] {
 impl<R, const Q: usize> Configuration<R, Q> for JointTrig<R, Q> {
     const PRECOMPUTED: bool = true;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn trig_or(&self, _: impl TrigSource<R, Q>) -> impl Borrow<JointTrig<R, Q>> {
         self
     }
@@ -78,7 +78,7 @@ impl<R: Real, D, const B: usize, const Q: usize, const V: usize> TrigSource<R, Q
 where
     D: RobotModel<R, B, Q, V>,
 {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn compute(&self, q: &[R; Q]) -> JointTrig<R, Q> {
         JointTrig::new(self.0, q)
     }
@@ -115,12 +115,12 @@ pub trait RobotState<R, const Q: usize, const V: usize>: Copy + sealed::Sealed {
 impl<R, const Q: usize, const V: usize> RobotState<R, Q, V> for &State<R, Q, V> {
     type Configuration = [R; Q];
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn configuration(&self) -> &[R; Q] {
         &self.q
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn state(&self) -> &State<R, Q, V> {
         self
     }
@@ -135,7 +135,7 @@ pub struct StateWithTrig<'a, R, const Q: usize, const V: usize> {
 }
 
 impl<R, const Q: usize, const V: usize> Clone for StateWithTrig<'_, R, Q, V> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn clone(&self) -> Self {
         *self
     }
@@ -146,12 +146,12 @@ impl<R, const Q: usize, const V: usize> Copy for StateWithTrig<'_, R, Q, V> {}
 impl<R, const Q: usize, const V: usize> RobotState<R, Q, V> for StateWithTrig<'_, R, Q, V> {
     type Configuration = JointTrig<R, Q>;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn configuration(&self) -> &JointTrig<R, Q> {
         self.trig
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn state(&self) -> &State<R, Q, V> {
         self.state
     }
@@ -159,7 +159,7 @@ impl<R, const Q: usize, const V: usize> RobotState<R, Q, V> for StateWithTrig<'_
 
 impl<R, const Q: usize> JointTrig<R, Q> {
     /// The state with these sines and cosines as its configuration's. `state.q` is used by the effects of joints only.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     #[must_use]
     pub fn with<'a, const V: usize>(
         &'a self,

@@ -41,7 +41,7 @@ impl<R: Real, const N: usize> IncrementalTrig<R, N> {
     }
 
     /// The same joints a tick later, at q.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn follow(&mut self, q: &[R; N]) -> &JointTrig<R, N> {
         let [quarter, half, sixth, three_halves] = [0.25, 0.5, 1.0 / 6.0, 1.5].map(R::from_f64);
         for (turn, &q) in self.trig.coordinates.iter_mut().zip(q) {

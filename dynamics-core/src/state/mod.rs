@@ -48,14 +48,14 @@ impl<R: Real, const Q: usize, const V: usize> State<R, Q, V> {
     }
 
     /// Whether every number is finite.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn is_finite(&self) -> bool {
         all_finite(&self.q) & all_finite(&self.qd) & all_finite(&self.qdd)
     }
 }
 
 /// Whether every number is finite; the same instructions for all data.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn all_finite<R: Real>(values: &[R]) -> bool {
     // x·0 is 0 for finite x and NaN otherwise; sums of zeros are zero.
     let sum = values.iter().fold(R::ZERO, |sum, &x| sum + x * R::ZERO);
@@ -76,7 +76,7 @@ impl<R: Real, const Q: usize> JointTrig<R, Q> {
     /// square is 1 + ε, |ε| < 1/8, comes to unit length within 3ε²/8, any other within rounding; those whose direction
     /// matters first go through [`crate::state::manifold::normalise`]. The quaternion zero, which has no direction, is
     /// replaced by no rotation, so that [`State::at`] of zeros is a valid state.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     #[must_use]
     pub fn new<D, const B: usize, const V: usize>(robot: &D, q: &[R; Q]) -> Self
     where
@@ -92,7 +92,7 @@ impl<R: Real, const Q: usize> JointTrig<R, Q> {
     /// let coarse = JointTrig::with_kernel::<Table<256, 1>, _, _, _>(&Ur5e::MODEL_F32, &[0.5; 6]);
     /// assert!((coarse.coordinates[3].sin - 0.5_f32.sin()).abs() < 1e-4);
     /// ```
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     #[must_use]
     pub fn with_kernel<K, D, const B: usize, const V: usize>(robot: &D, q: &[R; Q]) -> Self
     where

@@ -21,7 +21,7 @@ pub trait Kernel<R> {
     fn sin_cos(x: R) -> (R, R);
 
     /// (sin x, cos x) of x in rad, |x| ≤ 100: [`crate::Engine`] uses it for joints whose limits lie within ±4π.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn sin_cos_near(x: R) -> (R, R) {
         Self::sin_cos(x)
     }
@@ -34,7 +34,7 @@ pub trait Kernel<R> {
     clippy::eq_op,
     reason = "x − x is 0 of a finite x and NaN of any other"
 )]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn bounded(r: f32, inside: bool, x: f32) -> f32 {
     core::hint::select_unpredictable(inside, r, x - x)
 }

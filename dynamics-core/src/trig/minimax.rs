@@ -30,7 +30,7 @@ use super::kernel::bounded;
 pub struct Minimax<const DEGREE: usize, const PARTS: usize>;
 
 impl<const DEGREE: usize, const PARTS: usize> Kernel<f32> for Minimax<DEGREE, PARTS> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn sin_cos(x: f32) -> (f32, f32) {
         const {
             assert!(
@@ -55,7 +55,7 @@ impl<const DEGREE: usize, const PARTS: usize> Kernel<f32> for Minimax<DEGREE, PA
 ///
 /// Adding and subtracting 1.5·2²³ rounds an f32 below 2²² to the nearest integer and leaves that
 /// integer in the low bits of the sum.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn quarter_turns(x: f32) -> (f32, u32) {
     const ROUND: f32 = 12_582_912.0;
     let t = x * core::f32::consts::FRAC_2_PI + ROUND;
@@ -63,7 +63,7 @@ fn quarter_turns(x: f32) -> (f32, u32) {
 }
 
 /// Sine and cosine of |r| ≤ π/4.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn polynomials<const DEGREE: usize>(r: f32) -> (f32, f32) {
     const SIN: [f32; 3] = [-0.166_666_55, 0.008_332_174, -0.000_195_156_54];
     const COS: [f32; 3] = [0.041_666_653, -0.001_388_761_9, 2.446_341_2e-5];
@@ -87,7 +87,7 @@ fn polynomials<const DEGREE: usize>(r: f32) -> (f32, f32) {
 }
 
 /// Sine and cosine of r + k π/2 from those of r; the low two bits of `k` choose the quadrant.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn in_quadrant((s, c): (f32, f32), k: u32) -> (f32, f32) {
     // Exchange and change signs in integer registers: no branch, no wait for the FPU's flags.
     let (s, c) = (s.to_bits(), c.to_bits());

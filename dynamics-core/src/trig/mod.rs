@@ -32,7 +32,7 @@ pub use table::Table;
 /// let (s, c) = dynamics_core::trig::sin_cos(0.5);
 /// assert!((s - 0.479_425_54).abs() < 1e-7 && (c - 0.877_582_55).abs() < 1e-7);
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn sin_cos(x: f32) -> (f32, f32) {
     Table::<128, 3, 4>::sin_cos(x)
 }
@@ -46,7 +46,7 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
 /// let (s, c) = dynamics_core::trig::sin_cos_near(-3.0);
 /// assert!((s + 0.141_120_01).abs() < 1e-7 && (c + 0.989_992_5).abs() < 1e-7);
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn sin_cos_near(x: f32) -> (f32, f32) {
     Table::<128, 3, 2>::sin_cos(x)
 }
@@ -67,7 +67,7 @@ pub fn sin_cos_near(x: f32) -> (f32, f32) {
     clippy::eq_op,
     reason = "x − x is 0 of a finite x and NaN of any other"
 )]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn sin_cos_f64(x: f64) -> (f64, f64) {
     const ROUND: f64 = 6_755_399_441_055_744.0;
     const SIN: [f64; 6] = [

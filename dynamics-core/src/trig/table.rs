@@ -97,7 +97,7 @@ impl<const N: usize, const ORDER: usize, const PARTS: usize> Table<N, ORDER, PAR
 impl<const N: usize, const ORDER: usize, const PARTS: usize> Kernel<f32>
     for Table<N, ORDER, PARTS>
 {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn sin_cos(x: f32) -> (f32, f32) {
         // As in `minimax`: rounds, and leaves the integer in the low bits.
         const ROUND: f32 = 12_582_912.0;

@@ -298,13 +298,13 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
 }
 
 /// 1/Ω, at most 1/ω_min.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn inverse_root<R: Real>(square: R, slowest: R) -> R {
     (if square > slowest { square } else { slowest }).rsqrt()
 }
 
 /// 1/Ω by the one that is at most 1/ω_min; below ω_min the tangent to it as a function of Ω², a Newton step towards it.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn period<R: Real>(square: R, r: R) -> R {
     let half = R::from_f64(0.5);
     r * (R::ONE + half - half * square * r * r)

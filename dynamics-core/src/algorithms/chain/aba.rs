@@ -38,7 +38,7 @@ struct Beyond<R: Real> {
 }
 
 /// q̈ of a chain: `D::CHAIN` and `D::SINGLE` hold.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(in crate::algorithms) fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
@@ -59,7 +59,7 @@ where
 }
 
 /// The three passes, with the transforms across links in the form X.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn sweep<X, R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
@@ -129,7 +129,7 @@ where
 }
 
 /// vᵢ, cᵢ = v × S q̇, and pᴬ = v ×* I v − fˣ of each body alone.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn outward_velocities<X: Across<R>, R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
@@ -170,7 +170,7 @@ fn outward_velocities<X: Across<R>, R: Real, D, E, const B: usize, const Q: usiz
 }
 
 /// q̈ᵢ = D⁻¹ (u − Uᵀ a′) with a′ = X a + c, and aᵢ = a′ + S q̈.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn outward_accelerations<X: Across<R>, R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     bodies: &[Body<R, X>],

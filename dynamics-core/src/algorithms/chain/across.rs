@@ -30,35 +30,35 @@ pub(in crate::algorithms) trait Across<R: Real>:
 
 impl<R: Real> Across<R> for Xform<R> {
     type Kept = R::Mat3;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn of(link: &LinkView<'_, R>, turns: &[JointCoordinate<R>]) -> Self {
         link.xform(turns)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn kept(&self) -> R::Mat3 {
         self.rot
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn again(rot: R::Mat3, link: &LinkView<'_, R>, turns: &[JointCoordinate<R>]) -> Self {
         link.xform_of(rot, turns)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn distance(&self) -> R {
         length::<R>(self.pos)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn force_back(&self, f: Force<R>) -> Force<R> {
         self.transpose_mul(f)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn composite_back(&self, ic: &CompositeInertia<R>) -> CompositeInertia<R> {
         ic.at_parent(self)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn inertia_back(&self, ia: &ArticulatedInertia<R>) -> ArticulatedInertia<R> {
         ia.at_parent(self)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn free_back(&self, ia: &FreeAboutZ<R>) -> ArticulatedInertia<R> {
         ia.at_parent(self)
     }
@@ -67,35 +67,35 @@ impl<R: Real> Across<R> for Xform<R> {
 impl<R: Real> Across<R> for AxialScrews<R> {
     /// The shift along z.
     type Kept = R;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn of(link: &LinkView<'_, R>, turns: &[JointCoordinate<R>]) -> Self {
         link.screws(turns)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn kept(&self) -> R {
         self.about_z.shift
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn again(shift: R, link: &LinkView<'_, R>, turns: &[JointCoordinate<R>]) -> Self {
         link.screws_of(shift, turns)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn distance(&self) -> R {
         self.distance()
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn force_back(&self, f: Force<R>) -> Force<R> {
         self.transpose_mul(f)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn composite_back(&self, ic: &CompositeInertia<R>) -> CompositeInertia<R> {
         self.composite_at_parent(ic)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn inertia_back(&self, ia: &ArticulatedInertia<R>) -> ArticulatedInertia<R> {
         self.articulated_at_parent(ia)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn free_back(&self, ia: &FreeAboutZ<R>) -> ArticulatedInertia<R> {
         self.free_at_parent(ia)
     }
@@ -106,13 +106,13 @@ impl<R: Real> Across<R> for AxialScrews<R> {
 pub(super) struct AcrossZ<R>([[R; 2]; 2]);
 
 impl<R: Real> AcrossZ<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(m: Motion<R>) -> Self {
         Self([m.ang, m.lin].map(|m| [m.array()[0], m.array()[1]]))
     }
 
     /// With −0 along z, which the compiler does not add.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn motion(self) -> Motion<R> {
         let [ang, lin] = self.0.map(|[x, y]| R::Vec3::new(x, y, -R::ZERO));
         Motion::new(ang, lin)

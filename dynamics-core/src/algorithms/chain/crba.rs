@@ -17,7 +17,7 @@ use crate::spatial::{AxialScrews, Xform};
 use crate::state::JointTrig;
 
 /// M of a chain: `D::CHAIN` and `D::SINGLE` hold.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(in crate::algorithms) fn crba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
@@ -38,7 +38,7 @@ where
 }
 
 /// The two passes, with the transforms across links in the form X.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn sweep<X, R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,

@@ -23,7 +23,7 @@ struct Body<R: Real> {
 /// τ of a chain of revolute joints under velocity products: `D::CHAIN`, and `D::KINDS` are revolute.
 ///
 /// `first_apart`: the first link has code of its own, with the same numbers; it takes fewer cycles, and more code.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(in crate::algorithms) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,

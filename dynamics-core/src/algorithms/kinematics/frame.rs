@@ -32,13 +32,13 @@ impl<R: Real> Pose<R> {
     };
 
     /// A point given in the body's frame, in base coordinates, m. 18 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn point(&self, p: R::Vec3) -> R::Vec3 {
         self.rot * p + self.pos
     }
 
     /// ⁱX₀: motions from the base's frame to the body's.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn xform(&self) -> Xform<R> {
         Xform {
             rot: self.rot.transpose(),
@@ -47,7 +47,7 @@ impl<R: Real> Pose<R> {
     }
 
     /// The pose of the frame to which X transforms coordinates from this one's. 63 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(in crate::algorithms) fn transformed_by(&self, x: &Xform<R>) -> Self {
         Self {
             rot: self.rot * x.rot.transpose(),
@@ -56,7 +56,7 @@ impl<R: Real> Pose<R> {
     }
 
     /// The pose with the same origin, and axes that `frame` rotates into this one's.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(in crate::algorithms) fn in_link_frame(&self, frame: &R::Mat3) -> Self {
         Self {
             rot: self.rot * *frame,
@@ -91,7 +91,7 @@ pub trait Frame: sealed::Sealed + Copy {
     /// Transforms a motion of the body at `pose` from [`LocalWorldAligned`] to this frame.
     fn from_aligned<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R>;
     /// The difference of the acceleration in this frame and the spatial one; v is the velocity in this frame.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn classical_term<R: Real>(v: Motion<R>) -> Motion<R> {
         let _ = v;
         Motion::ZERO
@@ -112,55 +112,55 @@ pub struct World;
 pub struct LocalWorldAligned;
 
 impl Frame for Local {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn express<R: Real>(_: &Pose<R>, m: Motion<R>) -> Motion<R> {
         m
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn from_body<R: Real>(_: &Pose<R>) -> Xform<R> {
         Xform::IDENTITY
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn from_aligned<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
         Motion::new(pose.rot.transpose_mul(m.ang), pose.rot.transpose_mul(m.lin))
     }
 }
 
 impl Frame for World {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn express<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
         Self::from_aligned(pose, LocalWorldAligned::express(pose, m))
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R> {
         Xform {
             rot: pose.rot,
             pos: -pose.rot.transpose_mul(pose.pos),
         }
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn from_aligned<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
         Motion::new(m.ang, m.lin + pose.pos.cross(m.ang))
     }
 }
 
 impl Frame for LocalWorldAligned {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn express<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
         Motion::new(pose.rot * m.ang, pose.rot * m.lin)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R> {
         Xform {
             rot: pose.rot,
             pos: R::Vec3::ZERO,
         }
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn from_aligned<R: Real>(_: &Pose<R>, m: Motion<R>) -> Motion<R> {
         m
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn classical_term<R: Real>(v: Motion<R>) -> Motion<R> {
         classical(Motion::ZERO, v)
     }
@@ -185,7 +185,7 @@ impl Frame for LocalWorldAligned {
 /// let v = Motion::<f32>::new(Vec3::Z * 3.0, Vec3::Y * 6.0);
 /// assert_eq!(classical(Motion::ZERO, v).lin, Vec3::X * -18.0);
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn classical<R: Real>(a: Motion<R>, v: Motion<R>) -> Motion<R> {
     Motion::new(a.ang, a.lin + v.ang.cross(v.lin))

@@ -43,7 +43,7 @@ use crate::state::{Configuration, RobotState};
 /// ```
 #[doc(alias = "geometric Jacobian")]
 #[doc(alias = "end effector")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn jacobian<R: Real, D, F: Frame, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -116,7 +116,7 @@ where
 /// ```
 #[doc(alias = "drift")]
 #[doc(alias = "Jdot")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn bias_acceleration<R: Real, D, F: Frame, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

@@ -30,7 +30,7 @@ pub struct Kinematics<R: Real, const B: usize> {
 
 impl<R: Real, const B: usize> Kinematics<R, B> {
     /// The velocity of `body`, rad/s and m/s, in a [`Frame`]; NaN for a body that the robot does not have.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn velocity<F: Frame>(&self, body: usize, frame: F) -> Motion<R> {
         let _ = frame;
         match (self.poses.get(body), self.velocities.get(body)) {
@@ -41,7 +41,7 @@ impl<R: Real, const B: usize> Kinematics<R, B> {
 
     /// The spatial acceleration of `body`, rad/s² and m/s², in a [`Frame`]; NaN for a body that the
     /// robot does not have.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn acceleration<F: Frame>(&self, body: usize, frame: F) -> Motion<R> {
         let _ = frame;
         match (self.poses.get(body), self.accelerations.get(body)) {
@@ -52,7 +52,7 @@ impl<R: Real, const B: usize> Kinematics<R, B> {
 
     /// The classical acceleration of `body`: ω̇ and p̈ of its origin, rad/s² and m/s², without gravity, along the axes
     /// of a [`Frame`] at its reference point.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn classical<F: Frame>(&self, body: usize, frame: F) -> Motion<R> {
         classical(self.acceleration(body, frame), self.velocity(body, frame))
     }
@@ -77,7 +77,7 @@ impl<R: Real, const B: usize> Kinematics<R, B> {
 /// ```
 #[doc(alias = "end effector")]
 #[doc(alias = "forward kinematics")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn poses<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -122,7 +122,7 @@ where
 /// assert!((hand.lin.x + p.y).abs() < 1e-12 && (hand.lin.y - p.x).abs() < 1e-12);
 /// ```
 #[doc(alias = "forward kinematics")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn kinematics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -157,7 +157,7 @@ where
 }
 
 /// A motion of a body from its aligned frame to its own.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(in crate::algorithms) fn in_link_frame<R: Real>(
     link: &LinkView<'_, R>,
     m: Motion<R>,

@@ -47,7 +47,7 @@ pub struct Cholesky<R, const V: usize> {
 /// # Errors
 /// As [`ltdl`](crate::algorithms::ltdl()).
 #[doc(alias = "LTL")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn cholesky<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     m: &MassMatrix<R, V>,
@@ -117,7 +117,7 @@ impl<R: Real, const V: usize> Cholesky<R, V> {
     }
 
     /// x with M x = τ: L⁻¹ L⁻ᵀ τ. Cost: 2 V² flops on a chain, less on a tree.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn solve<D, const B: usize, const Q: usize>(&self, robot: &D, tau: &[R; V]) -> [R; V]
     where
         D: RobotModel<R, B, Q, V>,

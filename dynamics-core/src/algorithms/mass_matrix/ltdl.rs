@@ -53,7 +53,7 @@ pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 /// [`spatial_operator_ltdl`](crate::algorithms::spatial_operator_ltdl()) reject it.
 #[doc(alias = "LTL")]
 #[doc(alias = "factor")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn ltdl<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     m: &MassMatrix<R, V>,
@@ -95,7 +95,7 @@ where
 /// The same in the place of M, D on its diagonal: without copies of the matrix, which take as long as the factors of a tree
 /// with many branches. [`ltdl`] does not call it, since
 /// the machine code of trees without loops would change.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn ltdl_in_place<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     m: &mut MassMatrix<R, V>,
@@ -148,7 +148,7 @@ where
 ///
 /// # Source
 /// Featherstone, RBDA (2008), table 6.5.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn solve<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -204,7 +204,7 @@ where
 /// assert!(m_inv.get(5, 5) * m.get(5, 5) > 1.0); // the other joints give way
 /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn inverse<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -233,7 +233,7 @@ pub(in crate::algorithms) struct Sizes<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> Sizes<R, V> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(in crate::algorithms) fn of<D, const B: usize, const Q: usize>(
         robot: &D,
         m: &MassMatrix<R, V>,
@@ -254,13 +254,13 @@ impl<R: Real, const V: usize> Sizes<R, V> {
     }
 
     /// The rounding error of pivot `k`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(in crate::algorithms) fn noise(&self, k: usize) -> R {
         entry(&self.sizes, k) * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS))
     }
 
     /// Row `k`, subtracted `l` times from row `i`, adds its rounding errors if both are of one joint.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(in crate::algorithms) fn add_error_of(&mut self, k: usize, i: usize, l: R) {
         let size = entry(&self.sizes, k);
         if i >= entry(&self.firsts, k)
@@ -272,7 +272,7 @@ impl<R: Real, const V: usize> Sizes<R, V> {
 }
 
 /// Whether a pivot is a number and more than a rounding error.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(in crate::algorithms) fn check<R: Real>(
     pivot: R,
     noise: R,
@@ -286,7 +286,7 @@ pub(in crate::algorithms) fn check<R: Real>(
 }
 
 /// λ of a coordinate.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(in crate::algorithms) fn parent<const V: usize>(lambda: &[usize; V], i: usize) -> usize {
     lambda.get(i).copied().unwrap_or(BASE)
 }

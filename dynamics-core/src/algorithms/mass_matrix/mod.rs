@@ -52,14 +52,14 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     }
 
     /// M_ij; zero beyond the matrix.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn get(&self, i: usize, j: usize) -> R {
         let row = self.rows.get(i).and_then(|row| row.get(j));
         row.copied().unwrap_or_default()
     }
 
     /// Row i.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn row(&self, i: usize) -> Option<&[R; V]> {
         self.rows.get(i)
     }
@@ -106,7 +106,7 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     }
 
     /// Sets M_ij and M_ji.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn set(&mut self, i: usize, j: usize, value: R) {
         if let Some(entry) = self.rows.get_mut(i).and_then(|row| row.get_mut(j)) {
             *entry = value;
@@ -117,7 +117,7 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     }
 
     /// The symmetric matrix of which the triangle up to the diagonal is written.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn mirrored(mut self) -> Self {
         if V > UNROLLED {
             self.mirror();
@@ -134,7 +134,7 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     }
 
     /// M_ii.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn diagonal_mut(&mut self, i: usize) -> Option<&mut R> {
         self.rows.get_mut(i).and_then(|row| row.get_mut(i))
     }
@@ -144,7 +144,7 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
 pub(crate) const UNROLLED: usize = 8;
 
 /// Writes the triangle up to the diagonal into the other.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn mirror<R: Copy, const V: usize>(rows: &mut [[R; V]; V]) {
     for i in 1..V {
         let Some((above, [row, ..])) = rows.split_at_mut_checked(i) else {
@@ -187,7 +187,7 @@ impl<R: Real, const V: usize> Ltdl<R, V> {
     }
 
     /// L_ij: one on the diagonal, zero above it and beyond the matrix.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn get(&self, i: usize, j: usize) -> R {
         match self.rows.get(i).and_then(|row| row.get(j)) {
             Some(_) if i == j => R::ONE,
@@ -198,7 +198,7 @@ impl<R: Real, const V: usize> Ltdl<R, V> {
 
     /// The reciprocals of D: the acceleration of each coordinate under a unit torque when its ancestors are fixed and
     /// its descendants are free.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn d_inv(&self) -> &[R; V] {
         &self.d_inv
     }

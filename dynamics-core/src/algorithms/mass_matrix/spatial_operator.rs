@@ -53,7 +53,7 @@ use crate::state::{Configuration, entry};
 /// # Errors
 /// [`NotPositiveDefinite`] names a coordinate that moves no inertia, as [`aba`](crate::algorithms::aba()) does.
 #[doc(alias = "innovations factorisation")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn spatial_operator_ltdl<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     q: &impl Configuration<R, Q>,
@@ -86,7 +86,7 @@ where
 ///
 /// # Errors
 /// As [`spatial_operator_ltdl`].
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn spatial_operator_inverse<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     q: &impl Configuration<R, Q>,
@@ -115,7 +115,7 @@ where
 
 /// H (Φ or Ψ) K by rows of joints, and D⁻¹: K of each joint, projected on its ancestors; `pass` is the force that a
 /// joint transmits inward, given the force's projection on the joint and its own K.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn columns<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     q: &impl Configuration<R, Q>,

@@ -65,7 +65,7 @@ struct Body<R: Real> {
 /// # Errors
 /// [`NotPositiveDefinite`] names the first coordinate if the bodies have no mass, or no inertia about some axis.
 #[doc(alias = "recoil")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn base_velocity_from_momentum<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: impl RobotState<R, Q, V>,

@@ -40,7 +40,7 @@ use crate::state::{Configuration, RobotState};
 /// let state = State { qd: [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], ..State::at([0.0_f64; 6]) };
 /// assert!(centroidal_momentum(&Ur5e::MODEL, &state, &()).ang.z > 0.0);
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn centroidal_momentum<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -85,7 +85,7 @@ where
 /// assert!((h.ang - column.ang * 2.0).length() < 1e-12);
 /// ```
 #[doc(alias = "CMM")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn centroidal_matrix<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

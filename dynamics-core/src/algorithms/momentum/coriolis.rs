@@ -81,7 +81,7 @@ struct Body<R: Real> {
 #[doc(alias = "momentum observer")]
 #[doc(alias = "generalized momentum")]
 #[doc(alias = "transposed Coriolis matrix")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn momentum_and_coriolis<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

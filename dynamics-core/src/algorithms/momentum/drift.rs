@@ -57,7 +57,7 @@ pub struct MomentumAndDrift<R: Real, const V: usize> {
 /// ```
 #[doc(alias = "momentum observer")]
 #[doc(alias = "generalized momentum")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn momentum_and_drift<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

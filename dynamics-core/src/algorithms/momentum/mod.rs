@@ -37,7 +37,7 @@ pub struct CenterOfMass<R: Real> {
 }
 
 /// Σ m and Σ m c in base coordinates. Some 110 flops a revolute joint.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(in crate::algorithms) fn mass_and_first_moment<
     R: Real,
     D,
@@ -68,7 +68,7 @@ where
 }
 
 /// 1/m; zero if there is no mass.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(in crate::algorithms) fn reciprocal<R: Real>(mass: R) -> R {
     if mass > R::ZERO {
         R::ONE / mass
@@ -101,7 +101,7 @@ pub(in crate::algorithms) fn reciprocal<R: Real>(mass: R) -> R {
 #[doc(alias = "mass_centre")]
 #[doc(alias = "CoM")]
 #[doc(alias = "COM")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn center_of_mass<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -149,7 +149,7 @@ where
 /// let (h, c) = (momentum(&Ur5e::MODEL, &state, &()), center_of_mass(&Ur5e::MODEL, &state, &()));
 /// assert!((h.lin - c.velocity * c.mass).length() < 1e-12);
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn momentum<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

@@ -96,7 +96,7 @@ pub enum Conditioning<R> {
 /// assert_eq!((inverse, how), ([[0.5, 0.0], [0.0, 0.0]], Conditioning::Damped { smallest: 0.0 }));
 /// ```
 #[doc(alias = "damped least squares")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn damped_inverse<R: Real, const M: usize>(
     a: &[[R; M]; M],
@@ -137,7 +137,7 @@ struct Pivots<R, const M: usize> {
 }
 
 /// The pivots of A − shift 1, if all are positive.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn eliminate<R: Real, const M: usize>(a: &[[R; M]; M], shift: R) -> Option<Pivots<R, M>> {
     let (mut a, mut l_inv, mut d_inv) = (*a, [[R::ZERO; M]; M], [R::ZERO; M]);
     for (k, (row, one)) in a.iter_mut().zip(&mut l_inv).enumerate() {
@@ -164,7 +164,7 @@ fn eliminate<R: Real, const M: usize>(a: &[[R; M]; M], shift: R) -> Option<Pivot
 
 impl<R: Real, const M: usize> Pivots<R, M> {
     /// A⁻¹ = L⁻ᵀ D⁻¹ L⁻¹.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn inverse(&self) -> [[R; M]; M] {
         let mut inverse = [[R::ZERO; M]; M];
         for (row, &d_inv) in self.l_inv.iter().zip(&self.d_inv) {
@@ -175,7 +175,7 @@ impl<R: Real, const M: usize> Pivots<R, M> {
 }
 
 /// A += w v vᵀ.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn add<R: Real, const M: usize>(a: &mut [[R; M]; M], weight: R, vector: &[R; M]) {
     for (row, &x) in a.iter_mut().zip(vector) {
         for (entry, &y) in row.iter_mut().zip(vector) {
@@ -222,7 +222,7 @@ pub fn shifted_solution<R: Real, const M: usize>(a: &[[R; M]; M], shift: R, b: &
 }
 
 /// 1/λ, damped below ε.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn reciprocal<R: Real>(value: R, threshold: R) -> R {
     let short = threshold - value;
     let short = if short > R::ZERO { short } else { R::ZERO };

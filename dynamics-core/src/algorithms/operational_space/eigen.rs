@@ -6,7 +6,7 @@ use crate::scalar::Real;
 
 /// Sweeps over all off-diagonal entries: the number that 6×6 matrices of any condition needed for full accuracy, and
 /// one more.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn sweeps<R: Real>() -> usize {
     if R::EPSILON > R::from_f64(1e-10) {
         6
@@ -16,7 +16,7 @@ fn sweeps<R: Real>() -> usize {
 }
 
 /// Eigenvalues and eigenvectors (by rows) of a symmetric matrix, unordered.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[doc(hidden)]
 pub fn eigen<R: Real, const M: usize>(mut a: [[R; M]; M]) -> ([R; M], [[R; M]; M]) {
     let mut vectors = [[R::ZERO; M]; M];
@@ -43,7 +43,7 @@ pub fn eigen<R: Real, const M: usize>(mut a: [[R; M]; M]) -> ([R; M], [[R; M]; M
 }
 
 /// Rotates rows p and q by an angle.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn turn<R: Real, const M: usize>(rows: &mut [[R; M]; M], p: usize, q: usize, c: R, s: R) {
     let (x, y) = (rows[p], rows[q]);
     for (k, (x, y)) in x.into_iter().zip(y).enumerate() {
@@ -52,7 +52,7 @@ fn turn<R: Real, const M: usize>(rows: &mut [[R; M]; M], p: usize, q: usize, c: 
 }
 
 /// Cosine and sine of the smallest rotation that makes [app apq; apq aqq] diagonal; none if it is diagonal.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn rotation<R: Real>(app: R, apq: R, aqq: R) -> (R, R) {
     let (apart, twice) = (aqq - app, apq + apq);
     let squared = apart * apart + twice * twice;

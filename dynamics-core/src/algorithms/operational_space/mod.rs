@@ -50,7 +50,7 @@ use crate::state::Configuration;
 /// ```
 #[doc(alias = "task_rows")]
 #[doc(alias = "selection matrix")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
     jacobian: &[Motion<R>; V],
@@ -77,7 +77,7 @@ pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
 /// let [.., height] = jacobian_rows(&j);
 /// assert_eq!([height], task_jacobian(&j, &[Force::new(Vec3::ZERO, Vec3::Z)]));
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn jacobian_rows<R: Real, const V: usize>(jacobian: &[Motion<R>; V]) -> [[R; V]; 6] {
     let columns = jacobian.map(|column| (column.ang.array(), column.lin.array()));
@@ -127,7 +127,7 @@ pub fn jacobian_rows<R: Real, const V: usize>(jacobian: &[Motion<R>; V]) -> [[R;
 /// are finite, and [`OperationalSpace::conditioning`] reports it.
 #[doc(alias = "end effector")]
 #[doc(alias = "OSIM")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn operational_space<
     R: Real,
     D,
@@ -194,7 +194,7 @@ impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
     /// assert!(task.inertia[2][2] > 1.0); // kg, vertically
     /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
     /// ```
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn new(
         jacobian: [[R; V]; M],
         solve: impl Fn(&[R; V]) -> [R; V],
@@ -224,20 +224,20 @@ impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
     }
 
     /// F = Λ ẍ: the task force of a task acceleration. 2 M² flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn force(&self, acceleration: &[R; M]) -> [R; M] {
         self.inertia.map(|row| dot(&row, acceleration))
     }
 
     /// τ = Jᵀ F: the torques of a task force, N·m or N. 2 M V flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn torque(&self, force: &[R; M]) -> [R; V] {
         combine(&self.jacobian, force)
     }
 
     /// J̄ = M⁻¹ Jᵀ Λ by columns: the dynamically consistent inverse of J, whose q̇ = J̄ ẋ has the least
     /// kinetic energy. 2 M² V flops. Khatib (1987), (37).
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn consistent_inverse(&self) -> [[R; V]; M] {
         self.inertia.map(|row| combine(&self.response, &row))
     }
@@ -245,7 +245,7 @@ impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
     /// (1 − Jᵀ J̄ᵀ) τ₀: the part of torques τ₀ that does not accelerate the task. Khatib (1987), (53).
     ///
     /// Where Λ is damped, some acceleration along the damped direction remains. 4 M V + 2 M² flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     #[doc(alias = "null space")]
     #[doc(alias = "nullspace")]
     pub fn null_space_torque(&self, tau: &[R; V]) -> [R; V] {
@@ -258,14 +258,14 @@ impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
     }
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
     let products = a.iter().zip(b).map(|(&a, &b)| a * b);
     products.fold(R::ZERO, |sum, product| sum + product)
 }
 
 /// Σ rows × weights.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn combine<R: Real, const M: usize, const V: usize>(rows: &[[R; V]; M], by: &[R; M]) -> [R; V] {
     let mut sum = [R::ZERO; V];
     for (row, &by) in rows.iter().zip(by) {

@@ -52,7 +52,7 @@ pub struct OsimInverse<R: Real> {
 /// Λ⁻¹ f: the acceleration by a force, rad/s² and m/s². 66 flops.
 impl<R: Real> Mul<Force<R>> for OsimInverse<R> {
     type Output = Motion<R>;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn mul(self, f: Force<R>) -> Motion<R> {
         Motion::new(
             self.ang.times(f.ang) + self.coupling * f.lin,
@@ -70,7 +70,7 @@ impl<R: Real> OsimInverse<R> {
     };
 
     /// Λ⁻¹ of a task: along directions of the body that are given as forces. 77 M² flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn along<const M: usize>(&self, directions: &[Force<R>; M]) -> [[R; M]; M] {
         directions.map(|f| {
             let a = *self * f;
@@ -79,7 +79,7 @@ impl<R: Real> OsimInverse<R> {
     }
 
     /// Λ⁻¹ + w s sᵀ. 63 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn plus_square(&self, s: Motion<R>, w: R) -> Self {
         let scaled = s * w;
         Self {
@@ -90,7 +90,7 @@ impl<R: Real> OsimInverse<R> {
     }
 
     /// X Λ⁻¹ Xᵀ: the same in another frame. 300 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn at(&self, x: &Xform<R>) -> Self {
         // [Σ H; Hᵀ M] at the new origin: H + Σ r×, and M − r× (H + Σ r×) + Hᵀ r×, whose upper triangle is used.
         let (et, r) = (x.rot.transpose(), x.pos);
@@ -120,7 +120,7 @@ impl<R: Real> OsimInverse<R> {
     /// For a rotation about z or a translation along it, P differs from 1 in one row, p = e_z − U D⁻¹: the row and
     /// column of z become Λ⁻¹ p, and their common entry pᵀ Λ⁻¹ p + D⁻¹. Cancellation thus occurs in p, before the
     /// multiplication by entries that may be much larger than the others. 80 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn across(&self, s: &MotionSubspace<R>, joint: &JointFactor<R>) -> Self {
         let k = joint.u_a * joint.d_inv;
         let mut next = *self;
@@ -149,7 +149,7 @@ impl<R: Real> OsimInverse<R> {
 
     /// The same along any axis, multiplied out: with w = Λ⁻¹ U that is Λ⁻¹ + s bᵀ + b sᵀ where
     /// b = s (1 + U·w D⁻¹) D⁻¹/2 − w D⁻¹. 200 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn across_any(&self, s: Motion<R>, joint: &JointFactor<R>) -> Self {
         let (u, d_inv) = (joint.u_a, joint.d_inv);
         let w = *self * u;
@@ -171,7 +171,7 @@ impl<R: Real> OsimInverse<R> {
 }
 
 /// A matrix with another last row.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn with_row_z<R: Real>(m: &R::Mat3, row: R::Vec3) -> R::Mat3 {
     let ([x, y, z], [p, q, r]) = (m.cols().map(Vector::array), row.array());
     R::Mat3::from_cols(
@@ -217,7 +217,7 @@ fn with_row_z<R: Real>(m: &R::Mat3, row: R::Vec3) -> R::Mat3 {
 #[doc(alias = "end effector")]
 #[doc(alias = "mobility")]
 #[doc(alias = "OSIM")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn osim_inverse<R: Real, D, E, F: Frame, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     q: &impl Configuration<R, Q>,
@@ -256,7 +256,7 @@ where
 }
 
 /// The ancestors of `body`, itself included.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn path<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     body: usize,
@@ -275,7 +275,7 @@ where
 }
 
 /// a bᵀ
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn outer<R: Real>(a: R::Vec3, b: R::Vec3) -> R::Mat3 {
     let [x, y, z] = b.array();
     R::Mat3::from_cols(a * x, a * y, a * z)

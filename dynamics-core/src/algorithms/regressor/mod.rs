@@ -61,7 +61,7 @@ use crate::state::{Configuration, JointTrig, RobotState, State};
 /// ```
 #[doc(alias = "computeJointTorqueRegressor")]
 #[doc(alias = "parameter identification")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn regressor<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -119,7 +119,7 @@ where
 /// ```
 #[doc(alias = "load identification")]
 #[doc(alias = "payload identification")]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn regressor_columns<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -172,7 +172,7 @@ where
 /// assert!(row.iter().flatten().zip(all.iter().flatten()).all(|(row, all)| (row - all).abs() < 1e-12));
 /// assert_eq!(row[1], [0.0; 10]); // the elbow does not move the upper arm
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn regressor_row<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -211,7 +211,7 @@ where
 /// let whole = regressor_row(&Ur5e::MODEL, &state, &RIGID_BODY, 1);
 /// assert_eq!([row[2], row[4], row[5]], [whole[2], whole[4], [0.0; 10]]);
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn regressor_row_of_bodies<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -254,7 +254,7 @@ where
 
 /// Visits each of the first `count` bodies with its number, its velocity and acceleration, and the transforms of all bodies up to it. Featherstone &
 /// Orin (3), (4).
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn outward<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
@@ -289,7 +289,7 @@ fn outward<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
 
 /// Visits each coordinate that moves body `i` with the body's motion per unit of its rate, in the body's own frame: X S of
 /// the joints on the path from the body to the base.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn climb<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,

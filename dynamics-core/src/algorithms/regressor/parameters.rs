@@ -26,7 +26,7 @@ use crate::spatial::SpatialInertia;
 /// let arm = center_of_mass(&Ur5e::MODEL, &State::at([0.0; 6]), &());
 /// assert!((mass - arm.mass).abs() < 1e-12);
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn inertial_parameters<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

@@ -16,7 +16,7 @@ pub(super) struct BodyPower<R: Real> {
 
 impl<R: Real> BodyPower<R> {
     /// Of the spatial velocity and acceleration in the link's aligned frame. 90 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(link: &LinkView<'_, R>, v: Motion<R>, a: Motion<R>) -> Self {
         let own = |x| link.to_joint_frame.transpose_mul(x);
         let (omega, turning) = (own(v.ang), own(a.ang));
@@ -39,7 +39,7 @@ impl<R: Real> BodyPower<R> {
 
     /// sᵀ A: of f = m p + U h and n = h × p + Ī ω̇ + ω × Ī ω, RBDA (2.58), the power along the motion s = (w, u) per unit of
     /// m, h and Ī. 71 flops.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn per_parameter(&self, s: Motion<R>) -> [R; 10] {
         let (w, omega) = (s.ang, self.omega);
         let [hx, hy, hz] = (self.field.transpose_mul(s.lin) + self.point.cross(w)).array();

@@ -58,7 +58,7 @@ impl<const C: usize> Belt<C> {
 impl<const C: usize> Cluster<2, 1> for Belt<C> {
     const INDEPENDENT: [Option<usize>; 2] = [Some(0), None];
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,
         [y]: &[JointCoordinate<R>; 1],

@@ -18,7 +18,7 @@ use crate::trig::Kernel;
 /// # Errors
 /// [`ClusterProblem::NotFinite`] where a sum overflows.
 impl<const N: usize, const M: usize> Cluster<M, N> for Transmission<f64, N, M> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,
         y: &[JointCoordinate<R>; N],
@@ -42,7 +42,7 @@ impl<const N: usize, const M: usize> Cluster<M, N> for Transmission<f64, N, M> {
 }
 
 /// Refuses numbers of which one is not finite.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn finite<R: Real>(values: &[R]) -> Result<(), ClusterProblem> {
     if all_finite(values) {
         Ok(())
@@ -94,7 +94,7 @@ impl Differential {
 }
 
 impl Cluster<2, 2> for Differential {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,
         [a, b]: &[JointCoordinate<R>; 2],

@@ -113,7 +113,7 @@ impl Delta {
 }
 
 /// A vector in the frame of an arm at the angle of this cosine and sine.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn turned<R: Real>([cos, sin]: [R; 2], v: R::Vec3) -> R::Vec3 {
     let [x, y, z] = v.array();
     R::Vec3::new(cos * x + sin * y, cos * y - sin * x, z)
@@ -135,7 +135,7 @@ struct Arm<R: Real> {
 }
 
 impl<R: Real> Arm<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn of((cos, sin): (f64, f64), y: JointCoordinate<R>, yd: R, delta: &Delta) -> Self {
         let [cos, sin, radius, length] = [cos, sin, delta.radius, delta.crank].map(R::from_f64);
         let (ahead, down) = (length * y.cos, length * y.sin);
@@ -151,7 +151,7 @@ impl<R: Real> Arm<R> {
     }
 
     /// A vector in base axes in the arm's.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn turn(&self, v: R::Vec3) -> R::Vec3 {
         turned::<R>(self.side, v)
     }
@@ -167,7 +167,7 @@ struct Platform<R: Real> {
 
 impl<R: Real> Platform<R> {
     /// The point below the arms' ends, at the length of the rods from each.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn of([a, b, c]: [R::Vec3; 3], delta: &Delta) -> Result<Self, ClusterProblem> {
         let [scale, half, rod2] = [delta.scale, 0.5, delta.rod * delta.rod].map(R::from_f64);
         let (d1, d2) = (b - a, c - a);
@@ -195,7 +195,7 @@ impl<R: Real> Platform<R> {
 }
 
 /// Σ xₖ fₖ.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn combined<R: Real>([a, b, c]: &[R::Vec3; 3], [x, y, z]: [R; 3]) -> R::Vec3 {
     *a * x + *b * y + *c * z
 }
@@ -218,7 +218,7 @@ struct Moving<R: Real> {
 
 impl<R: Real> Arm<R> {
     /// The rods: e is the vector along them from the crank, with its rate.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn rods(
         &self,
         [e, ed]: [R::Vec3; 2],
@@ -257,7 +257,7 @@ impl Cluster<12, 3> for Delta {
         cranks
     };
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,
         y: &[JointCoordinate<R>; 3],

@@ -11,7 +11,7 @@ use crate::scalar::Real;
 pub(super) type Vec2<R> = [R; 2];
 
 /// a·b.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn dot<R: Real>(a: Vec2<R>, b: Vec2<R>) -> R {
     a[0] * b[0] + a[1] * b[1]
 }
@@ -42,7 +42,7 @@ pub(super) struct Root<R> {
 /// beyond rounding.
 ///
 /// Below [`SINGULAR`] of `scale` the reciprocal is h over that instead of h / h²: it is continuous and bounded.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn root<R: Real>(h2: R, scale: R, branch: Branch) -> Result<Root<R>, ClusterProblem> {
     let least = scale * R::select(SINGULAR.0, SINGULAR.1);
     let (size, size_inv, singular) = if h2 > least {
@@ -124,7 +124,7 @@ impl Lengths {
 
 impl<R: Real> Dyad<R> {
     /// The links that close w.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn close(
         w: Vec2<R>,
         lengths: &Lengths,
@@ -154,7 +154,7 @@ impl<R: Real> Dyad<R> {
 
     /// Both links' rates at which w changes by `wd`: b₁ ω₁ e₁⊥ − b₂ ω₂ e₂⊥ = ẇ. Their accelerations of ẅ + b₁ ω₁² e₁ −
     /// b₂ ω₂² e₂.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn rates(&self, lengths: &Lengths, wd: Vec2<R>) -> [R; 2] {
         let b1_inv = R::from_f64(1.0 / lengths.b1);
         [
@@ -164,7 +164,7 @@ impl<R: Real> Dyad<R> {
     }
 
     /// b₁ ω₁² e₁ − b₂ ω₂² e₂.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn centripetal(&self, lengths: &Lengths, [o1, o2]: [R; 2]) -> Vec2<R> {
         let (first, second) = (o1 * o1 * R::from_f64(lengths.b1), o2 * o2);
         [0, 1].map(|i| first * self.e1[i] - second * self.b2_e2[i])

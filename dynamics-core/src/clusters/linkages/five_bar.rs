@@ -106,7 +106,7 @@ impl FiveBar {
 impl Cluster<4, 2> for FiveBar {
     const INDEPENDENT: [Option<usize>; 4] = [Some(0), None, Some(1), None];
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,
         [y0, y1]: &[JointCoordinate<R>; 2],

@@ -116,7 +116,7 @@ impl FourBar {
 impl Cluster<3, 1> for FourBar {
     const INDEPENDENT: [Option<usize>; 3] = [Some(0), None, None];
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,
         [y]: &[JointCoordinate<R>; 1],

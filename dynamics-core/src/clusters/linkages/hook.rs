@@ -23,7 +23,7 @@ pub(super) struct Hook<R> {
 
 impl<R: Real> Hook<R> {
     /// Of a body that points along `z`, m, with 1/l and l² of its length.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(z: R::Vec3, l_inv: R, l2: R) -> Result<Self, ClusterProblem> {
         let [zx, zy, zz] = z.array();
         let flat2 = zx * zx + zz * zz;
@@ -57,7 +57,7 @@ impl<R: Real> Hook<R> {
     }
 
     /// The coordinates α − `from` and v, `from` being the angle of this sine and cosine.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn angles_from(&self, [sin, cos]: [R; 2]) -> [JointCoordinate<R>; 2] {
         let ([sa, ca], [sv, cv]) = (self.turn, self.lift);
         let turn = of_unit(sa * cos - ca * sin, ca * cos + sa * sin);
@@ -65,27 +65,27 @@ impl<R: Real> Hook<R> {
     }
 
     /// The coordinates α and v.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn angles(&self) -> [JointCoordinate<R>; 2] {
         let ([sa, ca], [sv, cv]) = (self.turn, self.lift);
         [of_unit(sa, ca), of_unit(sv, cv)]
     }
 
     /// α̇ of ż.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn turn_rate(&self, zd: R::Vec3) -> R {
         let ([sa, ca], [x, _, z]) = (self.turn, zd.array());
         (ca * x - sa * z) * self.flat_inv
     }
 
     /// v̇ of ż at constant length.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn lift_rate(&self, zd: R::Vec3) -> R {
         -(zd.array()[1] * self.flat_inv)
     }
 
     /// e_l, e_α and e_v.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn axes(&self) -> [R::Vec3; 3] {
         let ([sa, ca], [sv, cv]) = (self.turn, self.lift);
         [
@@ -96,7 +96,7 @@ impl<R: Real> Hook<R> {
     }
 
     /// α̈ and v̈ of z̈ and of the rates α̇ and v̇ at constant length `l`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn accelerations(&self, zdd: R::Vec3, [turn, lift]: [R; 2], l: R) -> [R; 2] {
         let ([sa, ca], [x, y, z]) = (self.turn, zdd.array());
         // z̈·e_α = l (α̈ cos v − 2 α̇ v̇ sin v), −z̈_y = l (v̈ cos v − v̇² sin v).
@@ -108,7 +108,7 @@ impl<R: Real> Hook<R> {
     }
 
     /// α̈, v̈ and l̈ of z̈ and of the rates α̇, v̇ and l̇ of a body of length l.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn telescoping(
         &self,
         zdd: R::Vec3,

@@ -155,7 +155,7 @@ type RodMotion<R> = ([JointCoordinate<R>; 3], [[R; 2]; 3], [R; 3], bool);
 
 impl Rod {
     /// The crank's angle and the rod's two.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn close<R: Real>(&self, foot: &Foot<R>, yd: &[R; 2]) -> Result<RodMotion<R>, ClusterProblem> {
         let [cx, cy, cz] = self.joint.map(R::from_f64);
         let [kx, ky, kz] = self.crank.map(R::from_f64);
@@ -251,7 +251,7 @@ impl Rod {
 impl Cluster<8, 2> for ParallelAnkle {
     const INDEPENDENT: [Option<usize>; 8] = [Some(0), Some(1), None, None, None, None, None, None];
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,
         [pitch, roll]: &[JointCoordinate<R>; 2],

@@ -128,7 +128,7 @@ struct LegMotion<R> {
 }
 
 impl Leg {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn reach<R: Real>(
         &self,
         platform: &Platform<R>,
@@ -178,7 +178,7 @@ impl Cluster<24, 6> for Stewart {
         platform
     };
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,
         y: &[JointCoordinate<R>; 6],
@@ -288,7 +288,7 @@ struct Platform<R: Real> {
 }
 
 impl<R: Real> Platform<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of([x, y, z, yaw, pitch, roll]: &[JointCoordinate<R>; 6], yd: &[R; 6]) -> Self {
         let ahead = R::Vec3::new(yaw.cos * pitch.cos, yaw.sin * pitch.cos, -pitch.sin);
         let left = R::Vec3::new(-yaw.sin, yaw.cos, R::ZERO);
@@ -315,7 +315,7 @@ impl<R: Real> Platform<R> {
     }
 
     /// A point of the platform from its origin.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn arm(&self, at: [f64; 3]) -> R::Vec3 {
         let mut r = self.attitude[0] * R::from_f64(at[0]);
         // Constants: what is zero is not in the machine code.
@@ -328,7 +328,7 @@ impl<R: Real> Platform<R> {
     }
 
     /// The row of G of a rate that is `form` · ż at the end of `r`, from the platform's origin.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn row(&self, r: R::Vec3, form: R::Vec3) -> [R; 6] {
         let moment = r.cross(form);
         let ([x, y, z], [mx, my, mz]) = (form.array(), moment.array());
@@ -338,7 +338,7 @@ impl<R: Real> Platform<R> {
 }
 
 /// The matrix of ω̇ × r + ω × (ω × r).
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn centripetal<R: Real>(omega: R::Vec3, alpha: R::Vec3) -> R::Mat3 {
     let ([x, y, z], [ax, ay, az]) = (omega.array(), alpha.array());
     let (xx, yy, zz, xy, xz, yz) = (x * x, y * y, z * z, x * y, x * z, y * z);

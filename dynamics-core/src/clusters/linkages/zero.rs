@@ -27,7 +27,7 @@ impl Zero {
     }
 
     /// (cos θ, sin θ) of the angle θ = q + zero.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn direction<R: Real>(&self, q: &JointCoordinate<R>) -> Vec2<R> {
         if self.angle == 0.0 {
             return [q.cos, q.sin];
@@ -37,7 +37,7 @@ impl Zero {
     }
 
     /// q = θ − zero, within ±π, of the angle θ from the direction `from` to the direction `to`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn coordinate<R: Real>(&self, from: Vec2<R>, to: Vec2<R>) -> JointCoordinate<R> {
         self.of([
             from[0] * to[0] + from[1] * to[1],
@@ -46,7 +46,7 @@ impl Zero {
     }
 
     /// The same of (cos θ, sin θ).
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of<R: Real>(&self, [cos, sin]: Vec2<R>) -> JointCoordinate<R> {
         let [cos, sin] = if self.angle == 0.0 {
             [cos, sin]
@@ -63,7 +63,7 @@ impl Zero {
 /// Without a branch or a call, so that nothing of it is left where no effect reads the angle. In f32 an arc tangent
 /// within 2·10⁻⁸ rad (Abramowitz & Stegun, 4.4.50); in f64 the same, the error of which, δ, one step with the sine of
 /// the difference reduces to δ³/6.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn of_unit<R: Real>(sin: R, cos: R) -> JointCoordinate<R> {
     const ATAN: [f64; 9] = [
         1.0,

@@ -76,7 +76,7 @@ delegate_effect! {
 
 impl<T, R: Real, const B: usize, const Q: usize, const V: usize> BaseParameters<T, R, B, Q, V> {
     /// What is left to the body behind `joint`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn load(&self, joint: usize, body: &mut RegroupedInertia<R>) {
         if let Some(loaded) = self.joints.get(joint) {
             *body = *loaded;

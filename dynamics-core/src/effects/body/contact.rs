@@ -68,7 +68,7 @@ pub struct Contact<R: Real, const P: usize> {
 
 impl<R: Real, const P: usize> Contact<R, P> {
     /// The force of the ground on a point at `place` that moves with `velocity`, in base coordinates, N.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn force(&self, place: R::Vec3, velocity: R::Vec3) -> R::Vec3 {
         let n = self.normal;
         let (depth, out) = (positive_part(self.height - n.dot(place)), n.dot(velocity));
@@ -86,7 +86,7 @@ impl<R: Real, const P: usize, const B: usize, const V: usize> Effect<R, B, V> fo
 
 impl<R: Real, const P: usize> Contact<R, P> {
     /// Adds fˣ on `body` of a robot of B bodies.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add_to<const B: usize>(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
         let (rot, v) = (at.pose.rot, at.velocity);
         for contact in &self.points {

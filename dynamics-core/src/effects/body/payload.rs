@@ -177,7 +177,7 @@ impl<R: Real, const BODY: usize, const B: usize, const V: usize> Effect<R, B, V>
 
 impl<R: Real, const BODY: usize> Payload<R, BODY> {
     /// Adds the load to the inertia of `body`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add_to(&self, body: usize, inertia: &mut SpatialInertia<R>) {
         if body == BODY {
             *inertia = *inertia + self.0;

@@ -5,7 +5,7 @@ use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Xform};
 
 /// The wrench of an effect on a body that the robot does not have: not a number, so that the torques show it.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn absent<R: Real>() -> Force<R> {
     let none = R::from_f64(f64::NAN);
     let none = R::Vec3::new(none, none, none);
@@ -40,7 +40,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for BodyWrench<R> 
 
 impl<R: Real> BodyWrench<R> {
     /// Adds fˣ on `body` of a robot of B bodies.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add_to<const B: usize>(&self, body: usize, fx: &mut Force<R>) {
         if body == self.body {
             *fx += self.wrench;
@@ -78,7 +78,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for WorldWrench<R>
 
 impl<R: Real> WorldWrench<R> {
     /// Adds fˣ on `body` of a robot of B bodies.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add_to<const B: usize>(&self, body: usize, pose: &Xform<R>, fx: &mut Force<R>) {
         if body == self.body {
             *fx += Force::new(pose.rot * self.wrench.ang, pose.rot * self.wrench.lin);

@@ -36,7 +36,7 @@ pub struct AsymmetricCoulomb<R, const V: usize> {
 
 impl<R: Real, const V: usize> AsymmetricCoulomb<R, V> {
     /// Half of F₊ + F₋ and of F₊ − F₋.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn halves(&self, joint: usize) -> (R, R) {
         let half = R::from_f64(0.5);
         let (ahead, back) = (entry(&self.forward, joint), entry(&self.backward, joint));
@@ -47,7 +47,7 @@ impl<R: Real, const V: usize> AsymmetricCoulomb<R, V> {
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for AsymmetricCoulomb<R, V> {
     const ONCE: Once = Once::of(Kind::AsymmetricCoulomb);
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         let ((even, odd), s) = (
             self.halves(joint),
@@ -56,7 +56,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for AsymmetricCoul
         *tau += s * (even + odd * s);
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         let ((even, odd), u) = (self.halves(joint), at.qd * self.width.inverse());
         let rise = even + (odd + odd) * smooth_sign(u);

@@ -33,7 +33,7 @@ pub struct Coulomb<R, const V: usize> {
 /// assert_eq!(smooth_sign(0.5_f32), 0.6875);
 /// assert_eq!(smooth_sign(-7.0_f32), -1.0);
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn smooth_sign<R: Real>(u: R) -> R {
     sliding(R::ONE, u * R::from_f64(R::MAX_TRUNC))
 }
@@ -44,7 +44,7 @@ pub fn smooth_sign<R: Real>(u: R) -> R {
 /// use dynamics_core::effects::smooth_sign_slope;
 /// assert_eq!((smooth_sign_slope(0.0_f32), smooth_sign_slope(2.0_f32)), (1.5, 0.0));
 /// ```
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn smooth_sign_slope<R: Real>(u: R) -> R {
     let unit = R::from_f64(const { 1.0 / R::MAX_TRUNC });
     let u = (u * R::from_f64(R::MAX_TRUNC)).trunc_saturating() * unit;
@@ -52,13 +52,13 @@ pub fn smooth_sign_slope<R: Real>(u: R) -> R {
 }
 
 /// s(q̇ / w) by the same first steps as [`Coulomb`], which the compiler then takes once for both.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn sign_beyond<R: Real>(width: Width<R>, qd: R) -> R {
     sliding(R::ONE, qd * (width.inverse() * R::from_f64(R::MAX_TRUNC)))
 }
 
 /// F s(u), given u in units of 1/`MAX_TRUNC`: where a conversion to an integer and back limits it.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn sliding<R: Real>(force: R, scaled: R) -> R {
     let unit = const { 1.0 / R::MAX_TRUNC };
     let u = scaled.trunc_saturating();
@@ -70,7 +70,7 @@ fn sliding<R: Real>(force: R, scaled: R) -> R {
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Coulomb<R, V> {
     const ONCE: Once = Once::of(Kind::Coulomb);
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         if let Some(&torque) = self.torque.get(joint) {
             // The factors that constants leave constant stand first.
@@ -81,7 +81,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Coulomb<R, V> 
         }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         if let Some(&torque) = self.torque.get(joint) {
             let w_inv = self.width.inverse();

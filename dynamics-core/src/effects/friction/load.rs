@@ -93,7 +93,7 @@ impl<R: Real, const V: usize> LoadFriction<R, V> {
     }
 
     /// Half of μ₁ + μ₂ and of μ₁ − μ₂.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn halves(&self, joint: usize) -> (R, R) {
         let half = R::from_f64(0.5);
         let (ahead, back) = (entry(&self.driving, joint), entry(&self.backdriving, joint));
@@ -101,7 +101,7 @@ impl<R: Real, const V: usize> LoadFriction<R, V> {
     }
 
     /// a = m s and b = d s².
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn factors(&self, joint: usize, at: JointState<R>, add: &mut LoadFactors<R>) {
         let (even, odd) = self.halves(joint);
         let s = sign_beyond(self.width, at.qd);
@@ -110,7 +110,7 @@ impl<R: Real, const V: usize> LoadFriction<R, V> {
     }
 
     /// Their derivatives m s′ and 2 d s s′.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn slopes(&self, joint: usize, at: JointState<R>, add: &mut LoadFactors<R>) {
         let (even, odd) = self.halves(joint);
         let u = at.qd * self.width.inverse();

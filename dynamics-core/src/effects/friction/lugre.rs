@@ -54,7 +54,7 @@ pub struct Lugre<R, const V: usize> {
 
 impl<R: Real, const V: usize> Lugre<R, V> {
     /// σ₀ / g(q̇): the reciprocal of the deflection at which bristles slide.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn deflection_inv(&self, joint: usize, qd: R) -> R {
         let (at, u) = (
             |values| entry::<R>(values, joint),
@@ -67,7 +67,7 @@ impl<R: Real, const V: usize> Lugre<R, V> {
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Lugre<R, V> {
     const ONCE: Once = Once::of(Kind::Lugre);
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         let of = |values| entry::<R>(values, joint);
         let z = of(&self.bristle);
@@ -75,7 +75,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Lugre<R, V> {
         *tau += of(&self.stiffness) * z + of(&self.damping) * rate + of(&self.viscous) * at.qd;
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         let of = |values| entry::<R>(values, joint);
         // The sign of q̇ without a comparison; 0 at rest, where the bristles bend with the joint.
@@ -87,7 +87,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Lugre<R, V> {
             of(&self.damping) * crate::scalar::positive_part(bends) + of(&self.viscous);
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn advance(&mut self, joint: usize, at: JointState<R>, h: R) {
         let slip = h * at.qd.abs() * self.deflection_inv(joint, at.qd);
         if let Some(z) = self.bristle.get_mut(joint) {

@@ -37,7 +37,7 @@ pub struct Stribeck<R, const V: usize> {
 
 impl<R: Real, const V: usize> Stribeck<R, V> {
     /// (F_s − F_c) e^{−(q̇/v_s)²}.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn left(&self, joint: usize, qd: R) -> R {
         let u = qd * self.stribeck_speed.inverse();
         entry(&self.excess, joint) * (u * u).exp_neg()
@@ -47,12 +47,12 @@ impl<R: Real, const V: usize> Stribeck<R, V> {
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Stribeck<R, V> {
     const ONCE: Once = Once::of(Kind::Stribeck);
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         *tau += self.left(joint, at.qd) * smooth_sign(at.qd * self.width.inverse());
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         let rise = self.width.inverse() * smooth_sign_slope(at.qd * self.width.inverse());
         derivatives.dqd += self.left(joint, at.qd) * rise;

@@ -28,14 +28,14 @@ pub struct Viscous<R, const V: usize>(pub [R; V]);
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Viscous<R, V> {
     const ONCE: Once = Once::of(Kind::Viscous);
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         if let Some(&b) = self.0.get(joint) {
             *tau += b * at.qd;
         }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn derivatives(&self, joint: usize, _: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         if let Some(&b) = self.0.get(joint) {
             derivatives.dqd += b;

@@ -101,7 +101,7 @@ impl<E, R: Real> Wrench<E, R> {
 
 /// Adds the wrench of an effect on `body`: that of its hook, by what this reads.
 #[doc(hidden)]
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub fn add_wrench<R: Real, E, const B: usize, const V: usize>(
     effect: &E,
     body: usize,

@@ -24,10 +24,10 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Armature<R, V>
     const ONCE: Once = Once::of(Kind::Armature);
 
     // Its only hook is the next one.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn torque(&self, _: usize, _: JointState<R>, _: &mut R) {}
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn inertia(&self, joint: usize) -> Option<R> {
         self.0.get(joint).copied()
     }

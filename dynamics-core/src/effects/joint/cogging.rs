@@ -36,7 +36,7 @@ pub struct Cogging<R, const H: usize, const V: usize> {
 
 impl<R: Real, const H: usize, const V: usize> Cogging<R, H, V> {
     /// τ and dτ/dq.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn at(&self, joint: usize, q: R) -> (R, R) {
         let n = entry(&self.per_turn, joint);
         let (s, c) = (n * q).sin_cos();
@@ -55,12 +55,12 @@ impl<R: Real, const H: usize, const V: usize> Cogging<R, H, V> {
 }
 
 impl<R: Real, const H: usize, const B: usize, const V: usize> Effect<R, B, V> for Cogging<R, H, V> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         *tau += self.at(joint, at.q).0;
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         // Where it pushes away from a slot an implicit step would not be the stabler one.
         derivatives.dq += positive_part(self.at(joint, at.q).1);

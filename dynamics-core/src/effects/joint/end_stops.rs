@@ -49,7 +49,7 @@ struct Push<R> {
 
 impl<R: Real, const V: usize> EndStops<R, V> {
     /// The stop `beyond` which a joint moves outwards with `rate`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn push(&self, beyond: R, rate: R) -> Push<R> {
         let depth = positive_part(beyond);
         let b = self.damping * smooth_sign(depth * self.damping_depth.inverse());
@@ -66,7 +66,7 @@ impl<R: Real, const V: usize> EndStops<R, V> {
     }
 
     /// The stops at the upper and at the lower end.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn ends(&self, joint: usize, at: JointState<R>) -> [Push<R>; 2] {
         [
             self.push(at.q - entry(&self.upper, joint), at.qd),
@@ -76,13 +76,13 @@ impl<R: Real, const V: usize> EndStops<R, V> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for EndStops<R, V> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         let [upper, lower] = self.ends(joint, at);
         *tau += upper.force - lower.force;
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         for push in self.ends(joint, at) {
             derivatives.dq += push.derivatives.dq;

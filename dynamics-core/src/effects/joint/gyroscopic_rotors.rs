@@ -48,7 +48,7 @@ pub struct GyroscopicRotors<R, const V: usize> {
 
 impl<R: Real, const V: usize> GyroscopicRotors<R, V> {
     /// ρ I.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn once(&self, joint: usize) -> R {
         entry(&self.inertia, joint) * entry(&self.ratio, joint)
     }
@@ -60,7 +60,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for GyroscopicRoto
         *coupling += rotors.once(joint);
     });
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn inertia(&self, joint: usize) -> Option<R> {
         Some(self.once(joint) * entry(&self.ratio, joint))
     }

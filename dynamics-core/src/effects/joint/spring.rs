@@ -24,12 +24,12 @@ pub struct Spring<R, const V: usize> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Spring<R, V> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         *tau += entry(&self.stiffness, joint) * (at.q - entry(&self.rest, joint));
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn derivatives(&self, joint: usize, _: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         derivatives.dq += entry(&self.stiffness, joint);
     }

@@ -85,7 +85,7 @@ impl<R: Real, D: Direction, const B: usize, const V: usize> Effect<R, B, V> for 
 
 impl<D: Direction> Gravity<D> {
     /// Adds the field.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn field<R: Real>(&self, g: &mut R::Vec3) {
         // Component by component: a loop would convert from f64 at run time at opt-level s.
         let x = R::from_f64(D::UNIT[0]);

@@ -51,7 +51,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for MovingBase<R> 
 
 impl<R: Real> MovingBase<R> {
     /// Adds the motion.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add_to(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
         *velocity += self.velocity;
         *acceleration += self.acceleration;
@@ -90,7 +90,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for GravityVector<
 
 impl<R: Real> GravityVector<R> {
     /// Adds the field.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add_to(&self, g: &mut R::Vec3) {
         *g += self.0;
     }

@@ -37,7 +37,7 @@ where
         });
     const ONCE: Once = E::ONCE;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         self.0.torque(joint, at, tau);
     }

@@ -20,7 +20,7 @@ pub(super) struct Stand<R> {
 
 impl<R: Real> Stand<R> {
     /// A body that does not bend, or the base.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn rigid(field: AccelerationField<R>) -> Self {
         Self {
             field,
@@ -53,7 +53,7 @@ impl<R: Real> Sum<R> {
         g: Vec3::ZERO,
     };
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn plus(self, shift: Vec3<R>, half_turn: Vec3<R>, rate: Folded<R>) -> Self {
         Self {
             shift: self.shift + shift.scale(rate),
@@ -64,7 +64,7 @@ impl<R: Real> Sum<R> {
 
 impl<R: Real> End<R> {
     /// The end of the body of joint I, whose field is `field`, and its own, in the link's axes.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of<C: Bends, const I: usize, const MOVES: bool>(
         field: &AccelerationField<R>,
         bent: &[Mode<R>; MODES],
@@ -94,7 +94,7 @@ impl<R: Real> End<R> {
     }
 
     /// What the joints on the end stand on, whose field in the link's axes is `along`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn stand<C: Bends, const I: usize, const MOVES: bool>(
         &self,
         along: &AccelerationField<R>,
@@ -111,7 +111,7 @@ impl<R: Real> End<R> {
     }
 
     /// The field of the end, in the link's axes.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn moved(
         &self,
         field: &AccelerationField<R>,
@@ -139,7 +139,7 @@ impl<R: Real> End<R> {
     }
 
     /// The same in the axes of the end.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn turned<C: Bends, const I: usize, const MOVES: bool>(
         &self,
         field: &AccelerationField<R>,
@@ -161,7 +161,7 @@ impl<R: Real> End<R> {
     }
 
     /// From the link's axes to the end's: (1 − g²)/(1 + g²) 1 + 2/(1 + g²) (g gᵀ − g×).
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn axes(&self) -> Mat3<R> {
         let ([x, y, z], [dx, dy, dz]) = (self.g.0, self.g.scale(self.scale).0);
         let diagonal = self.scale - Folded::ONE;
@@ -173,13 +173,13 @@ impl<R: Real> End<R> {
     }
 
     /// The angular velocity of ġ.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn omega(&self, g_dot: Vec3<R>) -> Vec3<R> {
         (g_dot + self.g.cross(g_dot)).scale(self.scale)
     }
 
     /// A wrench about the end in the link's axes, from those of the end.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn turned_back<C: Bends, const I: usize, const MOVES: bool>(
         &self,
         load: Wrench<R>,
@@ -195,7 +195,7 @@ impl<R: Real> End<R> {
     }
 
     /// Adds the work of a wrench about the end, in the link's axes, to the forces on the modes; returns it about the link's joint.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn carry<C: Bends, const I: usize, const MOVES: bool>(
         &self,
         load: Wrench<R>,

@@ -14,7 +14,7 @@ use crate::engine::folding::{Folded, Mat3, Sym3, Vec3};
 use crate::scalar::Real;
 
 /// The wrench that accelerates the body of joint I, bent, and what its modes need; with stiffness and damping, if the scene has these.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn bent_wrench<R, C, const I: usize, const MOVES: bool>(
     field: &AccelerationField<R>,
     rigid: Inertia<R>,
@@ -77,13 +77,13 @@ where
     field.wrench(&body) + relative
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn scaled<R: Real>(Mat3([x, y, z]): Mat3<R>, s: Folded<R>) -> Mat3<R> {
     Mat3([x.scale(s), y.scale(s), z.scale(s)])
 }
 
 /// A : B, the sum of the products of their entries.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn contracted<R: Real>(a: &Mat3<R>, b: &Mat3<R>) -> Folded<R> {
     a.0[0].dot(b.0[0]) + a.0[1].dot(b.0[1]) + a.0[2].dot(b.0[2])
 }

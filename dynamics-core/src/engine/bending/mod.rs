@@ -46,7 +46,7 @@ struct Bending<'a, 'b, R: Real, E, X, const Q: usize, const V: usize, const M: u
 }
 
 /// The torques of the joints and the forces on the modes.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn bending_torques<
     R,
     C,
@@ -79,7 +79,7 @@ where
 pub(crate) type Blocks<R, const V: usize, const M: usize> = ([[R; V]; V], [[R; V]; M], [[R; M]; M]);
 
 /// The inertia of joints and modes, without armatures; without `JOINTS` the block of the modes alone.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn bending_inertia<
     R,
     C,
@@ -136,7 +136,7 @@ type Column<R, E, const Q: usize, const V: usize, const M: usize> =
     fn(&JointTrig<R, Q>, &[R; M], &E) -> ([R; V], [R; M]);
 
 /// The torques and forces that a unit acceleration of coordinate L needs.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const M: usize, const L: usize>(
     trig: &JointTrig<R, Q>,
     eta: &[R; M],
@@ -152,7 +152,7 @@ where
 }
 
 /// The recursion from the base.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn swept<R, C, E, X, const B: usize, const Q: usize, const V: usize, const M: usize>(
     trig: &JointTrig<R, Q>,
     joints: &State<R, Q, V>,
@@ -199,7 +199,7 @@ type Visit<R, E, X, const Q: usize, const V: usize, const M: usize> =
     fn(&mut Bending<'_, '_, R, E, X, Q, V, M>, &Stand<R>) -> Wrench<R>;
 
 /// Visits joint I and its descendants; returns the wrench that they need from what they stand on.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn visit<
     R,
     C,
@@ -272,7 +272,7 @@ where
 }
 
 /// What is on the end of the body of joint I: the wrench that it needs from the body.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn beyond<
     R,
     C,
@@ -314,7 +314,7 @@ where
 }
 
 /// The sum over the children of joint I.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn children<
     R,
     C,
@@ -352,7 +352,7 @@ where
 }
 
 /// The displacement of joint I, its angle with that of what it stands on.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn stood<R: Real, C: Bends, const Q: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],
     on: &Stand<R>,

@@ -59,7 +59,7 @@ where
 {
     const ALL: bool = true;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn joint(&self, i: usize) -> JointRates<R> {
         let (qd, qdd) = (self.joints.qd[i], self.joints.qdd[i]);
         JointRates {
@@ -69,7 +69,7 @@ where
         }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn mode(&self, k: usize) -> Mode<R> {
         let (rate, accel) = (self.modes.qd[k], self.modes.qdd[k]);
         Mode {
@@ -88,7 +88,7 @@ pub(crate) struct Unit<'a, R, const V: usize, const M: usize, const L: usize> {
 }
 
 impl<R: Real, const V: usize, const M: usize, const L: usize> Unit<'_, R, V, M, L> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn of(k: usize) -> Folded<R> {
         if k == L { Folded::ONE } else { Folded::ZERO }
     }
@@ -97,7 +97,7 @@ impl<R: Real, const V: usize, const M: usize, const L: usize> Unit<'_, R, V, M, 
 impl<R: Real, const V: usize, const M: usize, const L: usize> Moves<R> for Unit<'_, R, V, M, L> {
     const ALL: bool = false;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn joint(&self, i: usize) -> JointRates<R> {
         JointRates {
             velocity: Folded::ZERO,
@@ -106,7 +106,7 @@ impl<R: Real, const V: usize, const M: usize, const L: usize> Moves<R> for Unit<
         }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn mode(&self, k: usize) -> Mode<R> {
         Mode {
             eta: Folded::runtime(self.eta[k]),

@@ -27,7 +27,7 @@ pub(crate) struct Folded<R> {
 // the time of a build.
 
 /// `yes` if `condition`, else `no`.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn either(condition: bool, yes: u8, no: u8) -> u8 {
     let mask = u8::from(condition).wrapping_neg();
     (yes & mask) | (no & !mask)
@@ -45,7 +45,7 @@ impl<R: Real> Folded<R> {
     };
 
     /// A number known only at run time.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn runtime(value: R) -> Self {
         Self {
             magnitude: value,
@@ -54,7 +54,7 @@ impl<R: Real> Folded<R> {
     }
 
     /// A number known at run time if `needed`, else zero.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn runtime_if(needed: bool, value: R) -> Self {
         Self {
             magnitude: R::either(needed, value, R::ZERO),
@@ -63,7 +63,7 @@ impl<R: Real> Folded<R> {
     }
 
     /// A constant of the robot.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn constant(value: f64) -> Self {
         let minus = value < 0.0;
         let size = f64::either(minus, -value, value);
@@ -75,12 +75,12 @@ impl<R: Real> Folded<R> {
     }
 
     /// The plain number.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn get(self) -> R {
         R::either(self.is(MINUS), -self.magnitude, self.magnitude)
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn is(self, tag: u8) -> bool {
         self.tags & tag != 0
     }
@@ -88,7 +88,7 @@ impl<R: Real> Folded<R> {
 
 impl<R: Real> Add for Folded<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
         let (a, b) = (self.magnitude, o.magnitude);
         let opposite = (self.tags ^ o.tags) & MINUS != 0;
@@ -105,7 +105,7 @@ impl<R: Real> Add for Folded<R> {
 
 impl<R: Real> Sub for Folded<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn sub(self, o: Self) -> Self {
         self + -o
     }
@@ -113,7 +113,7 @@ impl<R: Real> Sub for Folded<R> {
 
 impl<R: Real> Mul for Folded<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn mul(self, o: Self) -> Self {
         let (a, b) = (self.magnitude, o.magnitude);
         let zero = self.is(ZERO) | o.is(ZERO);
@@ -130,7 +130,7 @@ impl<R: Real> Mul for Folded<R> {
 
 impl<R: Real> Neg for Folded<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn neg(self) -> Self {
         Self {
             tags: self.tags ^ MINUS,

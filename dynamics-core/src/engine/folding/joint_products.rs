@@ -13,7 +13,7 @@ const ROT: usize = 0;
 const CROSS: usize = 1;
 
 /// R v of joint I.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn rotate_to_parent<R: Real, C, const I: usize>(v: Vec3<R>) -> Vec3<R>
 where
     C: Compiled,
@@ -22,7 +22,7 @@ where
 }
 
 /// p × v, p the offset from the origin of joint I's parent to its own.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn offset_cross<R: Real, C, const I: usize>(v: Vec3<R>, at: &Displacement<R>) -> Vec3<R>
 where
     C: Compiled,
@@ -35,7 +35,7 @@ where
 }
 
 /// The same without the joint's own translation.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn constant_offset_cross<R: Real, C, const I: usize>(v: Vec3<R>) -> Vec3<R>
 where
     C: Compiled,
@@ -44,7 +44,7 @@ where
 }
 
 /// p × each column.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn cross_offset<R: Real, C, const I: usize>(
     Mat3([x, y, z]): Mat3<R>,
     at: &Displacement<R>,
@@ -60,7 +60,7 @@ where
 }
 
 /// R M Rᵀ of joint I.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn rotate_matrix_to_parent<R: Real, C, const I: usize>(m: &Mat3<R>) -> Mat3<R>
 where
     C: Compiled,
@@ -70,7 +70,7 @@ where
     Mat3(rows.rows())
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn columns_rotated<R: Real, C, const I: usize>(Mat3([x, y, z]): Mat3<R>) -> Mat3<R>
 where
     C: Compiled,
@@ -83,7 +83,7 @@ where
 }
 
 /// R S Rᵀ of joint I.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(crate) fn rotate_symmetric_to_parent<R: Real, C, const I: usize>(s: Sym3<R>) -> Sym3<R>
 where
     C: Compiled,
@@ -91,7 +91,7 @@ where
     Sym3::of(&rotate_matrix_to_parent::<R, C, I>(&Mat3(s.columns())))
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn product<R: Real, C, const M: usize, const I: usize>(v: Vec3<R>) -> Vec3<R>
 where
     C: Compiled,
@@ -103,7 +103,7 @@ where
     ])
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn row<R: Real, C, const M: usize, const I: usize, const K: usize>(
     Vec3([x, y, z]): Vec3<R>,
 ) -> Folded<R>

@@ -17,7 +17,7 @@ pub(crate) struct Mat3<R>(pub(crate) [Vec3<R>; 3]);
 impl<R: Real> Vec3<R> {
     pub(crate) const ZERO: Self = Self([Folded::ZERO; 3]);
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn constant(v: DVec3) -> Self {
         Self([
             Folded::constant(v.x),
@@ -27,27 +27,27 @@ impl<R: Real> Vec3<R> {
     }
 
     /// A vector of run-time numbers.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn runtime(v: R::Vec3) -> Self {
         let [x, y, z] = v.array();
         Self([Folded::runtime(x), Folded::runtime(y), Folded::runtime(z)])
     }
 
     /// The plain vector.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn get(self) -> R::Vec3 {
         let [x, y, z] = self.0;
         R::Vec3::new(x.get(), y.get(), z.get())
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn scale(self, s: Folded<R>) -> Self {
         let [x, y, z] = self.0;
         Self([x * s, y * s, z * s])
     }
 
     /// The component of the axis of this number.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn along_axis(self, axis: usize) -> Folded<R> {
         let [x, y, z] = self.0;
         match axis {
@@ -57,27 +57,27 @@ impl<R: Real> Vec3<R> {
         }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn dot(self, o: Self) -> Folded<R> {
         let ([ax, ay, az], [bx, by, bz]) = (self.0, o.0);
         ax * bx + ay * by + az * bz
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn cross(self, o: Self) -> Self {
         let ([ax, ay, az], [bx, by, bz]) = (self.0, o.0);
         Self([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
     }
 
     /// Rz(q) v: out of the body's frame.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn turn(self, sin: Folded<R>, cos: Folded<R>) -> Self {
         let [x, y, z] = self.0;
         Self([cos * x - sin * y, sin * x + cos * y, z])
     }
 
     /// Rz(q)ᵀ v: into the body's frame.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn turn_back(self, sin: Folded<R>, cos: Folded<R>) -> Self {
         let [x, y, z] = self.0;
         Self([cos * x + sin * y, cos * y - sin * x, z])
@@ -86,7 +86,7 @@ impl<R: Real> Vec3<R> {
 
 impl<R: Real> Add for Vec3<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
         let ([ax, ay, az], [bx, by, bz]) = (self.0, o.0);
         Self([ax + bx, ay + by, az + bz])
@@ -95,7 +95,7 @@ impl<R: Real> Add for Vec3<R> {
 
 impl<R: Real> Sub for Vec3<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn sub(self, o: Self) -> Self {
         let ([ax, ay, az], [bx, by, bz]) = (self.0, o.0);
         Self([ax - bx, ay - by, az - bz])
@@ -104,7 +104,7 @@ impl<R: Real> Sub for Vec3<R> {
 
 impl<R: Real> Neg for Vec3<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn neg(self) -> Self {
         let [x, y, z] = self.0;
         Self([-x, -y, -z])
@@ -114,7 +114,7 @@ impl<R: Real> Neg for Vec3<R> {
 impl<R: Real> Mat3<R> {
     pub(crate) const ZERO: Self = Self([Vec3::ZERO; 3]);
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn constant(m: &DMat3) -> Self {
         Self([
             Vec3::constant(m.x_axis),
@@ -124,7 +124,7 @@ impl<R: Real> Mat3<R> {
     }
 
     /// The rows.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn rows(&self) -> [Vec3<R>; 3] {
         let [x, y, z] = self.0;
         [
@@ -135,14 +135,14 @@ impl<R: Real> Mat3<R> {
     }
 
     /// M v.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn mul(&self, v: Vec3<R>) -> Vec3<R> {
         let ([x, y, z], [a, b, c]) = (self.0, v.0);
         x.scale(a) + y.scale(b) + z.scale(c)
     }
 
     /// Mᵀ v.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn transpose_mul(&self, v: Vec3<R>) -> Vec3<R> {
         let [x, y, z] = self.0;
         Vec3([x.dot(v), y.dot(v), z.dot(v)])
@@ -151,7 +151,7 @@ impl<R: Real> Mat3<R> {
 
 impl<R: Real> Mat3<R> {
     /// Rz M Rzᵀ.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn rotated_about_z(&self, sin: Folded<R>, cos: Folded<R>) -> Self {
         let [Vec3([xx, yx, zx]), Vec3([xy, yy, zy]), Vec3([xz, yz, zz])] = self.0;
         let w = sin * (xx - yy) + cos * (xy + yx);
@@ -166,7 +166,7 @@ impl<R: Real> Mat3<R> {
 
 impl<R: Real> Add for Mat3<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
         let ([ax, ay, az], [bx, by, bz]) = (self.0, o.0);
         Self([ax + bx, ay + by, az + bz])
@@ -195,7 +195,7 @@ impl<R: Real> Sym3<R> {
     };
 
     /// A matrix that is symmetric but for rounding.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of(m: &Mat3<R>) -> Self {
         let [x, y, z] = m.0;
         Self {
@@ -209,7 +209,7 @@ impl<R: Real> Sym3<R> {
     }
 
     /// The columns.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn columns(&self) -> [Vec3<R>; 3] {
         [
             Vec3([self.xx, self.xy, self.xz]),
@@ -219,7 +219,7 @@ impl<R: Real> Sym3<R> {
     }
 
     /// Rz S Rzᵀ, by five products.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn turn(self, sin: Folded<R>, cos: Folded<R>) -> Self {
         let bend = cos * self.xy;
         let w = sin * (self.xx - self.yy) + bend + bend;
@@ -235,7 +235,7 @@ impl<R: Real> Sym3<R> {
     }
 
     /// a bᵀ + b aᵀ.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn both(a: Vec3<R>, b: Vec3<R>) -> Self {
         let ([ax, ay, az], [bx, by, bz]) = (a.0, b.0);
         let (xx, yy, zz) = (ax * bx, ay * by, az * bz);
@@ -250,7 +250,7 @@ impl<R: Real> Sym3<R> {
     }
 
     /// s a aᵀ.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn square(a: Vec3<R>, s: Folded<R>) -> Self {
         let ([x, y, z], [sx, sy, sz]) = (a.0, a.scale(s).0);
         Self {
@@ -266,7 +266,7 @@ impl<R: Real> Sym3<R> {
 
 impl<R: Real> Add for Sym3<R> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
         Self {
             xx: self.xx + o.xx,

@@ -15,7 +15,7 @@ pub(crate) struct Series<T>(pub(crate) [T; 3]);
 
 impl<T: Add<Output = T>> Add for Series<T> {
     type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
         let ([a, b, c], [d, e, f]) = (self.0, o.0);
         Self([a + d, b + e, c + f])
@@ -24,13 +24,13 @@ impl<T: Add<Output = T>> Add for Series<T> {
 
 impl<R: Real> Series<Folded<R>> {
     /// A polynomial of run-time numbers.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn runtime([a, b, c]: [R; 3]) -> Self {
         Self([Folded::runtime(a), Folded::runtime(b), Folded::runtime(c)])
     }
 
     /// The same by a number that does not change.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn times(self, s: Folded<R>) -> Self {
         let [a, b, c] = self.0;
         Self([a * s, b * s, c * s])
@@ -39,19 +39,19 @@ impl<R: Real> Series<Folded<R>> {
 
 impl<R: Real> Series<Vec3<R>> {
     /// A vector that does not change.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn constant(v: Vec3<R>) -> Self {
         Self([v, Vec3::ZERO, Vec3::ZERO])
     }
 
     /// The polynomials of the components along z.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn z(&self) -> Series<Folded<R>> {
         let [a, b, c] = self.0;
         Series([a.0[2], b.0[2], c.0[2]])
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn scale(self, o: Series<Folded<R>>) -> Self {
         let ([a, b, c], [d, e, f]) = (self.0, o.0);
         Self([
@@ -61,7 +61,7 @@ impl<R: Real> Series<Vec3<R>> {
         ])
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn cross(self, o: Self) -> Self {
         let ([a, b, c], [d, e, f]) = (self.0, o.0);
         Self([
@@ -72,7 +72,7 @@ impl<R: Real> Series<Vec3<R>> {
     }
 
     /// Mᵀ v of a matrix that does not change.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn times_transposed(self, m: &Mat3<R>) -> Self {
         let [a, b, c] = self.0;
         Self([m.transpose_mul(a), m.transpose_mul(b), m.transpose_mul(c)])
@@ -81,7 +81,7 @@ impl<R: Real> Series<Vec3<R>> {
 
 impl<R: Real> Series<Mat3<R>> {
     /// M v.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn mul(&self, v: Series<Vec3<R>>) -> Series<Vec3<R>> {
         let ([a, b, c], [d, e, f]) = (&self.0, v.0);
         Series([
@@ -103,7 +103,7 @@ pub(crate) struct Turn<R> {
 }
 
 impl<R: Real> Turn<R> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn new(turn: JointCoordinate<R>, rate: R, accel: R) -> Self {
         let half = R::from_f64(0.5);
         Self {
@@ -116,13 +116,13 @@ impl<R: Real> Turn<R> {
     }
 
     /// Rzᵀ v at t = 0.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn enter_now(&self, v: Vec3<R>) -> Vec3<R> {
         v.turn_back(self.sin, self.cos)
     }
 
     /// Rzᵀ v: into the body's frame. Of y = Rzᵀ x the derivative is Rzᵀ ẋ − q̇ z × y.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn enter(&self, v: Series<Vec3<R>>) -> Series<Vec3<R>> {
         let [a, b, c] = v.0;
         let (a, b, c) = (self.enter_now(a), self.enter_now(b), self.enter_now(c));
@@ -132,7 +132,7 @@ impl<R: Real> Turn<R> {
     }
 
     /// Rz v: out of the body's frame.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(crate) fn leave(&self, v: Series<Vec3<R>>) -> Series<Vec3<R>> {
         let [a, b, c] = v.0;
         let once = b + about_z(self.rate, a);
@@ -146,7 +146,7 @@ impl<R: Real> Turn<R> {
 }
 
 /// w z × v.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn about_z<R: Real>(w: Folded<R>, Vec3([x, y, _]): Vec3<R>) -> Vec3<R> {
     Vec3([-(w * y), w * x, Folded::ZERO])
 }

@@ -128,7 +128,7 @@ impl<T, K> Engine<T, K> {
 }
 
 /// The columns of the bodies L.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn columns<
     R: Real,
     C: Compiled,
@@ -193,7 +193,7 @@ where
     const NOTHING: Nothing = Nothing;
     const JOINTS: u64 = joints::<C>(&L::NUMBERS);
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &Moving<R, V>) -> Moving<R, V> {
         let field = field_of::<R, C, E, B, Q, V, I>(&parent.field, self.turns, self.state);
         let at = Displacement::of::<C, Q, I>(self.turns);
@@ -222,7 +222,7 @@ where
         body
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn leave<const I: usize>(&mut self, _: &Moving<R, V>, _: Nothing) -> Nothing {
         Nothing
     }
@@ -231,7 +231,7 @@ where
 type See<R, const N: usize, const V: usize> = fn(&mut [[[R; 10]; N]; V], &Moving<R, V>);
 
 /// Writes the columns of the K-th of the bodies L that move with joint I.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn see<
     R: Real,
     C: Compiled,
@@ -254,7 +254,7 @@ fn see<
 }
 
 /// The field of the body behind joint I, as far as the effects need it.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn field_of<
     R: Real,
     C: Compiled,

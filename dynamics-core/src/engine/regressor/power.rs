@@ -20,7 +20,7 @@ pub(super) struct BodyPower<R> {
 
 impl<R: Real> BodyPower<R> {
     /// Of the body at `place` on a joint of the field `field`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(
         field: &AccelerationField<R>,
         place: &'static BodyPlacement,
@@ -48,7 +48,7 @@ impl<R: Real> BodyPower<R> {
 
     /// sᵀ A: of f = m p + U h and n = h × p + Ī α + ω × Ī ω, RBDA (2.58), the power along the motion s of the joint's frame per
     /// unit of m, h and Ī.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn per_parameter(&self, s: &Twist<R>) -> [R; 10] {
         let w = self.rot.transpose_mul(s.ang);
         let along = self.rot.transpose_mul(s.lin + s.ang.cross(self.pos));

@@ -41,7 +41,7 @@ impl<T, K> Engine<T, K> {
     /// let b = Engine::<Ur5e>::regressor_row(&state, &RIGID_BODY, 2);
     /// assert!(a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-12));
     /// ```
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     #[must_use]
     pub fn regressor_row<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
         state: S,
@@ -135,7 +135,7 @@ where
     type Inward = Nothing;
     const NOTHING: Nothing = Nothing;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &Moving<R>) -> Moving<R> {
         let field = field_of::<R, C, E, B, Q, V, I>(&parent.field, self.turns, self.state);
         let at = Displacement::of::<C, Q, I>(self.turns);
@@ -163,7 +163,7 @@ where
         body
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn leave<const I: usize>(&mut self, _: &Moving<R>, _: Nothing) -> Nothing {
         Nothing
     }
@@ -172,7 +172,7 @@ where
 type See<R, const B: usize> = fn(&mut [[R; 10]; B], &[bool; B], &Moving<R>);
 
 /// Writes the entries of the K-th body that moves with joint I.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn see<R: Real, C: Compiled, const B: usize, const I: usize, const K: usize>(
     y: &mut [[R; 10]; B],
     bodies: &[bool; B],

@@ -80,7 +80,7 @@ impl<R: Real, const M: usize> Modes<R, M> {
     /// The modes of this tick, from `rows` = √K J and a solution of M x = τ; `slowest` is ω_min².
     ///
     /// After a pass whose result is not finite it starts anew; after the last one the couplings may be beyond their bound.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     pub fn follow<const V: usize>(
         &mut self,
         rows: &[[R; V]; M],
@@ -160,7 +160,7 @@ impl<R: Real, const M: usize> Modes<R, M> {
     }
 
     /// A Newton step of two columns towards orthonormal ones; whether they were near them.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(optimised, inline(always))]
     fn orthonormalise(&mut self) -> bool {
         let (p, q) = self.next;
         self.next = if q + 1 < M {
@@ -211,7 +211,7 @@ macro_rules! each_pair {
 type Rotations<R, const M: usize> = [[(R, R); M]; M];
 
 /// Makes the upper triangle of G nearly diagonal, its largest entries first.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn sweep<R: Real, const M: usize>(g: &mut [[R; M]; M]) -> Rotations<R, M> {
     let mut rotations = [[(R::ONE, R::ZERO); M]; M];
     each_pair!(M, p, q, rotations[p][q] = rotate(g, p, q));
@@ -219,7 +219,7 @@ fn sweep<R: Real, const M: usize>(g: &mut [[R; M]; M]) -> Rotations<R, M> {
 }
 
 /// The rotations on a vector.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn turn<R: Real, const M: usize>(rotations: &Rotations<R, M>, mut x: [R; M]) -> [R; M] {
     each_pair!(M, p, q, {
         let (c, s) = rotations[p][q];
@@ -232,7 +232,7 @@ fn turn<R: Real, const M: usize>(rotations: &Rotations<R, M>, mut x: [R; M]) -> 
 ///
 /// Of the half angle the tangent is taken by a rational function, whose error is of the fourth order: with this cosine and sine
 /// the rotation is one, and what it leaves of the coupling is kept.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 fn rotate<R: Real, const M: usize>(g: &mut [[R; M]; M], p: usize, q: usize) -> (R, R) {
     let (gp, gq, b) = (g[p][p], g[q][q], g[p][q]);
     let ordered = gp >= gq;
@@ -262,7 +262,7 @@ fn rotate<R: Real, const M: usize>(g: &mut [[R; M]; M], p: usize, q: usize) -> (
 }
 
 /// a · b as two sums side by side, neither of which waits for the other.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
     let mut sums = [R::ZERO; 2];
     for (k, (&a, &b)) in a.iter().zip(b).enumerate() {
@@ -274,7 +274,7 @@ pub(super) fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
 }
 
 /// Σ rows × weights.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(optimised, inline(always))]
 pub(super) fn combine<R: Real, const M: usize, const V: usize>(
     rows: &[[R; V]; M],
     by: &[R; M],

@@ -4,7 +4,6 @@
 
 pub mod accuracy;
 pub mod budgets;
-pub mod claims;
 pub mod cores;
 pub mod costs;
 pub mod drawn;
@@ -50,12 +49,6 @@ fn film(workspace: &Workspace, options: &[&str]) -> Result<String> {
 /// In the order in which their steps run.
 #[rustfmt::skip]
 pub const STUDIES: &[Study] = &[
-    Study {
-        name: "claims", about: "Check the ledger of claims against README, guide and tests, rewrite docs/claims.md",
-        files: &["docs/claims.md"],
-        held: Step(Host, Everyday, "each claim of the ledger stands in its page, what shows it exists, and docs/claims.md has all"),
-        form: Own(|command| command, claims::run, claims::check),
-    },
     Study {
         name: "costs", about: "Measure what each algorithm costs on each robot, rewrite docs/costs.md",
         files: &["docs/costs.md", "docs/costs.svg"],

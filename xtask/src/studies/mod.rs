@@ -15,7 +15,6 @@ pub mod hard_cases;
 pub mod history;
 pub mod host_table;
 pub mod loops;
-pub mod mutants;
 pub mod peers;
 pub mod robots;
 pub mod scenes;
@@ -174,12 +173,6 @@ pub const STUDIES: &[Study] = &[
         files: &["docs/peers.md", "docs/peers.svg"],
         held: Bars("the other libraries are not installed for a test, and times are those of one machine"),
         form: Own(peers::Args::augment_args, |options, matches| peers::run(options, given(matches)?), NO_STEP),
-    },
-    Study {
-        name: "mutants", about: "Change the code in a few thousand places, one at a time, and rewrite docs/mutants.md: takes an hour",
-        files: &["docs/mutants.md", "docs/mutants.svg"],
-        held: Bars("a run over the whole sample takes an hour"),
-        form: Own(mutants::Args::augment_args, |options, matches| mutants::run(options, given(matches)?), NO_STEP),
     },
 ];
 

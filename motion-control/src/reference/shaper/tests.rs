@@ -180,6 +180,9 @@ fn a_vibration_without_a_shaper_is_named_with_its_problem() {
     }
     let error = Shaper::<f64, 2>::zv(&[half_of(10.25)], TICK).unwrap_err();
     assert_eq!(error.problem, Impulses);
+    // Half a period of half a tick is divided between none and one.
+    let fast = Shaper::<f64, 2>::zv(&[half_of(0.5)], TICK).expect("a shaper");
+    same(&impulses(&fast), &[(0, 0.75), (1, 0.25)]);
     assert!(Shaper::<f64, 3>::zv(&[half_of(0.99e6)], TICK).is_ok());
     assert!(Shaper::<f64, 3>::zv(&[sway(10.0, 0.0)], TICK).is_ok());
 }

@@ -1,7 +1,7 @@
 //! The engine on joints of every kind: two trees that mix them, and robots on a free base.
 
 use dynamics_core::effects::{Armature, MovingBase, RIGID_BODY, Spring, Viscous, WorldWrench};
-use dynamics_core::model::{OnBody, Robot};
+use dynamics_core::model::Robot;
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
@@ -114,7 +114,7 @@ fn engine_equals_core_on_every_kind_of_joint_under_every_effect() {
 mod full {
     use dynamics_core::algorithms::Prescribed::{Acceleration, Torque};
     use dynamics_core::algorithms::{self, MassMatrix, frame::LocalWorldAligned};
-    use dynamics_core::model::Calibrated;
+    use dynamics_core::model::{Calibrated, OnBody};
     use dynamics_core::robots::{A1Free, G1Free};
     use dynamics_core::spatial::SpatialInertia;
     use glam::DVec3;

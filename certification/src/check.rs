@@ -39,8 +39,22 @@ pub fn page(written: &str, part: Part, text: &str) -> Result<String> {
     let missing = || Error::Missing(format!("place for {name} on the page"));
     let (before, rest) = written.split_once(&begin).ok_or_else(missing)?;
     let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
-    Ok(format!("{before}{begin}\n{text}{end}{after}"))
+    let block = format!(
+        "{}\n{text}",
+        begin.split_once('\n').map_or("", |(_, note)| note)
+    );
+    let marker = format!("<!-- {name}:begin -->\n");
+    Ok(format!("{before}{marker}{}{end}{after}", sealed(&block)))
 }
+
+/// A block of the page with the sum of its text at its end, as `xtask/src/kit/docs/seal.rs` writes and reads it.
+fn sealed(block: &str) -> String {
+    let block = block.trim();
+    let sum = &hexadecimal(Sha256::new_with_prefix(block))[..16];
+    format!("{block}\n\n{BEFORE_SUM}{sum} -->\n")
+}
+
+const BEFORE_SUM: &str = "<!-- sum of the above: ";
 
 /// Fails unless the page has the hashes of these functions of a program.
 ///

@@ -18,7 +18,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     /// | [`Advice::InertiasAboutJoints`] | of every body with a far centre of mass the inertia about that would still be one after m d² is taken off |
     /// | [`Advice::InertiaAboutJoint`] | of one body the same, and it is wider than what lies between its joints |
     /// | [`Advice::PositionsInDegrees`], [`Advice::PositionInDegrees`] | most limits of rotation, or some, are beyond four turns (of published robots up to 1.6) |
-    /// | [`Advice::SpeedsInDegrees`], [`Advice::SpeedInDegrees`] | most limits of angular speed are above 60 rad/s (up to 32), or one is, and 20 times that of most |
+    /// | [`Advice::SpeedsInDegrees`], [`Advice::SpeedInDegrees`] | most limits of angular speed are above 60 rad/s (up to 32), or one is, and 20 times the next |
     /// | [`Advice::TorqueLimitsFarAbove`] | every limit is more than 20 times what holds all that the joint moves, stretched out |
     /// | [`Advice::GravityBeyondTorque`] | gravity along −z needs more torque than the limit, at a configuration within the limits |
     ///

@@ -28,7 +28,7 @@ const AIRY: f64 = 1.0;
 const TURNS: f64 = 8.0 * PI;
 /// Speed, rad/s: 573 turns a minute. Robots have a median of up to 32; in degrees/s a slow one has 70.
 const SPEED: f64 = 60.0;
-/// The speed of one joint over that of half of the joints, beside [`SPEED`]: degrees/s make 57.
+/// The speed of one joint over the next one, beside [`SPEED`]: degrees/s make 57.
 const FASTER: f64 = 20.0;
 /// The share of a body's largest moment of inertia beyond which m d² would be of note.
 const SHARE: f64 = 0.5;
@@ -330,7 +330,7 @@ fn about_joints<R: Real, const B: usize, const Q: usize, const V: usize>(
 /// The joints that rotate about one axis.
 fn rotations<R: Real, const B: usize, const Q: usize, const V: usize>(
     model: &Model<R, B, Q, V>,
-) -> impl Iterator<Item = (AdvisedJoint, &Link<R>)> + Clone {
+) -> impl Iterator<Item = (AdvisedJoint, &Link<R>)> {
     let rotates =
         |link: &&Link<R>| matches!(link.joint.kind, JointKind::Revolute | JointKind::Continuous);
     model.links.iter().filter(rotates).map(|link| {
@@ -367,8 +367,13 @@ pub fn positions_in_degrees(
             },
         )
     });
-    let (joint, limit, most) = beyond(farther, TURNS)?;
-    Some(if most {
+    let Greatest {
+        joint,
+        limit,
+        most_beyond,
+        ..
+    } = Greatest::of(farther, TURNS)?;
+    Some(if most_beyond {
         Advice::PositionsInDegrees { joint, limit }
     } else {
         Advice::PositionInDegrees { joint, limit }
@@ -376,7 +381,7 @@ pub fn positions_in_degrees(
 }
 
 /// [`Advice::SpeedsInDegrees`], if most joints that state a limit of speed, rad/s, have one above 60, or
-/// [`Advice::SpeedInDegrees`], if one is 20 times that of half of them, too: published robots have a median of up to 32.
+/// [`Advice::SpeedInDegrees`], if one does and is 20 times the next: published robots have a median of up to 32.
 ///
 /// Limits that are infinite, zero or a power of ten of 100 or more state none.
 ///
@@ -388,32 +393,48 @@ pub fn positions_in_degrees(
 /// assert_eq!(speeds([120.0, 180.0]), Some(Advice::SpeedsInDegrees { joint: joint(1), limit: 180.0 }));
 /// assert_eq!(speeds([3.14, 180.0]), Some(Advice::SpeedInDegrees { joint: joint(1), limit: 180.0 }));
 /// ```
-pub fn speeds_in_degrees(
-    limits: impl Iterator<Item = (AdvisedJoint, f64)> + Clone,
-) -> Option<Advice> {
-    let (joint, limit, most) = beyond(limits.clone(), SPEED)?;
-    if most {
+pub fn speeds_in_degrees(limits: impl Iterator<Item = (AdvisedJoint, f64)>) -> Option<Advice> {
+    let greatest = Greatest::of(limits, SPEED)?;
+    let (joint, limit) = (greatest.joint, greatest.limit);
+    if greatest.most_beyond {
         return Some(Advice::SpeedsInDegrees { joint, limit });
     }
-    let stated = limits.filter(|&(_, limit)| is_stated(limit));
-    let slow = |&(_, other): &(AdvisedJoint, f64)| FASTER * other.abs() < limit.abs();
-    let is_alone = 2 * stated.clone().filter(slow).count() >= stated.count();
+    let is_alone = limit.abs() > FASTER * greatest.next;
     is_alone.then_some(Advice::SpeedInDegrees { joint, limit })
 }
 
-/// The greatest limit of those that are stated, if it is greater than this, and whether most are.
-fn beyond(
-    joints: impl Iterator<Item = (AdvisedJoint, f64)>,
-    most: f64,
-) -> Option<(AdvisedJoint, f64, bool)> {
-    let (mut beyond, mut stated, mut greatest) = (0, 0, None::<(AdvisedJoint, f64)>);
-    for (joint, limit) in joints.filter(|&(_, limit)| is_stated(limit)) {
-        stated += 1;
-        beyond += usize::from(limit.abs() > most);
-        if greatest.is_none_or(|(_, before)| limit.abs() > before.abs()) {
-            greatest = Some((joint, limit));
+/// The greatest of the limits that are stated.
+struct Greatest {
+    joint: AdvisedJoint,
+    limit: f64,
+    /// The size of the next one.
+    next: f64,
+    /// Whether most are beyond the bound.
+    most_beyond: bool,
+}
+
+impl Greatest {
+    /// If it is beyond the bound.
+    fn of(joints: impl Iterator<Item = (AdvisedJoint, f64)>, bound: f64) -> Option<Self> {
+        let (mut beyond, mut stated, mut next) = (0, 0, 0.0_f64);
+        let mut greatest = None::<(AdvisedJoint, f64)>;
+        for (joint, limit) in joints.filter(|&(_, limit)| is_stated(limit)) {
+            stated += 1;
+            beyond += usize::from(limit.abs() > bound);
+            match greatest {
+                Some((_, before)) if limit.abs() <= before.abs() => next = next.max(limit.abs()),
+                before => {
+                    next = before.map_or(0.0, |(_, before)| before.abs());
+                    greatest = Some((joint, limit));
+                }
+            }
         }
+        let (joint, limit) = greatest.filter(|_| beyond > 0)?;
+        Some(Self {
+            joint,
+            limit,
+            next,
+            most_beyond: 2 * beyond > stated,
+        })
     }
-    let (joint, limit) = greatest.filter(|_| beyond > 0)?;
-    Some((joint, limit, 2 * beyond > stated))
 }

@@ -171,7 +171,7 @@ impl Advice {
             ),
             Self::SpeedInDegrees { joint, limit } => write!(
                 out,
-                "{joint}: a speed limit of {} rad/s is {} turns a minute, 20 times that of most joints or more: limits are in rad/s, \
+                "{joint}: a speed limit of {} rad/s is {} turns a minute, more than 20 times that of every other joint: limits are in rad/s, \
                  this one looks like degrees/s; divide it by 57.3",
                 Short(limit),
                 Short(limit * 30.0 / PI)

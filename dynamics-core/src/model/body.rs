@@ -55,7 +55,7 @@ pub struct Body {
     pub(super) mass: f64,
     pub(super) com: [f64; 3],
     pub(super) inertia: [f64; 6],
-    /// Whether the inertia is computed with although no body has it.
+    /// Whether the inertia is computed with although a moment is negative.
     pub(super) as_published: bool,
     pub(super) limits: JointLimits<f64>,
 }
@@ -114,17 +114,16 @@ impl Body {
 
     /// Rotational inertia about the centre of mass, along the body's axes: xx, xy, xz, yy, yz, zz in kg·m².
     ///
-    /// [`Model::new`](super::Model::new) refuses one that no body has by more than a tenth of its largest moment: a principal
-    /// moment below zero, or one above the sum of the two others. What is less, such as rounded or estimated numbers,
-    /// [`Model::advice`](super::Model::advice) names.
+    /// [`Model::new`](super::Model::new) refuses one with a negative principal moment, by which a kinetic energy would be negative.
+    /// Moments of which one exceeds the sum of the two others, which no body has either, [`Model::advice`](super::Model::advice) names.
     ///
     /// ```compile_fail,E0080
     /// use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
     /// const ROD: Body = Body::new("rod", BASE, Joint::revolute([0.0, 1.0, 0.0])).mass(2.0);
     /// // As xx, yy, zz, xy, xz, yz:
     /// const ARM: ArmModel<f64, 1> = Model::new("arm", [ROD.inertia([0.03, 0.03, 0.001, 0.0, 0.0, 0.0])]);
-    /// // error: body `rod`: no body has its inertia in the order xx, xy, xz, yy, yz, zz, and one may in the order xx, yy, zz,
-    /// // xy, xz, yz: impossible by 6.18e-1 of the largest moment
+    /// // error: body `rod`: in the order xx, xy, xz, yy, yz, zz its inertia has a negative principal moment, in the order xx, yy, zz,
+    /// // xy, xz, yz it has none: -1.85e-2 kg·m²
     /// # let _ = ARM;
     /// ```
     pub const fn inertia(mut self, inertia: [f64; 6]) -> Self {
@@ -132,16 +131,15 @@ impl Body {
         self
     }
 
-    /// As [`Body::inertia`], of published numbers that no body has and that are to be computed with all the same.
+    /// As [`Body::inertia`], of published numbers with a negative moment that are to be computed with all the same.
     ///
     /// ```
     /// use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
     /// const ROD: Body = Body::new("rod", BASE, Joint::revolute([0.0, 1.0, 0.0])).mass(2.0);
-    /// const ARM: ArmModel<f64, 1> = Model::new("arm", [ROD.inertia_as_published([0.01, 0.0, 0.0, 0.03, 0.0, 0.01])]);
+    /// const ARM: ArmModel<f64, 1> = Model::new("arm", [ROD.inertia_as_published([0.01, 0.0, 0.0, 0.01, 0.0, -0.001])]);
     /// let words: Vec<String> = ARM.advice().map(|advice| advice.to_string()).collect();
     /// assert_eq!(words, [
-    ///     "body `rod`: the moment of inertia about (0.00, 1.00, 0.00) exceeds the sum of the two others by 33.3 % of the \
-    ///      largest: no body has it",
+    ///     "body `rod`: the moment of inertia about (0.00, 0.00, 1.00) is -1.000e-3 kg·m², and none is negative: no body has it",
     /// ]);
     /// ```
     pub const fn inertia_as_published(mut self, inertia: [f64; 6]) -> Self {
@@ -183,7 +181,7 @@ impl Body {
             return Some(Problem::NotFinite);
         }
         if !self.as_published
-            && let Some(problem) = impossible_as_described(self.inertia)
+            && let Some(problem) = negative(self.inertia)
         {
             return Some(problem);
         }
@@ -199,20 +197,23 @@ impl Body {
 /// 2π, rounded up to four digits.
 const WHOLE_TURN: f64 = 6.284;
 
-/// By how much of its largest moment an inertia may be impossible: that of the published PUMA 560 is by 0.087, of the Alexander's
-/// hands by 0.088. Other published files have 0.12 to 1.0, as the mistakes of hand-written ones do, and say so by
-/// [`Body::inertia_as_published`].
-const MOST_EXCESS: f64 = 0.1;
+/// The share of its largest moment by which a moment may be below zero: the rounding of a description's digits.
+const ROUNDING: f64 = 1e-3;
 
-/// Why no body has an inertia in the order of [`Body::inertia`], and whether another order is the reason.
-const fn impossible_as_described(inertia: [f64; 6]) -> Option<Problem> {
-    let Some(found) = ImpossibleInertia::of(inertia, MOST_EXCESS) else {
-        return None;
+/// The negative moment of an inertia in the order of [`Body::inertia`], and whether another order is the reason.
+///
+/// With moments that break the triangle inequality alone no kinetic energy is negative, and every result is that of the numbers: those
+/// of the published PUMA 560 do by 0.087 of the largest, those of other published robots by up to 1.0, and so do those of a wheel of
+/// which only the moment about its axis is given.
+const fn negative(inertia: [f64; 6]) -> Option<Problem> {
+    let moment = match ImpossibleInertia::of(inertia, ROUNDING) {
+        Some(found) if found.moment < 0.0 => found.moment,
+        _ => return None,
     };
     let [xx, yy, zz, xy, xz, yz] = inertia;
-    match ImpossibleInertia::of([xx, xy, xz, yy, yz, zz], 1e-3) {
-        None => Some(Problem::InertiaOrder(found.excess)),
-        Some(_) => Some(found.problem()),
+    match ImpossibleInertia::of([xx, xy, xz, yy, yz, zz], ROUNDING) {
+        None => Some(Problem::InertiaOrder(moment)),
+        Some(_) => Some(Problem::NegativeMoment(moment)),
     }
 }
 

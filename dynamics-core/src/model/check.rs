@@ -45,9 +45,20 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     const fn no_body(&self, name: &str) -> ! {
         let mut text = Text::EMPTY
             .with("no body of the robot has the name `")
-            .with(name)
-            .with("`: its bodies are ");
+            .with(name);
         let mut i = 0;
+        while i < self.parts.len() {
+            let (link, body) = self.parts[i];
+            if same(link, name) {
+                text.with("`: that link is a part of body `")
+                    .with(body)
+                    .with("`, in whose frame a payload or a point on it is stated")
+                    .panic();
+            }
+            i += 1;
+        }
+        text = text.with("`: its bodies are ");
+        i = 0;
         while i < B {
             let name = self.links[i].name;
             if !text.has_room_for(name) {
@@ -67,8 +78,8 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     /// mass) that are not negative and obey the triangle inequality, all within `relative`; and that the names of
     /// bodies differ.
     ///
-    /// Published models violate the inequality (PUMA 560) or satisfy it narrowly (Panda) and must be usable: of a model only what
-    /// is further off is an error ([`Body::inertia`](super::Body::inertia)). In f32 rounding alone violates it by some 10⁻⁶.
+    /// Published models violate the inequality (PUMA 560) or satisfy it narrowly (Panda) and must be usable: of a model only a
+    /// negative moment is an error ([`Body::inertia`](super::Body::inertia)). In f32 rounding alone violates it by some 10⁻⁶.
     ///
     /// # Errors
     /// [`Problem::Asymmetric`], [`Problem::NegativeMoment`] or [`Problem::Triangle`] with the body's name and the amount: by how much the

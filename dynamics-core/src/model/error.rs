@@ -58,8 +58,7 @@ pub enum Problem {
     Name,
     /// A principal moment of the inertia about the centre of mass, kg·m², is negative.
     NegativeMoment(f64),
-    /// No body has the inertia, by this share of its largest moment, but one may have it if the six numbers are xx, yy, zz, xy,
-    /// xz, yz.
+    /// The same, kg·m², of six numbers that are possible in the order xx, yy, zz, xy, xz, yz.
     InertiaOrder(f64),
     /// The principal moments violate the triangle inequality by this amount, relative to the largest.
     Triangle(f64),
@@ -71,9 +70,8 @@ impl Problem {
     /// The number of an impossible inertia, with the words before and after it.
     pub(crate) const fn amount(self) -> Option<(&'static str, f64, &'static str)> {
         match self {
-            Self::NegativeMoment(moment) => Some((": ", moment, " kg·m²")),
-            Self::InertiaOrder(excess) => {
-                Some((": impossible by ", excess, " of the largest moment"))
+            Self::NegativeMoment(moment) | Self::InertiaOrder(moment) => {
+                Some((": ", moment, " kg·m²"))
             }
             Self::Triangle(excess) | Self::Asymmetric(excess) => {
                 Some((" by ", excess, " of the largest"))
@@ -104,7 +102,8 @@ impl Problem {
             Self::Name => "a body before it has the same name",
             Self::NegativeMoment(_) => "a principal moment of its inertia is negative",
             Self::InertiaOrder(_) => {
-                "no body has its inertia in the order xx, xy, xz, yy, yz, zz, and one may in the order xx, yy, zz, xy, xz, yz"
+                "in the order xx, xy, xz, yy, yz, zz its inertia has a negative principal moment, in the order xx, yy, zz, xy, xz, yz \
+                 it has none"
             }
             Self::Triangle(_) => "its moments of inertia break the triangle inequality",
             Self::Asymmetric(_) => "its inertia matrix is not symmetric",

@@ -39,7 +39,29 @@ impl ImpossibleInertia {
         Self::beyond([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], relative, 0.0)
     }
 
-    /// The same, but nothing for what does not exceed `noise`, kg·m²: a point mass has no moments but that.
+    /// The nearest inertia that a body may have, in the Frobenius norm: that of the second moments without their negative
+    /// eigenvalues.
+    ///
+    /// ```
+    /// use dynamics_core::model::ImpossibleInertia;
+    /// let [xx, .., yy, _, zz] = ImpossibleInertia::nearest([1.0, 0.0, 0.0, 1.0, 0.0, 2.5]);
+    /// assert_eq!([xx, yy, zz], [1.25, 1.25, 2.5]);
+    /// ```
+    pub fn nearest([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> [f64; 6] {
+        let Eigen { values, vectors } = eigen([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
+        let half = 0.5 * (xx + yy + zz);
+        let second = values.map(|moment| if moment < half { half - moment } else { 0.0 });
+        let sum: f64 = second.iter().sum();
+        let entry = |i: usize, j: usize| {
+            let each = second.iter().zip(&vectors);
+            let of = |axis: &[f64; 3], i: usize| axis.get(i).copied().unwrap_or_default();
+            let product: f64 = each.map(|(x, axis)| x * of(axis, i) * of(axis, j)).sum();
+            if i == j { sum - product } else { -product }
+        };
+        [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(|(i, j)| entry(i, j))
+    }
+
+    /// As [`ImpossibleInertia::of`], but nothing for what does not exceed `noise`, kg·m²: a point mass has no moments but that.
     pub(crate) const fn beyond(
         about_com: [[f64; 3]; 3],
         relative: f64,

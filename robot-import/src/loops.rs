@@ -83,8 +83,8 @@ impl Motors {
             return Err(Problem::Value(problem).into());
         }
         if let (false, true) = (names.is_empty(), loops.is_empty()) {
-            let problem = "`--motors` is for robots with loops, and this one has none: its torques are those of all joints, and the \
-                           torque of one without a motor is zero";
+            let problem = "`--motors`: the robot has no loop, and its torques are those of all joints: that of a joint without a motor \
+                           is zero";
             return Err(Problem::Value(problem.to_owned()).into());
         }
         let of = |driven: &dyn Fn(&Body) -> bool| {

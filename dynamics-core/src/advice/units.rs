@@ -33,9 +33,11 @@ const FASTER: f64 = 20.0;
 /// The share of a body's largest moment of inertia beyond which m d² would be of note.
 const SHARE: f64 = 0.5;
 /// The same of one body among others, and the square of its radius of gyration, of the largest that its joints allow: a link of
-/// the G1 has 0.60 and 2.0, one of the Gen3 0.89 and 0.99; a rod about its end has 0.75 and 1.33.
+/// the G1 has 0.60 and 2.0, one of the Gen3 0.89 and 0.99; a rod about its end has 0.75 and 1.33. At a tip, where nothing says how
+/// long it is, a calf with a heavy foot has a share of 0.94.
 const ONE_SHARE: f64 = 0.65;
 const SPAN: f64 = 1.2;
+const TIP_SHARE: f64 = 0.9;
 
 /// The units that look wrong.
 pub(super) fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
@@ -233,15 +235,16 @@ struct AboutJoint {
     share: f64,
     /// Whether what is left without m d² is one that a body may have.
     is_possible: bool,
-    /// The square of its radius of gyration, of the largest that masses between its joint and the next one have.
-    of_span: f64,
+    /// Whether it is wider than masses between its joint and the next one are; of a tip, whether it is no rod with a mass at its end.
+    is_wide: bool,
     largest: f64,
     shift: f64,
 }
 
 impl AboutJoint {
-    /// Of a body with a centre of mass beside its joint; `next` is the distance of the farthest joint on it, m.
-    fn of<R: Real>(link: &Link<R>, next: f64) -> Option<Self> {
+    /// Of a body with a centre of mass beside its joint; `next` is the distance of the farthest joint on it, m; none of a
+    /// tip.
+    fn of<R: Real>(link: &Link<R>, next: Option<f64>) -> Option<Self> {
         let size = Massive::of(link);
         if size.mass == 0.0 || size.com == 0.0 || size.gyration == 0.0 {
             return None;
@@ -268,17 +271,18 @@ impl AboutJoint {
                 *entry -= offset(i, j);
             }
         }
-        // Masses on a line of this length have a variance of at most d (L − d) (Bhatia and Davis 2000).
-        let widest = size.com * (next - size.com).abs();
-        let of_span = if next > size.com {
-            size.gyration * size.gyration / widest
-        } else {
-            f64::INFINITY
+        // Masses on a line of length L have a variance of at most d (L − d) (Bhatia and Davis 2000).
+        let is_wide = match next {
+            Some(next) => {
+                let widest = size.com * (next - size.com);
+                next > size.com && size.gyration * size.gyration > SPAN * widest
+            }
+            None => shift < TIP_SHARE * largest,
         };
         Some(Self {
             share: shift / largest,
             is_possible: ImpossibleInertia::beyond(about_com, 1e-6, 0.0).is_none(),
-            of_span,
+            is_wide,
             largest,
             shift,
         })
@@ -293,7 +297,7 @@ fn about_joints<R: Real, const B: usize, const Q: usize, const V: usize>(
     let of = |i: usize, link: &Link<R>| {
         let on_it = model.links.iter().filter(|other| other.parent == i);
         let joints = on_it.map(|other| length::<R>(other.placement.pos));
-        AboutJoint::of(link, joints.fold(0.0, f64::max))
+        AboutJoint::of(link, joints.reduce(f64::max))
     };
     let (mut bodies, mut far, mut most, mut found, mut all) = (0, 0, 0.0, None, true);
     for (i, link) in model.links.iter().enumerate() {
@@ -317,8 +321,8 @@ fn about_joints<R: Real, const B: usize, const Q: usize, const V: usize>(
     let all = all && far > 1 && 2 * far >= bodies;
     let each = model.links.iter().enumerate().filter_map(move |(i, link)| {
         let about = of(i, link)?;
-        let is_wide = about.share > ONE_SHARE && about.of_span > SPAN && about.is_possible;
-        (!all && is_wide).then_some(Advice::InertiaAboutJoint {
+        let is_about_joint = about.share > ONE_SHARE && about.is_wide && about.is_possible;
+        (!all && is_about_joint).then_some(Advice::InertiaAboutJoint {
             body: link.name,
             inertia: about.largest,
             shift: about.shift,

@@ -202,7 +202,7 @@ fn an_option_that_advice_names_is_taken() {
     let error =
         tried(&chain(&[("elbow", FULL)]), "r.urdf", motors(&["elbow"])).expect_err("no loop");
     assert!(
-        error.contains("`--motors` is for robots with loops, and this one has none"),
+        error.contains("`--motors`: the robot has no loop"),
         "{error}"
     );
 }

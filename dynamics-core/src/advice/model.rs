@@ -14,7 +14,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     /// | [`Advice::LengthsInMillimetres`] | the reach is above 20 m, and mass over its cube below 0.01 kg/m³ |
     /// | [`Advice::ImpossibleInertia`] | a principal moment of a body is negative, or exceeds the sum of the two others, by more than 0.001 of the largest |
     /// | [`Advice::InertiasInMillimetres`] | most bodies have a radius of gyration above ten reaches (0.03 to 0.74) |
-    /// | [`Advice::InertiaInMillimetres`] | one has one above three reaches, and less than 1 kg for each cube of it |
+    /// | [`Advice::InertiaInMillimetres`] | one has one above three reaches, and less than 0.01 kg/m³ for its cube |
     /// | [`Advice::InertiasAboutJoints`] | of every body with a far centre of mass the inertia about that would still be one after m d² is taken off |
     /// | [`Advice::InertiaAboutJoint`] | of one body the same, and it is wider than what lies between its joints |
     /// | [`Advice::PositionsInDegrees`], [`Advice::PositionInDegrees`] | most limits of rotation, or some, are beyond four turns (of published robots up to 1.6) |

@@ -21,9 +21,9 @@ const SOLID: f64 = 9.0 * 7850.0;
 const GYRATION: f64 = 10.0;
 /// The same of one body among others. Published robots have up to 1.5, of placeholders.
 const ONE_GYRATION: f64 = 3.0;
-/// Mass over the cube of the radius of gyration of one body, kg/m³. Bodies of the library have 40 or more, in kg·mm² therefore at most
-/// 10⁻⁴; a wheel about its centre, which has no reach, is not thin.
-const AIRY: f64 = 1.0;
+/// Mass over the cube of the radius of gyration of one body, kg/m³. Bodies are at most of solid steel, 7 · 10⁴, and have in kg·mm² 10⁻⁹
+/// of it; a propeller with a placeholder of an inertia has 0.4, and a wheel about its centre, which has no reach, is not thin.
+const AIRY: f64 = 0.01;
 /// Position, rad: four turns. Robots have up to 1.6 turns; a median of 56° to 360° makes 9 turns or more.
 const TURNS: f64 = 8.0 * PI;
 /// Speed, rad/s: 573 turns a minute. Robots have a median of up to 32; in degrees/s a slow one has 70.

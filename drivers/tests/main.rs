@@ -1,5 +1,7 @@
 //! Every driver against its data sheet or protocol document, in one program.
 
+use joint_drivers::{EncoderMapping, JointMapping, JointRange};
+
 mod absolute;
 mod can;
 mod can_joints;
@@ -8,3 +10,8 @@ mod drives;
 mod feetech;
 mod incremental;
 mod mapping;
+
+/// The mapping of a joint that starts near zero.
+fn near_zero(mapping: JointMapping) -> EncoderMapping {
+    mapping.with_range(JointRange::Near(0.0), 1e-3).unwrap()
+}

@@ -35,7 +35,7 @@ where
         let reference = S::reference().map_err(StartError::Trajectory)?;
         Ok(Self {
             control: simulated_loop::<S, _, B, Q, V, N>(&reference, wires, ())
-                .map_err(StartError::Drive)?,
+                .map_err(StartError::Setup)?,
             reference,
             wires,
             last: Commanded::default(),

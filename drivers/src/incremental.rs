@@ -184,6 +184,7 @@ impl<Counter: QuadratureCounter> IncrementalEncoder<Counter> {
         let count = read.map_err(IncrementalError::Counter)?;
         self.count = self.extend(count);
         if self.is_lost {
+            self.counter.index();
             return Err(IncrementalError::LostTurn);
         }
         let count = self.count;

@@ -81,6 +81,8 @@ mod mapping;
 pub mod moteus;
 mod multi_turn;
 pub mod odrive;
+#[cfg(test)]
+mod starts;
 pub mod three_phase;
 
 pub use can_joints::{CanJoint, CanJoints, Report};

@@ -166,6 +166,39 @@ fn the_as5600_counts_turns_and_ignores_upper_bits() {
     encoder.release().done();
 }
 
+/// Four joints whose ranges are shorter than a turn of their encoders, and lie across its seam.
+#[test]
+fn a_first_reading_lies_in_the_joints_range() {
+    let joints = [
+        (2.4, Direction::Forward, 1.0, 1.2),
+        // Of the guide's page on a board.
+        (1.5, Direction::Reverse, 1.0, 3.0),
+        (2.4, Direction::Reverse, 3.0, 0.5),
+        (-2.9, Direction::Forward, 1.0, 0.6),
+    ];
+    for (zero, direction, ratio, half) in joints {
+        let mapping = JointMapping::new(zero, direction, ratio).unwrap();
+        let range = JointRange::Within {
+            lower: -half,
+            upper: half,
+        };
+        let mapping = mapping.with_range(range, 5e-3).unwrap();
+        for part in [-1.0, -0.5, 0.0, 0.5, 1.0] {
+            let truth = part * half;
+            let shaft = (zero + direction.sign() * truth * ratio).rem_euclid(TAU);
+            let count = (shaft / TAU * 4096.0).round() as u16 & 4095;
+            let bus = i2c::Mock::new(&registers(0x20, count));
+            let mut encoder = As5600::new(bus, mapping);
+            let read = encoder.read().unwrap();
+            assert!(
+                (read - truth).abs() < 0.51 * TAU / 4096.0 / ratio,
+                "{zero} {truth} {read}"
+            );
+            encoder.release().done();
+        }
+    }
+}
+
 #[test]
 fn an_absent_weak_or_strong_magnet_is_an_error() {
     let cases = [

@@ -279,6 +279,47 @@ fn goals_of_all_servos_are_sent_in_one_packet() {
     done(one);
 }
 
+/// At zero the servo is at 5.9 rad, count 3846; its seam is at +0.38 rad.
+#[test]
+fn a_servo_reads_small_steps_across_its_seam() {
+    let range = JointRange::Within {
+        lower: -0.8,
+        upper: 0.8,
+    };
+    let mapping = JointMapping::new(5.9, Direction::Forward, 1.0).unwrap();
+    let mapping = mapping.with_range(range, 0.1).unwrap();
+    let request = Packet::sync_read(&[1], PRESENT_POSITION, 2).unwrap();
+    let turn = |truth: f32| ((truth + 5.9) / (2.0 * PI)).rem_euclid(1.0);
+    let reading = |truth| {
+        let count = (turn(truth) * 4096.0).round() as u16 & 4095;
+        [
+            sent(request.bytes()),
+            received(&reply(1, 0, &count.to_le_bytes())),
+        ]
+    };
+    let goal = Packet::sync_write(GOAL_POSITION, [(1, 141_u16.to_le_bytes())]).unwrap();
+    let truths: Vec<f32> = (-8..=8).map(|step| 0.1 * step as f32).collect();
+    let mut steps = truths.iter().copied().flat_map(reading).collect::<Vec<_>>();
+    steps.push(sent(goal.bytes()));
+    let mut servos = Servos::new(port(&steps), [1], [mapping]).unwrap();
+    for truth in truths {
+        let [read] = servos.positions().unwrap();
+        assert!((read - truth).abs() < 8e-4, "{truth} {read}");
+    }
+    // A goal within the turn of the servo's count, and one for which it would turn back by 5.9 rad.
+    servos.set_positions(&[0.6]).unwrap();
+    let refused = servos.set_positions(&[0.3]);
+    assert_eq!(refused, Err(FeetechError::Goal { joint: 0 }));
+    done(servos);
+    // From any place at power-up.
+    for truth in [-0.8, -0.3, 0.3, 0.4, 0.8] {
+        let mut servos = Servos::new(port(&reading(truth)), [1], [mapping]).unwrap();
+        let [read] = servos.positions().unwrap();
+        assert!((read - truth).abs() < 8e-4, "{truth} {read}");
+        done(servos);
+    }
+}
+
 #[test]
 fn a_reply_after_noise_and_false_headers_is_found() {
     let good = reply(1, 0, &[0x18, 0x05]);

@@ -9,6 +9,7 @@ mod control_loop;
 mod drives;
 mod feetech;
 mod incremental;
+mod lost_turn;
 mod mapping;
 
 /// The mapping of a joint that starts near zero.

@@ -174,12 +174,12 @@ fn alone(lost: u32, category: StopCategory<f32, 1>) -> (f64, [u32; 3], Option<Fa
 #[test]
 fn no_ride_through_ends_a_lost_turn() {
     for (lost, is_unknown) in LOST {
-        for category in [StopCategory::ControlledOff, StopCategory::TorqueOff] {
+        for category in [StopCategory::ControlledOff, StopCategory::ControlledHold] {
             let (off, [full, _, stopped], fault) = alone(lost, category);
             if is_unknown {
                 assert_eq!(fault, Some(Fault::LostTurn { joint: 0 }), "{lost}");
                 assert!(full <= 305 && stopped > 1500, "{lost}: {full} {stopped}");
-            } else if matches!(category, StopCategory::ControlledOff) {
+            } else {
                 assert!(off < 1e-5 && stopped == 0, "{lost}: {off} {stopped}");
                 assert_eq!(fault, Some(Fault::Encoder { joint: 0 }));
             }

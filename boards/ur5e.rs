@@ -3,9 +3,8 @@
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
-use firmware_demo::scene::{self, Full, Scene, SceneLoop, Start};
+use firmware_demo::scene::{self, Full, Scene, SceneLoop, SetupError, Start};
 use firmware_demo::scenes::ur5e::PickAndPlace;
-use joint_drivers::h_bridge::DriveError;
 use motion_control::{Detect, Detectors, Gains};
 
 pub use firmware_demo::scenes::ur5e::plan;
@@ -35,6 +34,6 @@ pub fn on_brake<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f
     gains: Gains<f32, N>,
     detectors: D,
     _: &Motion,
-) -> Result<Control<Spi, Pwm, Brake, D>, DriveError> {
+) -> Result<Control<Spi, Pwm, Brake, D>, SetupError> {
     PickAndPlace::control_loop(devices, gains, detectors, Start::OnBrake)
 }

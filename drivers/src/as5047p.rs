@@ -14,9 +14,9 @@ use core::f32::consts::TAU;
 use core::fmt;
 
 use embedded_hal::spi::{Error, ErrorKind, SpiDevice};
-use motion_control::PreviousTick;
+use motion_control::{Fault, PreviousTick};
 
-use crate::{EncoderType, JointEncoder, JointMapping, MultiTurnEncoder};
+use crate::{EncoderMapping, EncoderType, JointEncoder, LostTurn, MappingError, MultiTurnEncoder};
 
 /// Counts per turn.
 pub const COUNTS: u16 = 1 << BITS;
@@ -43,6 +43,8 @@ pub enum FrameError {
     Parity,
     /// The encoder reports an error of the previous frame.
     Flag,
+    /// The count does not say where the joint is, until [`As5047p::place_near`].
+    LostTurn,
 }
 
 impl fmt::Display for FrameError {
@@ -51,6 +53,7 @@ impl fmt::Display for FrameError {
             Self::Bus(kind) => write!(out, "the encoder's bus failed: {kind}"),
             Self::Parity => out.write_str("the parity of the encoder's frame is odd"),
             Self::Flag => out.write_str("the encoder reports an error of the frame before"),
+            Self::LostTurn => LostTurn.fmt(out),
         }
     }
 }
@@ -61,50 +64,46 @@ impl core::error::Error for FrameError {}
 ///
 /// ```
 /// use embedded_hal_mock::eh1::spi::{Mock, Transaction};
-/// use joint_drivers::{JointMapping, as5047p::{As5047p, READ_ANGLE, encode}};
+/// use joint_drivers::{JointMapping, JointRange, as5047p::{As5047p, READ_ANGLE, encode}};
+/// let mapping = JointMapping::IDENTITY.with_range(JointRange::Continuous, 5e-3)?;
 /// let (angle, answer) = (READ_ANGLE.to_be_bytes().to_vec(), encode(4096).to_be_bytes().to_vec());
 /// let spi = Mock::new(&[
 ///     Transaction::transaction_start(),
 ///     Transaction::transfer_in_place(angle, answer),
 ///     Transaction::transaction_end(),
 /// ]);
-/// let mut encoder = As5047p::new(spi, JointMapping::IDENTITY);
+/// let mut encoder = As5047p::new(spi, mapping);
 /// assert_eq!(encoder.read(), Ok(core::f32::consts::FRAC_PI_2));
 /// encoder.release().done();
+/// # Ok::<(), joint_drivers::MappingError>(())
 /// ```
 #[derive(Debug)]
 pub struct As5047p<Spi> {
     pub(crate) spi: Spi,
     turns: MultiTurnEncoder<BITS>,
-    mapping: JointMapping,
 }
 
 impl<Spi> As5047p<Spi> {
-    /// An encoder that has not been read yet; the first angle of its shaft lies within half a turn of zero.
-    pub const fn new(spi: Spi, mapping: JointMapping) -> Self {
-        Self::near(spi, mapping, 0)
-    }
-
-    /// An encoder whose first angle lies within half a turn of `turns` whole turns of its shaft, for an encoder on the
-    /// motor's side of a gear.
-    pub const fn near(spi: Spi, mapping: JointMapping, turns: i32) -> Self {
+    /// An encoder that has not been read yet; the first angle is where the mapping says that the joint can be.
+    pub const fn new(spi: Spi, mapping: EncoderMapping) -> Self {
         Self {
             spi,
-            turns: MultiTurnEncoder::near(turns),
-            mapping,
+            turns: MultiTurnEncoder::new(mapping),
         }
-    }
-
-    /// The angle of the encoder's shaft in rad at the last good frame, turns included, without the mapping.
-    #[inline(always)]
-    pub fn shaft_angle(&self) -> f32 {
-        self.turns.angle()
     }
 
     /// The joint's angle in rad at the last good frame.
     #[inline(always)]
     pub fn angle(&self) -> f32 {
-        self.mapping.joint_position(self.shaft_angle())
+        self.turns.position()
+    }
+
+    /// As [`MultiTurnEncoder::place_near`].
+    ///
+    /// # Errors
+    /// [`MappingError::Range`]; nothing is changed.
+    pub fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
+        self.turns.place_near(position)
     }
 
     /// The bus.
@@ -119,11 +118,19 @@ impl<Spi> As5047p<Spi> {
         sent: Result<(), E>,
         frame: [u8; 2],
     ) -> Result<(), FrameError> {
-        match sent {
-            Ok(()) => decode(u16::from_be_bytes(frame)).map(|raw| {
-                self.turns.update(raw);
-            }),
+        let raw = match sent {
+            Ok(()) => decode(u16::from_be_bytes(frame)),
             Err(error) => Err(FrameError::Bus(error.kind())),
+        };
+        match raw {
+            Ok(raw) => {
+                let update = self.turns.update(raw);
+                update.map_err(|LostTurn| FrameError::LostTurn)
+            }
+            Err(error) => {
+                self.turns.missed(1);
+                Err(error)
+            }
         }
     }
 }
@@ -152,6 +159,7 @@ impl<Spi: SpiDevice> As5047p<Spi> {
         let sent = self.spi.transfer_in_place(&mut frame);
         match self.accept(sent, frame) {
             Ok(()) => Ok(self.angle()),
+            Err(FrameError::LostTurn) => Err(FrameError::LostTurn),
             Err(error) => {
                 self.start();
                 Err(error)
@@ -163,6 +171,17 @@ impl<Spi: SpiDevice> As5047p<Spi> {
 impl<Spi> EncoderType for As5047p<Spi> {
     type Error = FrameError;
     type Age = PreviousTick;
+
+    fn missed(&mut self, ticks: u32) {
+        self.turns.missed(ticks);
+    }
+
+    fn fault(error: &FrameError, joint: usize) -> Fault {
+        match error {
+            FrameError::LostTurn => Fault::LostTurn { joint },
+            _ => Fault::Encoder { joint },
+        }
+    }
 }
 
 impl<Spi: SpiDevice> JointEncoder for As5047p<Spi> {

@@ -79,7 +79,7 @@ fn kept<E>(kept: &Kept<E>) -> Option<JointError<&E>> {
 /// use embedded_hal_mock::eh1::pwm;
 /// use joint_drivers::as5047p::{As5047p, FrameError};
 /// use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
-/// use joint_drivers::{ControlLoop, Direction, JointError, JointMapping, Law, NoBrake};
+/// use joint_drivers::{ControlLoop, Direction, JointError, JointMapping, JointRange, Law, NoBrake};
 /// use motion_control::*;
 ///
 /// /// A joint of 2 kg·m² without gravity.
@@ -113,7 +113,8 @@ fn kept<E>(kept: &Kept<E>) -> Option<JointError<&E>> {
 /// #     }
 /// # }
 /// # let spi = Bus(vec![0, 0, 0, 1, 0, 0].into_iter());
-/// let encoder = As5047p::new(spi, JointMapping::IDENTITY);
+/// let range = JointRange::Within { lower: -1.0, upper: 1.0 };
+/// let encoder = As5047p::new(spi, JointMapping::IDENTITY.with_range(range, 3.0 * 1e-3)?);
 /// let pwm = pwm::Mock::new(&[
 ///     pwm::Transaction::max_duty_cycle(8400),
 ///     pwm::Transaction::set_duty_cycle(4200),
@@ -273,6 +274,7 @@ where
     {
         let tick = self.counter.begin(timer());
         if tick.missed() > 0 {
+            self.encoders.missed(tick.missed());
             self.controller.missed(tick.missed(), trajectory);
             self.detectors.restart();
         }
@@ -297,8 +299,13 @@ where
         self.controller.reset(trajectory)
     }
 
-    /// The error of the first encoder without a position in the last tick, which was [`Fault::Encoder`]. Joints above 255
-    /// are called 255.
+    /// The encoders, to tell one that has lost its turn where its joint is: [`crate::MultiTurnEncoder::place_near`].
+    pub fn encoders(&mut self) -> &mut E {
+        &mut self.encoders
+    }
+
+    /// The error of the first encoder without a position in the last tick, which was the fault of [`EncoderType::fault`].
+    /// Joints above 255 are called 255.
     pub fn encoder_error(&self) -> Option<JointError<&E::Error>> {
         kept(&self.encoder_error)
     }
@@ -356,7 +363,7 @@ where
     ) -> Telemetry<V> {
         let read = self.encoders.read().await;
         let (error, detectors) = (&mut self.encoder_error, &mut self.detectors);
-        let tick = observe(read, error, &mut self.controller, detectors);
+        let tick = observe::<E, _, V>(read, error, &mut self.controller, detectors);
         let gains = &self.gains;
         let computed =
             compute::<L, T, X, _, _, V>(tick, detectors, gains, trajectory, environment, &mut ());
@@ -372,17 +379,17 @@ fn read<'a, E: JointEncoders<V>, D: Detect<f32, V>, const V: usize>(
     controller: &'a mut MotionController<f32, V, E::Age>,
     detectors: &mut D,
 ) -> ObservedTick<'a, f32, V, E::Age> {
-    observe(encoders.read(), last, controller, detectors)
+    observe::<E, _, V>(encoders.read(), last, controller, detectors)
 }
 
 /// Starts the controller's tick with what the encoders have read.
 #[inline(always)]
-fn observe<'a, E, D: Detect<f32, V>, A: MeasurementAge, const V: usize>(
-    read: Result<[f32; V], JointError<E>>,
-    last: &mut Kept<E>,
-    controller: &'a mut MotionController<f32, V, A>,
+fn observe<'a, E: EncoderType, D: Detect<f32, V>, const V: usize>(
+    read: Result<[f32; V], JointError<E::Error>>,
+    last: &mut Kept<E::Error>,
+    controller: &'a mut MotionController<f32, V, E::Age>,
     detectors: &mut D,
-) -> ObservedTick<'a, f32, V, A> {
+) -> ObservedTick<'a, f32, V, E::Age> {
     match read {
         Ok(q) => {
             *last = None;
@@ -390,9 +397,9 @@ fn observe<'a, E, D: Detect<f32, V>, A: MeasurementAge, const V: usize>(
             controller.observe(measured.map(|()| &q))
         }
         Err(error) => {
-            let joint = error.joint;
+            let fault = E::fault(&error.error, error.joint);
             *last = keep(error);
-            controller.observe(Err(Fault::Encoder { joint }))
+            controller.observe(Err(fault))
         }
     }
 }

@@ -17,13 +17,27 @@ use motion_control::{Fault, MeasurementAge};
 /// use motion_control::CurrentTick;
 /// // An AS5600 answers with the angle of now: a controller that expects that of the tick before does not compile.
 /// fn current<E: EncoderType<Age = CurrentTick>>(_: &E) {}
-/// current(&As5600::new((), joint_drivers::JointMapping::IDENTITY));
+/// # use joint_drivers::{JointMapping, JointRange};
+/// let mapping = JointMapping::IDENTITY.with_range(JointRange::Continuous, 5e-3)?;
+/// current(&As5600::new((), mapping));
+/// # Ok::<(), joint_drivers::MappingError>(())
 /// ```
 pub trait EncoderType {
     /// The reason why there is no position.
     type Error: Error;
     /// The age of the positions: of this tick, or of the one before.
     type Age: MeasurementAge;
+
+    /// Notes so many ticks without a reading: an encoder whose count wraps may have lost its turn.
+    fn missed(&mut self, ticks: u32) {
+        let _ = ticks;
+    }
+
+    /// The fault of a controller that an error of a joint is.
+    fn fault(error: &Self::Error, joint: usize) -> Fault {
+        let _ = error;
+        Fault::Encoder { joint }
+    }
 }
 
 /// The encoder of a joint.
@@ -210,6 +224,14 @@ impl<E: Error> Error for JointError<E> {}
 impl<E: EncoderType, const V: usize> EncoderType for [E; V] {
     type Error = E::Error;
     type Age = E::Age;
+
+    fn missed(&mut self, ticks: u32) {
+        self.iter_mut().for_each(|encoder| encoder.missed(ticks));
+    }
+
+    fn fault(error: &E::Error, joint: usize) -> Fault {
+        E::fault(error, joint)
+    }
 }
 
 impl<E: JointEncoder, const V: usize> JointEncoders<V> for [E; V] {

@@ -1,24 +1,52 @@
 //! An encoder's position over many turns, in integers.
 
+use core::f32::consts::PI;
+
 use dynamics_core::scalar::Real;
 
-/// The position of an absolute encoder of BITS bits (1 to 16), turns included.
+use crate::encoder_mapping::LostTurn;
+use crate::{EncoderMapping, MappingError};
+
+/// What the count is taken from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Known {
+    /// The reading before: the next one is the shorter rotation from it.
+    Last,
+    /// Nothing: the next reading is placed where the joint can be.
+    Nothing,
+    /// An earlier reading, before so many that are missing.
+    Missing(u32),
+    /// It is unknown in which turn the joint is.
+    Lost,
+}
+
+/// The position of a joint from an absolute encoder of BITS bits (1 to 16), turns included.
 ///
-/// The difference of two readings is interpreted as the shorter rotation, so that the wrap from the last count to 0 is
-/// not a jump. The count itself wraps after 2³¹ counts: 131,072 turns of 14 bits.
+/// The first reading is placed where the joint can be ([`JointRange`](crate::JointRange)); then the difference of two
+/// readings is the shorter rotation, so that the wrap from the last count to 0 is not a jump. The count itself wraps after
+/// 2³¹ counts: 131,072 turns of 14 bits. A range of the joint that is longer than a turn but for two counts of BITS has
+/// two readings at its ends: with less than 12 bits leave more than that free.
 ///
 /// ```
-/// use joint_drivers::MultiTurnEncoder;
-/// let mut joint = MultiTurnEncoder::<14>::new();
-/// assert_eq!(joint.update(16_383), -1); // power-up just below zero
-/// assert_eq!(joint.update(2), 2);
-/// assert_eq!(joint.angle::<f32>(), 2.0 * core::f32::consts::TAU / 16_384.0);
+/// use joint_drivers::{Direction, JointMapping, JointRange, LostTurn, MultiTurnEncoder};
+/// // The encoder reads 2.4 rad where the joint is at zero.
+/// let mapping = JointMapping::new(2.4, Direction::Forward, 1.0)?;
+/// let mapping = mapping.with_range(JointRange::Within { lower: -1.2, upper: 1.2 }, 3e-3)?;
+/// let mut joint = MultiTurnEncoder::<14>::new(mapping);
+/// joint.update(9000)?; // power-up at 3.45 rad, beyond half a turn
+/// assert!((joint.position() - 1.051).abs() < 1e-3);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[doc(alias = "turn counter")]
 #[doc(alias = "TurnCounter")]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MultiTurnEncoder<const BITS: u32> {
     counts: i32,
+    known: Known,
+    /// The joint's zero in counts, and its rad or m per count.
+    zero: f32,
+    per_count: f32,
+    mapping: EncoderMapping,
 }
 
 impl<const BITS: u32> MultiTurnEncoder<BITS> {
@@ -26,97 +54,182 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         assert!(BITS >= 1 && BITS <= 16, "an encoder has 1 to 16 bits");
         32 - BITS
     };
+    const TURN: f32 = (1_u32 << BITS) as f32;
 
-    /// A counter whose first reading lies within half a turn of zero.
-    pub const fn new() -> Self {
-        Self { counts: 0 }
-    }
-
-    /// A counter whose first reading lies within half a turn of `turns` whole turns, for joints whose number of turns
-    /// is known at power-up.
-    ///
-    /// ```
-    /// use joint_drivers::MultiTurnEncoder;
-    /// assert_eq!(MultiTurnEncoder::<14>::near(-1).update(16_383), -16_385);
-    /// ```
-    pub const fn near(turns: i32) -> Self {
+    /// A counter without a reading, at the place where its joint is taken to be.
+    pub const fn new(mapping: EncoderMapping) -> Self {
+        let (zero, per_count) = mapping.in_counts(Self::TURN);
         Self {
-            counts: turns.wrapping_shl(BITS),
+            counts: mapping.near_count(Self::TURN),
+            known: Known::Nothing,
+            zero,
+            per_count,
+            mapping,
         }
     }
 
-    /// The position in counts after a reading `raw`, of which the bits above BITS are ignored.
+    /// Takes a reading `raw`, of which the bits above BITS are ignored.
     ///
-    /// Call it only with readings that passed the encoder's own checks. Cost: 4 instructions for all readings.
+    /// Call it only with readings that passed the encoder's own checks, once in each tick; for a tick without one call
+    /// [`Self::missed`]. Cost: 6 instructions, more only after a gap and for [`Continuous`](crate::JointRange::Continuous).
+    ///
+    /// # Errors
+    /// [`LostTurn`], until [`Self::place_near`].
     #[inline(always)]
-    pub fn update(&mut self, raw: u16) -> i32 {
-        // Shifting out the turns leaves the difference modulo one turn, with its sign.
-        let apart = i32::from(raw).wrapping_sub(self.counts);
-        let step = (apart << Self::SHIFT) >> Self::SHIFT;
-        self.counts = self.counts.wrapping_add(step);
-        self.counts
+    pub fn update(&mut self, raw: u16) -> Result<(), LostTurn> {
+        if !matches!(self.known, Known::Last) {
+            return self.place(raw);
+        }
+        self.follow(raw, self.counts);
+        Ok(())
     }
 
-    /// The position in counts after the last reading.
+    /// Notes that so many readings failed or were not made, one in each tick: the joint may have moved on.
+    #[cold]
+    pub fn missed(&mut self, readings: u32) {
+        let missing = match self.known {
+            Known::Last => 0,
+            Known::Missing(missing) => missing,
+            Known::Nothing | Known::Lost => return,
+        };
+        self.known = Known::Missing(missing.saturating_add(readings));
+    }
+
+    /// Takes the joint to be at `position` rad or m: the next reading is within half a turn of the encoder from there, and
+    /// ends [`LostTurn`].
+    ///
+    /// # Errors
+    /// [`MappingError::Range`]: not finite, or more than 16,384 turns of the encoder away; nothing is changed.
+    pub fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
+        self.mapping = self.mapping.moved_near(position)?;
+        self.known = Known::Nothing;
+        Ok(())
+    }
+
+    /// Takes the angle nearest to a count.
+    #[inline(always)]
+    fn follow(&mut self, raw: u16, from: i32) {
+        // Shifting out the turns leaves the difference modulo one turn, with its sign.
+        let apart = i32::from(raw).wrapping_sub(from);
+        let step = (apart << Self::SHIFT) >> Self::SHIFT;
+        self.counts = from.wrapping_add(step);
+    }
+
+    /// A reading that does not follow the one of the tick before: a function of its own, so that the usual reading has no
+    /// case for it.
+    #[cold]
+    #[inline(never)]
+    fn place(&mut self, raw: u16) -> Result<(), LostTurn> {
+        let from = match self.known {
+            Known::Lost => return Err(LostTurn),
+            Known::Missing(missing) if !self.mapping.is_absolute() => {
+                if self.mapping.can_turn(missing.saturating_add(1), PI) {
+                    self.known = Known::Lost;
+                    return Err(LostTurn);
+                }
+                self.counts
+            }
+            Known::Last => self.counts,
+            Known::Nothing | Known::Missing(_) => self.mapping.near_count(Self::TURN),
+        };
+        self.follow(raw, from);
+        // The angle of a circle is placed anew each time: its count does not grow with its turns.
+        if !self.mapping.is_circle() {
+            self.known = Known::Last;
+        }
+        Ok(())
+    }
+
+    /// The joint's position in rad or m in the last reading.
+    ///
+    /// f32: within 2.5 units in the last place; whole turns are counted in integers. Cost: 3 flops.
+    #[inline(always)]
+    pub fn position(&self) -> f32 {
+        (self.counts as f32 - self.zero) * self.per_count
+    }
+
+    /// The count at which the joint is at `position`, turns included.
+    pub(crate) fn count_at(&self, position: f32) -> f32 {
+        position / self.per_count + self.zero
+    }
+
+    /// The mapping to the joint.
+    pub(crate) const fn mapping(&self) -> &EncoderMapping {
+        &self.mapping
+    }
+
+    /// The position of the encoder's shaft in counts after the last reading.
     #[inline(always)]
     pub const fn counts(&self) -> i32 {
         self.counts
     }
 
-    /// Whole turns, rounded down.
-    ///
-    /// ```
-    /// use joint_drivers::MultiTurnEncoder;
-    /// let mut joint = MultiTurnEncoder::<14>::new();
-    /// joint.update(16_383);
-    /// assert_eq!(joint.turns(), -1);
-    /// ```
+    /// Whole turns of the encoder's shaft, rounded down.
     #[inline(always)]
     pub const fn turns(&self) -> i32 {
         self.counts >> BITS
     }
 
-    /// The position in rad, turns included: 2π counts / 2^BITS.
+    /// The angle of the encoder's shaft in rad, turns included, without the mapping: 2π counts / 2^BITS.
     ///
     /// f32: within 1.5 units in the last place, so that adding the turns separately would not be more accurate; that
     /// unit is 6·10⁻⁵ rad at 100 turns, a sixth of a 14-bit count. Cost: 2 flops.
     #[inline(always)]
     pub fn angle<R: Real>(&self) -> R {
-        // A power of two scales exactly: one rounding here, and one of 2π.
-        let per_count = const { core::f64::consts::TAU / (1_u64 << BITS) as f64 };
-        // One VCVT in f32: the conversion to f64 is dead code there.
-        R::select(f64::from(self.counts), self.counts as f32) * R::from_f64(per_count)
+        angle::<R, BITS>(self.counts)
     }
 
-    /// The position in rad without whole turns, within ±π: as accurate after a million turns as in the first.
+    /// The angle of the encoder's shaft in rad without whole turns, within ±π: as accurate after a million turns as in the
+    /// first.
     ///
     /// f32: within 1.5 units in the last place. Cost: 2 flops and 2 shifts.
     ///
     /// ```
-    /// use joint_drivers::MultiTurnEncoder;
-    /// let mut joint = MultiTurnEncoder::<14>::near(100_000);
-    /// joint.update(4096);
-    /// assert_eq!(joint.within_turn::<f32>(), core::f32::consts::FRAC_PI_2);
+    /// use joint_drivers::{JointMapping, JointRange, MultiTurnEncoder};
+    /// let far = JointMapping::IDENTITY.with_range(JointRange::Near(62_831.85), 3e-3)?;
+    /// let mut joint = MultiTurnEncoder::<14>::new(far);
+    /// joint.update(4096)?;
+    /// assert_eq!((joint.turns(), joint.within_turn()), (10_000, core::f32::consts::FRAC_PI_2));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     #[inline(always)]
     pub fn within_turn<R: Real>(&self) -> R {
-        let counts = (self.counts << Self::SHIFT) >> Self::SHIFT;
-        Self { counts }.angle()
+        angle::<R, BITS>((self.counts << Self::SHIFT) >> Self::SHIFT)
     }
+}
+
+#[inline(always)]
+fn angle<R: Real, const BITS: u32>(counts: i32) -> R {
+    // A power of two scales exactly: one rounding here, and one of 2π.
+    let per_count = const { core::f64::consts::TAU / (1_u64 << BITS) as f64 };
+    // One VCVT in f32: the conversion to f64 is dead code there.
+    R::select(f64::from(counts), counts as f32) * R::from_f64(per_count)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{JointMapping, JointRange};
+
+    /// A counter at a known count.
+    fn at<const BITS: u32>(counts: i32) -> MultiTurnEncoder<BITS> {
+        let near = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 0.1);
+        MultiTurnEncoder {
+            counts,
+            known: Known::Last,
+            ..MultiTurnEncoder::new(near.unwrap())
+        }
+    }
 
     #[test]
     fn every_step_below_half_a_turn_is_followed_both_ways() {
         for step in [1, -1, 17, -8191, 8191, -8192] {
-            let mut counter = MultiTurnEncoder::<14>::new();
+            let mut counter = at::<14>(0);
             let mut expected = 0;
             for _ in 0..10_000 {
                 expected += step;
-                assert_eq!(counter.update((expected & 0x3fff) as u16), expected);
+                counter.update((expected & 0x3fff) as u16).unwrap();
+                assert_eq!(counter.counts(), expected);
                 assert_eq!(counter.turns(), expected.div_euclid(16_384));
             }
         }
@@ -125,7 +238,7 @@ mod tests {
     #[test]
     fn angles_are_within_two_ulps_over_a_thousand_turns() {
         for counts in (-16_777_216..16_777_216).step_by(7919) {
-            let counter = MultiTurnEncoder::<14> { counts };
+            let counter = at::<14>(counts);
             let (single, double) = (counter.angle::<f32>(), counter.angle::<f64>());
             let unit = f64::from(single.abs().next_up() - single.abs());
             let error = (f64::from(single) - double).abs() / unit;
@@ -135,13 +248,14 @@ mod tests {
 
     #[test]
     fn a_sixteen_bit_count_wraps_without_overflow() {
-        let mut counter = MultiTurnEncoder::<16>::near(32_767);
+        let mut counter = at::<16>(32_767 << 16);
         for (raw, counts) in [
             (0x7fff, 0x7fff_7fff),
             (0xfffe, i32::MAX - 1),
             (1, i32::MIN + 1),
         ] {
-            assert_eq!(counter.update(raw), counts);
+            counter.update(raw).unwrap();
+            assert_eq!(counter.counts(), counts);
         }
     }
 }

@@ -94,6 +94,12 @@ pub enum Fault {
     #[doc(alias = "e-stop")]
     #[doc(alias = "emergency stop")]
     External,
+    /// The encoder can have turned by half a turn since its last reading: its count does not say where the joint is. No
+    /// ride-through ends it: the driver has to be told where the joint is.
+    LostTurn {
+        /// The joint.
+        joint: usize,
+    },
 }
 
 impl fmt::Display for Fault {
@@ -109,6 +115,7 @@ impl fmt::Display for Fault {
             Self::Brake => return write!(out, "the brake did not respond"),
             Self::External => return write!(out, "a stop from outside"),
             Self::Encoder { joint } => (joint, "its encoder reports an error"),
+            Self::LostTurn { joint } => (joint, "its encoder can have lost a turn"),
             Self::NotFinite { joint } => (joint, "its measured position is not finite"),
             Self::Position { joint } => (joint, "its position is outside its bounds"),
             Self::Jump { joint } => (joint, "its position jumped"),

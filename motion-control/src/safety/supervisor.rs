@@ -25,7 +25,9 @@
 //!
 //! A reset leads from every state but `Unusable` to `Full`.
 
-use crate::limits::{Command, ConfigError, ConfigParameter, Fault, Mode, SafetyLimits, Status};
+use crate::limits::{
+    Command, ConfigError, ConfigParameter, Fault, Mode, Reaction, SafetyLimits, Status,
+};
 use crate::real;
 use crate::safety::stop_category::{Ending, Required, Stopping};
 use dynamics_core::scalar::Real;
@@ -313,6 +315,10 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     pub(crate) fn accept_fault(&mut self, fault: Fault) {
         self.begin();
         self.no_measurement(fault);
+        // Measurements that come again do not end a fault that stops the arm.
+        if !matches!(fault.reaction(), Reaction::RideThrough) {
+            self.react(fault);
+        }
     }
 
     /// Compares the observer's velocities with their limits, before [`Self::gate`].

@@ -1,10 +1,11 @@
 //! What the control loop of `joint-drivers` is made of: the law, its gains, the controller with its limits, and detectors.
 
+use core::f32::consts::TAU;
 use core::fmt;
 
 use dynamics_core::state::State;
 use joint_drivers::h_bridge::DriveError;
-use joint_drivers::{Law, MappingError};
+use joint_drivers::{Direction, EncoderMapping, JointError, JointMapping, Law, MappingError};
 use motion_control::{
     ConfigError, Detectors, FrozenEncoder, Gains, MeasurementAge, MotionController,
     MotionControllerConfig, ReferenceStep, Saturation, SupervisorConfig, TrajectoryError,
@@ -50,6 +51,31 @@ pub fn controller<A: MeasurementAge>(
     MotionController::try_new(config(motion)).map_err(SetupError::Limits)
 }
 
+/// How the encoders are mounted: what each reads where its joint is at zero, rad, and which way the joint turns while its angle
+/// increases.
+///
+/// # Errors
+/// [`SetupError::Encoder`] names the joint.
+pub fn encoder_mappings(
+    motion: &Motion,
+    zero: &[f32; N],
+    directions: &[Direction; N],
+) -> Result<[EncoderMapping; N], SetupError> {
+    let (speed, ratios) = (scene::limits(motion).speed, scene::encoder_ratios());
+    let mut mappings = [JointMapping::IDENTITY; N];
+    let mut steps = [0.0; N];
+    for joint in 0..N {
+        let ratio = ratios[joint];
+        let mapping = JointMapping::new(zero[joint], directions[joint], 1.0 / ratio);
+        mappings[joint] =
+            mapping.map_err(|error| SetupError::Encoder(JointError { joint, error }))?;
+        // A joint without a limit of speed is taken to turn its encoder by a quarter turn in a tick.
+        steps[joint] = (speed[joint] * TICK).min(0.25 * TAU * ratio);
+    }
+    let ranges = scene::encoder_ranges();
+    EncoderMapping::of(mappings, ranges, steps).map_err(SetupError::Encoder)
+}
+
 /// The gains of the feedback.
 pub fn gains() -> Gains<f32, N> {
     Gains::from_inertia(&scene::inertia(), OMEGA_N, 1.0)
@@ -78,7 +104,7 @@ pub enum SetupError {
     /// The limits.
     Limits(ConfigError),
     /// How an encoder is mounted.
-    Encoder(MappingError),
+    Encoder(JointError<MappingError>),
     /// The full scale of a drive.
     Drive(DriveError),
 }

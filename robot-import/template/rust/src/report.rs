@@ -72,7 +72,8 @@ pub fn run<L: Law<N>>(clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
     let motion = scene::motion().map_err(|error| RunError::Setup(SetupError::Motion(error)))?;
     let (home, full_scale) = (scene::home(), scene::limits(&motion).torque);
     let wires = Wires::new();
-    let (encoders, drives) = (wires.encoders(&home), wires.drives(&full_scale));
+    let encoders = wires.encoders(&motion, &home).map_err(RunError::Setup)?;
+    let drives = wires.drives(&full_scale);
     let controller = controller(&motion).map_err(RunError::Setup)?;
     let (brake, detectors) = (wires.brake(), detectors(&motion));
     let mut control = ControlLoop::new(encoders, drives, brake, gains(), controller, detectors);

@@ -11,9 +11,11 @@ use dynamics_core::state::State;
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
 use embedded_hal::spi::{self, Operation, SpiDevice};
+use joint_drivers::Direction;
 
 use crate::board::{BITS, Drive, Encoder};
-use crate::scene::{Arm, EFFECTS, Effects, N, TICK, encoder_ratios};
+use crate::control::{SetupError, encoder_mappings};
+use crate::scene::{Arm, EFFECTS, Effects, Motion, N, TICK, encoder_ratios};
 
 /// Steps of the simulation in a tick.
 const STEPS: u8 = 2;
@@ -39,11 +41,20 @@ impl Wires {
     }
 
     /// The encoders, which read zero at the positions `zero`, rad or m.
-    pub fn encoders(&self, zero: &[f32; N]) -> [Encoder<SimEncoder<'_>>; N] {
+    ///
+    /// # Errors
+    /// [`SetupError::Encoder`].
+    pub fn encoders(
+        &self,
+        motion: &Motion,
+        zero: &[f32; N],
+    ) -> Result<[Encoder<SimEncoder<'_>>; N], SetupError> {
         let ratio = encoder_ratios();
-        core::array::from_fn(|joint| {
-            Encoder::new(SimEncoder(&self.angles[joint]), zero[joint], ratio[joint])
-        })
+        let at_zero = core::array::from_fn(|joint| -zero[joint] / ratio[joint]);
+        let mappings = encoder_mappings(motion, &at_zero, &[Direction::Forward; N])?;
+        Ok(core::array::from_fn(|joint| {
+            Encoder::new(SimEncoder(&self.angles[joint]), mappings[joint])
+        }))
     }
 
     /// The drives, which deliver `full_scale` at full duty, N·m or N.

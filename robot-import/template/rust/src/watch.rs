@@ -91,7 +91,8 @@ fn along(
 ) -> Result<(), RunError> {
     let (home, full_scale) = (scene::home(), scene::limits(motion).torque);
     let wires = Wires::new();
-    let (encoders, drives) = (wires.encoders(&home), wires.drives(&full_scale));
+    let encoders = wires.encoders(motion, &home).map_err(RunError::Setup)?;
+    let drives = wires.drives(&full_scale);
     let controller = controller(motion).map_err(RunError::Setup)?;
     let gains = Gains::from_inertia(inertia, OMEGA_N, 1.0);
     // Without detectors: a motion that reverses often looks like a frozen encoder where the drives' steps are coarse.

@@ -5,17 +5,17 @@
 use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle, spi::SpiDevice};
 use joint_drivers::as5047p::As5047p;
 use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
-use joint_drivers::{ControlLoop, Direction, JointMapping};
+use joint_drivers::{ControlLoop, Direction};
 use motion_control::{Detect, Gains, TrajectoryError};
 
-use crate::control::{SetupError, controller};
-use crate::scene::{self, encoder_ratios};
+use crate::control::{SetupError, controller, encoder_mappings};
+use crate::scene;
 
 pub use crate::control::{FeedForward as Law, detectors, gains};
 pub use crate::scene::{Motion, N};
 pub use joint_drivers::as5047p::RESOLUTION;
 
-/// What the encoder of each joint reads where the joint is at zero, rad.
+/// What the encoder of each joint reads where the joint is at zero, rad. Where the joint can be is in `scene.rs`.
 pub const ZERO: [f32; N] = [0.0; N];
 /// Which way each joint turns while its encoder's angle increases.
 pub const ENCODERS: [Direction; N] = [Direction::Forward; N];
@@ -65,12 +65,7 @@ pub fn on_brake<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f
 ) -> Result<Control<Spi, Pwm, Brake, D>, SetupError> {
     let scales = FullScale::of(full_scale(motion)).map_err(SetupError::Drive)?;
     let controller = controller(motion)?.on_brake();
-    let mut mappings = [JointMapping::IDENTITY; N];
-    for (joint, mapping) in mappings.iter_mut().enumerate() {
-        let turns = 1.0 / encoder_ratios()[joint];
-        *mapping =
-            JointMapping::new(ZERO[joint], ENCODERS[joint], turns).map_err(SetupError::Encoder)?;
-    }
+    let mappings = encoder_mappings(motion, &ZERO, &ENCODERS)?;
     // Each device in its turn.
     let mut joint = 0..N;
     let encoders = devices.encoders.map(|spi| {

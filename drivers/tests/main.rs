@@ -3,6 +3,7 @@
 use joint_drivers::{EncoderMapping, JointMapping, JointRange};
 
 mod absolute;
+mod arrays;
 mod can;
 mod can_joints;
 mod control_loop;

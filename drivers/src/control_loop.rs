@@ -72,7 +72,8 @@ fn kept<E>(kept: &Kept<E>) -> Option<JointError<&E>> {
 
 /// The control loop of a robot with V joints: its devices, a [`MotionController`] and its detectors.
 ///
-/// The age of the measurements is that of the encoders ([`EncoderType::Age`]). It has no heap and no panic.
+/// The age of the measurements is that of the encoders ([`EncoderType::Age`]), or
+/// [`OnCircles`](motion_control::OnCircles) of it for a robot with continuous joints. It has no heap and no panic.
 ///
 /// ```
 /// use dynamics_core::state::State;
@@ -133,7 +134,7 @@ fn kept<E>(kept: &Kept<E>) -> Option<JointError<&E>> {
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct ControlLoop<E, D, Brake, const V: usize, Detectors = ()>
+pub struct ControlLoop<E, D, Brake, const V: usize, Detectors = (), A = <E as EncoderType>::Age>
 where
     E: EncoderType,
     D: JointDrives<V>,
@@ -143,16 +144,17 @@ where
     /// High holds the joints.
     brake: Brake,
     gains: Gains<f32, V>,
-    controller: MotionController<f32, V, E::Age>,
+    controller: MotionController<f32, V, A>,
     detectors: Detectors,
     counter: TickCounter,
     encoder_error: Kept<E::Error>,
     drive_error: Kept<D::Error>,
 }
 
-impl<E, D, Brake, const V: usize, Detectors> ControlLoop<E, D, Brake, V, Detectors>
+impl<E, D, Brake, const V: usize, Detectors, A> ControlLoop<E, D, Brake, V, Detectors, A>
 where
     E: EncoderType,
+    A: MeasurementAge<Age = E::Age>,
     D: JointDrives<V>,
     Brake: OutputPin,
     Detectors: Detect<f32, V>,
@@ -165,7 +167,7 @@ where
         drives: D,
         brake: Brake,
         gains: Gains<f32, V>,
-        controller: MotionController<f32, V, E::Age>,
+        controller: MotionController<f32, V, A>,
         detectors: Detectors,
     ) -> Self
     where
@@ -181,7 +183,7 @@ where
         drives: D,
         brake: Brake,
         gains: Gains<f32, V>,
-        controller: MotionController<f32, V, E::Age>,
+        controller: MotionController<f32, V, A>,
         detectors: Detectors,
     ) -> Self {
         Self {
@@ -328,9 +330,10 @@ where
 }
 
 #[cfg(any(test, feature = "async"))]
-impl<E, D, Brake, const V: usize, Detectors> ControlLoop<E, D, Brake, V, Detectors>
+impl<E, D, Brake, const V: usize, Detectors, A> ControlLoop<E, D, Brake, V, Detectors, A>
 where
     E: asynch::JointEncoders<V>,
+    A: MeasurementAge<Age = E::Age>,
     D: JointDrives<V>,
     Brake: OutputPin,
     Detectors: Detect<f32, V>,
@@ -341,7 +344,7 @@ where
         drives: D,
         brake: Brake,
         gains: Gains<f32, V>,
-        controller: MotionController<f32, V, E::Age>,
+        controller: MotionController<f32, V, A>,
         detectors: Detectors,
     ) -> Self {
         encoders.start().await;
@@ -366,12 +369,12 @@ where
 
 /// Reads the encoders and starts the controller's tick.
 #[inline(never)]
-fn read<'a, E: JointEncoders<V>, D: Detect<f32, V>, const V: usize>(
+fn read<'a, E: JointEncoders<V>, D: Detect<f32, V>, A: MeasurementAge, const V: usize>(
     encoders: &mut E,
     last: &mut Kept<E::Error>,
-    controller: &'a mut MotionController<f32, V, E::Age>,
+    controller: &'a mut MotionController<f32, V, A>,
     detectors: &mut D,
-) -> ObservedTick<'a, f32, V, E::Age> {
+) -> ObservedTick<'a, f32, V, A> {
     observe(encoders.read(), last, controller, detectors)
 }
 

@@ -7,7 +7,8 @@ use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
 use motion_control::{
     Command, CompletedTick, Detect, Estimate, Fault, Gains, MeasurementAge, MotionController,
-    ObservedTick, Reference, ReferencedTick, ResetError, StopCategory, TickCounter, feedback,
+    ObservedTick, OnCircles, Reference, ReferencedTick, ResetError, StopCategory, TickCounter,
+    feedback,
 };
 
 #[cfg(any(test, feature = "async"))]
@@ -151,10 +152,9 @@ where
     drive_error: Kept<D::Error>,
 }
 
-impl<E, D, Brake, const V: usize, Detectors, A> ControlLoop<E, D, Brake, V, Detectors, A>
+impl<E, D, Brake, const V: usize, Detectors> ControlLoop<E, D, Brake, V, Detectors, E::Age>
 where
     E: EncoderType,
-    A: MeasurementAge<Age = E::Age>,
     D: JointDrives<V>,
     Brake: OutputPin,
     Detectors: Detect<f32, V>,
@@ -167,7 +167,7 @@ where
         drives: D,
         brake: Brake,
         gains: Gains<f32, V>,
-        controller: MotionController<f32, V, A>,
+        controller: MotionController<f32, V, E::Age>,
         detectors: Detectors,
     ) -> Self
     where
@@ -176,7 +176,42 @@ where
         encoders.start();
         Self::started(encoders, drives, brake, gains, controller, detectors)
     }
+}
 
+impl<E, D, Brake, const V: usize, Detectors, const CIRCLES: u128>
+    ControlLoop<E, D, Brake, V, Detectors, OnCircles<CIRCLES, E::Age>>
+where
+    E: EncoderType,
+    D: JointDrives<V>,
+    Brake: OutputPin,
+    Detectors: Detect<f32, V>,
+{
+    /// As [`ControlLoop::new`], of a controller with joints that are circles. Its detectors are those
+    /// [`on_circles`](motion_control::Detectors::on_circles), too.
+    pub fn on_circles(
+        mut encoders: E,
+        drives: D,
+        brake: Brake,
+        gains: Gains<f32, V>,
+        controller: MotionController<f32, V, OnCircles<CIRCLES, E::Age>>,
+        detectors: Detectors,
+    ) -> Self
+    where
+        E: JointEncoders<V>,
+    {
+        encoders.start();
+        Self::started(encoders, drives, brake, gains, controller, detectors)
+    }
+}
+
+impl<E, D, Brake, const V: usize, Detectors, A> ControlLoop<E, D, Brake, V, Detectors, A>
+where
+    E: EncoderType,
+    A: MeasurementAge,
+    D: JointDrives<V>,
+    Brake: OutputPin,
+    Detectors: Detect<f32, V>,
+{
     #[inline(always)]
     fn started(
         encoders: E,
@@ -330,27 +365,59 @@ where
 }
 
 #[cfg(any(test, feature = "async"))]
-impl<E, D, Brake, const V: usize, Detectors, A> ControlLoop<E, D, Brake, V, Detectors, A>
+impl<E, D, Brake, const V: usize, Detectors> ControlLoop<E, D, Brake, V, Detectors, E::Age>
 where
     E: asynch::JointEncoders<V>,
-    A: MeasurementAge<Age = E::Age>,
     D: JointDrives<V>,
     Brake: OutputPin,
     Detectors: Detect<f32, V>,
 {
-    /// As [`Self::new`], with encoders over `embedded-hal-async`.
+    /// As [`ControlLoop::new`], with encoders over `embedded-hal-async`.
     pub async fn new_async(
         mut encoders: E,
         drives: D,
         brake: Brake,
         gains: Gains<f32, V>,
-        controller: MotionController<f32, V, A>,
+        controller: MotionController<f32, V, E::Age>,
         detectors: Detectors,
     ) -> Self {
         encoders.start().await;
         Self::started(encoders, drives, brake, gains, controller, detectors)
     }
+}
 
+#[cfg(any(test, feature = "async"))]
+impl<E, D, Brake, const V: usize, Detectors, const CIRCLES: u128>
+    ControlLoop<E, D, Brake, V, Detectors, OnCircles<CIRCLES, E::Age>>
+where
+    E: asynch::JointEncoders<V>,
+    D: JointDrives<V>,
+    Brake: OutputPin,
+    Detectors: Detect<f32, V>,
+{
+    /// As [`ControlLoop::on_circles`], with encoders over `embedded-hal-async`.
+    pub async fn on_circles_async(
+        mut encoders: E,
+        drives: D,
+        brake: Brake,
+        gains: Gains<f32, V>,
+        controller: MotionController<f32, V, OnCircles<CIRCLES, E::Age>>,
+        detectors: Detectors,
+    ) -> Self {
+        encoders.start().await;
+        Self::started(encoders, drives, brake, gains, controller, detectors)
+    }
+}
+
+#[cfg(any(test, feature = "async"))]
+impl<E, D, Brake, const V: usize, Detectors, A> ControlLoop<E, D, Brake, V, Detectors, A>
+where
+    E: asynch::JointEncoders<V>,
+    A: MeasurementAge,
+    D: JointDrives<V>,
+    Brake: OutputPin,
+    Detectors: Detect<f32, V>,
+{
     /// As [`Self::tick`]; other tasks run while the encoders' bus is busy.
     pub async fn tick_async<L: Law<V, X>, T: Reference<f32, V>, X>(
         &mut self,

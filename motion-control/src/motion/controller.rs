@@ -41,9 +41,6 @@ mod sealed {
 /// The age of the measurements of a [`MotionController`], a property of the encoders, as a
 /// type; [`OnCircles`](crate::OnCircles) of it is that of a controller with joints that are circles.
 pub trait MeasurementAge: sealed::Sealed {
-    /// The age itself, that of the encoders.
-    type Age: MeasurementAge;
-
     /// The joints whose positions are points on a circle.
     #[doc(hidden)]
     const CIRCLES: Circles = Circles::NONE;
@@ -70,8 +67,6 @@ impl sealed::Sealed for PreviousTick {}
 impl sealed::Sealed for CurrentTick {}
 
 impl MeasurementAge for PreviousTick {
-    type Age = Self;
-
     #[inline(always)]
     fn correct<R: Real, const V: usize>(observer: &mut Observer<R, V>, q: &[R; V], qdd: &[R; V]) {
         observer.update_delayed(q, qdd);
@@ -84,8 +79,6 @@ impl MeasurementAge for PreviousTick {
 }
 
 impl MeasurementAge for CurrentTick {
-    type Age = Self;
-
     #[inline(always)]
     fn correct<R: Real, const V: usize>(observer: &mut Observer<R, V>, q: &[R; V], qdd: &[R; V]) {
         observer.update(q, qdd);

@@ -35,7 +35,6 @@ pub struct OnCircles<const CIRCLES: u128, A = PreviousTick>(PhantomData<A>);
 impl<const CIRCLES: u128, A: MeasurementAge> sealed::Sealed for OnCircles<CIRCLES, A> {}
 
 impl<const CIRCLES: u128, A: MeasurementAge> MeasurementAge for OnCircles<CIRCLES, A> {
-    type Age = A::Age;
     const CIRCLES: Circles = Circles::from_bits(CIRCLES);
 
     #[inline(always)]

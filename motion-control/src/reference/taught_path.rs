@@ -4,7 +4,7 @@
 //! the arm is at least at the distance 1 from the last one.
 
 use crate::entry;
-use crate::limits::{ConfigError, ConfigParameter};
+use crate::limits::{Circles, ConfigError, ConfigParameter};
 use crate::reference::{PathSpline, PathSplineError};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::all_finite;
@@ -42,6 +42,7 @@ pub struct TaughtPath<R, const V: usize, const N: usize> {
     spacing: [R; V],
     /// 1/d.
     spacing_inv: [R; V],
+    circles: Circles,
 }
 
 /// What became of the positions of a tick.
@@ -80,7 +81,16 @@ impl<R: Real, const V: usize, const N: usize> TaughtPath<R, V, N> {
             count: 0,
             spacing,
             spacing_inv: spacing.map(|d| R::ONE / d),
+            circles: Circles::NONE,
         })
+    }
+
+    /// The same for joints of which some are circles: the way-points of these are on the turn of the one before, so that the
+    /// path is the way that the hand went, through a seam of the measurement, too.
+    #[must_use]
+    pub fn on_circles(mut self, circles: Circles) -> Self {
+        self.circles = circles;
+        self
     }
 
     /// Records the positions q (rad, m) of a tick.
@@ -94,6 +104,14 @@ impl<R: Real, const V: usize, const N: usize> TaughtPath<R, V, N> {
         }
         match self.points().last() {
             Some(last) if self.square_distance(last, q) < R::ONE => Recorded::Near,
+            // A seam lies between the two, or the arm is further away.
+            Some(last) if self.circles.any() => {
+                let q = self.circles.near(q, last);
+                if self.square_distance(last, &q) < R::ONE {
+                    return Recorded::Near;
+                }
+                self.store(&q)
+            }
             _ => self.store(q),
         }
     }
@@ -106,6 +124,10 @@ impl<R: Real, const V: usize, const N: usize> TaughtPath<R, V, N> {
         if let Some(joint) = not_finite(q) {
             return Recorded::NotFinite { joint };
         }
+        let q = match self.points().last() {
+            Some(last) => &self.circles.near(q, last),
+            None => q,
+        };
         let half = R::from_f64(0.5);
         let near = |last: &[R; V], square| -> bool { self.square_distance(last, q) < square };
         match self.points().last() {

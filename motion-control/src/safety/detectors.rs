@@ -3,9 +3,10 @@
 //! Each is optional and has its own memory. A detector's fault is the measurement of the tick
 //! ([`FrozenEncoder`]), or goes to [`MotionController::report`](crate::MotionController::report) or `stop_by`.
 
-use crate::limits::Fault;
+use crate::limits::{Circles, Fault};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use dynamics_core::state::manifold::nearest_turn;
 
 mod detect;
 #[cfg(test)]
@@ -39,6 +40,7 @@ pub struct FrozenEncoder<R, const V: usize> {
     /// The joint that is compared next; V if none is: before the first comparison, and while one is frozen.
     joint: usize,
     frozen: Option<usize>,
+    circles: Circles,
 }
 
 /// An encoder as it was when it was last compared.
@@ -67,7 +69,15 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
             patience: ticks.div_ceil(joints).saturating_sub(1),
             joint: V,
             frozen: None,
+            circles: Circles::NONE,
         }
+    }
+
+    /// The same detector for joints of which some are circles: a reference that moves by a whole turn has not moved.
+    #[must_use]
+    pub const fn on_circles(mut self, circles: Circles) -> Self {
+        self.circles = circles;
+        self
     }
 
     /// Compares the measured position of a joint with the one when it was compared before; `reference` is the reference of
@@ -89,7 +99,9 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
             (encoder.last, encoder.origin, encoder.left) = (q, reference, self.patience);
         } else if encoder.left > 0 {
             encoder.left -= 1;
-        } else if (reference - encoder.origin).abs() > encoder.distance {
+        } else if (reference - encoder.origin).abs() > encoder.distance
+            && !(self.circles.has(joint) && encoder.near(reference))
+        {
             (self.joint, self.frozen) = (V, Some(joint));
             return Err(Fault::Frozen { joint });
         }
@@ -132,6 +144,13 @@ impl<R: Real> Encoder<R> {
         origin: R::ZERO,
         left: 0,
     };
+
+    /// Whether the reference of a circle is within the distance, on whichever turn.
+    #[cold]
+    #[inline(never)]
+    fn near(&self, reference: R) -> bool {
+        (nearest_turn(reference, self.origin) - self.origin).abs() <= self.distance
+    }
 }
 
 /// Detects torques that stay at their limits.
@@ -217,6 +236,7 @@ pub struct ReferenceStep<R, const V: usize> {
     last: [R; V],
     /// Whether there is a last one.
     started: bool,
+    circles: Circles,
 }
 
 impl<R: Real, const V: usize> ReferenceStep<R, V> {
@@ -226,7 +246,22 @@ impl<R: Real, const V: usize> ReferenceStep<R, V> {
             step,
             last: [R::ZERO; V],
             started: false,
+            circles: Circles::NONE,
         }
+    }
+
+    /// The same detector for joints of which some are circles: a step of a whole turn is none.
+    ///
+    /// ```
+    /// use dynamics_core::state::State;
+    /// use motion_control::{Circles, ReferenceStep};
+    /// let mut steps = ReferenceStep::new([0.004_f32]).on_circles(Circles::NONE.with(0));
+    /// assert!([3.14, -3.142, 3.14].iter().all(|&q| steps.check(&State::at([q])).is_ok()));
+    /// ```
+    #[must_use]
+    pub const fn on_circles(mut self, circles: Circles) -> Self {
+        self.circles = circles;
+        self
     }
 
     /// Compares a reference with the one before, and keeps it.
@@ -263,7 +298,8 @@ impl<R: Real, const V: usize> ReferenceStep<R, V> {
     fn first_step(&mut self, reference: &State<R, V, V>) -> Result<(), Fault> {
         let State { q, qd, qdd } = reference;
         let rates = qd.iter().zip(qdd);
-        let joints = q.iter().zip(&self.last).zip(&self.step).zip(rates);
+        let near = self.circles.near(q, &self.last);
+        let joints = near.iter().zip(&self.last).zip(&self.step).zip(rates);
         let mut fault = Ok(());
         for (joint, (((&q, &last), &step), (qd, qdd))) in joints.enumerate() {
             let is_near = (q - last).abs() <= step;

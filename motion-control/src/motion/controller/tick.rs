@@ -114,6 +114,9 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// accurate sine) and plausible: within twice the greatest speed times the ticks since the last good ones. Before
     /// the first accepted position there is no position to hold: a fault stops the arm at once.
     ///
+    /// Of a joint that is a circle ([`OnCircles`](crate::OnCircles)) any turn may be measured, that within ±π most
+    /// accurately; the estimate is within half a turn of the middle of the range, or of zero.
+    ///
     /// ```compile_fail
     /// # #![deny(unused_must_use)]
     /// # use motion_control::{MotionController, Reference};
@@ -124,6 +127,10 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     #[inline]
     pub fn observe(&mut self, measured: Result<&[R; V], Fault>) -> ObservedTick<'_, R, V, A> {
         match measured {
+            Ok(q) if A::CIRCLES.any() => {
+                let q = self.turn_to(q);
+                self.observe_positions(&q);
+            }
             Ok(q) => self.observe_positions(q),
             Err(fault) => self.observe_fault(fault),
         }

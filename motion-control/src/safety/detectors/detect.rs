@@ -1,7 +1,7 @@
 //! The detectors of a control loop, at their places in a tick.
 
 use super::{FrozenEncoder, ReferenceStep, Saturation};
-use crate::limits::{Command, Fault, Mode};
+use crate::limits::{Circles, Command, Fault, Mode};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
@@ -84,6 +84,16 @@ pub struct Detectors<R, const V: usize> {
     pub steps: ReferenceStep<R, V>,
     /// Of the torques.
     pub saturation: Saturation<R, V>,
+}
+
+impl<R: Real, const V: usize> Detectors<R, V> {
+    /// The same detectors for joints of which some are circles, as those of the controller.
+    #[must_use]
+    pub const fn on_circles(mut self, circles: Circles) -> Self {
+        self.frozen = self.frozen.on_circles(circles);
+        self.steps = self.steps.on_circles(circles);
+        self
+    }
 }
 
 impl<R: Real, const V: usize> Detect<R, V> for Detectors<R, V> {

@@ -7,11 +7,15 @@ use joint_drivers::h_bridge::DriveError;
 use joint_drivers::{Law, MappingError};
 use motion_control::{
     ConfigError, Detectors, FrozenEncoder, Gains, MeasurementAge, MotionController,
-    MotionControllerConfig, ReferenceStep, Saturation, SupervisorConfig, TrajectoryError,
+    MotionControllerConfig, OnCircles, ReferenceStep, Saturation, SupervisorConfig,
+    TrajectoryError,
 };
 
 use crate::board::RESOLUTION;
 use crate::scene::{self, Motion, N, OMEGA_N, TICK};
+
+/// Measurements of this age, on the circles of `scene.rs`.
+pub type Measured<Age> = OnCircles<{ scene::CIRCLES.bits() }, Age>;
 
 /// The model's torque, and feedback for what it does not know.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +50,7 @@ pub fn config(motion: &Motion) -> MotionControllerConfig<f32, N> {
 /// [`SetupError::Limits`].
 pub fn controller<A: MeasurementAge>(
     motion: &Motion,
-) -> Result<MotionController<f32, N, A>, SetupError> {
+) -> Result<MotionController<f32, N, Measured<A>>, SetupError> {
     MotionController::try_new(config(motion)).map_err(SetupError::Limits)
 }
 
@@ -67,6 +71,7 @@ pub fn detectors(motion: &Motion) -> Detectors<f32, N> {
         steps: ReferenceStep::new(limits.speed.map(|speed| 2.0 * speed * TICK)),
         saturation: Saturation::new(limits.torque, 50),
     }
+    .on_circles(scene::CIRCLES)
 }
 
 /// The motion or the limits in `scene.rs`, or the devices in `board.rs`, are impossible.

@@ -5,10 +5,10 @@
 use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle, spi::SpiDevice};
 use joint_drivers::as5047p::As5047p;
 use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
-use joint_drivers::{ControlLoop, Direction, JointMapping};
+use joint_drivers::{ControlLoop, Direction, EncoderType, JointMapping};
 use motion_control::{Detect, Gains, TrajectoryError};
 
-use crate::control::{SetupError, controller};
+use crate::control::{Measured, SetupError, controller};
 use crate::scene::{self, encoder_ratios};
 
 pub use crate::control::{FeedForward as Law, detectors, gains};
@@ -33,7 +33,10 @@ pub type Encoder<Spi> = As5047p<Spi>;
 /// A current-controlled drive: a duty of 50 % is zero torque.
 pub type Drive<Pwm> = LockedAntiphase<Pwm>;
 /// The control loop of the robot.
-pub type Control<Spi, Pwm, Brake, D> = ControlLoop<[Encoder<Spi>; N], [Drive<Pwm>; N], Brake, N, D>;
+pub type Control<Spi, Pwm, Brake, D> =
+    ControlLoop<[Encoder<Spi>; N], [Drive<Pwm>; N], Brake, N, D, Measured<Age<Spi>>>;
+/// The age of its positions.
+pub type Age<Spi> = <Encoder<Spi> as EncoderType>::Age;
 
 /// What the board connects: a part of the bus for each encoder, a PWM channel for each drive.
 #[derive(Debug)]
@@ -82,7 +85,7 @@ pub fn on_brake<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f
         let joint = joint.next().unwrap_or_default();
         Drive::new(pwm, scales[joint], DRIVES[joint])
     });
-    Ok(ControlLoop::new(
+    Ok(ControlLoop::on_circles(
         encoders,
         drives,
         devices.brake,

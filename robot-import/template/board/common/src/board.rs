@@ -11,7 +11,7 @@ use motion_control::{Detect, Gains, TrajectoryError};
 use crate::control::{Measured, SetupError, controller};
 use crate::scene::{self, encoder_ratios};
 
-pub use crate::control::{FeedForward as Law, detectors, gains};
+pub use crate::control::{FeedForward as Law, Found, detectors, gains};
 pub use crate::scene::{Motion, N};
 pub use joint_drivers::as5047p::RESOLUTION;
 

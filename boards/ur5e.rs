@@ -12,6 +12,7 @@ pub use firmware_demo::scenes::ur5e::plan;
 /// Joints.
 pub const N: usize = 6;
 pub type Motion = <PickAndPlace as Scene<N, N, N, N>>::Reference;
+pub type Found = Detectors<f32, N>;
 pub type Law = Full<PickAndPlace, N, N, N>;
 pub type Devices<Spi, Pwm, Brake> = scene::Devices<Spi, Pwm, Brake, N>;
 pub type Control<Spi, Pwm, Brake, D> = SceneLoop<Spi, Pwm, Brake, N, D>;
@@ -22,7 +23,7 @@ pub fn gains() -> Gains<f32, N> {
 }
 
 #[inline(always)]
-pub fn detectors(_: &Motion) -> Detectors<f32, N> {
+pub fn detectors(_: &Motion) -> Found {
     PickAndPlace::detectors()
 }
 

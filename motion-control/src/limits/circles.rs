@@ -42,10 +42,8 @@ impl Circles {
     /// The continuous joints of a model whose coordinates are those of the controller.
     ///
     /// A continuous joint that its description limits to a range of more than a turn is a line: the limits count turns.
-    /// Where the controller's coordinates are those of motors, take [`Circles::through`] of this.
-    ///
-    /// # Panics
-    /// If a continuous joint has a number above 127; in a constant, this does not compile.
+    /// Joints with numbers above 127 are lines, too. Where the controller's coordinates are those of motors, take
+    /// [`Circles::through`] of this.
     pub const fn of<const B: usize, const Q: usize, const V: usize>(
         model: &Model<f64, B, Q, V>,
     ) -> Self {
@@ -54,7 +52,8 @@ impl Circles {
             let link = &model.links[i];
             let range = link.limits.upper - link.limits.lower;
             let counts = range > TAU && range.is_finite();
-            if matches!(link.joint.kind, JointKind::Continuous) && !counts {
+            let continuous = matches!(link.joint.kind, JointKind::Continuous);
+            if continuous && !counts && link.idx_v < JOINTS {
                 circles = circles.with(link.idx_v);
             }
             i += 1;
@@ -102,14 +101,14 @@ impl Circles {
     /// If the number is above 127; in a constant, this does not compile.
     #[must_use]
     pub const fn with(self, joint: usize) -> Self {
-        assert!(joint < 128, "a joint on a circle has a number up to 127");
+        assert!(joint < JOINTS, "a joint on a circle has a number up to 127");
         Self(self.0 | 1 << joint)
     }
 
     /// These without one, whose turns count.
     #[must_use]
     pub const fn counted(self, joint: usize) -> Self {
-        if joint < 128 {
+        if joint < JOINTS {
             Self(self.0 & !(1 << joint))
         } else {
             self
@@ -119,7 +118,7 @@ impl Circles {
     /// Whether the joint is a circle.
     #[inline(always)]
     pub const fn has(self, joint: usize) -> bool {
-        joint < 128 && self.0 >> joint & 1 == 1
+        joint < JOINTS && self.0 >> joint & 1 == 1
     }
 
     /// Whether any joint is a circle.
@@ -228,6 +227,8 @@ impl Circles {
     }
 }
 
+/// The joints that can be circles: the bits of the set.
+const JOINTS: usize = 128;
 /// Greater half widths than this, rad, are no bounds: those of an arc are at most π, and a
 /// [`BackOff`](crate::BackOff) widens them by less than as much again.
 const ARC: f64 = 2.0 * PI;

@@ -36,13 +36,12 @@ mod tests;
 #[doc(alias = "teach-in")]
 #[doc(alias = "record and playback")]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TaughtPath<R, const V: usize, const N: usize> {
+pub struct TaughtPath<R, const V: usize, const N: usize, const CIRCLES: u128 = 0> {
     points: [[R; V]; N],
     count: usize,
     spacing: [R; V],
     /// 1/d.
     spacing_inv: [R; V],
-    circles: Circles,
 }
 
 /// What became of the positions of a tick.
@@ -81,17 +80,30 @@ impl<R: Real, const V: usize, const N: usize> TaughtPath<R, V, N> {
             count: 0,
             spacing,
             spacing_inv: spacing.map(|d| R::ONE / d),
-            circles: Circles::NONE,
         })
     }
 
-    /// The same for joints of which some are circles: the way-points of these are on the turn of the one before, so that the
+    /// The same for joints of which those of [`Circles::bits`] are circles: the way-points of these are on the turn of the one before, so that the
     /// path is the way that the hand went, through a seam of the measurement, too.
     #[must_use]
-    pub fn on_circles(mut self, circles: Circles) -> Self {
-        self.circles = circles;
-        self
+    pub fn on_circles<const CIRCLES: u128>(self) -> TaughtPath<R, V, N, CIRCLES> {
+        let Self {
+            points,
+            count,
+            spacing,
+            spacing_inv,
+        } = self;
+        TaughtPath {
+            points,
+            count,
+            spacing,
+            spacing_inv,
+        }
     }
+}
+
+impl<R: Real, const V: usize, const N: usize, const CIRCLES: u128> TaughtPath<R, V, N, CIRCLES> {
+    const CIRCLES: Circles = Circles::from_bits(CIRCLES);
 
     /// Records the positions q (rad, m) of a tick.
     ///
@@ -105,8 +117,8 @@ impl<R: Real, const V: usize, const N: usize> TaughtPath<R, V, N> {
         match self.points().last() {
             Some(last) if self.square_distance(last, q) < R::ONE => Recorded::Near,
             // A seam lies between the two, or the arm is further away.
-            Some(last) if self.circles.any() => {
-                let q = self.circles.near(q, last);
+            Some(last) if Self::CIRCLES.any() => {
+                let q = Self::CIRCLES.near(q, last);
                 if self.square_distance(last, &q) < R::ONE {
                     return Recorded::Near;
                 }
@@ -125,8 +137,8 @@ impl<R: Real, const V: usize, const N: usize> TaughtPath<R, V, N> {
             return Recorded::NotFinite { joint };
         }
         let q = match self.points().last() {
-            Some(last) => &self.circles.near(q, last),
-            None => q,
+            Some(last) if Self::CIRCLES.any() => &Self::CIRCLES.near(q, last),
+            _ => q,
         };
         let half = R::from_f64(0.5);
         let near = |last: &[R; V], square| -> bool { self.square_distance(last, q) < square };

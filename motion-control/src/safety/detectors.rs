@@ -33,14 +33,13 @@ pub use detect::{Detect, Detectors};
 /// assert_eq!(frozen.check(&[0.2001], &[0.22]), Ok(())); // it moves again
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrozenEncoder<R, const V: usize> {
+pub struct FrozenEncoder<R, const V: usize, const CIRCLES: u128 = 0> {
     encoders: [Encoder<R>; V],
     /// Comparisons without a change that precede the one which reports it.
     patience: u32,
     /// The joint that is compared next; V if none is: before the first comparison, and while one is frozen.
     joint: usize,
     frozen: Option<usize>,
-    circles: Circles,
 }
 
 /// An encoder as it was when it was last compared.
@@ -69,17 +68,29 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
             patience: ticks.div_ceil(joints).saturating_sub(1),
             joint: V,
             frozen: None,
-            circles: Circles::NONE,
         }
     }
 
-    /// The same detector for joints of which some are circles: a reference that moves by a whole turn has not moved.
+    /// The same detector for joints of which those of [`Circles::bits`] are circles: a reference that moves by a whole turn
+    /// has not moved.
     #[must_use]
-    pub const fn on_circles(mut self, circles: Circles) -> Self {
-        self.circles = circles;
-        self
+    pub const fn on_circles<const CIRCLES: u128>(self) -> FrozenEncoder<R, V, CIRCLES> {
+        let Self {
+            encoders,
+            patience,
+            joint,
+            frozen,
+        } = self;
+        FrozenEncoder {
+            encoders,
+            patience,
+            joint,
+            frozen,
+        }
     }
+}
 
+impl<R: Real, const V: usize, const CIRCLES: u128> FrozenEncoder<R, V, CIRCLES> {
     /// Compares the measured position of a joint with the one when it was compared before; `reference` is the reference of
     /// the joints that acted in between, [`MotionController::reference`](crate::MotionController::reference).
     ///
@@ -100,7 +111,7 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
         } else if encoder.left > 0 {
             encoder.left -= 1;
         } else if (reference - encoder.origin).abs() > encoder.distance
-            && !(self.circles.has(joint) && encoder.near(reference))
+            && !(Circles::from_bits(CIRCLES).has(joint) && encoder.near(reference))
         {
             (self.joint, self.frozen) = (V, Some(joint));
             return Err(Fault::Frozen { joint });
@@ -231,12 +242,11 @@ impl<R: Real, const V: usize> Saturation<R, V> {
 /// assert_eq!(faults, [None, None, Some(Fault::Reference { joint: 0 }), None]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ReferenceStep<R, const V: usize> {
+pub struct ReferenceStep<R, const V: usize, const CIRCLES: u128 = 0> {
     step: [R; V],
     last: [R; V],
     /// Whether there is a last one.
     started: bool,
-    circles: Circles,
 }
 
 impl<R: Real, const V: usize> ReferenceStep<R, V> {
@@ -246,24 +256,33 @@ impl<R: Real, const V: usize> ReferenceStep<R, V> {
             step,
             last: [R::ZERO; V],
             started: false,
-            circles: Circles::NONE,
         }
     }
 
-    /// The same detector for joints of which some are circles: a step of a whole turn is none.
+    /// The same detector for joints of which those of [`Circles::bits`] are circles: a step of a whole turn is none.
     ///
     /// ```
     /// use dynamics_core::state::State;
     /// use motion_control::{Circles, ReferenceStep};
-    /// let mut steps = ReferenceStep::new([0.004_f32]).on_circles(Circles::NONE.with(0));
+    /// let mut steps = ReferenceStep::new([0.004_f32]).on_circles::<{ Circles::NONE.with(0).bits() }>();
     /// assert!([3.14, -3.142, 3.14].iter().all(|&q| steps.check(&State::at([q])).is_ok()));
     /// ```
     #[must_use]
-    pub const fn on_circles(mut self, circles: Circles) -> Self {
-        self.circles = circles;
-        self
+    pub const fn on_circles<const CIRCLES: u128>(self) -> ReferenceStep<R, V, CIRCLES> {
+        let Self {
+            step,
+            last,
+            started,
+        } = self;
+        ReferenceStep {
+            step,
+            last,
+            started,
+        }
     }
+}
 
+impl<R: Real, const V: usize, const CIRCLES: u128> ReferenceStep<R, V, CIRCLES> {
     /// Compares a reference with the one before, and keeps it.
     ///
     /// # Errors
@@ -298,7 +317,7 @@ impl<R: Real, const V: usize> ReferenceStep<R, V> {
     fn first_step(&mut self, reference: &State<R, V, V>) -> Result<(), Fault> {
         let State { q, qd, qdd } = reference;
         let rates = qd.iter().zip(qdd);
-        let near = self.circles.near(q, &self.last);
+        let near = Circles::from_bits(CIRCLES).near(q, &self.last);
         let joints = near.iter().zip(&self.last).zip(&self.step).zip(rates);
         let mut fault = Ok(());
         for (joint, (((&q, &last), &step), (qd, qdd))) in joints.enumerate() {

@@ -8,11 +8,17 @@ use joint_drivers::h_bridge::DriveError;
 use joint_drivers::{Direction, EncoderMapping, JointError, JointMapping, Law, MappingError};
 use motion_control::{
     ConfigError, Detectors, FrozenEncoder, Gains, MeasurementAge, MotionController,
-    MotionControllerConfig, ReferenceStep, Saturation, SupervisorConfig, TrajectoryError,
+    MotionControllerConfig, OnCircles, ReferenceStep, Saturation, SupervisorConfig,
+    TrajectoryError,
 };
 
 use crate::board::RESOLUTION;
 use crate::scene::{self, Motion, N, OMEGA_N, TICK};
+
+/// Measurements of this age, on the circles of `scene.rs`.
+pub type Measured<Age> = OnCircles<{ scene::CIRCLES.bits() }, Age>;
+/// The detectors of faults, on these circles.
+pub type Found = Detectors<f32, N, { scene::CIRCLES.bits() }>;
 
 /// The model's torque, and feedback for what it does not know.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +53,7 @@ pub fn config(motion: &Motion) -> MotionControllerConfig<f32, N> {
 /// [`SetupError::Limits`].
 pub fn controller<A: MeasurementAge>(
     motion: &Motion,
-) -> Result<MotionController<f32, N, A>, SetupError> {
+) -> Result<MotionController<f32, N, Measured<A>>, SetupError> {
     MotionController::try_new(config(motion)).map_err(SetupError::Limits)
 }
 
@@ -83,7 +89,7 @@ pub fn gains() -> Gains<f32, N> {
 
 /// What finds faults beside the controller: an encoder that does not change in ten steps of its reference, a reference
 /// that moves at twice the limit of speed, torques at their limits for 50 ticks.
-pub fn detectors(motion: &Motion) -> Detectors<f32, N> {
+pub fn detectors(motion: &Motion) -> Found {
     let limits = scene::limits(motion);
     Detectors {
         frozen: FrozenEncoder::new(
@@ -93,6 +99,7 @@ pub fn detectors(motion: &Motion) -> Detectors<f32, N> {
         steps: ReferenceStep::new(limits.speed.map(|speed| 2.0 * speed * TICK)),
         saturation: Saturation::new(limits.torque, 50),
     }
+    .on_circles()
 }
 
 /// The motion or the limits in `scene.rs`, or the devices in `board.rs`, are impossible.

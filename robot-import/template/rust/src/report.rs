@@ -76,7 +76,8 @@ pub fn run<L: Law<N>>(clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
     let drives = wires.drives(&full_scale);
     let controller = controller(&motion).map_err(RunError::Setup)?;
     let (brake, detectors) = (wires.brake(), detectors(&motion));
-    let mut control = ControlLoop::new(encoders, drives, brake, gains(), controller, detectors);
+    let mut control =
+        ControlLoop::on_circles(encoders, drives, brake, gains(), controller, detectors);
     let mut plant = Plant::new(home, full_scale);
     let mut outcome = Outcome {
         first: [0.0; N],

@@ -96,7 +96,8 @@ fn along(
     let controller = controller(motion).map_err(RunError::Setup)?;
     let gains = Gains::from_inertia(inertia, OMEGA_N, 1.0);
     // Without detectors: a motion that reverses often looks like a frozen encoder where the drives' steps are coarse.
-    let mut control = ControlLoop::new(encoders, drives, wires.brake(), gains, controller, ());
+    let mut control =
+        ControlLoop::on_circles(encoders, drives, wires.brake(), gains, controller, ());
     let mut plant = Plant::new(home, full_scale);
     let mut bytes = [0; capacity(N)];
     let mut number = 0_u32;

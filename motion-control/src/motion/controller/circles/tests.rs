@@ -158,7 +158,7 @@ fn an_approach_crosses_the_seam_both_ways() {
         let path = bench.controller.approach(&motion, &LIMITS, &bounds);
         let path = path.expect("a way");
         bench.controller.reset(&path).expect("near");
-        let mut steps = ReferenceStep::new([2e-3; 2]).on_circles(Circles::from_bits(WHEEL));
+        let mut steps = ReferenceStep::new([2e-3; 2]).on_circles::<WHEEL>();
         let most = path.ticks() + 500;
         for _ in 0..most {
             bench.tick(&path);

@@ -5,13 +5,13 @@
 use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle, spi::SpiDevice};
 use joint_drivers::as5047p::As5047p;
 use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
-use joint_drivers::{ControlLoop, Direction};
+use joint_drivers::{ControlLoop, Direction, EncoderType};
 use motion_control::{Detect, Gains, TrajectoryError};
 
-use crate::control::{SetupError, controller, encoder_mappings};
+use crate::control::{Measured, SetupError, controller, encoder_mappings};
 use crate::scene;
 
-pub use crate::control::{FeedForward as Law, detectors, gains};
+pub use crate::control::{FeedForward as Law, Found, detectors, gains};
 pub use crate::scene::{Motion, N};
 pub use joint_drivers::as5047p::RESOLUTION;
 
@@ -33,7 +33,10 @@ pub type Encoder<Spi> = As5047p<Spi>;
 /// A current-controlled drive: a duty of 50 % is zero torque.
 pub type Drive<Pwm> = LockedAntiphase<Pwm>;
 /// The control loop of the robot.
-pub type Control<Spi, Pwm, Brake, D> = ControlLoop<[Encoder<Spi>; N], [Drive<Pwm>; N], Brake, N, D>;
+pub type Control<Spi, Pwm, Brake, D> =
+    ControlLoop<[Encoder<Spi>; N], [Drive<Pwm>; N], Brake, N, D, Measured<Age<Spi>>>;
+/// The age of its positions.
+pub type Age<Spi> = <Encoder<Spi> as EncoderType>::Age;
 
 /// What the board connects: a part of the bus for each encoder, a PWM channel for each drive.
 #[derive(Debug)]
@@ -77,7 +80,7 @@ pub fn on_brake<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f
         let joint = joint.next().unwrap_or_default();
         Drive::new(pwm, scales[joint], DRIVES[joint])
     });
-    Ok(ControlLoop::new(
+    Ok(ControlLoop::on_circles(
         encoders,
         drives,
         devices.brake,

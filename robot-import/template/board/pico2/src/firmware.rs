@@ -21,9 +21,9 @@ use embassy_sync::signal::Signal;
 use embassy_time::Duration;
 use embedded_hal::digital::OutputPin;
 use embedded_hal_bus::spi::AtomicDevice;
-use motion_control::{self as control, CompletedTick, Detectors, Mode};
+use motion_control::{self as control, CompletedTick, Mode};
 
-use crate::board::{self, Devices, Law, Motion, N};
+use crate::board::{self, Devices, Law, Motion};
 use crate::devices::{Button, Channel, Line};
 use crate::periods::{Moment, PERIOD, Periods};
 use crate::pins::{Connected, Encoder, MHZ, Spin, connect};
@@ -46,7 +46,7 @@ impl control::Watchdog for Starved {
 }
 
 struct Arm<'a> {
-    control: board::Control<Encoder<'a>, Channel, Line, Detectors<f32, N>>,
+    control: board::Control<Encoder<'a>, Channel, Line, board::Found>,
     motion: Motion,
     periods: Periods,
     watchdog: Starved,

@@ -6,7 +6,7 @@
 #[rtic::app(device = stm32f4xx_hal::pac, peripherals = true)]
 mod app {
     use embedded_hal_bus::util::AtomicCell;
-    use motion_control::{CompletedTick, Detectors, Gains, Mode, Watchdog};
+    use motion_control::{CompletedTick, Gains, Mode, Watchdog};
     use stm32f4xx_hal::pac::TIM2;
     use stm32f4xx_hal::prelude::*;
     use stm32f4xx_hal::timer::{CounterHz, Event, Flag};
@@ -28,7 +28,7 @@ mod app {
     #[shared]
     struct Shared {}
 
-    type Detect = &'static mut Detectors<f32, N>;
+    type Detect = &'static mut board::Found;
     type Control = board::Control<Encoder, Channel, Brake, Detect>;
 
     #[local]
@@ -44,7 +44,7 @@ mod app {
 
     // Not inlined, as all that follows: start-up then needs the stack of one of them.
     #[inline(never)]
-    fn place_detectors(place: &'static mut Option<Detectors<f32, N>>, motion: &Motion) -> Detect {
+    fn place_detectors(place: &'static mut Option<board::Found>, motion: &Motion) -> Detect {
         place.insert(board::detectors(motion))
     }
 
@@ -67,7 +67,7 @@ mod app {
 
     #[init(local = [
         bus: Option<AtomicCell<Bus>> = None,
-        memory: Option<Detectors<f32, N>> = None,
+        memory: Option<board::Found> = None,
         place: Option<Control> = None,
         path: Motion = Motion::REST,
     ])]

@@ -2,8 +2,6 @@
 
 use super::*;
 
-const CIRCLE: Circles = Circles::from_bits(WHEEL);
-
 #[test]
 fn a_jump_is_measured_along_the_circle() {
     let rest = State::at([3.14, 0.0]);
@@ -27,29 +25,32 @@ fn a_jump_is_measured_along_the_circle() {
 
 #[test]
 fn a_step_of_a_turn_of_a_circle_is_none() {
-    let turn = [[3.14, 0.0], [3.141 - TAU, 0.0], [3.14, 0.0]];
-    let faults = |mut steps: ReferenceStep<f32, 2>, q: [[f32; 2]; 3]| {
+    fn faults<const C: u128>(
+        mut steps: ReferenceStep<f32, 2, C>,
+        q: [[f32; 2]; 3],
+    ) -> [Option<Fault>; 3] {
         q.map(|q| steps.check(&State::at(q)).err())
-    };
+    }
+    let turn = [[3.14, 0.0], [3.141 - TAU, 0.0], [3.14, 0.0]];
     let steps = ReferenceStep::new([2e-3; 2]);
     let step = |joint| Some(Fault::Reference { joint });
-    assert_eq!(faults(steps.on_circles(CIRCLE), turn), [None; 3]);
+    assert_eq!(faults(steps.on_circles::<WHEEL>(), turn), [None; 3]);
     assert_eq!(faults(steps, turn), [None, step(0), step(0)]);
     let slide = turn.map(|[q, _]| [0.0, q]);
     assert_eq!(
-        faults(steps.on_circles(CIRCLE), slide),
+        faults(steps.on_circles::<WHEEL>(), slide),
         [None, step(1), step(1)]
     );
     let real = [[3.14, 0.0], [-3.1, 0.0], [-3.1, 0.0]];
     assert_eq!(
-        faults(steps.on_circles(CIRCLE), real),
+        faults(steps.on_circles::<WHEEL>(), real),
         [None, step(0), None]
     );
 }
 
 #[test]
 fn a_joint_that_stops_on_the_seam_is_not_frozen() {
-    let run = |mut frozen: FrozenEncoder<f32, 2>, reference: f32| {
+    fn run<const C: u128>(mut frozen: FrozenEncoder<f32, 2, C>, reference: f32) -> Option<Fault> {
         frozen.check(&[3.1, 0.0], &[3.1, 0.0]).ok();
         // It crosses, while the reference is of the turn before, and stays.
         let mut fault = None;
@@ -58,12 +59,12 @@ fn a_joint_that_stops_on_the_seam_is_not_frozen() {
             fault = fault.or(frozen.check(&[-3.1415, 0.0], &[q, 0.0]).err());
         }
         fault
-    };
+    }
     let frozen = FrozenEncoder::new([0.01; 2], 4);
-    assert_eq!(run(frozen.on_circles(CIRCLE), -3.1413), None);
+    assert_eq!(run(frozen.on_circles::<WHEEL>(), -3.1413), None);
     let fault = Some(Fault::Frozen { joint: 0 });
     assert_eq!(run(frozen, -3.1413), fault);
-    assert_eq!(run(frozen.on_circles(CIRCLE), -3.12), fault);
+    assert_eq!(run(frozen.on_circles::<WHEEL>(), -3.12), fault);
 }
 
 #[test]
@@ -79,7 +80,7 @@ fn all_detectors_are_silent_along_a_motion_over_the_seam() {
             steps: ReferenceStep::new([2e-3; 2]),
             saturation: Saturation::new([40.0; 2], 20),
         }
-        .on_circles(CIRCLE);
+        .on_circles::<WHEEL>();
         for _ in 0..2500 {
             let (q, acted) = (bench.measured(), bench.controller.reference().q);
             assert_eq!(detectors.measured(&q, &acted), Ok(()));

@@ -172,10 +172,9 @@ fn hand_guiding_pulls_and_pushes_the_short_way() {
 
 #[test]
 fn a_taught_path_goes_the_way_of_the_hand() {
-    let circle = Circles::NONE.with(0);
-    let teach = |circles| {
+    fn teach<const C: u128>() -> (f32, usize) {
         let taught = TaughtPath::<f32, 2, 16>::try_new([0.1; 2]).expect("spacings");
-        let mut taught = taught.on_circles(circles);
+        let mut taught = taught.on_circles::<C>();
         for step in 0..=50 {
             let q = nearest_turn(3.0 + 0.01 * step as f32, 0.0);
             taught.record(&[q, 0.0]);
@@ -183,10 +182,10 @@ fn a_taught_path_goes_the_way_of_the_hand() {
         taught.end(&[3.5 - TAU, 0.0]);
         let ends = [taught.points()[0], *taught.points().last().expect("some")];
         (ends[1][0] - ends[0][0], taught.points().len())
-    };
-    let (way, count) = teach(circle);
+    }
+    let (way, count) = teach::<WHEEL>();
     assert!((way - 0.5).abs() < 1e-5 && count <= 7, "{way} {count}");
-    assert!(teach(Circles::NONE).0 < -5.0);
+    assert!(teach::<0>().0 < -5.0);
 }
 
 #[test]

@@ -17,6 +17,7 @@ fn pendulum() -> RobotFile {
             viscous: true,
             ..FileEffects::default()
         },
+        feedback: Feedback::default(),
     }
 }
 

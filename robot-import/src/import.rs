@@ -12,7 +12,7 @@ use crate::loops::{Closed, Motors};
 use crate::model::AnyModel;
 use crate::physical::impossible;
 use crate::plausible::plausible;
-use crate::project::{FileEffects, RobotFile};
+use crate::project::{Feedback, FileEffects, MOST_JOINTS, RobotFile};
 use crate::report::{Report, rows};
 use crate::selection::{Selected, Selection};
 use crate::text::shell_word;
@@ -485,6 +485,11 @@ impl Imported {
                 viscous: is_some(|body| body.damping),
                 coulomb: is_some(|body| body.friction),
                 armature: is_some(|body| body.armature),
+            },
+            // More joints than a project has are not looked at.
+            feedback: match v <= MOST_JOINTS {
+                true => Feedback::of(&self.tree).unwrap_or_default(),
+                false => Feedback::default(),
             },
         }
     }

@@ -6,6 +6,7 @@
 
 mod board;
 mod error;
+mod feedback;
 mod libraries;
 mod names;
 mod templates;
@@ -20,6 +21,7 @@ use crate::text::code_span;
 pub use board::{BOARDS, Board, Framework};
 use board::{JOINTS, of_joints};
 pub use error::ProjectError;
+pub use feedback::{Feedback, OMEGA_N};
 use names::{check_name, enumerators, snake_case, toml_string};
 use templates::{C, File, RUST, constants};
 
@@ -70,6 +72,8 @@ pub struct RobotFile {
     pub coupled: bool,
     /// Which of `VISCOUS`, `COULOMB`, `ARMATURE` have a number other than zero. The others are left out of the scene.
     pub effects: FileEffects,
+    /// How the projects' feedback holds it.
+    pub feedback: Feedback,
 }
 
 /// The effects to which a robot's file gives numbers.
@@ -130,7 +134,7 @@ pub struct Created {
     /// Why it is only the robot's file, if it is.
     pub robot_only: Option<RobotOnly>,
     /// What the user has to know of the project.
-    pub note: Option<&'static str>,
+    pub notes: Vec<String>,
 }
 
 /// A robot for which there is no project; its file was written.
@@ -197,12 +201,47 @@ pub fn create(folder: &Path, project: &Project) -> Result<Created, ProjectError>
     }
     format(&files, &folder.join(libraries::FOLDER));
     let robot_only = project.robot.robot_only();
-    let note = (project.robot.coupled && robot_only.is_none()).then_some(COUPLED);
+    let notes = match robot_only {
+        Some(_) => Vec::new(),
+        None => notes(project),
+    };
     Ok(Created {
         files,
         robot_only,
-        note,
+        notes,
     })
+}
+
+/// What the user has to know of a project.
+fn notes(project: &Project) -> Vec<String> {
+    let Feedback { omega_n, words } = &project.robot.feedback;
+    let mut notes: Vec<String> = project
+        .robot
+        .coupled
+        .then(|| COUPLED.to_owned())
+        .into_iter()
+        .collect();
+    let stiff: Vec<String> = (omega_n.iter().zip(&project.robot.joints))
+        .filter(|(omega, _)| **omega > OMEGA_N)
+        .map(|(omega, joint)| format!("`{joint}` {omega:.0}"))
+        .collect();
+    let is_c = matches!(project.kind, Kind::C);
+    if !stiff.is_empty() {
+        let of_links = "gains from the inertia of the links alone hold gravity at no less than these natural frequencies, rad/s";
+        let taken = if is_c {
+            "give such gains"
+        } else {
+            "`OMEGA_N` in src/scene.rs has them"
+        };
+        notes.push(format!(
+            "{of_links}: {}; {taken}, or the file a rotor inertia",
+            stiff.join(", ")
+        ));
+    }
+    if !is_c {
+        notes.extend(words.iter().cloned());
+    }
+    notes
 }
 
 /// The path of each file of a project in its folder, and its text before it is formatted.
@@ -307,6 +346,7 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         ),
         ("bodies", enumerators(&prefix, "BODY", &robot.bodies, taken)),
         ("n", robot.v.to_string()),
+        ("omega_n", robot.feedback.array()),
         ("form", form.into()),
         ("crate_name", crate_name),
         ("crate_name | upcase", prefix),

@@ -8,7 +8,7 @@ mod projects;
 use std::path::Path;
 
 use robot_import::loops::{self, Motors};
-use robot_import::project::{FileEffects, Kind, Library, Project, RobotFile};
+use robot_import::project::{Feedback, FileEffects, Kind, Library, Project, RobotFile};
 use robot_import::selection::Selection;
 use robot_import::source::parse;
 use robot_import::tree::{Numbers, Tree};
@@ -125,6 +125,7 @@ impl Names {
                 coulomb: is_some(|body| body.friction),
                 armature: is_some(|body| body.armature),
             },
+            feedback: Feedback::default(),
         })
     }
 }

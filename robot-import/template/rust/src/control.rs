@@ -41,8 +41,8 @@ pub fn config(motion: &Motion) -> MotionControllerConfig<f32, N> {
             hold_ticks: 100,
             reentry_ticks: 200,
         },
-        observer_bandwidth: 10.0 * OMEGA_N,
-        decay_rate: OMEGA_N,
+        observer_bandwidth: 250.0,
+        decay_rate: 25.0,
         restart_distance: 0.15,
     }
 }
@@ -84,7 +84,14 @@ pub fn encoder_mappings(
 
 /// The gains of the feedback.
 pub fn gains() -> Gains<f32, N> {
-    Gains::from_inertia(&scene::inertia(), OMEGA_N, 1.0)
+    gains_of(&scene::inertia())
+}
+
+/// Gains with which a joint of this inertia, kg·m² or kg, is critically damped at its natural frequency in `scene.rs`.
+pub fn gains_of(inertia: &[f32; N]) -> Gains<f32, N> {
+    let kd = core::array::from_fn(|joint| 2.0 * OMEGA_N[joint] * inertia[joint]);
+    let kp = core::array::from_fn(|joint| 0.5 * OMEGA_N[joint] * kd[joint]);
+    Gains { kp, kd }
 }
 
 /// What finds faults beside the controller: an encoder that does not change in ten steps of its reference, a reference

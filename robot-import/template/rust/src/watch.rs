@@ -6,13 +6,13 @@
 use dynamics_core::model::{JointKind, model};
 use dynamics_core::state::State;
 use joint_drivers::ControlLoop;
-use motion_control::{Gains, Reference};
+use motion_control::Reference;
 use telemetry::{Axis, Machine, Message, Sample, capacity, encode};
 
-use crate::control::{FeedForward, SetupError, controller};
+use crate::control::{FeedForward, SetupError, controller, gains_of};
 use crate::excitation::Excitation;
 use crate::report::RunError;
-use crate::scene::{self, Arm, Motion, N, OMEGA_N, TICK};
+use crate::scene::{self, Arm, Motion, N, TICK};
 use crate::simulation::{Plant, Wires};
 
 /// Ticks from one repetition of the constants to the next.
@@ -94,7 +94,7 @@ fn along(
     let encoders = wires.encoders(motion, &home).map_err(RunError::Setup)?;
     let drives = wires.drives(&full_scale);
     let controller = controller(motion).map_err(RunError::Setup)?;
-    let gains = Gains::from_inertia(inertia, OMEGA_N, 1.0);
+    let gains = gains_of(inertia);
     // Without detectors: a motion that reverses often looks like a frozen encoder where the drives' steps are coarse.
     let mut control =
         ControlLoop::on_circles(encoders, drives, wires.brake(), gains, controller, ());

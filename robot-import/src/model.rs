@@ -13,6 +13,7 @@ use dynamics_core::state::State;
 use crate::check::energy::{Rows, rows};
 use crate::description::{Kind, Pose};
 use crate::error::{Problem, Result};
+use crate::limits::MOST_COORDINATES;
 use crate::loops::Closed;
 use crate::number::Attitude;
 use crate::tree::{self, Tree};
@@ -59,14 +60,11 @@ pub struct Sized<const N: usize, const Q: usize> {
     balls: usize,
 }
 
-/// The most velocity coordinates of a tree that is checked.
-pub const MOST_COORDINATES: usize = 136;
-
 impl AnyModel {
     /// The model of a tree.
     ///
     /// # Errors
-    /// More coordinates than [`MOST_COORDINATES`], or numbers that the library refuses.
+    /// More coordinates than [`MOST_COORDINATES`](crate::limits::MOST_COORDINATES), or numbers that the library refuses.
     pub fn of(tree: &Tree) -> Result<Self> {
         let v = tree.coordinates()[1].max(tree.bodies.len());
         Ok(match v {

@@ -13,6 +13,7 @@ pub use peer::{NoPeer, Peer, Python, compare};
 
 use crate::description::Description;
 use crate::error::Result;
+use crate::limits::MOST_WORK;
 use crate::model::{AnyModel, Motion};
 use crate::selection::Selected;
 use crate::tree::{Numbers, Tree};
@@ -21,8 +22,6 @@ use random::Random;
 
 /// The number of states.
 pub const STATES: usize = 100;
-/// The work of the energies: links times coordinates times states. A robot with more of it is checked at fewer states.
-const MOST_WORK: usize = 2_000_000;
 /// The largest random position, rad or m: attitudes within a quarter turn keep the chain of a ball joint away from its singularity.
 const SIZE: f64 = 1.2;
 /// The largest difference of torques, of full scale.
@@ -79,8 +78,7 @@ pub fn check_trees(
 ) -> Result<Checked> {
     let (library, snapped) = (AnyModel::of(given)?, AnyModel::of(exact)?);
     let energy = Energy::of(robot, selected);
-    let work = robot.links.len() * energy.coordinates.max(1);
-    let states = states.min(MOST_WORK / work).max(1);
+    let states = states.min(MOST_WORK / robot.links.len()).max(1);
     let mut random = Random::new(1);
     let mut checked = Checked {
         states,

@@ -5,9 +5,8 @@ use std::collections::{HashMap, HashSet};
 use super::element::Element;
 use crate::description::shortened;
 use crate::error::{Problem, Result};
+use crate::limits::MOST_CLASSES;
 
-/// The deepest nesting of classes, each of which a search for an attribute passes.
-const MOST_DEPTH: usize = 16;
 /// The attributes that state an orientation; an element's own one replaces that of its class.
 pub const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
 
@@ -61,11 +60,11 @@ impl<'e> Classes<'e> {
     }
 
     fn nested(&mut self, section: &'e Element, parent: usize, depth: usize) -> Result<()> {
-        if depth > MOST_DEPTH {
+        if depth > MOST_CLASSES {
             return Err(section.error(Problem::TooLarge {
                 what: "nested default classes",
                 found: depth,
-                most: MOST_DEPTH,
+                most: MOST_CLASSES,
             }));
         }
         for inner in section.all("default") {

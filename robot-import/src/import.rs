@@ -206,7 +206,8 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         .into());
     }
     let mut complaint = None;
-    let (peer, no_peer) = match compared(args, &robot, &selected, &tree, &checked, &mut complaint)? {
+    let (peer, no_peer) = match compared(args, &robot, &selected, &tree, &checked, &mut complaint)?
+    {
         Ok(peer) => (Some(peer), None),
         Err(no_peer) => (None, Some(no_peer)),
     };
@@ -323,9 +324,12 @@ fn compared(
                 time: options.peer_time(),
             };
             let text = source::for_peer(&args.file, options.include_root.as_deref())?;
-            let compare = |text: &str| check::compare(&python, text, robot, selected, tree, checked);
+            let compare =
+                |text: &str| check::compare(&python, text, robot, selected, tree, checked);
             match (compare(&text), robot.format) {
-                (Ok(peer), Format::Urdf) if peer.difference > check::MOST && !peer.complaint.is_empty() => {
+                (Ok(peer), Format::Urdf)
+                    if peer.difference > check::MOST && !peer.complaint.is_empty() =>
+                {
                     let plain = compare(&source::with_plain_numbers(&args.file)?);
                     match plain.ok().filter(|plain| plain.difference <= check::MOST) {
                         Some(plain) => {

@@ -44,6 +44,8 @@ pub const MOST_CLASSES: usize = 16;
 pub const MOST_COORDINATES: usize = 136;
 /// The work of a check: links times states. A robot with more of it is checked at fewer states.
 pub const MOST_WORK: usize = 20_000;
+/// The work of M in a check: states times the square of the coordinates. A robot of up to 16 has M of every state.
+pub const MOST_WORK_OF_INERTIA: usize = 25_600;
 /// The most bytes of a peer's answer: 100 states of 136 coordinates are 300 kB.
 pub const MOST_ANSWER: usize = 8 << 20;
 /// How much of the last messages of a peer is kept, bytes.

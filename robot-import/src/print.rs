@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 
 use crate::check::MOST;
 use crate::description::shortened;
-
 use crate::report::Report;
 use crate::text::visible;
 

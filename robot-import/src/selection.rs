@@ -140,7 +140,10 @@ impl Selection {
         for (j, joint) in robot.joints.iter().enumerate() {
             joint_of[joint.child] = Some(j);
         }
-        selected.order.iter().for_each(|&j| below[robot.joints[j].child] = true);
+        selected
+            .order
+            .iter()
+            .for_each(|&j| below[robot.joints[j].child] = true);
         let root_of = |mut link: usize| {
             // The highest link that is left out by name, or the root.
             let mut named = None;
@@ -172,7 +175,9 @@ impl Selection {
             groups.entry(by).or_default().push(link);
         }
         let mass = |links: &[usize]| {
-            let each = links.iter().map(|&link| robot.links[link].inertial.map_or(0.0, |own| own.mass));
+            let each = links
+                .iter()
+                .map(|&link| robot.links[link].inertial.map_or(0.0, |own| own.mass));
             tidy(each.sum::<f64>())
         };
         let mut notes: Vec<String> = Vec::new();
@@ -199,7 +204,9 @@ impl Selection {
         }
         up = turn.transpose() * up;
         if !self.free_base && up.distance(DVec3::Z) > 1e-6 {
-            let [x, y, z] = (-up).to_array().map(|x| format!("{:.4}", x + 0.0).replace("-0.0000", "0.0000"));
+            let [x, y, z] = (-up)
+                .to_array()
+                .map(|x| format!("{:.4}", x + 0.0).replace("-0.0000", "0.0000"));
             notes.push(format!(
                 "The base `{}` is turned in the file at zero positions: if the file's root stands upright, gravity is along ({x}, {y}, \
                  {z}) of the base, and Gravity::EARTH is along its −z.",
@@ -212,7 +219,10 @@ impl Selection {
 
 /// Some links by their names.
 fn names(robot: &Description, links: &[usize]) -> String {
-    let some = links.iter().take(5).map(|&link| format!("`{}`", shortened(&robot.links[link].name)));
+    let some = links
+        .iter()
+        .take(5)
+        .map(|&link| format!("`{}`", shortened(&robot.links[link].name)));
     let some: Vec<String> = some.collect();
     match links.len() {
         0..=5 => some.join(", "),

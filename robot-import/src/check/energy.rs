@@ -89,7 +89,13 @@ impl<'a> Energy<'a> {
             if self.selected.roles[j] == Role::Moves {
                 let before = placed(&value(parent), &joint.origin);
                 let own = self.first[j]..self.first[j] + axes(joint.kind).len();
-                forces(before, &steps(joint), &u[own.clone()], &sum, &mut torque[own]);
+                forces(
+                    before,
+                    &steps(joint),
+                    &u[own.clone()],
+                    &sum,
+                    &mut torque[own],
+                );
             }
             add(&mut sums[joint.parent], &sum);
         }
@@ -164,7 +170,10 @@ fn steps(joint: &Joint) -> Vec<Step> {
             is_turn: joint.kind != Kind::Prismatic,
             axis: joint.axis.normalize_or_zero(),
         }],
-        false => axes(joint.kind).iter().map(|&axis| step_along(axis)).collect(),
+        false => axes(joint.kind)
+            .iter()
+            .map(|&axis| step_along(axis))
+            .collect(),
     }
 }
 

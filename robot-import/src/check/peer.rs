@@ -275,7 +275,9 @@ fn last_line(messages: &[u8]) -> String {
 /// The first messages, without the places in the peer's own source.
 fn complaint(messages: &[u8]) -> String {
     let text = String::from_utf8_lossy(messages);
-    let lines = text.lines().filter(|line| !line.trim_start().starts_with("at line"));
+    let lines = text
+        .lines()
+        .filter(|line| !line.trim_start().starts_with("at line"));
     let mut shown: Vec<String> = Vec::new();
     for line in lines.map(printable).filter(|line| !line.is_empty()) {
         if !shown.contains(&line) && shown.len() < MOST_COMPLAINTS {

@@ -11,7 +11,12 @@ use crate::limits::MOST_DECLARATION;
 /// # Errors
 /// An encoding that is not known, by its name, and bytes that are none of it.
 pub fn decode(bytes: &[u8]) -> Result<(String, Option<String>)> {
-    let unknown = |name: &str| Problem::Encoding(format!("`{}` is not known: save the file as UTF-8", shortened(name)));
+    let unknown = |name: &str| {
+        Problem::Encoding(format!(
+            "`{}` is not known: save the file as UTF-8",
+            shortened(name)
+        ))
+    };
     let declared = declared(bytes);
     let label = declared.as_deref().unwrap_or("UTF-8");
     let by_mark = Encoding::for_bom(bytes).map(|(encoding, _)| encoding);
@@ -29,7 +34,9 @@ pub fn decode(bytes: &[u8]) -> Result<(String, Option<String>)> {
             match named.ok_or_else(|| unknown(label))? {
                 // Its declaration is in bytes: it was saved anew since it was written.
                 encoding if encoding == UTF_16LE || encoding == UTF_16BE => {
-                    let note = format!("The file declares the encoding {label} and is read as UTF-8, which it is of.");
+                    let note = format!(
+                        "The file declares the encoding {label} and is read as UTF-8, which it is of."
+                    );
                     (UTF_8, Some(note))
                 }
                 encoding => (encoding, None),
@@ -47,8 +54,14 @@ pub fn decode(bytes: &[u8]) -> Result<(String, Option<String>)> {
     let valid = std::str::from_utf8(bytes).map_or_else(|error| error.valid_up_to(), str::len);
     let line = bytes[..valid].iter().filter(|&&byte| byte == b'\n').count() + 1;
     let (text, ..) = WINDOWS_1252.decode(bytes);
-    let of = if declared.is_some() { "which it declares" } else { "as it declares no other" };
-    let note = format!("The file is not of UTF-8, {of}, on line {line}: it is read as windows-1252 (Latin-1).");
+    let of = if declared.is_some() {
+        "which it declares"
+    } else {
+        "as it declares no other"
+    };
+    let note = format!(
+        "The file is not of UTF-8, {of}, on line {line}: it is read as windows-1252 (Latin-1)."
+    );
     Ok((text.into_owned(), Some(note)))
 }
 
@@ -59,7 +72,10 @@ fn declared(bytes: &[u8]) -> Option<String> {
     let declaration = start.strip_prefix("<?xml")?;
     let declaration = &declaration[..declaration.find("?>")?];
     let (_, value) = declaration.split_once("encoding")?;
-    let value = value.trim_ascii_start().strip_prefix('=')?.trim_ascii_start();
+    let value = value
+        .trim_ascii_start()
+        .strip_prefix('=')?
+        .trim_ascii_start();
     let quote = value.chars().next().filter(|c| matches!(c, '"' | '\''))?;
     let (name, _) = value[1..].split_once(quote)?;
     Some(name.to_owned())

@@ -28,20 +28,57 @@ const CORE: [(&str, &[&str]); 14] = [
     ("limit", &["lower", "upper", "effort", "velocity"]),
     (
         "dynamics",
-        &["damping", "friction", "armature", "spring_stiffness", "spring_reference"],
+        &[
+            "damping",
+            "friction",
+            "armature",
+            "spring_stiffness",
+            "spring_reference",
+        ],
     ),
     ("mimic", &["joint", "multiplier", "offset"]),
     (
         "safety_controller",
-        &["soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"],
+        &[
+            "soft_lower_limit",
+            "soft_upper_limit",
+            "k_position",
+            "k_velocity",
+        ],
     ),
     ("calibration", &["rising", "falling", "reference_position"]),
 ];
 /// Elements of links and references to them that are looks, shapes or contacts.
 const NOT_DYNAMICS: [&str; 30] = [
-    "visual", "collision", "material", "sensor", "sensors", "plugin", "contact", "mu", "mu1", "mu2", "fdir1", "kp", "kd",
-    "slip1", "slip2", "minDepth", "min_depth", "maxVel", "max_vel", "maxContacts", "max_contacts", "laserRetro", "rolling_friction",
-    "self_collision_checking", "selfCollide", "self_collide", "provideFeedback", "preserveFixedJoint", "disableFixedJointLumping",
+    "visual",
+    "collision",
+    "material",
+    "sensor",
+    "sensors",
+    "plugin",
+    "contact",
+    "mu",
+    "mu1",
+    "mu2",
+    "fdir1",
+    "kp",
+    "kd",
+    "slip1",
+    "slip2",
+    "minDepth",
+    "min_depth",
+    "maxVel",
+    "max_vel",
+    "maxContacts",
+    "max_contacts",
+    "laserRetro",
+    "rolling_friction",
+    "self_collision_checking",
+    "selfCollide",
+    "self_collide",
+    "provideFeedback",
+    "preserveFixedJoint",
+    "disableFixedJointLumping",
     "verbose",
 ];
 
@@ -52,7 +89,11 @@ const NOT_DYNAMICS: [&str; 30] = [
 pub fn read(root: Node<'_, '_>, joints: &mut [Joint]) -> Result<Vec<String>> {
     let mut notes = Vec::new();
     for part in children(root, "link").chain(children(root, "joint")) {
-        let unknown: BTreeSet<String> = part.descendants().filter(|node| is_read(*node)).flat_map(unknown).collect();
+        let unknown: BTreeSet<String> = part
+            .descendants()
+            .filter(|node| is_read(*node))
+            .flat_map(unknown)
+            .collect();
         if !unknown.is_empty() {
             notes.push(format!(
                 "{} of {} `{}`: no part of URDF whose meaning is known here, and left out.",
@@ -85,12 +126,18 @@ pub fn dynamics(node: Option<Node<'_, '_>>) -> Result<([f64; 2], f64)> {
     let at_least_zero = |name| -> Result<f64> {
         let x = number(node, name)?.unwrap_or_default();
         match x < 0.0 {
-            true => Err(xml::error(node, Problem::Value(format!("`{name}` is {x}, at least 0")))),
+            true => Err(xml::error(
+                node,
+                Problem::Value(format!("`{name}` is {x}, at least 0")),
+            )),
             false => Ok(x),
         }
     };
     let rest = number(node, "spring_reference")?.unwrap_or_default();
-    Ok(([at_least_zero("spring_stiffness")?, rest], at_least_zero("armature")?))
+    Ok((
+        [at_least_zero("spring_stiffness")?, rest],
+        at_least_zero("armature")?,
+    ))
 }
 
 fn name_of(node: Node<'_, '_>) -> String {
@@ -113,7 +160,9 @@ fn is_number(text: &str) -> bool {
 /// Whether a part of a link or a joint is no look, and not within an element that is unknown as a whole.
 fn is_read(node: Node<'_, '_>) -> bool {
     let known = |tag: &str| CORE.iter().any(|(other, _)| *other == tag);
-    let around = node.ancestors().take_while(|node| !matches!(tag(*node), "robot"));
+    let around = node
+        .ancestors()
+        .take_while(|node| !matches!(tag(*node), "robot"));
     let mut around = around.skip(1);
     node.is_element() && around.all(|node| known(tag(node))) && !NOT_DYNAMICS.contains(&tag(node))
 }
@@ -126,7 +175,9 @@ fn unknown(node: Node<'_, '_>) -> Vec<String> {
             let attributes = node.attributes().filter(|one| is_number(one.value()));
             let names = attributes.map(|one| qualified(node, one));
             let unknown = names.filter(|name| !known.contains(name));
-            unknown.map(|name| format!("{tag} {}", shortened(name))).collect()
+            unknown
+                .map(|name| format!("{tag} {}", shortened(name)))
+                .collect()
         }
         None if has_numbers(node) => vec![shortened(tag)],
         None => Vec::new(),
@@ -143,7 +194,8 @@ fn has_numbers(node: Node<'_, '_>) -> bool {
     let mut all = node.descendants();
     all.any(|node| {
         let mut attributes = node.attributes();
-        attributes.any(|one| is_number(one.value())) || node.is_text() && is_number(node.text().unwrap_or_default())
+        attributes.any(|one| is_number(one.value()))
+            || node.is_text() && is_number(node.text().unwrap_or_default())
     })
 }
 
@@ -163,7 +215,9 @@ fn text_number(node: Node<'_, '_>) -> Result<f64> {
 
 /// Of each actuator the rotor's inertia at the joint, or its gear without one.
 fn transmission(node: Node<'_, '_>, joints: &mut [Joint], notes: &mut Vec<String>) -> Result<()> {
-    let of_joints: Vec<&str> = children(node, "joint").filter_map(|joint| joint.attribute("name")).collect();
+    let of_joints: Vec<&str> = children(node, "joint")
+        .filter_map(|joint| joint.attribute("name"))
+        .collect();
     let actuators = children(node, "actuator").count();
     let what = format!("The <transmission> `{}`", name_of(node));
     let mut left_out = BTreeSet::new();
@@ -177,12 +231,27 @@ fn transmission(node: Node<'_, '_>, joints: &mut [Joint], notes: &mut Vec<String
             let problem = format!("`drake:rotor_inertia` is {rotor}, at least 0");
             return Err(xml::error(actuator, Problem::Value(problem)));
         }
-        let reduction = child(actuator, "mechanicalReduction").or_else(|| child(node, "mechanicalReduction"));
-        let reduction = reduction.and_then(|node| node.text()).map(str::trim).filter(|text| is_number(text));
+        let reduction =
+            child(actuator, "mechanicalReduction").or_else(|| child(node, "mechanicalReduction"));
+        let reduction = reduction
+            .and_then(|node| node.text())
+            .map(str::trim)
+            .filter(|text| is_number(text));
         let own = actuator.children().filter(Node::is_element);
-        let others = own.filter(|node| !matches!(tag(*node), "mechanicalReduction" | "drake:rotor_inertia" | "drake:gear_ratio"));
-        left_out.extend(others.filter(|node| has_numbers(*node)).map(|node| shortened(tag(node))));
-        let gear = ratio.map(|ratio| ratio.to_string()).or_else(|| reduction.map(shortened));
+        let others = own.filter(|node| {
+            !matches!(
+                tag(*node),
+                "mechanicalReduction" | "drake:rotor_inertia" | "drake:gear_ratio"
+            )
+        });
+        left_out.extend(
+            others
+                .filter(|node| has_numbers(*node))
+                .map(|node| shortened(tag(node))),
+        );
+        let gear = ratio
+            .map(|ratio| ratio.to_string())
+            .or_else(|| reduction.map(shortened));
         let joint = match of_joints.as_slice() {
             [name] if actuators == 1 => joints.iter_mut().find(|joint| joint.name == *name),
             _ => None,
@@ -211,7 +280,10 @@ fn transmission(node: Node<'_, '_>, joints: &mut [Joint], notes: &mut Vec<String
         }
     }
     if !left_out.is_empty() {
-        notes.push(format!("{what}: {} is left out: its meaning is not documented, or not for one joint.", listed(left_out)));
+        notes.push(format!(
+            "{what}: {} is left out: its meaning is not documented, or not for one joint.",
+            listed(left_out)
+        ));
     }
     Ok(())
 }
@@ -221,14 +293,20 @@ fn without_rotor(what: &str, gear: &str, joints: &[&str]) -> String {
     format!(
         "{what} has a gear of {gear} on {}, and the file has no inertia of the motor's rotor: J·N² of it is not in ARMATURE; state it by \
          `armature` of <dynamics>, kg·m².",
-        listed(joints.iter().map(|name| format!("joint {}", shortened(name))))
+        listed(
+            joints
+                .iter()
+                .map(|name| format!("joint {}", shortened(name)))
+        )
     )
 }
 
 /// Gears of `<ros2_control>`, and the names of its parameters.
 fn ros2_control(node: Node<'_, '_>, notes: &mut Vec<String>) {
     let what = format!("The <ros2_control> `{}`", name_of(node));
-    let reductions = node.descendants().filter(|node| matches!(tag(*node), "mechanical_reduction" | "mechanicalReduction"));
+    let reductions = node
+        .descendants()
+        .filter(|node| matches!(tag(*node), "mechanical_reduction" | "mechanicalReduction"));
     for reduction in reductions {
         let text = reduction.text().unwrap_or_default().trim();
         let of = reduction.parent().map_or(String::new(), name_of);
@@ -236,10 +314,15 @@ fn ros2_control(node: Node<'_, '_>, notes: &mut Vec<String>) {
             notes.push(without_rotor(&what, &shortened(text), &[&of]));
         }
     }
-    let parameters = node.descendants().filter(|node| tag(*node) == "param" && has_numbers(*node));
+    let parameters = node
+        .descendants()
+        .filter(|node| tag(*node) == "param" && has_numbers(*node));
     let names: BTreeSet<String> = parameters.map(name_of).collect();
     if !names.is_empty() {
-        notes.push(format!("{what}: the parameters {} are left out.", listed(names)));
+        notes.push(format!(
+            "{what}: the parameters {} are left out.",
+            listed(names)
+        ));
     }
 }
 
@@ -249,7 +332,8 @@ fn gazebo(node: Node<'_, '_>, joints: &mut [Joint], notes: &mut Vec<String>) -> 
         return Ok(());
     };
     let of = shortened(reference);
-    let [stiffness, rest] = ["springStiffness", "springReference"].map(|tag| child(node, tag).map(text_number));
+    let [stiffness, rest] =
+        ["springStiffness", "springReference"].map(|tag| child(node, tag).map(text_number));
     let (stiffness, rest) = (stiffness.transpose()?, rest.transpose()?);
     let mut left_out = BTreeSet::new();
     match joints.iter_mut().find(|joint| joint.name == reference) {
@@ -272,7 +356,10 @@ fn gazebo(node: Node<'_, '_>, joints: &mut [Joint], notes: &mut Vec<String>) -> 
     for inner in node.children().filter(Node::is_element) {
         let is_weightless = |node: Node<'_, '_>| {
             let text = node.text().unwrap_or_default().trim();
-            matches!((tag(node), text), ("gravity", "0" | "false") | ("turnGravityOff", "1" | "true"))
+            matches!(
+                (tag(node), text),
+                ("gravity", "0" | "false") | ("turnGravityOff", "1" | "true")
+            )
         };
         match tag(inner) {
             "springStiffness" | "springReference" => {}
@@ -288,17 +375,30 @@ fn gazebo(node: Node<'_, '_>, joints: &mut [Joint], notes: &mut Vec<String>) -> 
         }
     }
     if !left_out.is_empty() {
-        notes.push(format!("The <gazebo> of `{of}`: {} is left out.", listed(left_out)));
+        notes.push(format!(
+            "The <gazebo> of `{of}`: {} is left out.",
+            listed(left_out)
+        ));
     }
     Ok(())
 }
 
 /// Settings by which MuJoCo changes the inertias of a URDF.
 fn mujoco(node: Node<'_, '_>, notes: &mut Vec<String>) {
-    let names = ["balanceinertia", "boundinertia", "boundmass", "inertiafromgeom", "settotalmass"];
+    let names = [
+        "balanceinertia",
+        "boundinertia",
+        "boundmass",
+        "inertiafromgeom",
+        "settotalmass",
+    ];
     let compilers = children(node, "compiler");
     let stated: BTreeSet<String> = compilers
-        .flat_map(|node| names.into_iter().filter(move |name| node.has_attribute(*name)))
+        .flat_map(|node| {
+            names
+                .into_iter()
+                .filter(move |name| node.has_attribute(*name))
+        })
         .map(str::to_owned)
         .collect();
     if !stated.is_empty() {

@@ -238,7 +238,11 @@ fn of_pose(format: Format, pose: &Pose) -> impl Iterator<Item = Bounded> {
         Format::Mjcf => ["pos", "quat"],
     };
     let turns = pose.rotation.to_cols_array().map(|x| (turn, x, MOST));
-    pose.position.to_array().map(|x| (position, x, MOST)).into_iter().chain(turns)
+    pose.position
+        .to_array()
+        .map(|x| (position, x, MOST))
+        .into_iter()
+        .chain(turns)
 }
 
 /// Numbers with which f64 does not overflow, and axes that are directions.
@@ -249,15 +253,30 @@ fn sizes(robot: &Description) -> Result<()> {
         };
         let names = match robot.format {
             Format::Urdf => ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"],
-            Format::Mjcf => ["inertia xx", "inertia xy", "inertia xz", "inertia yy", "inertia yz", "inertia zz"],
+            Format::Mjcf => [
+                "inertia xx",
+                "inertia xy",
+                "inertia xz",
+                "inertia yy",
+                "inertia yz",
+                "inertia zz",
+            ],
         };
-        let entries = names.into_iter().zip(inertial.inertia).map(|(name, x)| (name, x, MOST));
-        let all = [("mass", inertial.mass, MOST)].into_iter().chain(of_pose(robot.format, &inertial.frame));
+        let entries = names
+            .into_iter()
+            .zip(inertial.inertia)
+            .map(|(name, x)| (name, x, MOST));
+        let all = [("mass", inertial.mass, MOST)]
+            .into_iter()
+            .chain(of_pose(robot.format, &inertial.frame));
         let problem = match beyond(all.chain(entries)) {
             Some(problem) => problem,
             None if inertial.mass < 0.0 => format!("its mass is {} kg", inertial.mass),
             None if 0.0 < inertial.mass && inertial.mass < LEAST => {
-                format!("its mass is {:e} kg, which f32 does not compute with: at least {LEAST:e} kg, or 0", inertial.mass)
+                format!(
+                    "its mass is {:e} kg, which f32 does not compute with: at least {LEAST:e} kg, or 0",
+                    inertial.mass
+                )
             }
             None => continue,
         };

@@ -111,7 +111,9 @@ impl<'t> Tolerant<'t> {
         }
         if let Some(root) = pass.root {
             let missing: Vec<&str> = pass.used.difference(&pass.of_root).copied().collect();
-            let declarations = missing.iter().map(|prefix| format!(" xmlns:{prefix}=\"{prefix}\""));
+            let declarations = missing
+                .iter()
+                .map(|prefix| format!(" xmlns:{prefix}=\"{prefix}\""));
             let declarations: String = declarations.collect();
             if !declarations.is_empty() {
                 pass.edits.push((root..root, Some(declarations)));
@@ -125,7 +127,9 @@ impl<'t> Tolerant<'t> {
             true => Lines::of(""),
             false => Lines::of(text),
         };
-        let found = found.into_iter().map(|(kind, at, what)| (kind, lines.line(at as u32), what));
+        let found = found
+            .into_iter()
+            .map(|(kind, at, what)| (kind, lines.line(at as u32), what));
         let found = found.collect();
         let (text, inserted) = edited(text, &edits);
         Ok(Self {
@@ -145,23 +149,38 @@ impl<'t> Tolerant<'t> {
         let start = match line {
             0 | 1 => 0,
             line => {
-                let mut ends = self.text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+                let mut ends = self
+                    .text
+                    .bytes()
+                    .enumerate()
+                    .filter(|(_, byte)| *byte == b'\n');
                 ends.nth(line as usize - 2).map_or(0, |(end, _)| end + 1)
             }
         };
-        let before = self.text[start..].char_indices().nth(column.saturating_sub(1) as usize);
+        let before = self.text[start..]
+            .char_indices()
+            .nth(column.saturating_sub(1) as usize);
         let end = before.map_or(self.text.len(), |(at, _)| start + at);
-        let shift = self.inserted.iter().filter(|(at, _)| (start..end).contains(at));
+        let shift = self
+            .inserted
+            .iter()
+            .filter(|(at, _)| (start..end).contains(at));
         let shift: usize = shift.map(|(_, length)| length).sum();
         column.saturating_sub(shift as u32).max(1)
     }
 
     /// What was tolerated and where, a sentence for each kind.
     pub fn notes(&self) -> Vec<String> {
-        let each = self.found.iter().map(|(kind, _, detail)| (*kind, detail.as_str()));
+        let each = self
+            .found
+            .iter()
+            .map(|(kind, _, detail)| (*kind, detail.as_str()));
         let kinds: BTreeSet<(Kind, &str)> = each.collect();
         let sentence = |(kind, detail): (Kind, &str)| {
-            let same = self.found.iter().filter(|(other, _, what)| *other == kind && what == detail);
+            let same = self
+                .found
+                .iter()
+                .filter(|(other, _, what)| *other == kind && what == detail);
             let mut lines: Vec<u32> = same.map(|(_, line, _)| *line).collect();
             lines.dedup();
             let more = match lines.len() - lines.len().min(3) {
@@ -197,7 +216,10 @@ fn edited<'t>(text: &'t str, edits: &[Edit]) -> (Cow<'t, str>, Vec<(usize, usize
                 inserted.push((out.len(), new.len() - old.len()));
                 out += new;
             }
-            None => out.extend(old.chars().map(|c| if c == '\n' || c == '\r' { c } else { ' ' })),
+            None => out.extend(
+                old.chars()
+                    .map(|c| if c == '\n' || c == '\r' { c } else { ' ' }),
+            ),
         }
         copied = range.end;
     }
@@ -217,7 +239,10 @@ impl<'t> Pass<'t> {
     fn without_end(&self, at: usize, what: &str) -> ImportError {
         let line = self.text[..at].rfind('\n').map_or(0, |end| end + 1);
         let column = self.text[line..at].chars().count() + 1;
-        self.error(at, Problem::Xml(format!("{what} that begins in column {column} has no end")))
+        self.error(
+            at,
+            Problem::Xml(format!("{what} that begins in column {column} has no end")),
+        )
     }
 
     /// The end of what begins at `at` and ends with `end`.
@@ -275,7 +300,8 @@ impl<'t> Pass<'t> {
         }
         if rest.starts_with("<?") {
             let end = self.end_of(at, 2, "?>", "an instruction")?;
-            let is_declaration = rest[2..].starts_with("xml") && rest[5..].starts_with(char::is_whitespace);
+            let is_declaration =
+                rest[2..].starts_with("xml") && rest[5..].starts_with(char::is_whitespace);
             if is_declaration && at > 0 && is_blank(&self.text[..at]) {
                 self.edits.push((at..end, None));
                 self.tolerate(Kind::BeforeDeclaration, at, String::new());
@@ -286,7 +312,12 @@ impl<'t> Pass<'t> {
             return Ok(Next::AfterRoot(at));
         }
         if rest.starts_with("<![CDATA[") {
-            return Ok(Next::At(self.end_of(at, 9, "]]>", "a section of characters")?));
+            return Ok(Next::At(self.end_of(
+                at,
+                9,
+                "]]>",
+                "a section of characters",
+            )?));
         }
         if rest.starts_with("<!DOCTYPE") {
             let end = self.document_type(at)?;
@@ -340,11 +371,20 @@ impl<'t> Pass<'t> {
     fn element(&mut self, start: usize) -> Result<Next> {
         let text = self.text;
         let bytes = text.as_bytes();
-        let is_end = |byte: u8| byte.is_ascii_whitespace() || matches!(byte, b'/' | b'>' | b'=' | b'<');
-        let name_end = |from: usize| bytes[from..].iter().position(|&byte| is_end(byte)).map_or(text.len(), |n| from + n);
+        let is_end =
+            |byte: u8| byte.is_ascii_whitespace() || matches!(byte, b'/' | b'>' | b'=' | b'<');
+        let name_end = |from: usize| {
+            bytes[from..]
+                .iter()
+                .position(|&byte| is_end(byte))
+                .map_or(text.len(), |n| from + n)
+        };
         let space_end = |from: usize| {
             let blank = |byte: &u8| !byte.is_ascii_whitespace();
-            bytes[from..].iter().position(blank).map_or(text.len(), |n| from + n)
+            bytes[from..]
+                .iter()
+                .position(blank)
+                .map_or(text.len(), |n| from + n)
         };
         let mut at = name_end(start + 1);
         if at == start + 1 {
@@ -380,12 +420,17 @@ impl<'t> Pass<'t> {
             let end = name_end(name);
             let equals = space_end(end);
             let open = space_end((equals + 1).min(text.len()));
-            let quote = bytes.get(open).copied().filter(|byte| matches!(byte, b'"' | b'\''));
+            let quote = bytes
+                .get(open)
+                .copied()
+                .filter(|byte| matches!(byte, b'"' | b'\''));
             let (Some(b'='), Some(quote), true) = (bytes.get(equals), quote, end > name) else {
                 return Ok(Next::Refused);
             };
             let value = bytes[open + 1..].iter().position(|&byte| byte == quote);
-            let close = open + 1 + value.ok_or_else(|| self.without_end(open, "the value of an attribute"))?;
+            let close = open
+                + 1
+                + value.ok_or_else(|| self.without_end(open, "the value of an attribute"))?;
             if name == at {
                 self.edits.push((name..name, Some(" ".to_owned())));
                 self.tolerate(Kind::NoSpace, name, String::new());
@@ -445,9 +490,14 @@ impl<'t> Pass<'t> {
             if matches!(prefix, "" | "xml" | "xmlns") {
                 continue;
             }
-            let is_declared = self.of_root.contains(prefix) || self.declared.get(prefix).is_some_and(|n| *n > 0);
+            let is_declared =
+                self.of_root.contains(prefix) || self.declared.get(prefix).is_some_and(|n| *n > 0);
             if !is_declared {
-                self.tolerate(Kind::Prefix, at, format!(", `{}`", crate::description::shortened(prefix)));
+                self.tolerate(
+                    Kind::Prefix,
+                    at,
+                    format!(", `{}`", crate::description::shortened(prefix)),
+                );
             }
             self.used.insert(prefix);
             if self.used.len() > MOST_PREFIXES {
@@ -473,7 +523,10 @@ impl<'t> Pass<'t> {
     /// A text, or the value of an attribute: what of it XML does not have.
     fn characters(&mut self, range: Range<usize>, is_value: bool) {
         let text = &self.text[range.clone()];
-        for (i, c) in text.char_indices().filter(|(_, c)| matches!(c, '&' | '<' | ']')) {
+        for (i, c) in text
+            .char_indices()
+            .filter(|(_, c)| matches!(c, '&' | '<' | ']'))
+        {
             if self.found.len() > MOST_TOLERATED {
                 return;
             }
@@ -499,10 +552,22 @@ impl<'t> Pass<'t> {
     /// Leaves out all that follows the end of the root.
     fn leave_out_after(&mut self, at: usize) {
         let start = self.text.len() - self.text[at..].trim_start().len();
-        let what: String = self.text[start..].chars().take_while(|c| !c.is_control()).take(20).collect();
-        let what = what.split_inclusive('>').next().unwrap_or_default().to_owned();
+        let what: String = self.text[start..]
+            .chars()
+            .take_while(|c| !c.is_control())
+            .take(20)
+            .collect();
+        let what = what
+            .split_inclusive('>')
+            .next()
+            .unwrap_or_default()
+            .to_owned();
         self.edits.push((at..self.text.len(), None));
-        self.tolerate(Kind::AfterRoot, start, format!(", `{}`", what.replace('`', "'")));
+        self.tolerate(
+            Kind::AfterRoot,
+            start,
+            format!(", `{}`", what.replace('`', "'")),
+        );
     }
 }
 
@@ -512,11 +577,16 @@ fn is_blank(text: &str) -> bool {
 
 /// Whether what follows an `&` makes it a reference of XML: to a character, or one of the five names.
 fn is_reference(rest: &str) -> bool {
-    let word = rest.as_bytes().iter().take(12).position(|&byte| byte == b';');
+    let word = rest
+        .as_bytes()
+        .iter()
+        .take(12)
+        .position(|&byte| byte == b';');
     let Some(word) = word.and_then(|end| rest.get(..end)) else {
         return false;
     };
-    let digits = |text: &str, is_digit: fn(char) -> bool| !text.is_empty() && text.chars().all(is_digit);
+    let digits =
+        |text: &str, is_digit: fn(char) -> bool| !text.is_empty() && text.chars().all(is_digit);
     match (word.strip_prefix("#x"), word.strip_prefix('#')) {
         (Some(hexadecimal), _) => digits(hexadecimal, |c| c.is_ascii_hexdigit()),
         (None, Some(decimal)) => digits(decimal, |c| c.is_ascii_digit()),

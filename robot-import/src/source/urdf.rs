@@ -2,8 +2,8 @@
 
 use roxmltree::Node;
 
-use super::{extensions, xacro};
 use super::xml::{self, child, children, number, numbers, required};
+use super::{extensions, xacro};
 use crate::description::{
     Description, Format, Inertial, Joint, Kind, Limits, Link, Mimic, Pose, Snap, index_of,
     shortened,

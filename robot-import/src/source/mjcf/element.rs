@@ -276,7 +276,8 @@ impl Loader<'_> {
         let xml = Xml::of(&text).map_err(in_file)?;
         let document = xml.document().map_err(in_file)?;
         let notes = note.into_iter().chain(xml.notes());
-        self.notes.extend(notes.map(|note| format!("Included file {}: {note}", shortened(file))));
+        self.notes
+            .extend(notes.map(|note| format!("Included file {}: {note}", shortened(file))));
         let root = document.root_element();
         let folder = path.parent().unwrap_or(self.folders.model).to_owned();
         let source = Source::new(root, Some(file.into()), folder, includes);
@@ -302,7 +303,9 @@ impl Loader<'_> {
         if self.folders.include_root.is_none() && !Path::new(&relative).components().all(plain) {
             return Err(outside());
         }
-        let roots = [Some(self.folders.model), self.folders.include_root].into_iter().flatten();
+        let roots = [Some(self.folders.model), self.folders.include_root]
+            .into_iter()
+            .flatten();
         // Nothing is told of what is outside, not even whether it is there.
         let mut allowed = roots.filter_map(|root| match root.as_os_str().is_empty() {
             true => Path::new(".").canonicalize().ok(),
@@ -311,14 +314,18 @@ impl Loader<'_> {
         let allowed: Vec<PathBuf> = allowed.by_ref().collect();
         let candidates = [self.folders.model, &source.folder].map(|folder| folder.join(&relative));
         // Links of the file system can lead out of a folder.
-        let found = candidates.iter().filter_map(|path| path.canonicalize().ok());
+        let found = candidates
+            .iter()
+            .filter_map(|path| path.canonicalize().ok());
         let mut found = found.filter(|path| path.is_file());
         match found.next() {
             Some(path) if allowed.iter().any(|root| path.starts_with(root)) => Ok(path),
-            None if Path::new(&relative).components().all(plain) => Err(element.error(Problem::File {
-                path: shortened(file),
-                reason: "there is no such file in the folder of the model".to_owned(),
-            })),
+            None if Path::new(&relative).components().all(plain) => {
+                Err(element.error(Problem::File {
+                    path: shortened(file),
+                    reason: "there is no such file in the folder of the model".to_owned(),
+                }))
+            }
             _ => Err(outside()),
         }
     }

@@ -283,7 +283,12 @@ pub(crate) fn index_of<'a>(
 
 /// A text of a file for a message: at most [`MOST_SHOWN`] characters.
 pub(crate) fn shortened(text: &str) -> String {
-    match text.char_indices().nth(MOST_SHOWN) {
+    cut(text, MOST_SHOWN)
+}
+
+/// The beginning of a text that is longer than so many characters.
+pub(crate) fn cut(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_owned(),
     }

@@ -6,6 +6,7 @@ use std::time::Duration;
 use crate::advice::{Advice, advice, needless_torque};
 use crate::check::{self, NoPeer, Python, STATES};
 use crate::description::{Description, Format, shortened};
+use crate::dropped::dropped;
 use crate::error::{ImportError, Problem, Result};
 use crate::estimate;
 use crate::limits::{LEAST, PEER_TIME};
@@ -216,7 +217,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
             "Couplings of joints are left out: they need joints of one coordinate.".to_owned(),
         );
     }
-    notes.extend(selection.left_out(&robot, &selected));
+    notes.extend(dropped(&robot, &selection, &selected));
     let (closed, _) = loops::closed(&robot, &tree);
     let motors = Motors::of(&tree, &closed, &args.options.motors)?;
     notes.extend(motors.advice.clone());

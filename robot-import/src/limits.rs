@@ -54,5 +54,7 @@ pub const MOST_MESSAGES: usize = 4_096;
 pub const MOST_COMPLAINTS: usize = 4;
 /// How long a comparison with a peer may take: the first start of a Python with large packages takes ten seconds.
 pub const PEER_TIME: Duration = Duration::from_secs(60);
-/// The longest name in a line of a report or of a table, characters.
+/// The longest name in a line of a report or of an error, characters.
 pub const MOST_SHOWN: usize = 60;
+/// The longest cell of a table but in its last column, characters: each of its rows is as wide.
+pub const MOST_CELL: usize = 200;

@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use crate::check::MOST;
-use crate::description::shortened;
+use crate::description::{cut, shortened};
+use crate::limits::MOST_CELL;
 use crate::report::Report;
 use crate::text::visible;
 
@@ -14,7 +15,7 @@ fn table(rows: &[Vec<String>]) -> String {
         let cells = row.iter().enumerate();
         let cell = |(k, cell): (usize, &String)| match k == last {
             true => visible(cell),
-            false => shortened(&visible(cell)),
+            false => cut(&visible(cell), MOST_CELL),
         };
         cells.map(cell).collect()
     };

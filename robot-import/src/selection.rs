@@ -1,12 +1,9 @@
 //! The part of a description that becomes the robot: its base, and which of its joints move.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
-use dynamics_core::glam::{DMat3, DVec3};
-
-use crate::description::{Description, Kind, shortened};
+use crate::description::{Description, Kind};
 use crate::error::{ImportError, Problem, Result};
-use crate::number::tidy;
 
 /// What a user selects.
 #[derive(Clone, Debug, Default)]
@@ -127,106 +124,6 @@ impl Selection {
             roles,
             free_base: self.free_base,
         })
-    }
-}
-
-impl Selection {
-    /// What of a description is no part of a selection of it, with its mass, and where gravity is if the base is not the root: a
-    /// sentence each.
-    pub fn left_out(&self, robot: &Description, selected: &Selected) -> Vec<String> {
-        let mut below = vec![false; robot.links.len()];
-        below[selected.base] = true;
-        let mut joint_of = vec![None; robot.links.len()];
-        for (j, joint) in robot.joints.iter().enumerate() {
-            joint_of[joint.child] = Some(j);
-        }
-        selected
-            .order
-            .iter()
-            .for_each(|&j| below[robot.joints[j].child] = true);
-        let root_of = |mut link: usize| {
-            // The highest link that is left out by name, or the root.
-            let mut named = None;
-            loop {
-                if self.without.contains(&robot.links[link].name) {
-                    named = Some(link);
-                }
-                match joint_of[link] {
-                    Some(j) => link = robot.joints[j].parent,
-                    None => return named,
-                }
-            }
-        };
-        let absent = (0..robot.links.len()).filter(|&link| !below[link]);
-        let mut groups: BTreeMap<Option<usize>, Vec<usize>> = BTreeMap::new();
-        // One that is not below the base is not part of the robot, whatever carries it.
-        let is_above = |link: usize| {
-            let mut at = link;
-            while at != selected.base {
-                match joint_of[at] {
-                    Some(j) => at = robot.joints[j].parent,
-                    None => return true,
-                }
-            }
-            false
-        };
-        for link in absent {
-            let by = if is_above(link) { None } else { root_of(link) };
-            groups.entry(by).or_default().push(link);
-        }
-        let mass = |links: &[usize]| {
-            let each = links
-                .iter()
-                .map(|&link| robot.links[link].inertial.map_or(0.0, |own| own.mass));
-            tidy(each.sum::<f64>())
-        };
-        let mut notes: Vec<String> = Vec::new();
-        for (by, links) in &groups {
-            let kg = mass(links);
-            notes.push(match by {
-                Some(link) => format!(
-                    "Link `{}` and all that it carries are left out: {kg} kg.",
-                    shortened(&robot.links[*link].name)
-                ),
-                None => format!(
-                    "Not below the base `{}`, and left out: {}, {kg} kg.",
-                    shortened(&robot.links[selected.base].name),
-                    names(robot, links)
-                ),
-            });
-        }
-        let mut up = DVec3::Z;
-        let mut at = selected.base;
-        let mut turn = DMat3::IDENTITY;
-        while let Some(j) = joint_of[at] {
-            turn = robot.joints[j].exact.rotation * turn;
-            at = robot.joints[j].parent;
-        }
-        up = turn.transpose() * up;
-        if !self.free_base && up.distance(DVec3::Z) > 1e-6 {
-            let [x, y, z] = (-up)
-                .to_array()
-                .map(|x| format!("{:.4}", x + 0.0).replace("-0.0000", "0.0000"));
-            notes.push(format!(
-                "The base `{}` is turned in the file at zero positions: if the file's root stands upright, gravity is along ({x}, {y}, \
-                 {z}) of the base, and Gravity::EARTH is along its −z.",
-                shortened(&robot.links[selected.base].name)
-            ));
-        }
-        notes
-    }
-}
-
-/// Some links by their names.
-fn names(robot: &Description, links: &[usize]) -> String {
-    let some = links
-        .iter()
-        .take(5)
-        .map(|&link| format!("`{}`", shortened(&robot.links[link].name)));
-    let some: Vec<String> = some.collect();
-    match links.len() {
-        0..=5 => some.join(", "),
-        n => format!("{} and {} more links", some.join(", "), n - 5),
     }
 }
 

@@ -181,8 +181,8 @@ impl<R: Real, const B: usize> Levers<R, B> {
             ) else {
                 continue;
             };
-            *mass = *mass + link.inertia.mass;
-            *moment = *moment + link.inertia.first_moment;
+            *mass += link.inertia.mass;
+            *moment += link.inertia.first_moment;
             if link.idx_v == of.idx_v {
                 *turned = Some(match link.joint.kind {
                     JointKind::Prismatic => axis * *mass,
@@ -203,7 +203,7 @@ impl<R: Real, const B: usize> Levers<R, B> {
                 }
             }
             if let Some(other) = all.masses.get_mut(link.parent) {
-                *other = *other + mass;
+                *other += mass;
             }
             if let (Some(w), Some(other)) = (turned, all.turned.get_mut(link.parent)) {
                 *other = Some(in_parent(w));

@@ -2,6 +2,7 @@
 
 mod encoding;
 mod extensions;
+mod limits;
 mod mjcf;
 mod plain;
 mod tolerant;
@@ -159,6 +160,7 @@ fn described(text: &str, folders: Folders<'_>) -> Result<Description> {
         robot.licence = licence(text);
     }
     robot.notes.splice(0..0, xml.notes());
+    limits::without(&mut robot);
     check(&robot)?;
     Ok(robot)
 }

@@ -523,6 +523,9 @@ impl<'t> Pass<'t> {
     /// A text, or the value of an attribute: what of it XML does not have.
     fn characters(&mut self, range: Range<usize>, is_value: bool) {
         let text = &self.text[range.clone()];
+        if !text.contains('&') && !text.contains('<') && !text.contains("]]>") {
+            return;
+        }
         for (i, c) in text
             .char_indices()
             .filter(|(_, c)| matches!(c, '&' | '<' | ']'))

@@ -322,13 +322,13 @@ fn limits(node: Node<'_, '_>) -> Result<Limits> {
     let Some(limit) = child(node, "limit") else {
         return Ok(Limits::default());
     };
-    let [lower, upper] = [number(limit, "lower")?, number(limit, "upper")?];
+    let [lower, upper] = [xml::limit(limit, "lower")?, xml::limit(limit, "upper")?];
     let stated = lower.is_some() || upper.is_some();
     let position = [lower.unwrap_or_default(), upper.unwrap_or_default()];
     Ok(Limits {
         position: stated.then_some(position),
-        velocity: number(limit, "velocity")?,
-        effort: number(limit, "effort")?,
+        velocity: xml::limit(limit, "velocity")?,
+        effort: xml::limit(limit, "effort")?,
     })
 }
 

@@ -130,6 +130,15 @@ pub fn number(node: Node<'_, '_>, attribute: &'static str) -> Result<Option<f64>
     Ok(numbers::<1>(node, attribute)?.map(|[x]| x))
 }
 
+/// A number that limits something, if the attribute is there: infinite where there is no limit.
+pub fn limit(node: Node<'_, '_>, attribute: &'static str) -> Result<Option<f64>> {
+    let text = node.attribute(attribute).map(str::trim_ascii);
+    match text.and_then(|text| text.parse::<f64>().ok()) {
+        Some(x) if x.is_infinite() => Ok(Some(x)),
+        _ => number(node, attribute),
+    }
+}
+
 /// N finite numbers, if the attribute is there.
 pub fn numbers<const N: usize>(
     node: Node<'_, '_>,

@@ -201,13 +201,13 @@ fn what_no_reader_takes_is_refused_at_its_line() {
             "a comment that begins in column 1 has no end",
         ),
         (inside("<![CDATA[ no end"), 2, "a section of characters"),
-        (inside("  <link name='x"), 6, ""),
+        (inside("  <link name='x"), 2, "at 2:28"),
         (
             format!("<!-- c -->\n<?xml version='1.0'?>{}", urdf()),
             2,
             "declaration",
         ),
-        (inside("<link name='x' name='y'/>"), 2, "duplicated"),
+        (inside("<link name='x' name='y'/>"), 2, "is already defined"),
         (inside("<link name=x/>"), 2, ""),
         (
             "\n<?xml version='1.0'?>\n<robot name='r'>&&&<a></b></robot>".to_owned(),

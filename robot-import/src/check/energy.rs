@@ -353,3 +353,174 @@ fn turn<T: Number>(n: DVec3, u: T) -> Rows<T> {
     }
     pose
 }
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+    use std::fmt::Write as _;
+    use std::ops::{Add, Mul, Neg, Sub};
+    use std::path::Path;
+
+    use super::*;
+    use crate::selection::Selection;
+    use crate::source::parse;
+
+    /// Kinetic minus potential energy.
+    fn lagrangian<T: Number>(energy: &Energy<'_>, u: &[T], ud: &[T]) -> T {
+        let u: Vec<Dual<T>> = u.iter().zip(ud).map(|(&u, &ud)| Dual::new(u, ud)).collect();
+        let mut sum = T::constant(0.0);
+        for (pose, mass) in energy.poses(&u).iter().zip(&energy.masses) {
+            let (Some(pose), Some((moments, first, mass))) = (pose, mass) else {
+                continue;
+            };
+            for row in pose {
+                let rate = row.map(|entry| entry.rate);
+                for (a, &x) in rate.iter().enumerate() {
+                    for (b, &y) in rate.iter().enumerate() {
+                        let weight = match (a, b) {
+                            (3, 3) => *mass,
+                            (3, i) | (i, 3) => first[i],
+                            (i, k) => moments[i][k],
+                        };
+                        sum = sum + (x * y).scaled(0.5 * weight);
+                    }
+                }
+            }
+            let [_, _, z] = pose;
+            for (entry, &h) in z.iter().zip(first.iter().chain([mass])) {
+                sum = sum - entry.value.scaled(G * h);
+            }
+        }
+        sum
+    }
+
+    /// d/dt ∂L/∂u̇ᵢ − ∂L/∂uᵢ by dual numbers, coordinate by coordinate.
+    fn by_derivatives(energy: &Energy<'_>, u: &[f64], ud: &[f64], udd: &[f64]) -> Vec<f64> {
+        let along = |i: usize| {
+            let unit = |k: usize| if k == i { 1.0 } else { 0.0 };
+            let moved: Vec<_> = (0..u.len()).map(|k| Dual::new(u[k], unit(k))).collect();
+            let still: Vec<_> = ud.iter().map(|&x| Dual::new(x, 0.0)).collect();
+            let slope = lagrangian(energy, &moved, &still).rate;
+            // The outer rate is that of u̇ᵢ, the inner one that of time.
+            let in_time = |x: f64, rate: f64, outer: f64| {
+                Dual::new(Dual::new(x, rate), Dual::new(outer, 0.0))
+            };
+            let u: Vec<_> = (0..u.len()).map(|k| in_time(u[k], ud[k], 0.0)).collect();
+            let ud: Vec<_> = (0..u.len())
+                .map(|k| in_time(ud[k], udd[k], unit(k)))
+                .collect();
+            lagrangian(energy, &u, &ud).rate.rate - slope
+        };
+        (0..u.len()).map(along).collect()
+    }
+
+    #[test]
+    fn the_sum_over_links_is_lagranges_derivative_of_the_energy() {
+        let text = include_str!("../../tests/urdf/zoo.urdf");
+        let robot = parse(text, Path::new(".")).expect("a robot");
+        for free_base in [false, true] {
+            let selection = Selection {
+                free_base,
+                lock: vec![("turn".to_owned(), -0.3)],
+                ..Selection::default()
+            };
+            let selected = selection.of(&robot).expect("a selection");
+            let energy = Energy::of(&robot, &selected);
+            let number = |size: f64, phase: f64| -> Vec<f64> {
+                let each = 0..energy.coordinates;
+                each.map(|i| size * (1.7 * i as f64 + phase).sin())
+                    .collect()
+            };
+            let (u, ud, udd) = (number(1.2, 0.3), number(2.0, 1.1), number(5.0, 2.3));
+            let expected = by_derivatives(&energy, &u, &ud, &udd);
+            let found = energy.torque(&u, &ud, &udd);
+            let scale = expected.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            assert!(scale > 1.0, "{expected:?}");
+            for (a, b) in found.iter().zip(&expected) {
+                assert!((a - b).abs() < 1e-13 * scale, "{a} {b}");
+            }
+        }
+    }
+
+    thread_local! {
+        static PRODUCTS: Cell<u64> = const { Cell::new(0) };
+    }
+
+    /// A number that counts its products.
+    #[derive(Clone, Copy, Debug)]
+    struct Counted(f64);
+
+    impl Number for Counted {
+        fn constant(x: f64) -> Self {
+            Self(x)
+        }
+        fn scaled(self, by: f64) -> Self {
+            self * Self(by)
+        }
+        fn sin_cos(self) -> (Self, Self) {
+            let (sin, cos) = self.0.sin_cos();
+            (Self(sin), Self(cos))
+        }
+    }
+
+    impl Add for Counted {
+        type Output = Self;
+        fn add(self, other: Self) -> Self {
+            Self(self.0 + other.0)
+        }
+    }
+
+    impl Sub for Counted {
+        type Output = Self;
+        fn sub(self, other: Self) -> Self {
+            Self(self.0 - other.0)
+        }
+    }
+
+    impl Mul for Counted {
+        type Output = Self;
+        fn mul(self, other: Self) -> Self {
+            PRODUCTS.set(PRODUCTS.get() + 1);
+            Self(self.0 * other.0)
+        }
+    }
+
+    impl Neg for Counted {
+        type Output = Self;
+        fn neg(self) -> Self {
+            Self(-self.0)
+        }
+    }
+
+    /// The products of a state of a chain of joints.
+    fn products(joints: usize) -> u64 {
+        let mut text = String::from("<robot name='r'><link name='l0'/>");
+        for i in 1..=joints {
+            let _ = write!(
+                text,
+                "<link name='l{i}'><inertial><origin xyz='0 0 0.1'/><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' \
+                 izz='1'/></inertial></link><joint name='j{i}' type='continuous'><origin xyz='0 0 0.2'/><parent link='l{}'/>\
+                 <child link='l{i}'/><axis xyz='0 1 0'/></joint>",
+                i - 1
+            );
+        }
+        let robot = parse(&(text + "</robot>"), Path::new(".")).expect("a robot");
+        let selected = Selection::default().of(&robot).expect("all joints");
+        let energy = Energy::of(&robot, &selected);
+        let [u, ud, udd] = [0.3, 0.7, 1.1].map(|x| vec![Counted(x); joints]);
+        PRODUCTS.set(0);
+        energy.torque(&u, &ud, &udd);
+        PRODUCTS.get()
+    }
+
+    #[test]
+    fn the_work_of_a_state_grows_with_the_number_of_joints() {
+        let [ten, sixty, most] = [10, 60, 136].map(products);
+        assert_eq!(
+            (sixty - ten) / 50,
+            (most - sixty) / 76,
+            "{ten}, {sixty}, {most}"
+        );
+        assert!(sixty < 60 * 1_200, "{sixty} products for 60 joints");
+    }
+}

@@ -40,13 +40,11 @@ impl<'t> Xml<'t> {
         };
         Document::parse_with_options(self.0.text(), options).map_err(|error| {
             let (place, message) = (error.pos(), error.to_string());
-            let message = match message.strip_suffix(&format!(" at {place}")) {
-                Some(what) => {
-                    let column = self.0.column(place.row, place.col);
-                    format!("{what} at {}:{column}", place.row)
-                }
-                None => message,
-            };
+            let column = self.0.column(place.row, place.col);
+            let message = message.replace(
+                &format!("at {place}"),
+                &format!("at {}:{column}", place.row),
+            );
             ImportError::at(place.row, "", Problem::Xml(message))
         })
     }

@@ -3,6 +3,7 @@
 use dynamics_core::glam::{DMat3, DVec3};
 
 use crate::error::{ImportError, Problem};
+use crate::limits::MOST_SHOWN;
 
 /// A format of descriptions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,8 +29,10 @@ pub struct Description {
     pub joints: Vec<Joint>,
     /// Joints that close loops.
     pub loops: Vec<Loop>,
-    /// What the file states and the import leaves out, a sentence each.
+    /// What the file states and the import leaves out, and what it takes other than XML does, a sentence each.
     pub notes: Vec<String>,
+    /// The files that it includes.
+    pub files: Vec<std::path::PathBuf>,
 }
 
 /// A link.
@@ -98,6 +101,8 @@ pub struct Joint {
     pub friction: f64,
     /// Rotor inertia reflected to the joint, kg·m² or kg.
     pub armature: f64,
+    /// Stiffness (N·m/rad or N/m) and rest position (rad or m) of a spring; no stiffness is none.
+    pub spring: [f64; 2],
     /// Whether the file has a motor on it; of URDF, whether it states the torque of one.
     pub driven: bool,
     /// Position = multiplier · (position of another joint) + offset.
@@ -317,9 +322,14 @@ fn edits(a: &str, b: &str) -> usize {
     rows[a.len()][b.len()]
 }
 
-/// A text of a file for a message: at most 60 characters.
+/// A text of a file for a message: at most [`MOST_SHOWN`] characters.
 pub(crate) fn shortened(text: &str) -> String {
-    match text.char_indices().nth(60) {
+    cut(text, MOST_SHOWN)
+}
+
+/// The beginning of a text that is longer than so many characters.
+pub(crate) fn cut(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_owned(),
     }

@@ -13,6 +13,7 @@ use dynamics_core::state::State;
 use crate::check::energy::{Rows, rows};
 use crate::description::{Kind, Pose, shortened};
 use crate::error::{Problem, Result};
+use crate::limits::MOST_COORDINATES;
 use crate::loops::Closed;
 use crate::number::Attitude;
 use crate::tree::{self, Tree};
@@ -26,17 +27,6 @@ pub struct Motion {
     pub qd: Vec<f64>,
     /// Acceleration.
     pub qdd: Vec<f64>,
-}
-
-/// The library's results of a tree at a state.
-#[derive(Clone, Debug)]
-pub struct Dynamics {
-    /// Inverse dynamics in f64, N·m or N.
-    pub torque: Vec<f64>,
-    /// The same in f32.
-    pub torque_f32: Vec<f64>,
-    /// M, row by row.
-    pub inertia: Vec<Vec<f64>>,
 }
 
 /// A tree as a model.
@@ -59,14 +49,11 @@ pub struct Sized<const N: usize, const Q: usize> {
     balls: usize,
 }
 
-/// The most velocity coordinates of a tree that is checked.
-pub const MOST_COORDINATES: usize = 136;
-
 impl AnyModel {
     /// The model of a tree.
     ///
     /// # Errors
-    /// More coordinates than [`MOST_COORDINATES`], or numbers that the library refuses.
+    /// More coordinates than [`MOST_COORDINATES`](crate::limits::MOST_COORDINATES), or numbers that the library refuses.
     pub fn of(tree: &Tree) -> Result<Self> {
         let v = tree.coordinates()[1].max(tree.bodies.len());
         Ok(match v {
@@ -120,12 +107,30 @@ impl AnyModel {
         }
     }
 
-    /// Its dynamics at a state.
-    pub fn dynamics(&self, motion: &Motion) -> Dynamics {
+    /// Inverse dynamics at a state, N·m or N.
+    pub fn torque(&self, motion: &Motion) -> Vec<f64> {
         match self {
-            Self::Small(model) => model.dynamics(motion),
-            Self::Middle(model) => model.dynamics(motion),
-            Self::Large(model) => model.dynamics(motion),
+            Self::Small(model) => model.torque(motion),
+            Self::Middle(model) => model.torque(motion),
+            Self::Large(model) => model.torque(motion),
+        }
+    }
+
+    /// The same in f32.
+    pub fn torque_f32(&self, motion: &Motion) -> Vec<f64> {
+        match self {
+            Self::Small(model) => model.torque_f32(motion),
+            Self::Middle(model) => model.torque_f32(motion),
+            Self::Large(model) => model.torque_f32(motion),
+        }
+    }
+
+    /// M of its v velocity coordinates at q, row by row.
+    pub fn inertia(&self, q: &[f64], v: usize) -> Vec<Vec<f64>> {
+        match self {
+            Self::Small(model) => model.inertia(q, v),
+            Self::Middle(model) => model.inertia(q, v),
+            Self::Large(model) => model.inertia(q, v),
         }
     }
 }
@@ -264,26 +269,31 @@ impl<const N: usize, const Q: usize> Sized<N, Q> {
         torque[..q.len()].to_vec()
     }
 
-    fn dynamics(&self, motion: &Motion) -> Dynamics {
-        let q = self.position(&motion.q);
-        let (qd, qdd) = (filled(&motion.qd), filled(&motion.qdd));
-        let state = State { q, qd, qdd };
-        let torque = rnea(&self.exact, &state, &RIGID_BODY);
-        let small = State {
-            q: q.map(|x| x as f32),
+    fn torque(&self, motion: &Motion) -> Vec<f64> {
+        let state = State {
+            q: self.position(&motion.q),
+            qd: filled(&motion.qd),
+            qdd: filled(&motion.qdd),
+        };
+        rnea(&self.exact, &state, &RIGID_BODY)[..motion.qd.len()].to_vec()
+    }
+
+    fn torque_f32(&self, motion: &Motion) -> Vec<f64> {
+        let (qd, qdd) = (filled::<N>(&motion.qd), filled::<N>(&motion.qdd));
+        let state = State {
+            q: self.position(&motion.q).map(|x| x as f32),
             qd: qd.map(|x| x as f32),
             qdd: qdd.map(|x| x as f32),
         };
-        let torque_f32 = rnea(&self.rounded, &small, &RIGID_BODY);
-        let m = crba(&self.exact, &q, &(Inertia,));
-        let v = motion.qd.len();
-        Dynamics {
-            torque: torque[..v].to_vec(),
-            torque_f32: torque_f32[..v].iter().map(|&x| f64::from(x)).collect(),
-            inertia: (0..v)
-                .map(|i| (0..v).map(|j| m.get(i, j)).collect())
-                .collect(),
-        }
+        let torque = rnea(&self.rounded, &state, &RIGID_BODY);
+        let own = torque[..motion.qd.len()].iter();
+        own.map(|&x| f64::from(x)).collect()
+    }
+
+    fn inertia(&self, q: &[f64], v: usize) -> Vec<Vec<f64>> {
+        let m = crba(&self.exact, &self.position(q), &(Inertia,));
+        let row = |i| (0..v).map(|j| m.get(i, j)).collect();
+        (0..v).map(row).collect()
     }
 }
 

@@ -1,6 +1,7 @@
 //! What an import makes of a file, and that its check fails where the import is wrong.
 
 mod changes;
+mod extensions;
 mod locks;
 mod peer;
 mod subjects;

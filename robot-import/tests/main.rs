@@ -5,5 +5,7 @@ mod hostile;
 mod imports;
 mod mjcf;
 mod names;
+mod outputs;
 mod project;
+mod readers;
 mod written;

@@ -64,6 +64,7 @@ const ALL: FileEffects = FileEffects {
     viscous: true,
     coulomb: true,
     armature: true,
+    spring: false,
 };
 
 /// A project in a folder outside the workspace, so that nothing of its configuration acts; it is built in the

@@ -186,12 +186,7 @@ struct Place {
 
 impl Place {
     fn of(tree: &Tree, model: &AnyModel, q: &[f64]) -> Self {
-        let rest = Motion {
-            q: q.to_vec(),
-            qd: vec![0.0; q.len()],
-            qdd: vec![0.0; q.len()],
-        };
-        let mut mass = model.dynamics(&rest).inertia;
+        let mut mass = model.inertia(q, q.len());
         for (joint, body) in tree.bodies.iter().enumerate() {
             mass[joint][joint] += body.armature;
         }
@@ -359,7 +354,7 @@ fn needed(tree: &Tree, model: &AnyModel, home: &[f64]) -> Vec<f64> {
                 // The way back is the same in the opposite direction of time.
                 qdd: scaled(acceleration),
             };
-            let torque = model.dynamics(&motion).torque;
+            let torque = model.torque(&motion);
             for (joint, body) in tree.bodies.iter().enumerate() {
                 let direction = match motion.qd[joint] {
                     0.0 => 0.0,

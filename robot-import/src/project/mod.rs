@@ -70,7 +70,7 @@ pub struct RobotFile {
     pub v: usize,
     /// Whether joints are coupled (mimic joints): the projects drive each joint by itself.
     pub coupled: bool,
-    /// Which of `VISCOUS`, `COULOMB`, `ARMATURE` have a number other than zero. The others are left out of the scene.
+    /// Which of `VISCOUS`, `COULOMB`, `ARMATURE`, `SPRING` have a number other than zero. The others are left out of the scene.
     pub effects: FileEffects,
     /// How the projects' feedback holds it.
     pub feedback: Feedback,
@@ -85,6 +85,8 @@ pub struct FileEffects {
     pub coulomb: bool,
     /// `ARMATURE`.
     pub armature: bool,
+    /// `SPRING`.
+    pub spring: bool,
 }
 
 /// Where a project gets dynamics-core and the crates beside it from.
@@ -410,6 +412,7 @@ impl FileEffects {
             (self.viscous, "Viscous", "VISCOUS"),
             (self.coulomb, "Coulomb", "COULOMB"),
             (self.armature, "Armature", "ARMATURE"),
+            (self.spring, "Spring", "SPRING"),
         ];
         let of_file = of_file.into_iter().filter(|(given, ..)| *given);
         let value = |&effect: &&str| match effect {

@@ -59,7 +59,11 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
         ""
     };
     let arm = if single { "ArmModel, " } else { "" };
-    out += "use ::dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};\n";
+    let spring = if tree.has_springs() { "Spring, " } else { "" };
+    let _ = writeln!(
+        out,
+        "use ::dynamics_core::effects::{{Armature, Coriolis, Coulomb, Gravity, Inertia, {spring}Viscous, Width}};"
+    );
     let _ = writeln!(
         out,
         "use ::dynamics_core::model::{{{arm}{base}Body, Joint{limited}, Model, Robot}};"

@@ -8,9 +8,9 @@ const MOST: usize = 60;
 /// What the type cannot be called: each constant of the file, each item of the library that it imports, the keyword,
 /// and what Rust has in scope everywhere, which `use robot::*` would hide.
 const TAKEN: &str = "
-    ARMATURE B BODIES COULOMB COUPLING JOINTS M N Q SCENE V VISCOUS
+    ARMATURE B BODIES COULOMB COUPLING JOINTS M N Q SCENE SPRING V VISCOUS
     ArmModel Armature BASE Body BodyFrame Coriolis Coulomb Gravity Inertia Joint JointLimits LoopJoint LoopRobot Loops
-    Model PI Robot Transmission Viscous Width
+    Model PI Robot Spring Transmission Viscous Width
     Self
     AsMut AsRef Box Clone Copy Debug Default DoubleEndedIterator Drop Eq Err ExactSizeIterator Extend Fn FnMut FnOnce
     From FromIterator Future Hash Into IntoFuture IntoIterator Iterator None Ok Option Ord PartialEq PartialOrd Result

@@ -124,6 +124,7 @@ impl Names {
                 viscous: is_some(|body| body.damping),
                 coulomb: is_some(|body| body.friction),
                 armature: is_some(|body| body.armature),
+                spring: tree.has_springs(),
             },
             feedback: Feedback::default(),
         })

@@ -111,18 +111,25 @@ impl<Spi> As5047p<Spi> {
         self.spi
     }
 
-    /// Takes what a transfer brought: the part that the blocking and the asynchronous form share.
+    /// Takes the angle of a frame; whether it is one, and is the joint's. With [`Self::accept_otherwise`] the part that the
+    /// blocking and the asynchronous form share.
     #[inline(always)]
-    pub(crate) fn accept<E: Error>(
+    pub(crate) fn accept<E: Error>(&mut self, sent: &Result<(), E>, frame: [u8; 2]) -> bool {
+        let frame = u16::from_be_bytes(frame);
+        sent.is_ok() && wrong(frame) == 0 && self.turns.update(frame).is_ok()
+    }
+
+    /// Takes what a transfer brought that was not accepted: a function of its own, so that the usual frame has no case for
+    /// it.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn accept_otherwise<E: Error>(
         &mut self,
         sent: Result<(), E>,
         frame: [u8; 2],
     ) -> Result<(), FrameError> {
-        let raw = match sent {
-            Ok(()) => decode(u16::from_be_bytes(frame)),
-            Err(error) => Err(FrameError::Bus(error.kind())),
-        };
-        match raw {
+        let sent = sent.map_err(|error| FrameError::Bus(error.kind()));
+        match sent.and_then(|()| decode(u16::from_be_bytes(frame))) {
             Ok(raw) => {
                 let update = self.turns.update(raw);
                 update.map_err(|LostTurn| FrameError::LostTurn)
@@ -157,14 +164,24 @@ impl<Spi: SpiDevice> As5047p<Spi> {
     pub fn read(&mut self) -> Result<f32, FrameError> {
         let mut frame = READ_ANGLE.to_be_bytes();
         let sent = self.spi.transfer_in_place(&mut frame);
-        match self.accept(sent, frame) {
-            Ok(()) => Ok(self.angle()),
-            Err(FrameError::LostTurn) => Err(FrameError::LostTurn),
-            Err(error) => {
-                self.start();
-                Err(error)
-            }
+        if !self.accept(&sent, frame) {
+            self.read_otherwise(sent, frame)?;
         }
+        Ok(self.angle())
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn read_otherwise(
+        &mut self,
+        sent: Result<(), Spi::Error>,
+        frame: [u8; 2],
+    ) -> Result<(), FrameError> {
+        let accepted = self.accept_otherwise(sent, frame);
+        if !matches!(accepted, Ok(()) | Err(FrameError::LostTurn)) {
+            self.start();
+        }
+        accepted
     }
 }
 
@@ -212,8 +229,7 @@ impl<Spi: SpiDevice> JointEncoder for As5047p<Spi> {
 /// ```
 #[inline(always)]
 pub fn decode(frame: u16) -> Result<u16, FrameError> {
-    // One branch for both, which almost no frame takes.
-    if (parity(frame) | frame >> ERROR_BIT) & 1 == 0 {
+    if wrong(frame) == 0 {
         return Ok(frame & MASK);
     }
     Err(if parity(frame) & 1 != 0 {
@@ -221,6 +237,12 @@ pub fn decode(frame: u16) -> Result<u16, FrameError> {
     } else {
         FrameError::Flag
     })
+}
+
+/// Whether a frame has a wrong parity or the error flag, in bit 0: one branch for both, which almost no frame takes.
+#[inline(always)]
+const fn wrong(frame: u16) -> u16 {
+    (parity(frame) | frame >> ERROR_BIT) & 1
 }
 
 /// The answer with a 14-bit angle, as sent by a simulated encoder.

@@ -95,14 +95,14 @@ impl<Spi: SpiDevice> As5047p<Spi> {
     pub async fn read_async(&mut self) -> Result<f32, FrameError> {
         let mut frame = READ_ANGLE.to_be_bytes();
         let sent = self.spi.transfer_in_place(&mut frame).await;
-        match self.accept(sent, frame) {
-            Ok(()) => Ok(self.angle()),
-            Err(FrameError::LostTurn) => Err(FrameError::LostTurn),
-            Err(error) => {
+        if !self.accept(&sent, frame) {
+            let accepted = self.accept_otherwise(sent, frame);
+            if !matches!(accepted, Ok(()) | Err(FrameError::LostTurn)) {
                 self.start_async().await;
-                Err(error)
             }
+            accepted?;
         }
+        Ok(self.angle())
     }
 }
 

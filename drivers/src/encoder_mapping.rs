@@ -8,8 +8,8 @@ use crate::{JointError, JointMapping, MappingError};
 /// The part of a turn that a range leaves free: two counts of 12 bits, so that the rounding of a count at one end is not
 /// the other end.
 const FREE: f32 = 1.0 / 2048.0;
-/// The most turns of an encoder between its zero and the place of its joint: their counts of 16 bits fit into 32.
-const MOST_TURNS: f32 = 16_384.0;
+/// The most turns of an encoder between its zero and the place of its joint: their half counts of 16 bits fit into 32.
+pub(crate) const MOST_TURNS: f32 = 16_000.0;
 /// The part of half a turn that is taken for it: below it a count more does not matter.
 const HALF: f32 = 0.999;
 
@@ -89,7 +89,7 @@ impl JointMapping {
     /// and reports it ([`LostTurn`]) until it is told where it is.
     ///
     /// # Errors
-    /// [`MappingError::Range`]: not a number, the ends in the wrong order, or more than 16,384 turns of the encoder away.
+    /// [`MappingError::Range`]: not a number, the ends in the wrong order, or more than 16,000 turns of the encoder away.
     /// [`MappingError::Turns`]: the range is longer than a turn of the encoder. [`MappingError::Circle`]: a turn of the
     /// encoder is not a whole number of turns of a continuous joint. [`MappingError::Step`]: the step is not above zero, or
     /// half a turn of the encoder.
@@ -172,9 +172,12 @@ impl EncoderMapping {
         self.range
     }
 
-    /// The same joint, known to be within half a turn of the encoder from `position`.
+    /// The same joint, known to be within half a turn of the encoder from `position` if nothing else says where it is.
     pub(crate) fn moved_near(mut self, position: f32) -> Result<Self, MappingError> {
-        self.near = JointRange::Near(position).middle(self.mapping.ratio())?;
+        let near = JointRange::Near(position).middle(self.mapping.ratio())?;
+        if !self.is_absolute() {
+            self.near = near;
+        }
         Ok(self)
     }
 
@@ -185,6 +188,17 @@ impl EncoderMapping {
 
     pub(crate) const fn is_circle(&self) -> bool {
         matches!(self.range, JointRange::Continuous)
+    }
+
+    /// The readings, one in each tick, that may be missing between two: before the shaft can turn by `angle` rad, or any
+    /// number (`u32::MAX`) if every reading says by itself where the joint is.
+    pub(crate) const fn most_missing(&self, angle: f32) -> u32 {
+        if self.is_absolute() {
+            return u32::MAX;
+        }
+        // The step is less than the angle; the whole number below the ratio may be it.
+        let ticks = (HALF * angle / self.step) as u32;
+        ticks.saturating_sub(1)
     }
 
     /// Whether the shaft can turn by `angle` rad or more in so many ticks.
@@ -198,6 +212,11 @@ impl EncoderMapping {
         let per_count = TAU / turn;
         let zero = within_turn(self.mapping.zero());
         (zero / per_count, per_count / self.mapping.to_shaft())
+    }
+
+    /// The position from which the joint is half a turn away at most when it is placed.
+    pub(crate) const fn near(&self) -> f32 {
+        self.near
     }
 
     /// The count from which the joint is half a turn away at most, at or above it.

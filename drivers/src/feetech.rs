@@ -92,6 +92,7 @@ pub struct Servos<Port, const N: usize> {
     has_echo: bool,
     has_turns: bool,
     ids: [u8; N],
+    mappings: [EncoderMapping; N],
     counters: [MultiTurnEncoder<BITS>; N],
     /// What each servo's own count lacks to that of its counter, since it replied.
     offsets: [Option<i32>; N],
@@ -118,6 +119,7 @@ impl<Port, const N: usize> Servos<Port, N> {
             has_echo: false,
             has_turns: false,
             ids,
+            mappings,
             counters: mappings.map(MultiTurnEncoder::new),
             offsets: [None; N],
         })
@@ -212,7 +214,7 @@ impl<Port, const N: usize> Servos<Port, N> {
     fn offset(&self, joint: usize, goal: f32) -> Option<i32> {
         let counter = &self.counters[joint];
         let turns = |position| floor(counter.count_at(position) + 0.5) & !i32::from(COUNTS - 1);
-        match (counter.mapping().range(), self.offsets[joint]) {
+        match (self.mappings[joint].range(), self.offsets[joint]) {
             // Either way round a circle leads to the goal.
             (JointRange::Continuous, _) if !self.has_turns => Some(turns(goal)),
             (JointRange::Within { lower, upper }, None) if !self.has_turns => {
@@ -225,7 +227,7 @@ impl<Port, const N: usize> Servos<Port, N> {
     fn goal_duties(&self, duties: &[f32; N]) -> Result<Packet, FeetechError> {
         let mut goals = [0; N];
         for (joint, goal) in goals.iter_mut().enumerate() {
-            let sign = self.counters[joint].mapping().mapping().direction().sign();
+            let sign = self.mappings[joint].mapping().direction().sign();
             let duty = sign * duties[joint] * FULL_DUTY;
             *goal = to_sign(duty.clamp(-FULL_DUTY, FULL_DUTY), DUTY_SIGN);
         }

@@ -241,14 +241,10 @@ impl<E: JointEncoder, const V: usize> JointEncoders<V> for [E; V] {
 
     #[inline(always)]
     fn read(&mut self) -> Result<[f32; V], JointError<E::Error>> {
-        let mut failed = None;
-        for (joint, encoder) in self.iter_mut().enumerate() {
-            if let Err(error) = encoder.sample() {
-                keep_first(&mut failed, JointError { joint, error });
+        for joint in 0..V {
+            if let Err(error) = self[joint].sample() {
+                return Err(sample_others(self, JointError { joint, error }));
             }
-        }
-        if let Some(failed) = failed {
-            return Err(failed);
         }
         Ok(self.each_ref().map(E::position))
     }
@@ -273,13 +269,19 @@ impl<D: JointDrive, const V: usize> JointDrives<V> for [D; V] {
     }
 }
 
-/// Keeps the first error: in a function of its own, so that a tick without errors keeps no register for them.
+/// Reads the encoders after one that failed, and keeps its error: in a function of its own, so that a tick without errors
+/// keeps nothing for them.
 #[cold]
 #[inline(never)]
-fn keep_first<E>(kept: &mut Option<JointError<E>>, other: JointError<E>) {
-    if kept.is_none() {
-        *kept = Some(other);
+fn sample_others<E: JointEncoder, const V: usize>(
+    encoders: &mut [E; V],
+    failed: JointError<E::Error>,
+) -> JointError<E::Error> {
+    for encoder in encoders.iter_mut().skip(failed.joint + 1) {
+        // Its reading is lost with the others of this tick, but not its turn.
+        let _ = encoder.sample();
     }
+    failed
 }
 
 /// Keeps the first error of those that failed, else of those that are not ready.

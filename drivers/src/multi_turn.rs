@@ -4,27 +4,19 @@ use core::f32::consts::PI;
 
 use dynamics_core::scalar::Real;
 
-use crate::encoder_mapping::LostTurn;
+use crate::encoder_mapping::{LostTurn, MOST_TURNS, floor};
 use crate::{EncoderMapping, MappingError};
 
-/// What the count is taken from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Known {
-    /// The reading before: the next one is the shorter rotation from it.
-    Last,
-    /// Nothing: the next reading is placed where the joint can be.
-    Nothing,
-    /// An earlier reading, before so many that are missing.
-    Missing(u32),
-    /// It is unknown in which turn the joint is.
-    Lost,
-}
+/// In place of the readings that are missing since the last one: it is unknown in which turn the joint is.
+const LOST: u32 = u32::MAX;
+/// The same: each reading is placed anew.
+const CIRCLE: u32 = LOST - 1;
 
 /// The position of a joint from an absolute encoder of BITS bits (1 to 16), turns included.
 ///
 /// The first reading is placed where the joint can be ([`JointRange`](crate::JointRange)); then the difference of two
 /// readings is the shorter rotation, so that the wrap from the last count to 0 is not a jump. The count itself wraps after
-/// 2³¹ counts: 131,072 turns of 14 bits. A range of the joint that is longer than a turn but for two counts of BITS has
+/// 2³⁰ counts: 65,536 turns of 14 bits. A range of the joint that is longer than a turn but for two counts of BITS has
 /// two readings at its ends: with less than 12 bits leave more than that free.
 ///
 /// ```
@@ -41,30 +33,36 @@ enum Known {
 #[doc(alias = "TurnCounter")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MultiTurnEncoder<const BITS: u32> {
-    counts: i32,
-    known: Known,
-    /// The joint's zero in counts, and its rad or m per count.
+    /// Twice the count, and odd before the first reading: the middle of the turn in which it is.
+    halves: i32,
+    /// Readings that are missing since the last one; [`LOST`], [`CIRCLE`].
+    missing: u32,
+    /// The joint's zero in half counts, and its rad or m per half count.
     zero: f32,
-    per_count: f32,
-    mapping: EncoderMapping,
+    per_half: f32,
+    /// The place of a joint without a reading, as in `halves`.
+    near: i32,
+    /// So many readings may be missing; `u32::MAX` if each one says by itself where the joint is.
+    most: u32,
 }
 
 impl<const BITS: u32> MultiTurnEncoder<BITS> {
     const SHIFT: u32 = {
         assert!(BITS >= 1 && BITS <= 16, "an encoder has 1 to 16 bits");
-        32 - BITS
+        31 - BITS
     };
-    const TURN: f32 = (1_u32 << BITS) as f32;
 
     /// A counter without a reading, at the place where its joint is taken to be.
     pub const fn new(mapping: EncoderMapping) -> Self {
-        let (zero, per_count) = mapping.in_counts(Self::TURN);
+        let (zero, per_half) = mapping.in_counts((2_u32 << BITS) as f32);
+        let near = place(mapping.near(), zero, per_half);
         Self {
-            counts: mapping.near_count(Self::TURN),
-            known: Known::Nothing,
+            halves: near,
+            missing: if mapping.is_circle() { CIRCLE } else { 0 },
             zero,
-            per_count,
-            mapping,
+            per_half,
+            near,
+            most: mapping.most_missing(PI),
         }
     }
 
@@ -77,65 +75,65 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     /// [`LostTurn`], until [`Self::place_near`].
     #[inline(always)]
     pub fn update(&mut self, raw: u16) -> Result<(), LostTurn> {
-        if !matches!(self.known, Known::Last) {
-            return self.place(raw);
+        // Shifting out the turns leaves the difference modulo one turn, with its sign.
+        let apart = (i32::from(raw) << 1).wrapping_sub(self.halves);
+        self.halves = self.halves.wrapping_add(Self::within(apart));
+        if self.missing == 0 {
+            Ok(())
+        } else {
+            self.examine()
         }
-        self.follow(raw, self.counts);
-        Ok(())
+    }
+
+    /// Half counts without whole turns.
+    #[inline(always)]
+    const fn within(halves: i32) -> i32 {
+        (halves << Self::SHIFT) >> Self::SHIFT
     }
 
     /// Notes that so many readings failed or were not made, one in each tick: the joint may have moved on.
     #[cold]
     pub fn missed(&mut self, readings: u32) {
-        let missing = match self.known {
-            Known::Last => 0,
-            Known::Missing(missing) => missing,
-            Known::Nothing | Known::Lost => return,
-        };
-        self.known = Known::Missing(missing.saturating_add(readings));
+        if self.most == u32::MAX {
+            self.halves = self.near;
+        } else if self.halves & 1 == 0 && self.missing < LOST {
+            self.missing = self.missing.saturating_add(readings).min(LOST - 1);
+        }
     }
 
     /// Takes the joint to be at `position` rad or m: the next reading is within half a turn of the encoder from there, and
-    /// ends [`LostTurn`].
+    /// ends [`LostTurn`]. A joint that every reading places by itself stays where it is.
     ///
     /// # Errors
-    /// [`MappingError::Range`]: not finite, or more than 16,384 turns of the encoder away; nothing is changed.
+    /// [`MappingError::Range`]: not finite, or more than 16,000 turns of the encoder away; nothing is changed.
     pub fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
-        self.mapping = self.mapping.moved_near(position)?;
-        self.known = Known::Nothing;
+        let turns = position / self.per_half / (2_u32 << BITS) as f32;
+        // False for NaN, too.
+        let is_known = turns.abs() <= MOST_TURNS;
+        if !is_known {
+            return Err(MappingError::Range);
+        }
+        if self.most != u32::MAX {
+            self.near = place(position, self.zero, self.per_half);
+            (self.halves, self.missing) = (self.near, 0);
+        }
         Ok(())
     }
 
-    /// Takes the angle nearest to a count.
-    #[inline(always)]
-    fn follow(&mut self, raw: u16, from: i32) {
-        // Shifting out the turns leaves the difference modulo one turn, with its sign.
-        let apart = i32::from(raw).wrapping_sub(from);
-        let step = (apart << Self::SHIFT) >> Self::SHIFT;
-        self.counts = from.wrapping_add(step);
-    }
-
-    /// A reading that does not follow the one of the tick before: a function of its own, so that the usual reading has no
-    /// case for it.
+    /// Whether a reading after others that are missing says where the joint is: a function of its own, so that the usual
+    /// reading has no case for it.
     #[cold]
     #[inline(never)]
-    fn place(&mut self, raw: u16) -> Result<(), LostTurn> {
-        let from = match self.known {
-            Known::Lost => return Err(LostTurn),
-            Known::Missing(missing) if !self.mapping.is_absolute() => {
-                if self.mapping.can_turn(missing.saturating_add(1), PI) {
-                    self.known = Known::Lost;
-                    return Err(LostTurn);
-                }
-                self.counts
-            }
-            Known::Last => self.counts,
-            Known::Nothing | Known::Missing(_) => self.mapping.near_count(Self::TURN),
-        };
-        self.follow(raw, from);
-        // The angle of a circle is placed anew each time: its count does not grow with its turns.
-        if !self.mapping.is_circle() {
-            self.known = Known::Last;
+    fn examine(&mut self) -> Result<(), LostTurn> {
+        if self.most == u32::MAX {
+            // The angle of a circle: its count does not grow with its turns.
+            let apart = self.halves.wrapping_sub(self.near);
+            self.halves = self.near.wrapping_add(Self::within(apart));
+        } else if self.missing > self.most {
+            self.missing = LOST;
+            return Err(LostTurn);
+        } else {
+            self.missing = 0;
         }
         Ok(())
     }
@@ -145,29 +143,24 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     /// f32: within 2.5 units in the last place; whole turns are counted in integers. Cost: 3 flops.
     #[inline(always)]
     pub fn position(&self) -> f32 {
-        (self.counts as f32 - self.zero) * self.per_count
+        (self.halves as f32 - self.zero) * self.per_half
     }
 
     /// The count at which the joint is at `position`, turns included.
     pub(crate) fn count_at(&self, position: f32) -> f32 {
-        position / self.per_count + self.zero
-    }
-
-    /// The mapping to the joint.
-    pub(crate) const fn mapping(&self) -> &EncoderMapping {
-        &self.mapping
+        0.5 * (position / self.per_half + self.zero)
     }
 
     /// The position of the encoder's shaft in counts after the last reading.
     #[inline(always)]
     pub const fn counts(&self) -> i32 {
-        self.counts
+        self.halves >> 1
     }
 
     /// Whole turns of the encoder's shaft, rounded down.
     #[inline(always)]
     pub const fn turns(&self) -> i32 {
-        self.counts >> BITS
+        self.halves >> (BITS + 1)
     }
 
     /// The angle of the encoder's shaft in rad, turns included, without the mapping: 2π counts / 2^BITS.
@@ -176,7 +169,7 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     /// unit is 6·10⁻⁵ rad at 100 turns, a sixth of a 14-bit count. Cost: 2 flops.
     #[inline(always)]
     pub fn angle<R: Real>(&self) -> R {
-        angle::<R, BITS>(self.counts)
+        angle::<R, BITS>(self.counts())
     }
 
     /// The angle of the encoder's shaft in rad without whole turns, within ±π: as accurate after a million turns as in the
@@ -194,8 +187,13 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     /// ```
     #[inline(always)]
     pub fn within_turn<R: Real>(&self) -> R {
-        angle::<R, BITS>((self.counts << Self::SHIFT) >> Self::SHIFT)
+        angle::<R, BITS>(Self::within(self.halves) >> 1)
     }
+}
+
+/// The middle of the turn in which a joint near `position` is, in half counts: an odd number.
+const fn place(position: f32, zero: f32, per_half: f32) -> i32 {
+    2 * floor(0.5 * (position / per_half + zero)) + 1
 }
 
 #[inline(always)]
@@ -215,8 +213,7 @@ mod tests {
     fn at<const BITS: u32>(counts: i32) -> MultiTurnEncoder<BITS> {
         let near = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 0.1);
         MultiTurnEncoder {
-            counts,
-            known: Known::Last,
+            halves: 2 * counts,
             ..MultiTurnEncoder::new(near.unwrap())
         }
     }
@@ -248,11 +245,11 @@ mod tests {
 
     #[test]
     fn a_sixteen_bit_count_wraps_without_overflow() {
-        let mut counter = at::<16>(32_767 << 16);
+        let mut counter = at::<16>(16_383 << 16);
         for (raw, counts) in [
-            (0x7fff, 0x7fff_7fff),
-            (0xfffe, i32::MAX - 1),
-            (1, i32::MIN + 1),
+            (0x7fff, 0x3fff_7fff),
+            (0xfffe, 0x3fff_fffe),
+            (1, -0x3fff_ffff),
         ] {
             counter.update(raw).unwrap();
             assert_eq!(counter.counts(), counts);

@@ -193,9 +193,9 @@ impl Place {
         // Central differences, whose error is far below the share of it that is compared.
         let step = 1e-4;
         let torque = |joint: usize, step: f64| {
-            let mut there = rest.clone();
-            there.q[joint] += step;
-            model.gravity(&there.q)
+            let mut there = q.to_vec();
+            there[joint] += step;
+            model.gravity(&there)
         };
         let columns: Vec<Vec<f64>> = (0..q.len())
             .map(|joint| {

@@ -1,6 +1,6 @@
 //! Whatever a robot, a link, a joint or a project is called, what is written of it compiles, and nothing of a name is code.
 
-mod compiled;
+pub mod compiled;
 mod drawn;
 mod files;
 mod projects;

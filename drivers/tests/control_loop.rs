@@ -411,7 +411,7 @@ fn a_loop_on_circles_turns_without_end() {
         steps: ReferenceStep::new([6e-3; 2]),
         saturation: Saturation::new([10.0; 2], 5),
     };
-    let detectors = detectors.on_circles();
+    let detectors = detectors.on_circles::<BOTH>();
     let mut arm = ControlLoop::on_circles(encoders, drives, NoBrake, GAINS, controller, detectors);
     for tick in 0..10_000 {
         let telemetry = arm.tick::<One, _, ()>(&Cruise, &());

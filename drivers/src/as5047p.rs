@@ -16,6 +16,7 @@ use core::fmt;
 use embedded_hal::spi::{Error, ErrorKind, SpiDevice};
 use motion_control::{Fault, PreviousTick};
 
+use crate::multi_turn::Before;
 use crate::{EncoderMapping, EncoderType, JointEncoder, LostTurn, MappingError, MultiTurnEncoder};
 
 /// Counts per turn.
@@ -111,12 +112,22 @@ impl<Spi> As5047p<Spi> {
         self.spi
     }
 
-    /// Takes the angle of a frame; whether it is one, and is the joint's. With [`Self::accept_otherwise`] the part that the
-    /// blocking and the asynchronous form share.
+    /// Takes the angle of a frame, or says what was before one that is not the joint's. With [`Self::accept_otherwise`] the
+    /// part that the blocking and the asynchronous form share.
     #[inline(always)]
-    pub(crate) fn accept<E: Error>(&mut self, sent: &Result<(), E>, frame: [u8; 2]) -> bool {
+    pub(crate) fn accept<E: Error>(
+        &mut self,
+        sent: &Result<(), E>,
+        frame: [u8; 2],
+    ) -> Result<(), Before> {
         let frame = u16::from_be_bytes(frame);
-        sent.is_ok() && wrong(frame) == 0 && self.turns.update(frame).is_ok()
+        // It is taken before it is examined: one branch for all checks, and both loads side by side.
+        let (before, missing) = self.turns.follow(frame);
+        if sent.is_ok() && (u32::from(wrong(frame)) | missing) == 0 {
+            Ok(())
+        } else {
+            Err(before)
+        }
     }
 
     /// Takes what a transfer brought that was not accepted: a function of its own, so that the usual frame has no case for
@@ -127,7 +138,9 @@ impl<Spi> As5047p<Spi> {
         &mut self,
         sent: Result<(), E>,
         frame: [u8; 2],
+        before: Before,
     ) -> Result<(), FrameError> {
+        self.turns.back(before);
         let sent = sent.map_err(|error| FrameError::Bus(error.kind()));
         match sent.and_then(|()| decode(u16::from_be_bytes(frame))) {
             Ok(raw) => {
@@ -164,8 +177,8 @@ impl<Spi: SpiDevice> As5047p<Spi> {
     pub fn read(&mut self) -> Result<f32, FrameError> {
         let mut frame = READ_ANGLE.to_be_bytes();
         let sent = self.spi.transfer_in_place(&mut frame);
-        if !self.accept(&sent, frame) {
-            self.read_otherwise(sent, frame)?;
+        if let Err(before) = self.accept(&sent, frame) {
+            self.read_otherwise(sent, frame, before)?;
         }
         Ok(self.angle())
     }
@@ -176,8 +189,9 @@ impl<Spi: SpiDevice> As5047p<Spi> {
         &mut self,
         sent: Result<(), Spi::Error>,
         frame: [u8; 2],
+        before: Before,
     ) -> Result<(), FrameError> {
-        let accepted = self.accept_otherwise(sent, frame);
+        let accepted = self.accept_otherwise(sent, frame, before);
         if !matches!(accepted, Ok(()) | Err(FrameError::LostTurn)) {
             self.start();
         }

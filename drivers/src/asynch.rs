@@ -95,8 +95,8 @@ impl<Spi: SpiDevice> As5047p<Spi> {
     pub async fn read_async(&mut self) -> Result<f32, FrameError> {
         let mut frame = READ_ANGLE.to_be_bytes();
         let sent = self.spi.transfer_in_place(&mut frame).await;
-        if !self.accept(&sent, frame) {
-            let accepted = self.accept_otherwise(sent, frame);
+        if let Err(before) = self.accept(&sent, frame) {
+            let accepted = self.accept_otherwise(sent, frame, before);
             if !matches!(accepted, Ok(()) | Err(FrameError::LostTurn)) {
                 self.start_async().await;
             }

@@ -12,6 +12,10 @@ const LOST: u32 = u32::MAX;
 /// The same: each reading is placed anew.
 const CIRCLE: u32 = LOST - 1;
 
+/// What a counter had before a reading.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Before(i32);
+
 /// The position of a joint from an absolute encoder of BITS bits (1 to 16), turns included.
 ///
 /// The first reading is placed where the joint can be ([`JointRange`](crate::JointRange)); then the difference of two
@@ -75,14 +79,23 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     /// [`LostTurn`], until [`Self::place_near`].
     #[inline(always)]
     pub fn update(&mut self, raw: u16) -> Result<(), LostTurn> {
+        let (_, missing) = self.follow(raw);
+        if missing == 0 { Ok(()) } else { self.examine() }
+    }
+
+    /// Takes a reading, and returns what was before it, and 0 if it follows that: then it needs no [`Self::examine`].
+    #[inline(always)]
+    pub(crate) fn follow(&mut self, raw: u16) -> (Before, u32) {
+        let (before, missing) = (self.halves, self.missing);
         // Shifting out the turns leaves the difference modulo one turn, with its sign.
-        let apart = (i32::from(raw) << 1).wrapping_sub(self.halves);
-        self.halves = self.halves.wrapping_add(Self::within(apart));
-        if self.missing == 0 {
-            Ok(())
-        } else {
-            self.examine()
-        }
+        let apart = (i32::from(raw) << 1).wrapping_sub(before);
+        self.halves = before.wrapping_add(Self::within(apart));
+        (Before(before), missing)
+    }
+
+    /// Takes back a reading that is none.
+    pub(crate) fn back(&mut self, before: Before) {
+        self.halves = before.0;
     }
 
     /// Half counts without whole turns.

@@ -101,12 +101,12 @@ impl<R: Real, const V: usize> SupervisorConfig<R, V> {
 /// What the supervisor does with the arm, from tick to tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum State {
+    /// The torque of the law was not finite: the arm is held in the next tick, whatever is measured.
+    Torqueless,
     /// The full law; faults are ridden through.
     Full,
     /// A fault outlasted the ride-through: the arm is held until a tick has none.
     Held,
-    /// The torque of the law was not finite: the arm is held in the next tick, whatever is measured.
-    Torqueless,
     /// A controlled stop: the arm is decelerated for `ticks` more, whatever is measured.
     Stopping {
         required: Required,

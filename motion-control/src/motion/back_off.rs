@@ -152,7 +152,7 @@ impl<R: Real, const V: usize> BackOff<R, V> {
         let limit = *controller.supervisor.torque_limit();
         let turned;
         let measured = match measured {
-            Ok(q) if A::CIRCLES.any() => {
+            Ok(q) if A::ON_CIRCLES => {
                 turned = controller.turn_to(q);
                 self.speeds.turn_to(A::CIRCLES, &turned);
                 Ok(&turned)

@@ -261,7 +261,7 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
                     (_, Mode::Stopped) => self.path.clear(),
                     (ContactPhase::Watching, _) => {
                         let q = &tick.reference().q;
-                        if A::CIRCLES.any() {
+                        if A::ON_CIRCLES {
                             self.path.turn_to(A::CIRCLES, q);
                         }
                         self.path.record(q);
@@ -311,7 +311,7 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
         let (from, tick) = (controller.estimate().q, controller.observer.tick());
         match self.config.response {
             ContactResponse::Retract { limits, .. } => {
-                if A::CIRCLES.any() {
+                if A::ON_CIRCLES {
                     self.path.turn_to(A::CIRCLES, &from);
                 }
                 if self.path.plan(&from, tick, &limits) {

@@ -45,6 +45,10 @@ pub trait MeasurementAge: sealed::Sealed {
     #[doc(hidden)]
     const CIRCLES: Circles = Circles::NONE;
 
+    /// Whether there are any: a constant, so that the branches of lines are not even compiled.
+    #[doc(hidden)]
+    const ON_CIRCLES: bool = Self::CIRCLES.any();
+
     /// Updates the estimate by positions that were accepted.
     #[doc(hidden)]
     fn correct<R: Real, const V: usize>(observer: &mut Observer<R, V>, q: &[R; V], qdd: &[R; V]);

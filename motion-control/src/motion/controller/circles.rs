@@ -66,7 +66,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
 
     /// Positions of a motion, of circles on the turn of the estimate.
     pub(super) fn turned(&self, q: [R; V]) -> [R; V] {
-        if !A::CIRCLES.any() {
+        if !A::ON_CIRCLES {
             return q;
         }
         let centres = self.supervisor.centres(&self.observer.estimate().q);
@@ -76,7 +76,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// Moves the reference of circles to the turn of the estimate.
     #[inline(always)]
     pub(super) fn turn_reference(&mut self) {
-        if A::CIRCLES.any() {
+        if A::ON_CIRCLES {
             self.reference.q = self.turned(self.reference.q);
         }
     }
@@ -88,7 +88,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         motion: &T,
         share: R,
     ) -> State<R, V, V> {
-        if !A::CIRCLES.any() {
+        if !A::ON_CIRCLES {
             return self.resume.at(motion, share);
         }
         let centres = self.supervisor.centres(&self.observer.estimate().q);

@@ -127,10 +127,6 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     #[inline]
     pub fn observe(&mut self, measured: Result<&[R; V], Fault>) -> ObservedTick<'_, R, V, A> {
         match measured {
-            Ok(q) if A::CIRCLES.any() => {
-                let q = self.turn_to(q);
-                self.observe_positions(&q);
-            }
             Ok(q) => self.observe_positions(q),
             Err(fault) => self.observe_fault(fault),
         }
@@ -139,6 +135,13 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
 
     #[inline(always)]
     fn observe_positions(&mut self, q: &[R; V]) {
+        let turned;
+        let q = if A::ON_CIRCLES {
+            turned = self.turn_to(q);
+            &turned
+        } else {
+            q
+        };
         self.supervisor.accept_positions(q);
         let stopped = matches!(self.supervisor.mode(), Mode::Stopped);
         if !self.supervisor.measurement_accepted() | self.dead_reckoning | stopped {

@@ -1,7 +1,5 @@
 //! In place of the log of a project for this board: what is measured here says nothing.
 
-use core::fmt::Display;
-
 use joint_drivers::Telemetry;
 use motion_control::ResetError;
 
@@ -19,4 +17,4 @@ impl Log {
     pub fn refused(&mut self, _: ResetError) {}
 }
 
-pub fn impossible(_: &dyn Display) {}
+pub fn impossible<E>(_: &E) {}

@@ -6,12 +6,12 @@ use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle, spi::SpiDevice};
 use joint_drivers::as5047p::As5047p;
 use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
 use joint_drivers::{ControlLoop, Direction, EncoderType};
-use motion_control::{Detect, Gains, TrajectoryError};
+use motion_control::{Detect, Gains};
 
-use crate::control::{Measured, SetupError, controller, encoder_mappings};
+use crate::control::{Measured, controller, encoder_mappings};
 use crate::scene;
 
-pub use crate::control::{FeedForward as Law, Found, detectors, gains};
+pub use crate::control::{FeedForward as Law, Found, SetupError, detectors, gains};
 pub use crate::scene::{Motion, N};
 pub use joint_drivers::as5047p::RESOLUTION;
 
@@ -50,9 +50,9 @@ pub struct Devices<Spi, Pwm, Brake> {
 /// Plans the motion in its place.
 ///
 /// # Errors
-/// [`TrajectoryError`], of way-points of your own.
-pub fn plan(place: &mut Motion) -> Result<(), TrajectoryError> {
-    *place = scene::motion()?;
+/// [`SetupError::Motion`], of way-points of your own.
+pub fn plan(place: &mut Motion) -> Result<(), SetupError> {
+    *place = scene::motion().map_err(SetupError::Motion)?;
     Ok(())
 }
 

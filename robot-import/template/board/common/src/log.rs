@@ -1,14 +1,12 @@
 //! What the firmware says over RTT, which `cargo run` shows: each change of its state with the reason, where
 //! its joints are while it stands on its brake, and why it does not start.
 
-use core::fmt::Display;
-
-use defmt::{Display2Format, error, info, warn};
+use defmt::{error, info, warn};
 use defmt_rtt as _;
 use joint_drivers::Telemetry;
 use motion_control::{Fault, Mode, ResetError};
 
-use crate::board::N;
+use crate::board::{N, SetupError};
 
 /// Ticks on the brake from one list of positions to the next.
 const POSITIONS: u32 = 500;
@@ -59,8 +57,14 @@ impl Log {
     }
 }
 
-/// The limits, the motion, the encoders or the drives are impossible: the arm stays on its brake for good.
+/// The arm stays on its brake for good.
 #[inline(never)]
-pub fn impossible(reason: &dyn Display) {
-    error!("on the brake for good: {}", Display2Format(reason));
+pub fn impossible(reason: &SetupError) {
+    match reason {
+        SetupError::Motion(error) => error!("impossible: the motion in scene.rs: {}", error),
+        SetupError::Limits(error) => error!("impossible: the limits in scene.rs: {}", error),
+        SetupError::Encoder(_) => error!("impossible: how the encoders in board.rs are mounted"),
+        SetupError::Drive(_) => error!("impossible: the full scale of a drive in board.rs"),
+        _ => error!("impossible: a setup error of control.rs"),
+    }
 }

@@ -210,7 +210,7 @@ fn an_arm_is_held_along_its_excitation() {
         "{words:?}"
     );
     let mut soft = project.clone();
-    soft.robot.feedback.omega_n.fill(25.0);
+    soft.robot.feedback.omega_n = 5.0;
     let said = run(&[("so101", project)]);
     assert!(said.contains("test result: ok. 4 passed"), "{said}");
     let said = failures("so101", soft);

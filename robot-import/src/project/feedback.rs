@@ -57,21 +57,19 @@ impl Feedback {
         let model = AnyModel::of(tree)?;
         let home = home(tree);
         let start = Place::of(tree, &model, &home);
-        let inertia = start.inertia();
-        for (joint, body) in tree.bodies.iter().enumerate() {
-            if inertia.get(joint).is_none_or(|inertia| *inertia <= 0.0) {
+        let inertia = match start.inertia() {
+            Ok(inertia) => inertia,
+            Err(joint) => {
                 found.words.push(format!(
                     "joint `{}` moves no inertia: the simulation cannot run; give its links mass, or the file a rotor inertia",
-                    body.joint
+                    tree.bodies[joint].joint
                 ));
+                return Ok(found);
             }
-        }
-        if !found.words.is_empty() {
-            return Ok(found);
-        }
+        };
         found.raise(tree, &model, &start);
         found.narrow(tree);
-        found.needs(tree, &model, &start);
+        found.needs(tree, &model, &start.q, &inertia);
         Ok(found)
     }
 
@@ -118,9 +116,8 @@ impl Feedback {
     }
 
     /// Limits of torque that are too small for the motion, or too large for the joint.
-    fn needs(&mut self, tree: &Tree, model: &AnyModel, start: &Place) {
-        let needed = needed(tree, model, &start.q);
-        let inertia = start.inertia();
+    fn needs(&mut self, tree: &Tree, model: &AnyModel, home: &[f64], inertia: &[f64]) {
+        let needed = needed(tree, model, home);
         for (joint, body) in tree.bodies.iter().enumerate() {
             let (name, needed) = (&body.joint, needed[joint]);
             let Some(effort) = body.limits.effort else {
@@ -203,25 +200,22 @@ impl Place {
         factor(&stiffness).err()
     }
 
-    /// The inertia of each joint with all others free to give way, 1/(M⁻¹)ⱼⱼ; none if M is singular.
-    fn inertia(&self) -> Vec<f64> {
+    /// The inertia of each joint with all others free to give way, 1/(M⁻¹)ⱼⱼ, or the joint that moves none.
+    fn inertia(&self) -> std::result::Result<Vec<f64>, usize> {
         let n = self.mass.len();
-        let Ok(factor) = factor(&self.mass) else {
-            return Vec::new();
-        };
+        let factor = factor(&self.mass)?;
         // (M⁻¹)ⱼⱼ = Σ (L⁻¹)ₖⱼ² / dₖ
-        (0..n)
-            .map(|joint| {
-                let mut x = vec![0.0; n];
-                let mut sum = 0.0;
-                for k in joint..n {
-                    let unit = if k == joint { 1.0 } else { 0.0 };
-                    x[k] = unit - (joint..k).map(|i| factor[k][i] * x[i]).sum::<f64>();
-                    sum += x[k] * x[k] / factor[k][k];
-                }
-                1.0 / sum
-            })
-            .collect()
+        let of = |joint: usize| {
+            let (mut x, mut sum) = (vec![0.0; n], 0.0);
+            for k in joint..n {
+                let unit = if k == joint { 1.0 } else { 0.0 };
+                let before: f64 = (joint..k).map(|i| factor[k][i] * x[i]).sum();
+                x[k] = unit - before;
+                sum += x[k] * x[k] / factor[k][k];
+            }
+            1.0 / sum
+        };
+        Ok((0..n).map(of).collect())
     }
 }
 

@@ -1,8 +1,8 @@
 //! What a project's feedback, motion and drives are to be for a robot, from its inertia and the stiffness of gravity, and what
 //! no feedback holds, in words.
 //!
-//! The template computes K_p = ω² / (M⁻¹)ⱼⱼ. Feed-forward takes gravity at the reference, so that K_p + ∂g/∂q has to be positive
-//! definite wherever the robot comes: else gravity pulls it away from its reference faster than the feedback returns it.
+//! The template's law takes gravity at the reference and has the stiffness ω² M, so that ω² M + ∂g/∂q has to be positive definite
+//! wherever the robot comes: else gravity pulls it away from its reference faster than the feedback returns it.
 
 use crate::description::Kind;
 use crate::error::Result;
@@ -27,106 +27,72 @@ const NARROW: f64 = 32.0;
 const MOST_ACCELERATION: f64 = 1e5;
 
 /// The numbers of a project that depend on the robot's inertia, and what its user has to know of them.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Feedback {
-    /// The natural frequency of each joint, rad/s.
-    pub omega_n: Vec<f64>,
+    /// The natural frequency, rad/s.
+    pub omega_n: f64,
     /// What the project cannot do with a joint, or does otherwise than the file says: a sentence each.
     pub words: Vec<String>,
 }
 
+impl Default for Feedback {
+    fn default() -> Self {
+        Self {
+            omega_n: OMEGA_N,
+            words: Vec::new(),
+        }
+    }
+}
+
 impl Feedback {
-    /// Of a tree of joints of one degree of freedom each; 25 rad/s of every joint and no words for others.
+    /// Of a tree of joints of one degree of freedom each; 25 rad/s and no words for others.
     ///
     /// # Errors
     /// As of [`AnyModel::of`].
     pub fn of(tree: &Tree) -> Result<Self> {
-        let n = tree.bodies.len();
-        let mut found = Self {
-            omega_n: vec![OMEGA_N; n],
-            words: Vec::new(),
-        };
+        let mut found = Self::default();
         if !tree.is_single() {
             return Ok(found);
         }
         let model = AnyModel::of(tree)?;
         let home = home(tree);
         let start = Place::of(tree, &model, &home);
-        let inertia = start.inertia();
-        for (joint, body) in tree.bodies.iter().enumerate() {
-            if inertia.get(joint).is_none_or(|inertia| *inertia <= 0.0) {
+        let inertia = match start.inertia() {
+            Ok(inertia) => inertia,
+            Err(joint) => {
                 found.words.push(format!(
                     "joint `{}` moves no inertia: the simulation cannot run; give its links mass, or the file a rotor inertia",
-                    body.joint
+                    tree.bodies[joint].joint
                 ));
+                return Ok(found);
             }
-        }
-        if !found.words.is_empty() {
-            return Ok(found);
-        }
-        found.raise(tree, &model, &start, inertia);
+        };
+        found.raise(tree, &model, &start);
         found.narrow(tree);
-        found.needs(tree, &model, &start);
+        found.needs(tree, &model, &start.q, &inertia);
         Ok(found)
     }
 
-    /// The natural frequencies as an array of Rust, rounded up.
-    pub(super) fn array(&self) -> String {
-        let all: Vec<String> = (self.omega_n.iter())
-            .map(|omega| format!("{:.1}", (omega * 10.0).ceil() / 10.0))
-            .collect();
-        match self.omega_n.iter().all(|&omega| omega == OMEGA_N) {
-            true => format!("[{OMEGA_N:.1}; N]"),
-            false => format!("[{}]", all.join(", ")),
-        }
-    }
-
-    /// Raises the joints' frequencies until the feedback holds the robot against gravity at all samples.
-    fn raise(&mut self, tree: &Tree, model: &AnyModel, start: &Place, mut inertia: Vec<f64>) {
+    /// Raises the frequency until the feedback holds the robot against gravity at all samples.
+    fn raise(&mut self, tree: &Tree, model: &AnyModel, start: &Place) {
         let samples = (0..SAMPLES).map(|k| Place::of(tree, model, &sample(tree, k)));
-        let mut places: Vec<Place> = samples.collect();
-        // As the excitation takes it.
+        let places: Vec<Place> = samples.chain([start.clone()]).collect();
+        let mut weakest = None;
         for place in &places {
-            for (inertia, here) in inertia.iter_mut().zip(place.inertia()) {
-                *inertia = inertia.min(3.0 * here);
+            while let Some(joint) = place.falls(self.omega_n) {
+                if self.omega_n >= MOST_OMEGA_N {
+                    weakest = Some(joint);
+                    break;
+                }
+                self.omega_n = (1.05 * self.omega_n).min(MOST_OMEGA_N);
             }
         }
-        places.push(start.clone());
-        let mut squares = vec![OMEGA_N * OMEGA_N; inertia.len()];
-        // Each round adds the stiffness that the weakest direction of a place lacks, where it costs the least frequency.
-        for _ in 0..200 {
-            let mut holds = true;
-            for place in &places {
-                let mut stiffness = place.gravity.clone();
-                for (j, row) in stiffness.iter_mut().enumerate() {
-                    row[j] += SHARE * squares[j] * inertia[j];
-                }
-                let Some((direction, lacking)) = weakest(&stiffness) else {
-                    continue;
-                };
-                holds = false;
-                let weights: Vec<f64> = (direction.iter().zip(&inertia))
-                    .map(|(v, inertia)| inertia * v * v)
-                    .collect();
-                let sum: f64 = weights.iter().map(|weight| weight * weight).sum();
-                for (square, weight) in squares.iter_mut().zip(&weights) {
-                    *square += 1.2 * lacking / SHARE * weight / sum;
-                }
-            }
-            let most = squares.iter().copied().fold(0.0, f64::max);
-            if holds || most > MOST_OMEGA_N * MOST_OMEGA_N {
-                break;
-            }
-        }
-        for (joint, square) in squares.into_iter().enumerate() {
-            let (name, needed) = (&tree.bodies[joint].joint, square.sqrt());
-            self.omega_n[joint] = needed.min(MOST_OMEGA_N);
-            if needed > MOST_OMEGA_N {
-                self.words.push(format!(
-                    "joint `{name}` is not held against gravity everywhere: gains from the inertia of the links alone would need \
-                     more than {MOST_OMEGA_N} rad/s; the file has no rotor inertia (armature), which geared motors have: state it"
-                ));
-            }
+        if let Some(joint) = weakest {
+            self.words.push(format!(
+                "joint `{}` is not held against gravity everywhere: with the inertia of the links alone the feedback would need more \
+                 than {MOST_OMEGA_N} rad/s; the file has no rotor inertia (armature), which geared motors have: state it",
+                tree.bodies[joint].joint
+            ));
         }
     }
 
@@ -150,9 +116,8 @@ impl Feedback {
     }
 
     /// Limits of torque that are too small for the motion, or too large for the joint.
-    fn needs(&mut self, tree: &Tree, model: &AnyModel, start: &Place) {
-        let needed = needed(tree, model, &start.q);
-        let inertia = start.inertia();
+    fn needs(&mut self, tree: &Tree, model: &AnyModel, home: &[f64], inertia: &[f64]) {
+        let needed = needed(tree, model, home);
         for (joint, body) in tree.bodies.iter().enumerate() {
             let (name, needed) = (&body.joint, needed[joint]);
             let Some(effort) = body.limits.effort else {
@@ -218,31 +183,39 @@ impl Place {
         }
     }
 
-    /// The inertia of each joint with all others free to give way, 1/(M⁻¹)ⱼⱼ; none if M is singular.
-    fn inertia(&self) -> Vec<f64> {
-        let n = self.mass.len();
-        let Ok(factor) = factor(&self.mass) else {
-            return Vec::new();
+    /// The first joint with which the feedback's share of stiffness does not hold the robot.
+    fn falls(&self, omega_n: f64) -> Option<usize> {
+        let sum = |(mass, gravity): (&Vec<f64>, &Vec<f64>)| {
+            let entries = mass.iter().zip(gravity);
+            entries
+                .map(|(m, g)| SHARE * omega_n * omega_n * m + g)
+                .collect()
         };
+        let stiffness: Vec<Vec<f64>> = self.mass.iter().zip(&self.gravity).map(sum).collect();
+        factor(&stiffness).err()
+    }
+
+    /// The inertia of each joint with all others free to give way, 1/(M⁻¹)ⱼⱼ, or the joint that moves none.
+    fn inertia(&self) -> std::result::Result<Vec<f64>, usize> {
+        let n = self.mass.len();
+        let factor = factor(&self.mass)?;
         // (M⁻¹)ⱼⱼ = Σ (L⁻¹)ₖⱼ² / dₖ
-        (0..n)
-            .map(|joint| {
-                let mut x = vec![0.0; n];
-                let mut sum = 0.0;
-                for k in joint..n {
-                    let unit = if k == joint { 1.0 } else { 0.0 };
-                    x[k] = unit - (joint..k).map(|i| factor[k][i] * x[i]).sum::<f64>();
-                    sum += x[k] * x[k] / factor[k][k];
-                }
-                1.0 / sum
-            })
-            .collect()
+        let of = |joint: usize| {
+            let (mut x, mut sum) = (vec![0.0; n], 0.0);
+            for k in joint..n {
+                let unit = if k == joint { 1.0 } else { 0.0 };
+                let before: f64 = (joint..k).map(|i| factor[k][i] * x[i]).sum();
+                x[k] = unit - before;
+                sum += x[k] * x[k] / factor[k][k];
+            }
+            1.0 / sum
+        };
+        Ok((0..n).map(of).collect())
     }
 }
 
-/// L below the diagonal and D on it, of a symmetric matrix L D Lᵀ; the row of the first pivot that is not positive, with the
-/// rows before it.
-fn factor(matrix: &[Vec<f64>]) -> std::result::Result<Vec<Vec<f64>>, (Vec<Vec<f64>>, usize)> {
+/// L below the diagonal and D on it, of a symmetric matrix L D Lᵀ; the row of the first pivot that is not positive.
+fn factor(matrix: &[Vec<f64>]) -> std::result::Result<Vec<Vec<f64>>, usize> {
     let mut rows = matrix.to_vec();
     for k in 0..rows.len() {
         for j in 0..k {
@@ -259,23 +232,10 @@ fn factor(matrix: &[Vec<f64>]) -> std::result::Result<Vec<Vec<f64>>, (Vec<Vec<f6
         // False for a NaN, too.
         let is_positive = rows[k][k] > rounding;
         if !is_positive {
-            return Err((rows, k));
+            return Err(k);
         }
     }
     Ok(rows)
-}
-
-/// A direction v in which a symmetric matrix is not positive, and −vᵀ A v; none if it is positive definite.
-fn weakest(matrix: &[Vec<f64>]) -> Option<(Vec<f64>, f64)> {
-    let (rows, pivot) = factor(matrix).err()?;
-    // Lᵀ v = the pivot's unit vector.
-    let mut v = vec![0.0; matrix.len()];
-    v[pivot] = 1.0;
-    for i in (0..pivot).rev() {
-        v[i] = -(i + 1..=pivot).map(|k| rows[k][i] * v[k]).sum::<f64>();
-    }
-    let scale = matrix[pivot][pivot].abs().max(1e-12);
-    Some((v, (-rows[pivot][pivot]).max(1e-6 * scale)))
 }
 
 /// The way of an encoder's radian, as in the template's `scene.rs`.

@@ -223,21 +223,16 @@ fn notes(project: &Project) -> Vec<String> {
         .then(|| COUPLED.to_owned())
         .into_iter()
         .collect();
-    let stiff: Vec<String> = (omega_n.iter().zip(&project.robot.joints))
-        .filter(|(omega, _)| **omega > OMEGA_N)
-        .map(|(omega, joint)| format!("`{joint}` {omega:.0}"))
-        .collect();
     let is_c = matches!(project.kind, Kind::C);
-    if !stiff.is_empty() {
-        let of_links = "gains from the inertia of the links alone hold gravity at no less than these natural frequencies, rad/s";
+    if *omega_n > OMEGA_N {
         let taken = if is_c {
-            "give such gains"
+            "give the controller as much"
         } else {
-            "`OMEGA_N` in src/scene.rs has them"
+            "`OMEGA_N` in src/scene.rs is that"
         };
         notes.push(format!(
-            "{of_links}: {}; {taken}, or the file a rotor inertia",
-            stiff.join(", ")
+            "the links of this file have little inertia for their weight, and a feedback of {OMEGA_N} rad/s does not hold them against \
+             gravity within the joints' limits; {omega_n:.1} rad/s does: {taken}, or state the rotors' inertia (armature) in the file"
         ));
     }
     if !is_c {
@@ -348,7 +343,7 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         ),
         ("bodies", enumerators(&prefix, "BODY", &robot.bodies, taken)),
         ("n", robot.v.to_string()),
-        ("omega_n", robot.feedback.array()),
+        ("omega_n", format!("{:.1}", robot.feedback.omega_n)),
         ("form", form.into()),
         ("crate_name", crate_name),
         ("crate_name | upcase", prefix),

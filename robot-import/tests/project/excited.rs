@@ -1,6 +1,6 @@
 //! The robot of a project along the motion that shows its parameters, of which `arm` is the library.
 
-use arm::control::{FeedForward, controller, gains_of};
+use arm::control::{FeedForward, controller, gains};
 use arm::excitation::Excitation;
 use arm::scene::{JOINTS, N, home, limits, motion};
 use arm::simulation::{Plant, Wires};
@@ -14,9 +14,8 @@ fn it_stays_at_its_reference() {
     let (home, full_scale) = (home(), limits(&motion).torque);
     let wires = Wires::new();
     let (encoders, drives) = (wires.encoders(&home), wires.drives(&full_scale));
-    let gains = gains_of(&along.inertia());
     let controller = controller(&motion).unwrap_or_else(|error| panic!("{error}"));
-    let mut control = ControlLoop::new(encoders, drives, wires.brake(), gains, controller, ());
+    let mut control = ControlLoop::new(encoders, drives, wires.brake(), gains(), controller, ());
     let mut plant = Plant::new(home, full_scale);
     let mut most = [0.0_f32; N];
     for tick in 0..10_000 {

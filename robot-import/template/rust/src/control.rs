@@ -3,30 +3,54 @@
 use core::f32::consts::TAU;
 use core::fmt;
 
+use dynamics_core::effects::Effect;
 use dynamics_core::state::State;
 use joint_drivers::h_bridge::DriveError;
 use joint_drivers::{Direction, EncoderMapping, JointError, JointMapping, Law, MappingError};
 use motion_control::{
-    ConfigError, Detectors, FrozenEncoder, Gains, MeasurementAge, MotionController,
+    ConfigError, Detectors, Estimate, FrozenEncoder, Gains, MeasurementAge, MotionController,
     MotionControllerConfig, OnCircles, ReferenceStep, Saturation, SupervisorConfig,
-    TrajectoryError,
+    TrajectoryError, feedback,
 };
 
 use crate::board::RESOLUTION;
-use crate::scene::{self, Motion, N, OMEGA_N, TICK};
+use crate::scene::{self, Effects, Motion, N, OMEGA_N, TICK};
 
 /// Measurements of this age, on the circles of `scene.rs`.
 pub type Measured<Age> = OnCircles<{ scene::CIRCLES.bits() }, Age>;
 /// The detectors of faults, on these circles.
 pub type Found = Detectors<f32, N, { scene::CIRCLES.bits() }>;
 
-/// The model's torque, and feedback for what it does not know.
+/// The model's torque for the acceleration of the reference and that of the feedback, τ = M (q̈_d + ω² e + 2 ω ė) + C + g: by M every
+/// motion of the robot has the natural frequency ω, also one of light joints together with heavy ones.
+///
+/// Luh, Walker & Paul, "Resolved-acceleration control of mechanical manipulators" (1980).
 #[derive(Clone, Copy, Debug)]
 pub struct FeedForward;
 
 impl Law<N> for FeedForward {
     fn feedforward(reference: &State<f32, N, N>, (): &()) -> [f32; N] {
         scene::inverse_dynamics(reference)
+    }
+
+    fn torque(
+        gains: &Gains<f32, N>,
+        reference: &State<f32, N, N>,
+        estimate: &Estimate<f32, N>,
+        (): &(),
+    ) -> [f32; N] {
+        // Without M there would be no feedback.
+        const {
+            assert!(
+                <Effects as Effect<f32, N, N>>::ACCELERATIONS,
+                "EFFECTS in scene.rs need Inertia"
+            )
+        };
+        let mut wanted = *reference;
+        for (qdd, feedback) in (wanted.qdd.iter_mut()).zip(feedback(gains, reference, estimate)) {
+            *qdd += feedback;
+        }
+        scene::inverse_dynamics(&wanted)
     }
 }
 
@@ -82,16 +106,9 @@ pub fn encoder_mappings(
     EncoderMapping::of(mappings, ranges, steps).map_err(SetupError::Encoder)
 }
 
-/// The gains of the feedback.
+/// The gains of the feedback per inertia, 1/s² and 1/s.
 pub fn gains() -> Gains<f32, N> {
-    gains_of(&scene::inertia())
-}
-
-/// Gains with which a joint of this inertia, kg·m² or kg, is critically damped at its natural frequency in `scene.rs`.
-pub fn gains_of(inertia: &[f32; N]) -> Gains<f32, N> {
-    let kd = core::array::from_fn(|joint| 2.0 * OMEGA_N[joint] * inertia[joint]);
-    let kp = core::array::from_fn(|joint| 0.5 * OMEGA_N[joint] * kd[joint]);
-    Gains { kp, kd }
+    Gains::from_inertia(&[1.0; N], OMEGA_N, 1.0)
 }
 
 /// What finds faults beside the controller: an encoder that does not change in ten steps of its reference, a reference

@@ -9,7 +9,7 @@ use joint_drivers::ControlLoop;
 use motion_control::Reference;
 use telemetry::{Axis, Machine, Message, Sample, capacity, encode};
 
-use crate::control::{FeedForward, SetupError, controller, gains_of};
+use crate::control::{FeedForward, SetupError, controller, gains};
 use crate::excitation::Excitation;
 use crate::report::RunError;
 use crate::scene::{self, Arm, Motion, N, TICK};
@@ -62,29 +62,13 @@ impl Reference<f32, N> for Repeated<'_> {
 pub fn run(options: Options, send: impl FnMut(&[u8])) -> Result<(), RunError> {
     let motion = scene::motion().map_err(|error| RunError::Setup(SetupError::Motion(error)))?;
     match options.excite {
-        true => {
-            let excitation = Excitation::new(&motion);
-            along(
-                &excitation,
-                &excitation.inertia(),
-                &motion,
-                options.ticks,
-                send,
-            )
-        }
-        false => along(
-            &Repeated(&motion),
-            &scene::inertia(),
-            &motion,
-            options.ticks,
-            send,
-        ),
+        true => along(&Excitation::new(&motion), &motion, options.ticks, send),
+        false => along(&Repeated(&motion), &motion, options.ticks, send),
     }
 }
 
 fn along(
     reference: &impl Reference<f32, N>,
-    inertia: &[f32; N],
     motion: &Motion,
     ticks: u32,
     mut send: impl FnMut(&[u8]),
@@ -94,10 +78,9 @@ fn along(
     let encoders = wires.encoders(motion, &home).map_err(RunError::Setup)?;
     let drives = wires.drives(&full_scale);
     let controller = controller(motion).map_err(RunError::Setup)?;
-    let gains = gains_of(inertia);
     // Without detectors: a motion that reverses often looks like a frozen encoder where the drives' steps are coarse.
     let mut control =
-        ControlLoop::on_circles(encoders, drives, wires.brake(), gains, controller, ());
+        ControlLoop::on_circles(encoders, drives, wires.brake(), gains(), controller, ());
     let mut plant = Plant::new(home, full_scale);
     let mut bytes = [0; capacity(N)];
     let mut number = 0_u32;

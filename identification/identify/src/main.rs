@@ -76,6 +76,20 @@ fn main() -> ExitCode {
 }
 
 fn run(args: &Args) -> Result<String> {
+    let beside = || args.recording.with_extension("torques.svg");
+    let picture = args.picture.clone().unwrap_or_else(beside);
+    let inputs = [&args.recording, &args.robot]
+        .into_iter()
+        .chain(&args.validate);
+    let inputs: Vec<&Path> = inputs.map(PathBuf::as_path).collect();
+    let outputs: Vec<&Path> = args
+        .out
+        .iter()
+        .chain([&picture])
+        .map(PathBuf::as_path)
+        .collect();
+    robot_import::outputs::are_apart(&inputs, &outputs)
+        .map_err(|error| Error::Output(error.into()))?;
     let recorded = Recorded::read(&args.recording)?;
     let other = args.validate.as_deref().map(Recorded::read).transpose()?;
     let robot = Robot::read(&args.robot, args.name.as_deref(), &args.options)?;
@@ -91,8 +105,6 @@ fn run(args: &Args) -> Result<String> {
     if let Some(out) = &args.out {
         write(out, &file)?;
     }
-    let beside = || args.recording.with_extension("torques.svg");
-    let picture = args.picture.clone().unwrap_or_else(beside);
     write(&picture, &picture::svg(&found.traces))?;
     if args.json {
         return Ok(serde_json::to_string_pretty(&found)? + "\n");

@@ -6,7 +6,7 @@
 //! | `armature`, `spring_stiffness`, `spring_reference` of `<dynamics>` | at the joint, as of MJCF and SDFormat |
 //! | `springStiffness`, `springReference` of `<gazebo reference>` | at the joint (SDFormat, extensions to URDF) |
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use roxmltree::Node;
 
@@ -82,37 +82,74 @@ const NOT_DYNAMICS: [&str; 30] = [
     "verbose",
 ];
 
+/// What is left out, one entry for all parts that have the same.
+#[derive(Default)]
+struct Found {
+    /// Unknown names, and the links or joints with them.
+    unknown: BTreeMap<Vec<String>, Vec<String>>,
+    /// Gears without the inertia of a rotor, and the joints with them.
+    gears: BTreeMap<String, Vec<String>>,
+    notes: Vec<String>,
+}
+
+impl Found {
+    fn gear(&mut self, gear: &str, joint: &str) {
+        let joints = self.gears.entry(gear.to_owned()).or_default();
+        let joint = shortened(joint);
+        if !joints.contains(&joint) {
+            joints.push(joint);
+        }
+    }
+}
+
 /// Reads what the extensions state of the joints, and lists what they state besides.
 ///
 /// # Errors
 /// A number that is read and is none.
 pub fn read(root: Node<'_, '_>, joints: &mut [Joint]) -> Result<Vec<String>> {
-    let mut notes = Vec::new();
+    let mut found = Found::default();
     for part in children(root, "link").chain(children(root, "joint")) {
-        let unknown: BTreeSet<String> = part
-            .descendants()
-            .filter(|node| is_read(*node))
-            .flat_map(unknown)
-            .collect();
+        let inside = part.descendants().filter(|node| is_read(*node));
+        let unknown: BTreeSet<String> = inside.flat_map(unknown).collect();
         if !unknown.is_empty() {
-            notes.push(format!(
-                "{} of {} `{}`: no part of URDF whose meaning is known here, and left out.",
-                listed(unknown),
-                tag(part),
-                name_of(part)
-            ));
+            let parts = found
+                .unknown
+                .entry(unknown.into_iter().collect())
+                .or_default();
+            parts.push(format!("{} `{}`", tag(part), name_of(part)));
         }
     }
     for node in root.children().filter(Node::is_element) {
         match tag(node) {
-            "transmission" => transmission(node, joints, &mut notes)?,
-            "ros2_control" => ros2_control(node, &mut notes),
-            "gazebo" => gazebo(node, joints, &mut notes)?,
-            "mujoco" => mujoco(node, &mut notes),
+            "transmission" => transmission(node, joints, &mut found)?,
+            "ros2_control" => ros2_control(node, &mut found),
+            "gazebo" => gazebo(node, joints, &mut found.notes)?,
+            "mujoco" => mujoco(node, &mut found.notes),
             _ => {}
         }
     }
-    Ok(notes)
+    // A rotor may be in another element than its gear.
+    let with_rotor = joints.iter().filter(|joint| joint.armature > 0.0);
+    let with_rotor: BTreeSet<String> = with_rotor.map(|joint| shortened(&joint.name)).collect();
+    for joints in found.gears.values_mut() {
+        joints.retain(|joint| !with_rotor.contains(joint));
+    }
+    found.gears.retain(|_, joints| !joints.is_empty());
+    let unknown = found.unknown.into_iter().map(|(names, parts)| {
+        let names = quoted(names);
+        format!(
+            "Left out, as no part of URDF whose meaning is known here: {names} of {}.",
+            listed(parts)
+        )
+    });
+    let gears = found.gears.into_iter().map(|(gear, joints)| {
+        format!(
+            "A gear of {gear} on {}, and the file has no inertia of the motor's rotor: J·N² of it is not in ARMATURE; state it by \
+             `armature` of <dynamics>, kg·m².",
+            quoted(joints)
+        )
+    });
+    Ok(unknown.chain(gears).chain(found.notes).collect())
 }
 
 /// The spring and the armature that `<dynamics>` states.
@@ -145,11 +182,16 @@ fn name_of(node: Node<'_, '_>) -> String {
 }
 
 fn listed(names: impl IntoIterator<Item = String>) -> String {
-    let names: Vec<String> = names.into_iter().map(|name| format!("`{name}`")).collect();
+    let names: Vec<String> = names.into_iter().collect();
     match names.len() {
         0..=8 => names.join(", "),
         n => format!("{} and {} more", names[..8].join(", "), n - 8),
     }
+}
+
+/// Names as code.
+fn quoted(names: impl IntoIterator<Item = String>) -> String {
+    listed(names.into_iter().map(|name| format!("`{name}`")))
 }
 
 fn is_number(text: &str) -> bool {
@@ -214,7 +256,7 @@ fn text_number(node: Node<'_, '_>) -> Result<f64> {
 }
 
 /// Of each actuator the rotor's inertia at the joint, or its gear without one.
-fn transmission(node: Node<'_, '_>, joints: &mut [Joint], notes: &mut Vec<String>) -> Result<()> {
+fn transmission(node: Node<'_, '_>, joints: &mut [Joint], found: &mut Found) -> Result<()> {
     let of_joints: Vec<&str> = children(node, "joint")
         .filter_map(|joint| joint.attribute("name"))
         .collect();
@@ -261,7 +303,7 @@ fn transmission(node: Node<'_, '_>, joints: &mut [Joint], notes: &mut Vec<String
                 let armature = rotor * ratio.unwrap_or(1.0).powi(2);
                 joint.armature += armature;
                 if ratio.is_none() && reduction.is_some_and(|text| text.parse() != Ok(1.0)) {
-                    notes.push(format!(
+                    found.notes.push(format!(
                         "{what} states the inertia of a rotor without `drake:gear_ratio`: {armature} kg·m² is taken at joint `{}`, as \
                          Drake does, without its mechanicalReduction of {}.",
                         shortened(&joint.name),
@@ -274,35 +316,22 @@ fn transmission(node: Node<'_, '_>, joints: &mut [Joint], notes: &mut Vec<String
             }
             (None, _) => {
                 if let Some(gear) = gear.filter(|text| text.parse() != Ok(1.0)) {
-                    notes.push(without_rotor(&what, &gear, &of_joints));
+                    of_joints.iter().for_each(|name| found.gear(&gear, name));
                 }
             }
         }
     }
     if !left_out.is_empty() {
-        notes.push(format!(
+        found.notes.push(format!(
             "{what}: {} is left out: its meaning is not documented, or not for one joint.",
-            listed(left_out)
+            quoted(left_out)
         ));
     }
     Ok(())
 }
 
-/// The sentence on a gear whose rotor has no inertia in the file.
-fn without_rotor(what: &str, gear: &str, joints: &[&str]) -> String {
-    format!(
-        "{what} has a gear of {gear} on {}, and the file has no inertia of the motor's rotor: J·N² of it is not in ARMATURE; state it by \
-         `armature` of <dynamics>, kg·m².",
-        listed(
-            joints
-                .iter()
-                .map(|name| format!("joint {}", shortened(name)))
-        )
-    )
-}
-
 /// Gears of `<ros2_control>`, and the names of its parameters.
-fn ros2_control(node: Node<'_, '_>, notes: &mut Vec<String>) {
+fn ros2_control(node: Node<'_, '_>, found: &mut Found) {
     let what = format!("The <ros2_control> `{}`", name_of(node));
     let reductions = node
         .descendants()
@@ -311,7 +340,7 @@ fn ros2_control(node: Node<'_, '_>, notes: &mut Vec<String>) {
         let text = reduction.text().unwrap_or_default().trim();
         let of = reduction.parent().map_or(String::new(), name_of);
         if is_number(text) && text.parse() != Ok(1.0) {
-            notes.push(without_rotor(&what, &shortened(text), &[&of]));
+            found.gear(&shortened(text), &of);
         }
     }
     let parameters = node
@@ -319,9 +348,9 @@ fn ros2_control(node: Node<'_, '_>, notes: &mut Vec<String>) {
         .filter(|node| tag(*node) == "param" && has_numbers(*node));
     let names: BTreeSet<String> = parameters.map(name_of).collect();
     if !names.is_empty() {
-        notes.push(format!(
+        found.notes.push(format!(
             "{what}: the parameters {} are left out.",
-            listed(names)
+            quoted(names)
         ));
     }
 }
@@ -377,7 +406,7 @@ fn gazebo(node: Node<'_, '_>, joints: &mut [Joint], notes: &mut Vec<String>) -> 
     if !left_out.is_empty() {
         notes.push(format!(
             "The <gazebo> of `{of}`: {} is left out.",
-            listed(left_out)
+            quoted(left_out)
         ));
     }
     Ok(())
@@ -404,7 +433,7 @@ fn mujoco(node: Node<'_, '_>, notes: &mut Vec<String>) {
     if !stated.is_empty() {
         notes.push(format!(
             "The <mujoco> section: {}, by which MuJoCo changes inertias, is left out: they are those of the file.",
-            listed(stated)
+            quoted(stated)
         ));
     }
 }

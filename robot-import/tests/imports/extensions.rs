@@ -98,18 +98,15 @@ fn a_gear_without_a_rotor_and_undocumented_numbers_are_named() {
     let cases = [
         (
             drive("<mechanicalReduction>90</mechanicalReduction>"),
-            vec![
-                "`t` has a gear of 90 on `joint pivot`",
-                "no inertia of the motor's rotor",
-            ],
+            vec!["A gear of 90 on `pivot`", "no inertia of the motor's rotor"],
         ),
         (
             drive("<drake:gear_ratio value='101'/>"),
-            vec!["a gear of 101"],
+            vec!["A gear of 101"],
         ),
         (
             drive("<mechanicalReduction>90</mechanicalReduction><motorInertia>3e-5</motorInertia>"),
-            vec!["`motorInertia` is left out", "a gear of 90"],
+            vec!["`motorInertia` is left out", "A gear of 90"],
         ),
         (
             drive(
@@ -133,7 +130,7 @@ fn a_gear_without_a_rotor_and_undocumented_numbers_are_named() {
                 <joint name='pivot' role='j'><mechanical_reduction>90</mechanical_reduction></joint></transmission></ros2_control>",
             ),
             vec![
-                "<ros2_control> `drives` has a gear of 90 on `joint pivot`",
+                "A gear of 90 on `pivot`",
                 "the parameters `kt` are left out",
             ],
         ),

@@ -13,7 +13,8 @@
 //! and `settotalmass`.
 //!
 //! Masses of meshes, `replicate`, `composite`, `flexcomp`, `attach`, plugins and polynomials of damping are refused.
-//! Springs, tendons, gravity, fluids and the gains of actuators are left out and named in the notes. Sections on looks,
+//! Linear springs of hinges and slides are read. Other springs, tendons, gravity, fluids and the gains of actuators are left out
+//! and named in the notes. Sections on looks,
 //! sensors, contacts and keyframes are skipped.
 //!
 //! The root is the link `world`. The joints of a body are links without mass, `body/joint`, with their frames at the

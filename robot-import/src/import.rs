@@ -10,13 +10,14 @@ use crate::error::{ImportError, Problem, Result};
 use crate::estimate;
 use crate::loops::{Closed, Motors};
 use crate::model::AnyModel;
-use crate::physical::violation;
+use crate::physical::impossible;
 use crate::plausible::plausible;
 use crate::project::{FileEffects, RobotFile};
 use crate::report::{Report, rows};
 use crate::selection::{Selected, Selection};
 use crate::tree::{Numbers, Tree};
 use crate::{loops, source, write};
+use dynamics_core::model::ImpossibleInertia;
 
 /// How long a comparison with a peer may take, s: the first start of a Python with large packages takes ten.
 const PEER_TIME: f64 = 60.0;
@@ -260,6 +261,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         base: tree.base.clone(),
         bodies: rows(&tree),
         loops: closed.iter().map(|one| one.name.clone()).collect(),
+        coupled_motors: (tree.has_followers() && tree.is_single()).then(|| tree.motors()),
         sizes: [tree.bodies.len(), q, v],
         advice: own,
         exact: estimate::savings(&robot, &selected, &tree),
@@ -369,8 +371,8 @@ fn repair(robot: &mut Description, notes: &mut Vec<String>) {
         let Some(inertial) = &mut link.inertial else {
             continue;
         };
-        if let Some(found) = violation(inertial.inertia, 0.0) {
-            inertial.inertia = found.repaired;
+        if let Some(found) = impossible(inertial.inertia, 0.0) {
+            inertial.inertia = ImpossibleInertia::nearest(inertial.inertia);
             notes.push(format!(
                 "The inertia of link `{}` was not physical by {:.1e} of its largest moment: the nearest physical one is taken.",
                 link.name, found.excess

@@ -146,9 +146,17 @@ impl Tree {
         self.bodies.iter().all(|body| body.kind.has_axis())
     }
 
-    /// Whether each joint has one coordinate and none follows another.
+    /// Whether a joint follows another.
     pub fn has_followers(&self) -> bool {
         self.bodies.iter().any(|body| body.follows.is_some())
+    }
+
+    /// How many joints follow none.
+    pub fn motors(&self) -> usize {
+        self.bodies
+            .iter()
+            .filter(|body| body.follows.is_none())
+            .count()
     }
 
     /// Adds a link's mass to the body that it is part of.

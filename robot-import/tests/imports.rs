@@ -3,6 +3,7 @@
 mod changes;
 mod locks;
 mod peer;
+mod subjects;
 
 use std::path::Path;
 

@@ -5,7 +5,7 @@ use core::f32::consts::{FRAC_PI_2, PI};
 use embedded_hal_mock::eh1::serial::{Mock, Transaction};
 use embedded_hal_nb::nb;
 use embedded_hal_nb::serial::{Error as _, ErrorKind as SerialError, Read as _, Write as _};
-use embedded_io::{Error, ErrorKind, ErrorType, Read, ReadReady, Write};
+use embedded_io::{ErrorKind, ErrorType, Read, ReadReady, Write};
 use joint_drivers::feetech::{
     FeetechError, GOAL_POSITION, PRESENT_POSITION, Packet, Parser, Servos,
 };
@@ -17,32 +17,23 @@ struct Port {
     stale: usize,
 }
 
-/// No byte came in time, or the line is broken.
-#[derive(Debug)]
-struct PortError(ErrorKind);
-
-impl Error for PortError {
-    fn kind(&self) -> ErrorKind {
-        self.0
-    }
-}
-
 impl ErrorType for Port {
-    type Error = PortError;
+    type Error = ErrorKind;
 }
 
-fn kind(error: nb::Error<SerialError>) -> PortError {
-    PortError(match error {
+/// No byte came in time, or the line is broken.
+fn kind(error: nb::Error<SerialError>) -> ErrorKind {
+    match error {
         nb::Error::WouldBlock => ErrorKind::TimedOut,
         nb::Error::Other(error) => {
             assert_eq!(error.kind(), SerialError::Noise);
             ErrorKind::InvalidData
         }
-    })
+    }
 }
 
 impl Read for Port {
-    fn read(&mut self, bytes: &mut [u8]) -> Result<usize, PortError> {
+    fn read(&mut self, bytes: &mut [u8]) -> Result<usize, ErrorKind> {
         bytes[0] = self.mock.read().map_err(kind)?;
         self.stale = self.stale.saturating_sub(1);
         Ok(1)
@@ -50,20 +41,20 @@ impl Read for Port {
 }
 
 impl ReadReady for Port {
-    fn read_ready(&mut self) -> Result<bool, PortError> {
+    fn read_ready(&mut self) -> Result<bool, ErrorKind> {
         Ok(self.stale > 0)
     }
 }
 
 impl Write for Port {
-    fn write(&mut self, bytes: &[u8]) -> Result<usize, PortError> {
+    fn write(&mut self, bytes: &[u8]) -> Result<usize, ErrorKind> {
         bytes
             .iter()
             .try_for_each(|byte| self.mock.write(*byte).map_err(kind))?;
         Ok(bytes.len())
     }
 
-    fn flush(&mut self) -> Result<(), PortError> {
+    fn flush(&mut self) -> Result<(), ErrorKind> {
         self.mock.flush().map_err(kind)
     }
 }

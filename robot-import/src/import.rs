@@ -15,6 +15,7 @@ use crate::plausible::plausible;
 use crate::project::{FileEffects, RobotFile};
 use crate::report::{Report, rows};
 use crate::selection::{Selected, Selection};
+use crate::text::shell_word;
 use crate::tree::{Numbers, Tree};
 use crate::{loops, source, write};
 use dynamics_core::model::ImpossibleInertia;
@@ -102,6 +103,61 @@ impl Options {
     }
 }
 
+impl Args {
+    /// The name of the type in the file that is written anew: a program that uses it compiles on.
+    fn kept_type(&self) -> Option<String> {
+        let out = self.out.as_ref().filter(|_| self.name.is_none())?;
+        write::type_of(&std::fs::read_to_string(out).ok()?)
+    }
+
+    /// The words after `import` that write the file of this robot again, as a shell takes them.
+    fn again(&self, name: &str) -> String {
+        let Options {
+            base,
+            tip,
+            joints,
+            without,
+            lock,
+            free_base,
+            motors,
+            repair,
+            keep_roundings,
+            ..
+        } = &self.options;
+        let mut words = vec![file_name(&self.file), "--name".to_owned(), name.to_owned()];
+        let mut option = |option: &str, value: String| words.push(format!("{option}={value}"));
+        for (name, value) in [
+            ("--base", base),
+            ("--tip", tip),
+            ("--type", &self.type_name),
+        ] {
+            value.iter().for_each(|value| option(name, value.clone()));
+        }
+        for (name, values) in [("--joints", joints), ("--motors", motors)] {
+            (!values.is_empty()).then(|| option(name, values.join(",")));
+        }
+        without
+            .iter()
+            .for_each(|link| option("--without", link.clone()));
+        for (joint, position) in lock {
+            option("--lock", format!("{joint}={position}"));
+        }
+        let flags = [
+            ("--free-base", free_base),
+            ("--repair", repair),
+            ("--keep-roundings", keep_roundings),
+        ];
+        words.extend(
+            flags
+                .iter()
+                .filter(|flag| *flag.1)
+                .map(|flag| flag.0.to_owned()),
+        );
+        let quoted: Vec<String> = words.iter().map(|word| shell_word(word)).collect();
+        quoted.join(" ")
+    }
+}
+
 fn locked(text: &str) -> std::result::Result<(String, f64), String> {
     let (name, position) = text.rsplit_once('=').ok_or("expected JOINT=POSITION")?;
     let position: f64 = position
@@ -126,6 +182,8 @@ pub struct Imported {
     pub name: String,
     /// Its Rust file.
     pub source: String,
+    /// The words after `import` that write its file again, without where to.
+    pub again: String,
     /// What its user should know.
     pub report: Report,
 }
@@ -211,10 +269,9 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
     loops_of_the_library(&robot, &tree, &closed)?;
     notes.extend(left_out);
     let name = args.name.clone().unwrap_or_else(|| robot.name.clone());
-    let type_name = args
-        .type_name
-        .clone()
-        .unwrap_or_else(|| write::type_name(&name));
+    let kept = args.kept_type();
+    let type_name =
+        (args.type_name.clone().or(kept.clone())).unwrap_or_else(|| write::type_name(&name));
     let mut own = advice(&robot, &selected, &tree);
     // The motors of a machine with loops share what its joints need.
     own.extend(needless_torque(&tree, &checked).filter(|_| closed.is_empty()));
@@ -233,9 +290,12 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         name: name.clone(),
         text: note.clone(),
     }));
-    let renamed = match args.type_name {
-        Some(_) => None,
-        None => write::renamed(&name),
+    let renamed = match (&args.type_name, kept) {
+        (Some(_), _) => None,
+        (None, Some(kept)) => (kept != write::type_name(&name)).then(|| {
+            format!("The type is called `{kept}` as in the file that this import replaces; --type NAME calls it otherwise.")
+        }),
+        (None, None) => write::renamed(&name),
     };
     own.extend(renamed.map(|text| Advice {
         topic: crate::advice::Topic::Renamed,
@@ -277,6 +337,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         robot,
         selected,
         tree,
+        again: args.again(&name),
         name,
         source,
         report,
@@ -408,6 +469,7 @@ impl Imported {
         RobotFile {
             type_name: self.report.type_name.clone(),
             text: self.source.clone(),
+            again: self.again.clone(),
             joints: joints.collect(),
             bodies: self
                 .tree

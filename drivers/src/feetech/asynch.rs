@@ -199,6 +199,9 @@ mod tests {
         async fn write(&mut self, bytes: &[u8]) -> Result<usize, ErrorKind> {
             embedded_io::Write::write(self, bytes)
         }
+        async fn flush(&mut self) -> Result<(), ErrorKind> {
+            Ok(())
+        }
     }
 
     /// The servos 1 and 2 on a port with these answers, the first `stale` of which are there already.

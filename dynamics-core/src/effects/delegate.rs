@@ -30,6 +30,26 @@ macro_rules! call_hook {
     };
 }
 
+/// A function that is inlined where this crate is optimised. An exported macro cannot ask for the
+/// cfg `optimised` itself: it would be that of the crate in which the macro is expanded.
+#[cfg(optimised)]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! inlined {
+    ($($function:tt)*) => {
+        #[inline(always)]
+        $($function)*
+    };
+}
+
+/// A function that is inlined where this crate is optimised, which it is not.
+#[cfg(not(optimised))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! inlined {
+    ($($function:tt)*) => { $($function)* };
+}
+
 /// The functions of a forwarder's hooks. `delegate_effect!` implements it. It has no default bodies, so that no hook is
 /// omitted.
 #[doc(hidden)]

@@ -54,6 +54,8 @@ pub struct RobotFile {
     pub type_name: String,
     /// The file.
     pub text: String,
+    /// The words after `robot-import import` that write it again, as a shell takes them.
+    pub again: String,
     /// The names of the joints, one for each velocity coordinate.
     pub joints: Vec<String>,
     /// The names of the bodies, in their order.
@@ -318,6 +320,7 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         ("effect_values", effects),
         ("force_types", force_types),
         ("force_values", force_values),
+        ("import_again", robot.again.clone()),
         ("library_note", project.library.note()?),
     ];
     if let Kind::Board(board) = project.kind {

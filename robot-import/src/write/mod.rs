@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 pub use body::placed;
-pub use names::{given_type_name, renamed, type_name};
+pub use names::{given_type_name, renamed, type_name, type_of};
 pub use rustfmt::formatted;
 
 use crate::advice::TOLERANCE;

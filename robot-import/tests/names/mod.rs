@@ -113,6 +113,7 @@ impl Names {
         Some(RobotFile {
             type_name,
             text,
+            again: "FILE".into(),
             joints: tree.bodies.iter().map(|body| body.joint.clone()).collect(),
             bodies: tree.bodies.iter().map(|body| body.name.clone()).collect(),
             b: tree.bodies.len(),

@@ -4,21 +4,6 @@ use super::{BodyState, JointState, LoadFactors, RegroupedInertia};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 
-/// Inlines a function where this crate is optimised, also in the crate that expands a macro. A cfg in
-/// the expansion would be that crate's.
-#[cfg(optimised)]
-#[doc(hidden)]
-#[macro_export]
-macro_rules! inlined {
-    ($($function:tt)*) => { #[inline(always)] $($function)* };
-}
-#[cfg(not(optimised))]
-#[doc(hidden)]
-#[macro_export]
-macro_rules! inlined {
-    ($($function:tt)*) => { $($function)* };
-}
-
 /// Calls the function of a hook, if it has one, directly: the `const` block names it while compiling.
 #[doc(hidden)]
 #[macro_export]

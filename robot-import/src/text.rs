@@ -32,7 +32,7 @@ pub fn string_literal(text: &str) -> String {
 /// ```
 /// use robot_import::text::shell_word;
 /// assert_eq!(shell_word("--tip=wrist_3"), "--tip=wrist_3");
-/// assert_eq!(shell_word("it's $HOME"), r"'it'\''s $HOME'");
+/// assert_eq!(shell_word("it's a name"), r"'it'\''s a name'");
 /// ```
 pub fn shell_word(text: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c);

@@ -8,6 +8,8 @@ use joint_drivers::odrive::ODrive;
 use joint_drivers::{CanJoints, DriveFault, DriveFaultKind};
 use joint_drivers::{JointDrives, JointEncoders, JointError, JointMapping};
 
+mod frames;
+
 #[derive(Default)]
 struct Bus {
     received: Vec<FdFrame>,

@@ -15,6 +15,8 @@ use motion_control::{
     SupervisorConfig,
 };
 
+mod completion;
+
 const RIDE: u32 = 3;
 
 #[derive(Clone, Copy, Debug, PartialEq)]

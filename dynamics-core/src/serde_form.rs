@@ -6,7 +6,7 @@
 //!
 //! Public, and hidden, for the crates of this project whose structs have the same form.
 
-use crate::effects::{Armature, Viscous, Width};
+use crate::effects::{Armature, ConstantTorque, Viscous, Width};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
 use core::fmt;
@@ -222,7 +222,7 @@ macro_rules! per_joint {
     )+};
 }
 
-per_joint!(Viscous, Armature);
+per_joint!(Viscous, Armature, ConstantTorque);
 
 /// Ten numbers, so that what is read is symmetric: the rotational inertia is xx, xy, xz, yy, yz, zz.
 #[derive(Serialize, Deserialize)]

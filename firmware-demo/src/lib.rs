@@ -14,14 +14,11 @@
 //! | [`scenes`] | the data sheet of each scene | left out |
 //! | [`trajectories`] | the motions of the scenes | left out |
 //! | `watched` (feature `telemetry`) | a scene that runs without end and sends its telemetry | the queue and its two sides |
-//! | `pil` (feature `telemetry`) | a scene's controller, its robot simulated by a program on the host | left out |
 //! | `target` | interrupt, log, panic handler of the emulated board | your board's |
 #![no_std]
 
 pub mod digest;
 pub mod marker;
-#[cfg(feature = "telemetry")]
-pub mod pil;
 pub mod plant;
 pub mod region;
 pub mod replay;

@@ -16,8 +16,6 @@ use crate::scene::{App, Effects, Errors, Name, OMEGA_N, QUEUE, Record, Scene, St
 use crate::sim_io::Wires;
 
 #[cfg(feature = "telemetry")]
-pub mod pil;
-#[cfg(feature = "telemetry")]
 pub mod watch;
 
 /// The core's clock, Hz.

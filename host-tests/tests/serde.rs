@@ -1,8 +1,8 @@
 //! Data that firmware keeps in flash roundtrips exactly, and invalid data is refused.
 
 use dynamics_core::effects::{
-    Armature, AsymmetricCoulomb, Cogging, Coulomb, EndStops, LoadFriction, Lugre, Payload, Spring,
-    Stribeck, Viscous, Width,
+    Armature, AsymmetricCoulomb, Cogging, ConstantTorque, Coulomb, EndStops, LoadFriction, Lugre,
+    Payload, Spring, Stribeck, Viscous, Width,
 };
 use dynamics_core::glam::Mat3;
 use dynamics_core::model::{BodyInertia, JointLimits};
@@ -150,6 +150,7 @@ fn identified_parameters_roundtrip_bit_by_bit() {
         inertia: [0.4, 0.01, 0.02, 0.5, 0.03, 0.6],
     });
     comes_back(Viscous(a));
+    comes_back(ConstantTorque(a));
     comes_back(Armature(b));
     comes_back(Coulomb {
         torque: a,

@@ -70,6 +70,26 @@ impl<const V: usize> TickRecording<V> {
         })
     }
 
+    /// The recording with other positions and torques in each tick.
+    ///
+    /// ```
+    /// use identification::TickRecording;
+    /// let recording = TickRecording::try_new(vec![(vec![[0.1]; 500], vec![[2.0]; 500])], 1e-3)?;
+    /// let reversed = recording.map(|q, tau| (q, tau.map(|tau| -tau)));
+    /// assert_eq!(reversed.extremes(), recording.extremes());
+    /// # Ok::<(), identification::IdentificationError>(())
+    /// ```
+    #[must_use]
+    pub fn map(&self, mut to: impl FnMut([f64; V], [f64; V]) -> ([f64; V], [f64; V])) -> Self {
+        let mut mapped = self.clone();
+        for stretch in &mut mapped.stretches {
+            for (q, tau) in stretch.positions.iter_mut().zip(&mut stretch.torques) {
+                (*q, *tau) = to(*q, *tau);
+            }
+        }
+        mapped
+    }
+
     /// The number of ticks.
     #[must_use]
     pub fn ticks(&self) -> usize {

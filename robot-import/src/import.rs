@@ -13,13 +13,14 @@ use crate::limits::{LEAST, PEER_TIME};
 use crate::loops::{Closed, Motors};
 use crate::model::AnyModel;
 use crate::outputs::{self, are_apart};
-use crate::physical::violation;
+use crate::physical::impossible;
 use crate::plausible::plausible;
 use crate::project::{FileEffects, RobotFile};
 use crate::report::{Report, rows};
 use crate::selection::{Selected, Selection};
 use crate::tree::{Numbers, Tree};
 use crate::{loops, source, write};
+use dynamics_core::model::ImpossibleInertia;
 
 /// Which file becomes which robot.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -280,6 +281,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         base: tree.base.clone(),
         bodies: rows(&tree),
         loops: closed.iter().map(|one| one.name.clone()).collect(),
+        coupled_motors: (tree.has_followers() && tree.is_single()).then(|| tree.motors()),
         sizes: [tree.bodies.len(), q, v],
         advice: own,
         exact: estimate::savings(&robot, &selected, &tree),
@@ -420,8 +422,8 @@ fn repair(robot: &mut Description, notes: &mut Vec<String>) {
         let Some(inertial) = &mut link.inertial else {
             continue;
         };
-        if let Some(found) = violation(inertial.inertia, 0.0) {
-            inertial.inertia = found.repaired;
+        if let Some(found) = impossible(inertial.inertia, 0.0) {
+            inertial.inertia = ImpossibleInertia::nearest(inertial.inertia);
             notes.push(format!(
                 "The inertia of link `{}` was not physical by {:.1e} of its largest moment: the nearest physical one is taken.",
                 link.name, found.excess

@@ -58,3 +58,14 @@ pub const PEER_TIME: Duration = Duration::from_secs(60);
 pub const MOST_SHOWN: usize = 60;
 /// The longest cell of a table but in its last column, characters: each of its rows is as wide.
 pub const MOST_CELL: usize = 200;
+/// The most letters of a name that are compared with those of others for a suggestion: the work is their square.
+pub const MOST_COMPARED: usize = 40;
+/// The longest name of a type, characters: rustdoc names a file after it.
+pub const MOST_TYPE_NAME: usize = 60;
+/// The most links of the file system that are followed to a file that is not there yet: as many as Linux follows.
+pub const MOST_FOLLOWED: usize = 40;
+/// The most joints of a written project: those that the engine takes.
+pub const MOST_JOINTS_OF_PROJECT: usize = 32;
+/// The most joints for which the C library's inertia matrix and forward dynamics are the engine's: with 30 they compile for
+/// four minutes.
+pub const MOST_JOINTS_FOLDED: usize = 12;

@@ -11,7 +11,7 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Mode
 use dynamics_core::state::State;
 
 use crate::check::energy::{Rows, rows};
-use crate::description::{Kind, Pose};
+use crate::description::{Kind, Pose, shortened};
 use crate::error::{Problem, Result};
 use crate::limits::MOST_COORDINATES;
 use crate::loops::Closed;
@@ -37,7 +37,7 @@ pub enum AnyModel {
     /// Of up to 64.
     Middle(Box<Sized<76, 80>>),
     /// Of up to 136.
-    Large(Box<Sized<160, 168>>),
+    Large(Box<Sized<MOST_BODIES, 168>>),
 }
 
 /// A model filled up to N bodies and velocity coordinates, and Q position coordinates.
@@ -134,9 +134,45 @@ pub fn arm<const N: usize>(tree: &Tree) -> Result<ArmModel<f64, N>> {
     if !tree.is_single() || tree.bodies.len() != N {
         return Err(Problem::Value(format!("not {N} joints of one coordinate each")).into());
     }
-    let bodies = std::array::from_fn(|i| described(&tree.bodies[i]));
-    Model::try_new("tree", bodies)
-        .map_err(|error: ModelError| Problem::Value(error.to_string()).into())
+    let bodies = std::array::from_fn(|i| described(i, &tree.bodies[i]));
+    Model::try_new("tree", bodies).map_err(|error: ModelError| refused(tree, error).into())
+}
+
+/// An error of the library with the body's name in place of its number.
+fn refused(tree: &Tree, error: ModelError) -> Problem {
+    let text = error.to_string();
+    Problem::Value(
+        match number_of(error.body).and_then(|i| tree.bodies.get(i)) {
+            Some(body) => text.replacen(error.body, &shortened(&body.name), 1),
+            None => text,
+        },
+    )
+}
+
+/// The most bodies of a model.
+const MOST_BODIES: usize = 160;
+
+/// Three digits for each number of a body.
+static DIGITS: [u8; 3 * MOST_BODIES] = {
+    let (mut all, mut i) = ([b'0'; 3 * MOST_BODIES], 0);
+    while i < MOST_BODIES {
+        all[3 * i] += (i / 100) as u8;
+        all[3 * i + 1] += (i / 10 % 10) as u8;
+        all[3 * i + 2] += (i % 10) as u8;
+        i += 1;
+    }
+    all
+};
+
+/// A body's number as its name: the library's names are known while compiling.
+fn number(i: usize) -> &'static str {
+    let digits = DIGITS.get(3 * i..3 * i + 3).unwrap_or_default();
+    std::str::from_utf8(digits).unwrap_or_default()
+}
+
+/// The number of the body that has it as its name.
+pub fn number_of(name: &str) -> Option<usize> {
+    name.parse().ok()
 }
 
 impl<const N: usize, const Q: usize> Sized<N, Q> {
@@ -155,7 +191,7 @@ impl<const N: usize, const Q: usize> Sized<N, Q> {
         }
         let revolute = N - v - 3 * balls;
         let bodies = std::array::from_fn(|i| match tree.bodies.get(i) {
-            Some(body) => described(body),
+            Some(body) => described(i, body),
             None => {
                 let joint = match i - tree.bodies.len() {
                     more if more < balls => Joint::spherical(),
@@ -165,8 +201,7 @@ impl<const N: usize, const Q: usize> Sized<N, Q> {
                 Body::new("filler", BASE, joint)
             }
         });
-        let refused = |error: ModelError| Problem::Value(error.to_string());
-        let exact = Model::try_new("tree", bodies).map_err(refused)?;
+        let exact = Model::try_new("tree", bodies).map_err(|error| refused(tree, error))?;
         let rounded = exact.to_f32();
         Ok(Box::new(Self {
             exact,
@@ -254,7 +289,7 @@ fn filled<const N: usize>(values: &[f64]) -> [f64; N] {
 }
 
 /// A body as the library takes it, with the numbers that the written file has.
-fn described(body: &tree::Body) -> Body {
+fn described(i: usize, body: &tree::Body) -> Body {
     let joint = match body.kind {
         Kind::Fixed => Joint::fixed(),
         Kind::Revolute => Joint::revolute(body.axis),
@@ -264,7 +299,7 @@ fn described(body: &tree::Body) -> Body {
         Kind::Planar => Joint::planar(),
         Kind::Free => Joint::free(),
     };
-    let placed = Body::new("body", body.parent.unwrap_or(BASE), joint).xyz(body.xyz);
+    let placed = Body::new(number(i), body.parent.unwrap_or(BASE), joint).xyz(body.xyz);
     let placed = match body.attitude {
         Attitude::QuarterTurns(turns) => placed.quarter_turns(turns),
         Attitude::Rpy(rpy) => placed.rpy(rpy),
@@ -276,7 +311,8 @@ fn described(body: &tree::Body) -> Body {
     placed
         .mass(body.inertia.mass)
         .com(body.inertia.com)
-        .inertia(body.inertia.inertia)
+        // The importer has words of its own on an inertia that is impossible.
+        .inertia_as_published(body.inertia.inertia)
         .limits(JointLimits {
             lower,
             upper,

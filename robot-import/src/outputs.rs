@@ -3,9 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::error::{Problem, Result};
-
-/// The most links of the file system that are followed to a file that is not there yet.
-const MOST_LINKS: usize = 40;
+use crate::limits::MOST_FOLLOWED;
 
 /// Fails if an output is one of the inputs, or another output, by whatever path and link of the file system.
 ///
@@ -57,7 +55,7 @@ fn is_one(_: &std::fs::Metadata, _: &std::fs::Metadata) -> bool {
 /// The path of a file without links, also of one that is not there yet.
 fn target(path: &Path) -> PathBuf {
     let mut path = path.to_owned();
-    for _ in 0..MOST_LINKS {
+    for _ in 0..MOST_FOLLOWED {
         let Ok(next) = std::fs::read_link(&path) else {
             break;
         };

@@ -59,6 +59,13 @@ impl Report {
         if !self.loops.is_empty() {
             let _ = writeln!(out, "\nLoops: {}", visible(&self.loops.join(", ")));
         }
+        if let Some(motors) = self.coupled_motors {
+            let _ = writeln!(
+                out,
+                "\nCoupled: {motors} motors drive {v} joints through `COUPLING`, a `Transmission`; its `torque` makes the motors' torques \
+                 of the joints'."
+            );
+        }
         if !self.exact.is_empty() || !self.exact_inertias.is_empty() {
             out += "\nRoundings made exact (`--keep-roundings` keeps them):\n";
             let rows: Vec<Vec<String>> = self

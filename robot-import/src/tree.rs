@@ -148,7 +148,7 @@ impl Tree {
         self.bodies.iter().all(|body| body.kind.has_axis())
     }
 
-    /// Whether each joint has one coordinate and none follows another.
+    /// Whether a joint follows another.
     pub fn has_followers(&self) -> bool {
         self.bodies.iter().any(|body| body.follows.is_some())
     }
@@ -156,6 +156,14 @@ impl Tree {
     /// Whether a joint has a spring.
     pub fn has_springs(&self) -> bool {
         self.bodies.iter().any(|body| body.spring[0] != 0.0)
+    }
+
+    /// How many joints follow none.
+    pub fn motors(&self) -> usize {
+        self.bodies
+            .iter()
+            .filter(|body| body.follows.is_none())
+            .count()
     }
 
     /// Adds a link's mass to the body that it is part of.

@@ -4,6 +4,7 @@ mod changes;
 mod extensions;
 mod locks;
 mod peer;
+mod subjects;
 
 use std::path::Path;
 

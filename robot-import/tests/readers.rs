@@ -583,4 +583,16 @@ fn what_is_tolerated_takes_linear_time() {
             start.elapsed()
         );
     }
+    let gears: String = (0..20_000)
+        .map(|i| {
+            format!(
+                "<transmission name='t{i}'><joint name='j{i}'/><actuator name='m'><mechanicalReduction>9</mechanicalReduction></actuator>\
+                 </transmission><gazebo reference='l{i}'><stopCfm>1</stopCfm></gazebo>"
+            )
+        })
+        .collect();
+    let start = Instant::now();
+    let robot = of(&urdf().replace("</robot>", &format!("{gears}</robot>"))).expect("a robot");
+    assert!(start.elapsed() < Duration::from_secs(8), "{:?}", start.elapsed());
+    assert!(robot.notes.iter().any(|note| note.starts_with("A gear of 9 on `j0`") && note.contains("and 19992 more")));
 }

@@ -10,7 +10,6 @@
 //! | [`wire`] | a message as bytes: postcard, CRC-32, COBS |
 //! | [`queue`] | the queue between the interrupt and the main loop |
 //! | [`decoder`] | frames from a stream of bytes, with counts of what is bad and of what is missing |
-//! | [`pil`] | the messages of a processor in the loop |
 //!
 //! # A frame
 //!
@@ -50,7 +49,6 @@
 
 pub mod decoder;
 pub mod message;
-pub mod pil;
 pub mod queue;
 pub mod wire;
 

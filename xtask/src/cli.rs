@@ -7,7 +7,7 @@ use std::sync::atomic::Ordering;
 use clap::error::ErrorKind;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::commands::{demo, endurance, identify, import, meter, pil, play, test, watch, weight};
+use crate::commands::{demo, endurance, identify, import, meter, play, test, watch};
 use crate::kit::error::{Result, VERBOSE, check};
 use crate::kit::{output, processes, setup, workspace};
 use crate::studies;
@@ -49,8 +49,6 @@ enum Command {
     Identify(identify::Args),
     /// Prove from machine code how far off a robot's torques can be and what they take, print a sheet, or rewrite docs/certificates.md
     Certify(identify::Certify),
-    /// Compare the scene ur5e with its robot in f64 on the host, processor in the loop, and with its robot inside
-    Pil(pil::Args),
     /// Build the page on which one tries the library in a browser, target/site/play/index.html
     Play,
     /// Build the guide, the reports, the reference and the page to try as one site, target/site/index.html
@@ -69,18 +67,16 @@ enum Command {
     },
     /// Run the library's unit tests in Miri, where a nightly toolchain has it
     Miri,
-    /// Count the lines of code of product, tests and apparatus
-    Lines,
 }
 
 /// The commands for users, in the order of the help; all others are the laboratory's.
-const FIRST: [&str; 12] = [
-    "demo", "test", "new", "import", "meter", "watch", "identify", "certify", "pil", "play",
-    "costs", "accuracy",
+const FIRST: [&str; 11] = [
+    "demo", "test", "new", "import", "meter", "watch", "identify", "certify", "play", "costs",
+    "accuracy",
 ];
 
 /// The commands that lists name behind those of the studies.
-const LAST: [&str; 6] = ["site", "fuzz", "soak", "miri", "lines", "help"];
+const LAST: [&str; 5] = ["site", "fuzz", "soak", "miri", "help"];
 
 const LABORATORY: &str = "\x1b[1;4mLaboratory, which writes the pages of docs/\x1b[0m";
 
@@ -182,13 +178,11 @@ pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {
         Command::Watch(args) => watch::run(setup, &args),
         Command::Identify(args) => identify::run("identify", &args.arguments),
         Command::Certify(args) => identify::run("certify", &args.arguments),
-        Command::Pil(args) => pil::run(setup, &args),
         Command::Play => play::run(setup, "play/build.mjs"),
         Command::Site => play::run(setup, "site/build.mjs"),
         Command::Fuzz { seconds } => endurance::fuzz(seconds),
         Command::Soak { ticks } => endurance::soak(ticks),
         Command::Miri => endurance::miri(),
-        Command::Lines => output::print(&weight::lines()?).map(|()| ExitCode::SUCCESS),
     }
 }
 

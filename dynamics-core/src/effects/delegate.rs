@@ -4,6 +4,21 @@ use super::{BodyState, JointState, LoadFactors, RegroupedInertia};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 
+/// Inlines a function where this crate is optimised, also in the crate that expands a macro. A cfg in
+/// the expansion would be that crate's.
+#[cfg(optimised)]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! inlined {
+    ($($function:tt)*) => { #[inline(always)] $($function)* };
+}
+#[cfg(not(optimised))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! inlined {
+    ($($function:tt)*) => { $($function)* };
+}
+
 /// Calls the function of a hook, if it has one, directly: the `const` block names it while compiling.
 #[doc(hidden)]
 #[macro_export]
@@ -135,39 +150,42 @@ macro_rules! delegate_effect {
                 &[$(<$inner as $crate::effects::Effect<$R, $B, $V>>::ONCE),*],
             );
 
-            #[cfg_attr(optimised, inline(always))]
-            fn torque(&self, joint: usize, at: $crate::effects::JointState<$R>, tau: &mut $R) {
-                let $this = self;
-                if const { ($on) & ($joints) } {
-                    $(<$inner as $crate::effects::Effect<$R, $B, $V>>::torque(&$to, joint, at, tau);)*
+            $crate::inlined! {
+                fn torque(&self, joint: usize, at: $crate::effects::JointState<$R>, tau: &mut $R) {
+                    let $this = self;
+                    if const { ($on) & ($joints) } {
+                        $(<$inner as $crate::effects::Effect<$R, $B, $V>>::torque(&$to, joint, at, tau);)*
+                    }
                 }
             }
 
-            #[cfg_attr(optimised, inline(always))]
-            fn derivatives(
-                &self,
-                joint: usize,
-                at: $crate::effects::JointState<$R>,
-                derivatives: &mut $crate::effects::TorqueDerivatives<$R>,
-            ) {
-                let $this = self;
-                if const { ($on) & ($joints) } {
-                    $(<$inner as $crate::effects::Effect<$R, $B, $V>>::derivatives(&$to, joint, at, derivatives);)*
+            $crate::inlined! {
+                fn derivatives(
+                    &self,
+                    joint: usize,
+                    at: $crate::effects::JointState<$R>,
+                    derivatives: &mut $crate::effects::TorqueDerivatives<$R>,
+                ) {
+                    let $this = self;
+                    if const { ($on) & ($joints) } {
+                        $(<$inner as $crate::effects::Effect<$R, $B, $V>>::derivatives(&$to, joint, at, derivatives);)*
+                    }
                 }
             }
 
-            #[cfg_attr(optimised, inline(always))]
-            fn inertia(&self, joint: usize) -> Option<$R> {
-                let $this = self;
-                let sum = None;
-                if const { ($on) & ($accelerations) & ($joints) } {
-                    $(let sum = $crate::effects::sum(
-                        sum,
-                        <$inner as $crate::effects::Effect<$R, $B, $V>>::inertia(&$to, joint),
-                    );)*
-                    return sum;
+            $crate::inlined! {
+                fn inertia(&self, joint: usize) -> Option<$R> {
+                    let $this = self;
+                    let sum = None;
+                    if const { ($on) & ($accelerations) & ($joints) } {
+                        $(let sum = $crate::effects::sum(
+                            sum,
+                            <$inner as $crate::effects::Effect<$R, $B, $V>>::inertia(&$to, joint),
+                        );)*
+                        return sum;
+                    }
+                    sum
                 }
-                sum
             }
 
             $crate::delegate_effect!(@advance [$($advance)?] $on, [$R, $B, $V] |$this| { $($inner => $to),* });
@@ -176,89 +194,98 @@ macro_rules! delegate_effect {
         impl<$($generics)*> $crate::effects::Forwarder<$R, $B, $V> for $type
         $(where $($bounds)*)?
         {
-            #[cfg_attr(optimised, inline(always))]
-            fn forward_field(&self, g: &mut <$R as $crate::scalar::Real>::Vec3) {
-                let $this = self;
-                $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::GRAVITY_FIELD.add, &$to, g);)*
+            $crate::inlined! {
+                fn forward_field(&self, g: &mut <$R as $crate::scalar::Real>::Vec3) {
+                    let $this = self;
+                    $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::GRAVITY_FIELD.add, &$to, g);)*
+                }
             }
 
-            #[cfg_attr(optimised, inline(always))]
-            fn forward_base(
-                &self,
-                velocity: &mut $crate::spatial::Motion<$R>,
-                acceleration: &mut $crate::spatial::Motion<$R>,
-            ) {
-                let $this = self;
-                $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::BASE.add, &$to, velocity, acceleration);)*
+            $crate::inlined! {
+                fn forward_base(
+                    &self,
+                    velocity: &mut $crate::spatial::Motion<$R>,
+                    acceleration: &mut $crate::spatial::Motion<$R>,
+                ) {
+                    let $this = self;
+                    $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::BASE.add, &$to, velocity, acceleration);)*
+                }
             }
 
-            #[cfg_attr(optimised, inline(always))]
-            fn forward_wrench(
-                &self,
-                body: usize,
-                at: &$crate::effects::BodyState<$R>,
-                fx: &mut $crate::spatial::Force<$R>,
-            ) {
-                let $this = self;
-                $($crate::effects::hook::add_wrench::<$R, $inner, $B, $V>(&$to, body, at, fx);)*
+            $crate::inlined! {
+                fn forward_wrench(
+                    &self,
+                    body: usize,
+                    at: &$crate::effects::BodyState<$R>,
+                    fx: &mut $crate::spatial::Force<$R>,
+                ) {
+                    let $this = self;
+                    $($crate::effects::hook::add_wrench::<$R, $inner, $B, $V>(&$to, body, at, fx);)*
+                }
             }
 
-            #[cfg_attr(optimised, inline(always))]
-            fn forward_payload(
-                &self,
-                body: usize,
-                inertia: &mut $crate::spatial::SpatialInertia<$R>,
-            ) {
-                let $this = self;
-                $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::ADDED_INERTIA.add, &$to, body, inertia);)*
+            $crate::inlined! {
+                fn forward_payload(
+                    &self,
+                    body: usize,
+                    inertia: &mut $crate::spatial::SpatialInertia<$R>,
+                ) {
+                    let $this = self;
+                    $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::ADDED_INERTIA.add, &$to, body, inertia);)*
+                }
             }
 
-            #[cfg_attr(optimised, inline(always))]
-            fn forward_spin(&self, joint: usize, coupling: &mut $R) {
-                let $this = self;
-                $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::ROTOR.add, &$to, joint, coupling);)*
+            $crate::inlined! {
+                fn forward_spin(&self, joint: usize, coupling: &mut $R) {
+                    let $this = self;
+                    $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::ROTOR.add, &$to, joint, coupling);)*
+                }
             }
 
-            #[cfg_attr(optimised, inline(always))]
-            fn forward_load(
-                &self,
-                joint: usize,
-                at: $crate::effects::JointState<$R>,
-                factors: &mut $crate::effects::LoadFactors<$R>,
-            ) {
-                let $this = self;
-                $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::LOAD_FRICTION.factors, &$to, joint, at, factors);)*
+            $crate::inlined! {
+                fn forward_load(
+                    &self,
+                    joint: usize,
+                    at: $crate::effects::JointState<$R>,
+                    factors: &mut $crate::effects::LoadFactors<$R>,
+                ) {
+                    let $this = self;
+                    $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::LOAD_FRICTION.factors, &$to, joint, at, factors);)*
+                }
             }
 
-            #[cfg_attr(optimised, inline(always))]
-            fn forward_load_slopes(
-                &self,
-                joint: usize,
-                at: $crate::effects::JointState<$R>,
-                slopes: &mut $crate::effects::LoadFactors<$R>,
-            ) {
-                let $this = self;
-                $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::LOAD_FRICTION.slopes, &$to, joint, at, slopes);)*
+            $crate::inlined! {
+                fn forward_load_slopes(
+                    &self,
+                    joint: usize,
+                    at: $crate::effects::JointState<$R>,
+                    slopes: &mut $crate::effects::LoadFactors<$R>,
+                ) {
+                    let $this = self;
+                    $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::LOAD_FRICTION.slopes, &$to, joint, at, slopes);)*
+                }
             }
 
-            #[cfg_attr(optimised, inline(always))]
-            fn forward_regrouped(
-                &self,
-                joint: usize,
-                body: &mut $crate::effects::RegroupedInertia<$R>,
-            ) {
-                let $this = self;
-                $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::REGROUPED.load, &$to, joint, body);)*
+            $crate::inlined! {
+                fn forward_regrouped(
+                    &self,
+                    joint: usize,
+                    body: &mut $crate::effects::RegroupedInertia<$R>,
+                ) {
+                    let $this = self;
+                    $($crate::call_hook!(<$inner as $crate::effects::Effect<$R, $B, $V>>::REGROUPED.load, &$to, joint, body);)*
+                }
             }
         }
     };
     (@advance [] $on:expr, [$R:ty, $B:tt, $V:tt] |$this:ident| $rest:tt) => {};
     (@advance [advance] $on:expr, [$R:ty, $B:tt, $V:tt] |$this:ident| { $($inner:ty => $to:expr),* }) => {
-        #[cfg_attr(optimised, inline(always))]
-        fn advance(&mut self, joint: usize, at: $crate::effects::JointState<$R>, h: $R) {
-            let $this = self;
-            if const { $on } {
-                $(<$inner as $crate::effects::Effect<$R, $B, $V>>::advance(&mut $to, joint, at, h);)*
+        $crate::inlined! {
+            fn advance(&mut self, joint: usize, at: $crate::effects::JointState<$R>, h: $R) {
+                let $this = self;
+                if const { $on } {
+                    $(<$inner as $crate::effects::Effect<$R, $B, $V>>::advance(&mut $to, joint, at, h);)*
+                }
             }
         }
     };

@@ -16,7 +16,7 @@
 //! | all bodies | [`Gravity`], [`GravityVector`]; [`Inertia`], [`Coriolis`]; [`MovingBase`]; of links that bend, [`Elasticity`] |
 //! | a body | [`BodyWrench`], [`WorldWrench`], [`Contact`]; [`Payload`]; of all bodies, [`BaseParameters`] |
 //! | a joint: friction | [`Viscous`], [`Coulomb`], [`AsymmetricCoulomb`], [`Stribeck`], [`Lugre`], [`LoadFriction`] |
-//! | a joint: position | [`Spring`], [`EndStops`], [`Cogging`] |
+//! | a joint: position | [`Spring`], [`EndStops`], [`Cogging`]; in any state [`ConstantTorque`] |
 //! | a motor | [`Armature`], [`GyroscopicRotors`]; [`crate::sim::Actuator`] and [`crate::drivetrain`] stand between command and joint |
 //!
 //! A user adds other effects by an `impl` of the same trait, for core, engine and plant alike:
@@ -112,7 +112,7 @@ pub use friction::{
 pub use hook::RegroupedInertia;
 pub use hook_args::{BodyState, BodyVelocity, JointState, LoadFactors, TorqueDerivatives};
 pub use implicit::Implicit;
-pub use joint::{Armature, Cogging, EndStops, GyroscopicRotors, Spring};
+pub use joint::{Armature, Cogging, ConstantTorque, EndStops, GyroscopicRotors, Spring};
 pub use once::Once;
 pub use rigid_body::{
     Coriolis, Direction, Down, Elasticity, Gravity, GravityVector, Inertia, MovingBase, RIGID_BODY,
@@ -165,7 +165,7 @@ use crate::scalar::Real;
     label = "not an effect of this size and scalar",
     note = "effects: Gravity, GravityVector, Inertia, Coriolis, Elasticity, Viscous([R; V]), Coulomb {{ .. }}, \
             AsymmetricCoulomb {{ .. }}, Stribeck {{ .. }}, Lugre {{ .. }}, LoadFriction {{ .. }}, Spring {{ .. }}, EndStops {{ .. }}, \
-            Cogging {{ .. }}, Armature([R; V]), GyroscopicRotors {{ .. }}, Payload::<_, BODY>, BaseParameters, BodyWrench, WorldWrench, Contact, \
+            Cogging {{ .. }}, ConstantTorque([R; V]), Armature([R; V]), GyroscopicRotors {{ .. }}, Payload::<_, BODY>, BaseParameters, BodyWrench, WorldWrench, Contact, \
             MovingBase, tuples of up to 12 of them, and your own through `impl Effect`"
 )]
 pub trait Effect<R: Real, const B: usize, const V: usize>: Sized {

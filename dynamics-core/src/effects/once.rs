@@ -13,7 +13,7 @@
 /// | [`BaseParameters`](super::BaseParameters) | refused: the engine reads one set |
 /// | [`Payload`](super::Payload) | add up: a tool and what it holds, on one body or on several |
 /// | [`BodyWrench`](super::BodyWrench), [`WorldWrench`](super::WorldWrench), [`Contact`](super::Contact) | add up: several forces, several surfaces |
-/// | [`Spring`](super::Spring), [`EndStops`](super::EndStops), [`Cogging`](super::Cogging) | add up: springs of different rest positions, a bumper in front of a stop, the slots of a motor and the teeth of its gear |
+/// | [`Spring`](super::Spring), [`EndStops`](super::EndStops), [`Cogging`](super::Cogging), [`ConstantTorque`](super::ConstantTorque) | add up: springs of different rest positions, a bumper in front of a stop, the slots of a motor and the teeth of its gear |
 /// | different kinds of friction | add up: each has its own term |
 /// | your own | add up: how often they may occur is for you to decide |
 ///

@@ -45,9 +45,20 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     const fn no_body(&self, name: &str) -> ! {
         let mut text = Text::EMPTY
             .with("no body of the robot has the name `")
-            .with(name)
-            .with("`: its bodies are ");
+            .with(name);
         let mut i = 0;
+        while i < self.parts.len() {
+            let (link, body) = self.parts[i];
+            if same(link, name) {
+                text.with("`: that link is a part of body `")
+                    .with(body)
+                    .with("`, in whose frame a payload or a point on it is stated")
+                    .panic();
+            }
+            i += 1;
+        }
+        text = text.with("`: its bodies are ");
+        i = 0;
         while i < B {
             let name = self.links[i].name;
             if !text.has_room_for(name) {
@@ -67,11 +78,11 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     /// mass) that are not negative and obey the triangle inequality, all within `relative`; and that the names of
     /// bodies differ.
     ///
-    /// Published models violate the inequality (PUMA 560) or satisfy it narrowly (Panda) and must be usable: it is
-    /// therefore a separate check, not a condition of the model. In f32 rounding alone violates it by some 10⁻⁶.
+    /// Published models violate the inequality (PUMA 560) or satisfy it narrowly (Panda) and must be usable: of a model only a
+    /// negative moment is an error ([`Body::inertia`](super::Body::inertia)). In f32 rounding alone violates it by some 10⁻⁶.
     ///
     /// # Errors
-    /// [`Problem::Asymmetric`] or [`Problem::Triangle`] with the body's name and the amount: by how much the
+    /// [`Problem::Asymmetric`], [`Problem::NegativeMoment`] or [`Problem::Triangle`] with the body's name and the amount: by how much the
     /// largest moment exceeds the sum of the others, relative to that moment; [`Problem::Massless`],
     /// [`Problem::Name`].
     pub fn check(&self, relative: f64) -> Result<(), ModelError> {
@@ -87,9 +98,8 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
             if skew > relative || skew.is_nan() {
                 return Err(wrong(Problem::Asymmetric(skew)));
             }
-            let excess = body::triangle_excess(&link.inertia);
-            if excess > relative || excess.is_nan() {
-                return Err(wrong(Problem::Triangle(excess)));
+            if let Some(found) = body::impossible(&link.inertia, relative) {
+                return Err(wrong(found.problem()));
             }
         }
         for (i, link) in self.links.iter().enumerate() {

@@ -74,11 +74,12 @@ mod joint_kinematics;
 mod link_view;
 mod merged;
 mod named;
+mod possible;
 mod pruned;
 mod robot;
 mod source;
 
-pub(crate) use body::moments_excess;
+pub(crate) use body::impossible;
 pub use body::{BASE, Body, JointLimits};
 pub(crate) use error::Text;
 pub use error::{ModelError, Problem};
@@ -91,6 +92,7 @@ pub use joint_kind::{JointKind, JointKinds};
 pub use link_view::LinkView;
 pub use merged::{Merged, MergedBody};
 pub use named::{Bodies, BodyNumber, OnBody};
+pub use possible::ImpossibleInertia;
 pub use pruned::Pruned;
 pub use robot::{Arm, Robot, model};
 pub use source::{AllRevolute, Calibrated, RevoluteChain, RevoluteOrFixed, RobotModel, Static};
@@ -157,6 +159,8 @@ pub struct Model<R: Real, const B: usize, const Q: usize, const V: usize> {
     kinds: JointKinds,
     /// Whether the parent of every body is the one before it.
     chain: bool,
+    /// Names of links that are part of bodies, with the bodies' names.
+    parts: &'static [(&'static str, &'static str)],
 }
 
 /// A robot of N bodies on N joints of one degree of freedom.
@@ -240,7 +244,26 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             lambda,
             kinds,
             chain,
+            parts: &[],
         })
+    }
+
+    /// The same with the names of links that are part of bodies, such as flanges on fixed joints that an importer merges:
+    /// [`Model::body`] then says of which body a link is a part.
+    ///
+    /// ```compile_fail,E0080
+    /// use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
+    /// const WRIST: Body = Body::new("wrist", BASE, Joint::revolute([0.0, 0.0, 1.0])).mass(1.0);
+    /// const ARM: ArmModel<f64, 1> = Model::new("arm", [WRIST]).with_parts(&[("flange", "wrist")]);
+    /// const FLANGE: usize = ARM.body("flange");
+    /// // error: no body of the robot has the name `flange`: that link is a part of body `wrist`, in whose frame a payload or a
+    /// // point on it is stated
+    /// # let _ = FLANGE;
+    /// ```
+    #[must_use]
+    pub const fn with_parts(mut self, parts: &'static [(&'static str, &'static str)]) -> Self {
+        self.parts = parts;
+        self
     }
 
     /// The same tree with its links in another scalar, which the host's tools bring.
@@ -252,6 +275,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             lambda: self.lambda,
             kinds: self.kinds,
             chain: self.chain,
+            parts: self.parts,
         }
     }
 

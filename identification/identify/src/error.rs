@@ -84,6 +84,12 @@ pub enum Error {
         path: PathBuf,
         source: IdentificationError,
     },
+    /// A mistake of the recording explains what no robot does.
+    #[error("{}: {mistake}. Nothing is offered to paste: correct the recording and identify again", path.display())]
+    Mistake {
+        path: PathBuf,
+        mistake: crate::mistakes::Mistake,
+    },
     /// JSON of what was found.
     #[error("the report is no JSON: {0}")]
     Json(#[from] serde_json::Error),

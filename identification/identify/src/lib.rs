@@ -5,11 +5,14 @@
 //! | [`recorded`] | the ticks of a CSV that `cargo xtask watch` has recorded |
 //! | [`robot`] | the robot of a URDF or MJCF, and its parameters |
 //! | [`run`] | the fit, its comparison with held-out ticks, and the physical set |
+//! | [`mistakes`] | a unit, a sign or a zero that explains what no robot does |
 //! | [`report`] | what was found, as text and as JSON |
 //! | [`picture`] | the torques by time |
 //! | [`paste`] | the robot's Rust file and its initialisers in C with what was found |
 
+mod delay;
 pub mod error;
+pub mod mistakes;
 pub mod paste;
 pub mod picture;
 pub mod recorded;

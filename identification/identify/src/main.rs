@@ -28,7 +28,7 @@ struct Args {
         long,
         value_enum,
         value_delimiter = ',',
-        default_value = "viscous,coulomb,armature"
+        default_value = "viscous,coulomb,armature,offset"
     )]
     effects: Vec<JointEffect>,
     /// Compare with this recording of another path, instead of with the last part of the first one
@@ -60,22 +60,24 @@ fn positive(text: &str) -> std::result::Result<f64, String> {
 }
 
 fn main() -> ExitCode {
-    let printed = run(&Args::parse()).map(|text| std::io::stdout().write_all(text.as_bytes()));
-    match printed {
-        Ok(Ok(())) => ExitCode::SUCCESS,
-        // The reader of a pipe, such as `| head`, has closed it.
-        Ok(Err(_)) => ExitCode::from(128 + 13),
-        Err(error) => {
-            // It names what files have, whose control characters are not for the terminal.
-            let text = error.to_string();
-            let lines: Vec<String> = text.lines().map(robot_import::text::visible).collect();
-            eprintln!("error: {}", lines.join("\n"));
-            ExitCode::FAILURE
-        }
-    }
+    let error = match run(&Args::parse()) {
+        Ok((text, refused)) => match (std::io::stdout().write_all(text.as_bytes()), refused) {
+            // The reader of a pipe, such as `| head`, has closed it.
+            (Err(_), _) => return ExitCode::from(128 + 13),
+            (Ok(()), None) => return ExitCode::SUCCESS,
+            (Ok(()), Some(error)) => error,
+        },
+        Err(error) => error,
+    };
+    // It names what files have, whose control characters are not for the terminal.
+    let text = error.to_string();
+    let lines: Vec<String> = text.lines().map(robot_import::text::visible).collect();
+    eprintln!("error: {}", lines.join("\n"));
+    ExitCode::FAILURE
 }
 
-fn run(args: &Args) -> Result<String> {
+/// What is printed, and why nothing is offered to paste.
+fn run(args: &Args) -> Result<(String, Option<Error>)> {
     let beside = || args.recording.with_extension("torques.svg");
     let picture = args.picture.clone().unwrap_or_else(beside);
     let inputs = [&args.recording, &args.robot]
@@ -101,20 +103,27 @@ fn run(args: &Args) -> Result<String> {
     };
     let validate = args.validate.as_deref().zip(other.as_ref());
     let found = run::identify(&robot, (&args.recording, &recorded), validate, &options)?;
-    let file = paste::file(&robot, &found);
-    if let Some(out) = &args.out {
-        write(out, &file)?;
-    }
     write(&picture, &picture::svg(&found.traces))?;
-    if args.json {
-        return Ok(serde_json::to_string_pretty(&found)? + "\n");
-    }
-    let (lines, c) = (paste::lines(&file), paste::c(&found));
-    Ok(format!(
-        "{}\ndrawn: {}\n\nto paste into the robot's Rust file:\n\n{lines}\nfor C:\n\n{c}",
-        found.text(),
-        picture.display()
-    ))
+    let file = paste::file(&robot, &found);
+    let text = match (args.json, &found.mistake) {
+        (true, _) => serde_json::to_string_pretty(&found)? + "\n",
+        (false, Some(_)) => format!("{}\ndrawn: {}\n", found.text(), picture.display()),
+        (false, None) => format!(
+            "{}\ndrawn: {}\n\nto paste into the robot's Rust file:\n\n{}\nfor C:\n\n{}",
+            found.text(),
+            picture.display(),
+            paste::lines(&file),
+            paste::c(&found)
+        ),
+    };
+    let Some(mistake) = found.mistake else {
+        args.out
+            .as_deref()
+            .map_or(Ok(()), |out| write(out, &file))?;
+        return Ok((text, None));
+    };
+    let path = args.recording.clone();
+    Ok((text, Some(Error::Mistake { path, mistake })))
 }
 
 fn write(path: &Path, text: &str) -> Result<()> {

@@ -39,7 +39,7 @@ pub fn file(robot: &Robot, found: &Found) -> String {
         "full beyond 0.02 rad/s",
         &format!("full beyond {:?} rad/s", found.width),
     );
-    write::formatted(&(source + &gears(found, &width)))
+    write::formatted(&(source + &offsets(found) + &gears(found, &width)))
 }
 
 /// The day in UTC.
@@ -58,13 +58,33 @@ pub fn lines(file: &str) -> String {
     };
     let bodies = between("impl Robot<", "\n// A robot with");
     let joints = between("/// Viscous friction,", "\n/// The rigid body, and");
-    let gears = between("/// Friction of the gears", "\u{0}");
+    let added = between("/// Torque of each joint in any state", "\u{0}");
+    let gears = match added.is_empty() {
+        true => between("/// Friction of the gears", "\u{0}"),
+        false => added,
+    };
     [bodies, joints, gears]
         .map(str::trim_end)
         .join("\n\n")
         .trim_end()
         .to_owned()
         + "\n"
+}
+
+/// The constant torques, if the recording shows some; the importer knows none.
+fn offsets(found: &Found) -> String {
+    let each: Vec<f64> = found
+        .joints
+        .iter()
+        .map(|joint| rounded(joint.after[3]))
+        .collect();
+    if each.iter().all(|offset| *offset == 0.0) {
+        return String::new();
+    }
+    format!(
+        "\n/// Torque of each joint in any state, N·m or N: add it to the scene.\npub const OFFSET: ::dynamics_core::effects::ConstantTorque<f32, V> = \
+         ::dynamics_core::effects::ConstantTorque({each:?});\n"
+    )
 }
 
 /// The constant of the gears, if their friction was found; the importer knows none.
@@ -112,11 +132,12 @@ pub fn c(found: &Found) -> String {
         );
     }
     text += "};\n";
-    let names = ["viscous", "coulomb", "armature"];
+    let names = ["viscous", "coulomb", "armature", "offset"];
     let units = [
         "Viscous friction, N m s/rad or N s/m",
         "Coulomb friction, N m or N",
         "Inertia of the rotors at the joints, kg m^2 or kg",
+        "Torque in any state, N m or N",
     ];
     for (k, (name, unit)) in names.into_iter().zip(units).enumerate() {
         let numbers: Vec<f64> = found.joints.iter().map(|joint| joint.after[k]).collect();

@@ -6,6 +6,8 @@ use dynamics_core::model::BodyInertia;
 use robot_import::inertia::MassProperties;
 use serde::Serialize;
 
+use crate::mistakes::{IMPOSSIBLE, Mistake};
+
 /// The digits of numbers to paste.
 const DIGITS: usize = 6;
 
@@ -29,6 +31,10 @@ pub struct Found {
     pub condition: f64,
     /// Of the physical set from the estimate, in standard deviations.
     pub misfit: f64,
+    /// The time by which the torques are later than the positions of their ticks, s.
+    pub delay: f64,
+    /// What explains an estimate that no robot has; nothing is offered to paste then.
+    pub mistake: Option<Mistake>,
     pub parameters: Vec<ParameterFound>,
     pub joints: Vec<JointFound>,
     pub bodies: Vec<BodyFound>,
@@ -193,11 +199,27 @@ impl Found {
             self.fitted_seconds,
             self.held_out_seconds
         );
+        self.time_of_torque(&mut text);
         self.excitation(&mut text);
         self.tables(&mut text);
         self.base(&mut text);
         self.residuals(&mut text, held);
         text
+    }
+
+    fn time_of_torque(&self, text: &mut String) {
+        let [delay, half] = [self.delay, 0.5 * self.tick].map(|t| short(1e3 * t));
+        let _ = match self.delay == 0.5 * self.tick {
+            true => writeln!(
+                text,
+                "torques belong to the middle of their tick, {half} ms after its position: no other delay is shown"
+            ),
+            false => writeln!(
+                text,
+                "warning: torques are {delay} ms later than the positions of their ticks, in place of the {half} ms of a torque \
+                 that is held for a tick; the fit takes this into account"
+            ),
+        };
     }
 
     fn excitation(&self, text: &mut String) {
@@ -223,6 +245,7 @@ impl Found {
             "viscous",
             "Coulomb",
             "armature",
+            "offset",
             "gear driving, driven",
         ];
         let mut rows = vec![titles.map(str::to_owned)];
@@ -238,7 +261,8 @@ impl Found {
                 let of = |k: usize| format!("{:.2} ± {:.2}", gear.friction[k], gear.deviations[k]);
                 format!("{}, {}", of(0), of(1))
             });
-            rows.push([joint.name.clone(), number(0), number(1), number(2), gear]);
+            let name = joint.name.clone();
+            rows.push([name, number(0), number(1), number(2), number(3), gear]);
         }
         *text += "\n";
         *text += &aligned(&rows);
@@ -253,13 +277,23 @@ impl Found {
         }
         *text += "\n";
         *text += &aligned(&rows);
-        if self.misfit > 3.0 {
-            let _ = writeln!(
-                text,
-                "warning: no possible robot has this estimate: the nearest one is {:.1} standard deviations away; its friction may be of \
-                 another kind (--effects)",
-                self.misfit
-            );
+        match &self.mistake {
+            Some(mistake) => {
+                let _ = writeln!(
+                    text,
+                    "warning: no possible robot has this estimate ({:.1} standard deviations away), but one has it without this: {mistake}",
+                    self.misfit
+                );
+            }
+            None if self.misfit > IMPOSSIBLE => {
+                let _ = writeln!(
+                    text,
+                    "warning: no possible robot has this estimate: the nearest one is {:.1} standard deviations away; its friction may be \
+                     of another kind (--effects). No single wrong sign, unit or zero explains it",
+                    self.misfit
+                );
+            }
+            None => {}
         }
     }
 

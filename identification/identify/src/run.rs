@@ -8,13 +8,14 @@ use dynamics_core::model::{ArmModel, BodyInertia};
 use dynamics_core::spatial::SpatialInertia;
 use identification::{
     BaseModel, Comparison, ExcitationLimits, Fit, Fitted, IdentificationError, OfJoint, Parameter,
-    TickRecording,
+    PhysicalSet, TickRecording,
 };
 
 use crate::error::{Error, Result};
 use crate::recorded::Recorded;
 use crate::report::{BodyFound, Found, Gear, JointFound, Numbers, ParameterFound, Part, Trace};
 use crate::robot::Robot;
+use crate::{delay, mistakes};
 
 /// How far the numbers of a description are believed: a relative standard deviation.
 const BELIEVED: f64 = 0.3;
@@ -26,6 +27,10 @@ const SLOWEST_RATE: f64 = 1.0;
 const RESTS: f64 = 1e-3;
 /// By how much a joint may be beyond its limits, rad or m.
 const BEYOND: f64 = 0.2;
+/// An offset is shown by the recording from so many deviations on,
+const SHOWN: f64 = 4.0;
+/// and from this share of the joint's largest torque on.
+const LEAST_OFFSET: f64 = 0.01;
 /// The most points of a trace.
 const POINTS: usize = 800;
 
@@ -52,11 +57,12 @@ pub enum JointEffect {
     Armature,
     /// Friction of gears that grows with the torque
     Load,
-    /// A constant torque, which no effect of the library removes
+    /// A constant torque
     Offset,
 }
 
-type Base<const V: usize> = BaseModel<ArmModel<f64, V>, (Gravity, Inertia, Coriolis), V, V>;
+pub(crate) type Base<const V: usize> =
+    BaseModel<ArmModel<f64, V>, (Gravity, Inertia, Coriolis), V, V>;
 
 /// The parameters of a robot by a recording; the other recording is of another path.
 ///
@@ -100,60 +106,157 @@ pub fn identify(
     sized!(1 2 3 4 5 6 7 8 9 10 11 12)
 }
 
+/// What a recording and the time of its torques give.
+pub(crate) struct Attempt<const V: usize> {
+    pub arm: Base<V>,
+    pub joints: [OfOneJoint; V],
+    pub nominal: Vec<f64>,
+    pub known: Vec<bool>,
+    pub fit: Fit,
+    pub found: Fitted<V>,
+    pub set: PhysicalSet<V, V>,
+    /// The mean squares of what the set leaves of the torques, relative to the joints' largest torques, summed.
+    pub residual: f64,
+}
+
+/// Viscous and Coulomb friction, armature and offset of a joint.
+type OfOneJoint = [f64; 4];
+
+/// A robot, the file of its recording, and what is identified.
+pub(crate) struct Task<'a> {
+    pub robot: &'a Robot,
+    pub path: &'a Path,
+    pub options: &'a Options,
+}
+
+impl Task<'_> {
+    fn failed(&self, source: IdentificationError) -> Error {
+        let path = self.path.to_owned();
+        Error::Identification { path, source }
+    }
+
+    /// The fit of a part of a recording, with torques so long after the positions, s; estimated if not given.
+    pub fn attempt<const V: usize>(
+        &self,
+        whole: &TickRecording<V>,
+        part: &TickRecording<V>,
+        delay: Option<f64>,
+    ) -> Result<Attempt<V>> {
+        let options = self.options;
+        let (model, bodies, joints) = self.robot.model::<V>()?;
+        let limits = limits(self.robot, self.path, whole)?;
+        let largest = limits.torque;
+        let arm = Base::<V>::new(model, RIGID_BODY, Width::new(options.width), limits);
+        let nominal = arm.of_all(&bodies, &joints);
+        let known = known(&arm, &options.effects);
+        let mut fit = Fit {
+            cutoff: options.cutoff,
+            ..Fit::new(part.tick())
+        };
+        let gears = options.effects.contains(&JointEffect::Load);
+        let gears = gears.then_some([[0.0; 2]; V]);
+        let run = |fit: &Fit| fit.identify(&arm, part, &nominal, &known, gears);
+        let found = match delay {
+            Some(delay) => {
+                fit.delay = delay;
+                run(&fit)
+            }
+            None => delay::least(&mut fit, &largest, run),
+        }
+        .map_err(|source| self.failed(source))?;
+        let believed = believed(&arm, &found, &nominal, &joints, &options.effects);
+        let mut set = found
+            .physical(&arm, &bodies, &believed, BELIEVED)
+            .map_err(|source| self.failed(source))?;
+        for (j, joint) in set.joints.iter_mut().enumerate() {
+            let own = own(&arm, j, OfJoint::Offset).filter(|&base| !known[base]);
+            let is_shown = own.is_some_and(|base| {
+                found.base[base].abs() > SHOWN * found.deviations[base]
+                    && found.base[base].abs() > LEAST_OFFSET * largest[j]
+            });
+            if !is_shown {
+                joint[3] = 0.0;
+            }
+        }
+        let after = arm.of_all(&set.bodies, &set.joints);
+        let compared = fit
+            .compare(&arm, part, &[(&after[..], possible(&found))])
+            .map_err(|source| self.failed(source))?;
+        let pairs = compared.measured.iter().zip(&compared.modelled[0]);
+        let square = |(measured, modelled): (&[f64; V], &[f64; V])| -> f64 {
+            let share = |j: usize| ((measured[j] - modelled[j]) / largest[j]).powi(2);
+            (0..V).map(share).sum()
+        };
+        let residual = pairs.map(square).sum::<f64>() / compared.measured.len() as f64;
+        Ok(Attempt {
+            arm,
+            joints,
+            nominal,
+            known,
+            fit,
+            found,
+            set,
+            residual,
+        })
+    }
+}
+
+/// The friction of the gears that a gear can have.
+fn possible<const V: usize>(found: &Fitted<V>) -> Option<[[f64; 2]; V]> {
+    let gears = found.gears?;
+    Some(gears.map(|[mu, _]| mu.map(|mu| mu.clamp(0.0, 0.95))))
+}
+
+/// The base parameter that is this parameter of a joint.
+pub(crate) fn own<const V: usize>(arm: &Base<V>, joint: usize, of: OfJoint) -> Option<usize> {
+    let parameter = Parameter::Joint { joint, of };
+    (0..arm.len()).find(|&base| arm.terms(base)[0].1 == parameter)
+}
+
 fn of_size<const V: usize>(
     robot: &Robot,
     (path, recorded): (&Path, &Recorded),
     other: Option<(&Path, &Recorded)>,
     options: &Options,
 ) -> Result<Found> {
-    let failed = |source| Error::Identification {
-        path: path.to_owned(),
-        source,
+    let task = Task {
+        robot,
+        path,
+        options,
     };
     let whole: TickRecording<V> = recorded.ticks(path)?;
     let (fitted_part, held) = match other {
         Some((path, other)) => (whole.clone(), other.ticks(path)?),
         None => whole.split(1.0 - options.hold_out),
     };
-    let (model, bodies, joints) = robot.model::<V>()?;
-    let limits = limits(robot, path, &whole)?;
-    let arm = Base::<V>::new(model, RIGID_BODY, Width::new(options.width), limits);
-    let nominal = arm.of_all(&bodies, &joints);
-    let known = known(&arm, &options.effects);
-    let fit = Fit {
-        cutoff: options.cutoff,
-        ..Fit::new(recorded.tick)
-    };
-    let is_in = |effect| options.effects.contains(&effect);
-    let gears = is_in(JointEffect::Load).then_some([[0.0; 2]; V]);
-    let found = fit
-        .identify(&arm, &fitted_part, &nominal, &known, gears)
-        .map_err(failed)?;
-    let believed = believed(&arm, &found, &nominal, &joints, &options.effects);
-    let set = found
-        .physical(&arm, &bodies, &believed, BELIEVED)
-        .map_err(failed)?;
-    let mut pasted = set.joints;
-    // An offset is no effect that could be pasted.
-    pasted.iter_mut().for_each(|joint| joint[3] = 0.0);
+    let attempt = task.attempt(&whole, &fitted_part, None)?;
+    let names = robot.joints();
+    let mistake = mistakes::explains(&task, &whole, &fitted_part, &attempt, &names);
+    let Attempt {
+        arm,
+        joints,
+        nominal,
+        known,
+        fit,
+        found,
+        set,
+        ..
+    } = &attempt;
+    let pasted = set.joints;
     let after = arm.of_all(&set.bodies, &pasted);
-    let possible =
-        |gears: [[[f64; 2]; 2]; V]| gears.map(|[mu, _]| mu.map(|mu| mu.clamp(0.0, 0.95)));
-    let gears = found.gears.map(possible);
+    let gears = possible(found);
     let models = [(&nominal[..], None), (&after[..], gears)];
-    let compare = |part: &TickRecording<V>| fit.compare(&arm, part, &models);
-    let (own, validated) = (compare(&fitted_part).map_err(failed)?, compare(&held));
-    let validated = match validated {
+    let compare = |part: &TickRecording<V>| fit.compare(arm, part, &models);
+    let own_part = compare(&fitted_part).map_err(|source| task.failed(source))?;
+    let validated = match compare(&held) {
         // Of the recording itself, a part too short for the filter is no error.
         Err(IdentificationError::TooShort { .. }) if other.is_none() => None,
-        validated => Some(validated.map_err(failed)?),
+        validated => Some(validated.map_err(|source| task.failed(source))?),
     };
     let own_of = |j: usize, of: OfJoint| {
-        let parameter = Parameter::Joint { joint: j, of };
-        let at = (0..arm.len()).find(|&base| arm.terms(base)[0].1 == parameter)?;
+        let at = own(arm, j, of)?;
         Some(found.deviations[at]).filter(|_| !known[at])
     };
-    let names = robot.joints();
     let of_joint = |j: usize| JointFound {
         name: names[j].clone(),
         before: joints[j],
@@ -169,7 +272,7 @@ fn of_size<const V: usize>(
             friction: used[j],
             deviations: found[j][1],
         }),
-        fitted: part(&own, j),
+        fitted: part(&own_part, j),
         held_out: validated.as_ref().map(|held| part(held, j)),
     };
     let of_body = |i: usize| {
@@ -207,10 +310,12 @@ fn of_size<const V: usize>(
         width: options.width,
         condition: found.condition,
         misfit: set.misfit,
+        delay: fit.delay,
+        mistake,
         parameters: (0..arm.len()).map(of_parameter).collect(),
         joints: (0..V).map(of_joint).collect(),
         bodies: (0..V).map(of_body).collect(),
-        traces: traces(&names, validated.as_ref().unwrap_or(&own)),
+        traces: traces(&names, validated.as_ref().unwrap_or(&own_part)),
     })
 }
 

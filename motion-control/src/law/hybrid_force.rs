@@ -7,6 +7,9 @@ use dynamics_core::algorithms::OperationalSpace;
 use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::Force;
 
+#[cfg(test)]
+mod tests;
+
 /// The axes of a task, fixed in the base; their origin is the body's.
 #[doc(alias = "task frame")]
 #[derive(Clone, Copy, Debug, PartialEq)]

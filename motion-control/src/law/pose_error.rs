@@ -5,6 +5,9 @@ use dynamics_core::algorithms::Pose;
 use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::Motion;
 
+#[cfg(test)]
+mod tests;
+
 /// The motion from a pose to the desired one: [`quaternion_error`], rad, and the difference of the origins, m, in base axes.
 ///
 /// Its power with the directions of a task gives [`TaskDeviation::position`](crate::TaskDeviation::position): see

@@ -2,6 +2,9 @@
 
 use crate::limits::Fault;
 
+#[cfg(test)]
+mod tests;
+
 /// The reaction of a [`MotionController`](crate::MotionController) to a fault, by [`Fault::reaction`].
 ///
 /// | reaction | while the fault lasts | after it |

@@ -13,6 +13,9 @@ use crate::reference::Reference;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
+#[cfg(test)]
+mod tests;
+
 /// A vibration of a machine, such as a mode of a link that bends: the frequency is that with the joints clamped, which
 /// [`Modes::frequencies`](dynamics_core::flexible::Modes::frequencies) has for a configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]

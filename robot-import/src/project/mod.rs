@@ -16,6 +16,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use crate::limits::{MOST_JOINTS_FOLDED, MOST_JOINTS_OF_PROJECT};
 use crate::text::code_span;
 pub use board::{BOARDS, Board, Framework};
 use board::{JOINTS, of_joints};
@@ -152,17 +153,10 @@ pub enum RobotOnly {
     },
     /// More joints than the engine takes.
     #[error(
-        "a project has at most {MOST_JOINTS} joints, this robot has {0}: only its file was written"
+        "a project has at most {MOST_JOINTS_OF_PROJECT} joints, this robot has {0}: only its file was written"
     )]
     Joints(usize),
 }
-
-/// The most joints that the engine takes.
-pub const MOST_JOINTS: usize = 32;
-
-/// The most joints for which the C library's inertia matrix and forward dynamics are the engine's: with 30 joints they
-/// compile for four minutes.
-const MOST_FOLDED: usize = 12;
 
 /// Said of coupled joints.
 const COUPLED: &str = "the joints coupled by `COUPLING` are driven each by itself in this project: use the \
@@ -279,7 +273,7 @@ impl RobotFile {
         if b != v || q != v || self.joints.len() != v {
             return Some(RobotOnly::Coordinates { b, q, v });
         }
-        (v > MOST_JOINTS).then_some(RobotOnly::Joints(v))
+        (v > MOST_JOINTS_OF_PROJECT).then_some(RobotOnly::Joints(v))
     }
 }
 
@@ -291,7 +285,7 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
     let robot = &project.robot;
     let crate_name = snake_case(&project.name);
     let prefix = crate_name.to_ascii_uppercase();
-    let form = if robot.v > MOST_FOLDED {
+    let form = if robot.v > MOST_JOINTS_FOLDED {
         "Core"
     } else {
         "Engine"

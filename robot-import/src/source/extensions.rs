@@ -6,7 +6,7 @@
 //! | `armature`, `spring_stiffness`, `spring_reference` of `<dynamics>` | at the joint, as of MJCF and SDFormat |
 //! | `springStiffness`, `springReference` of `<gazebo reference>` | at the joint (SDFormat, extensions to URDF) |
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use roxmltree::Node;
 
@@ -95,10 +95,7 @@ struct Found {
 impl Found {
     fn gear(&mut self, gear: &str, joint: &str) {
         let joints = self.gears.entry(gear.to_owned()).or_default();
-        let joint = shortened(joint);
-        if !joints.contains(&joint) {
-            joints.push(joint);
-        }
+        joints.push(joint.to_owned());
     }
 }
 
@@ -108,31 +105,31 @@ impl Found {
 /// A number that is read and is none.
 pub fn read(root: Node<'_, '_>, joints: &mut [Joint]) -> Result<Vec<String>> {
     let mut found = Found::default();
+    let names = joints.iter().enumerate();
+    let index: HashMap<String, usize> = names.map(|(j, joint)| (joint.name.clone(), j)).collect();
     for part in children(root, "link").chain(children(root, "joint")) {
-        let inside = part.descendants().filter(|node| is_read(*node));
-        let unknown: BTreeSet<String> = inside.flat_map(unknown).collect();
-        if !unknown.is_empty() {
-            let parts = found
-                .unknown
-                .entry(unknown.into_iter().collect())
-                .or_default();
+        let mut names = BTreeSet::new();
+        unknown(part, &mut names);
+        if !names.is_empty() {
+            let parts = found.unknown.entry(names.into_iter().collect());
+            let parts = parts.or_default();
             parts.push(format!("{} `{}`", tag(part), name_of(part)));
         }
     }
     for node in root.children().filter(Node::is_element) {
         match tag(node) {
-            "transmission" => transmission(node, joints, &mut found)?,
+            "transmission" => transmission(node, joints, &index, &mut found)?,
             "ros2_control" => ros2_control(node, &mut found),
-            "gazebo" => gazebo(node, joints, &mut found.notes)?,
+            "gazebo" => gazebo(node, joints, &index, &mut found.notes)?,
             "mujoco" => mujoco(node, &mut found.notes),
             _ => {}
         }
     }
-    // A rotor may be in another element than its gear.
+    // A rotor may be in another element than its gear, and a gear in two.
     let with_rotor = joints.iter().filter(|joint| joint.armature > 0.0);
-    let with_rotor: BTreeSet<String> = with_rotor.map(|joint| shortened(&joint.name)).collect();
+    let mut done: HashSet<String> = with_rotor.map(|joint| joint.name.clone()).collect();
     for joints in found.gears.values_mut() {
-        joints.retain(|joint| !with_rotor.contains(joint));
+        joints.retain(|joint| done.insert(joint.clone()));
     }
     found.gears.retain(|_, joints| !joints.is_empty());
     let unknown = found.unknown.into_iter().map(|(names, parts)| {
@@ -146,7 +143,7 @@ pub fn read(root: Node<'_, '_>, joints: &mut [Joint]) -> Result<Vec<String>> {
         format!(
             "A gear of {gear} on {}, and the file has no inertia of the motor's rotor: J·N² of it is not in ARMATURE; state it by \
              `armature` of <dynamics>, kg·m².",
-            quoted(joints)
+            quoted(joints.iter().map(|name| shortened(name)))
         )
     });
     Ok(unknown.chain(gears).chain(found.notes).collect())
@@ -199,30 +196,29 @@ fn is_number(text: &str) -> bool {
     words.peek().is_some() && words.all(|word| word.parse::<f64>().is_ok())
 }
 
-/// Whether a part of a link or a joint is no look, and not within an element that is unknown as a whole.
-fn is_read(node: Node<'_, '_>) -> bool {
-    let known = |tag: &str| CORE.iter().any(|(other, _)| *other == tag);
-    let around = node
-        .ancestors()
-        .take_while(|node| !matches!(tag(*node), "robot"));
-    let mut around = around.skip(1);
-    node.is_element() && around.all(|node| known(tag(node))) && !NOT_DYNAMICS.contains(&tag(node))
-}
-
-/// The names of an element, or of its attributes, that have numbers and are none of the core's.
-fn unknown(node: Node<'_, '_>) -> Vec<String> {
-    let tag = tag(node);
-    match CORE.iter().find(|(other, _)| *other == tag) {
+/// The names of the elements in a part of a link or a joint, and of its attributes, that have numbers and are none of the core's.
+fn unknown(node: Node<'_, '_>, names: &mut BTreeSet<String>) {
+    let own = tag(node);
+    match CORE.iter().find(|(other, _)| *other == own) {
         Some((_, known)) => {
             let attributes = node.attributes().filter(|one| is_number(one.value()));
-            let names = attributes.map(|one| qualified(node, one));
-            let unknown = names.filter(|name| !known.contains(name));
-            unknown
-                .map(|name| format!("{tag} {}", shortened(name)))
-                .collect()
+            let unknown = attributes
+                .map(|one| qualified(node, one))
+                .filter(|name| !known.contains(name));
+            names.extend(unknown.map(|name| format!("{own} {}", shortened(name))));
+            let inside = node.children().filter(Node::is_element);
+            inside.for_each(|inner| unknown_in(inner, names));
         }
-        None if has_numbers(node) => vec![shortened(tag)],
-        None => Vec::new(),
+        None if has_numbers(node) => {
+            names.insert(shortened(own));
+        }
+        None => {}
+    }
+}
+
+fn unknown_in(node: Node<'_, '_>, names: &mut BTreeSet<String>) {
+    if !NOT_DYNAMICS.contains(&tag(node)) {
+        unknown(node, names);
     }
 }
 
@@ -256,7 +252,12 @@ fn text_number(node: Node<'_, '_>) -> Result<f64> {
 }
 
 /// Of each actuator the rotor's inertia at the joint, or its gear without one.
-fn transmission(node: Node<'_, '_>, joints: &mut [Joint], found: &mut Found) -> Result<()> {
+fn transmission(
+    node: Node<'_, '_>,
+    joints: &mut [Joint],
+    index: &HashMap<String, usize>,
+    found: &mut Found,
+) -> Result<()> {
     let of_joints: Vec<&str> = children(node, "joint")
         .filter_map(|joint| joint.attribute("name"))
         .collect();
@@ -295,7 +296,7 @@ fn transmission(node: Node<'_, '_>, joints: &mut [Joint], found: &mut Found) -> 
             .map(|ratio| ratio.to_string())
             .or_else(|| reduction.map(shortened));
         let joint = match of_joints.as_slice() {
-            [name] if actuators == 1 => joints.iter_mut().find(|joint| joint.name == *name),
+            [name] if actuators == 1 => index.get(*name).map(|&j| &mut joints[j]),
             _ => None,
         };
         match (rotor, joint) {
@@ -356,7 +357,12 @@ fn ros2_control(node: Node<'_, '_>, found: &mut Found) {
 }
 
 /// Springs of `<gazebo reference="JOINT">`, and the names of what else it states of a link's or a joint's motion.
-fn gazebo(node: Node<'_, '_>, joints: &mut [Joint], notes: &mut Vec<String>) -> Result<()> {
+fn gazebo(
+    node: Node<'_, '_>,
+    joints: &mut [Joint],
+    index: &HashMap<String, usize>,
+    notes: &mut Vec<String>,
+) -> Result<()> {
     let Some(reference) = node.attribute("reference") else {
         return Ok(());
     };
@@ -365,7 +371,7 @@ fn gazebo(node: Node<'_, '_>, joints: &mut [Joint], notes: &mut Vec<String>) -> 
         ["springStiffness", "springReference"].map(|tag| child(node, tag).map(text_number));
     let (stiffness, rest) = (stiffness.transpose()?, rest.transpose()?);
     let mut left_out = BTreeSet::new();
-    match joints.iter_mut().find(|joint| joint.name == reference) {
+    match index.get(reference).map(|&j| &mut joints[j]) {
         Some(joint) => {
             let stated = joint.spring;
             let spring = [stiffness.unwrap_or(stated[0]), rest.unwrap_or(stated[1])];

@@ -13,7 +13,7 @@ pub use names::{given_type_name, renamed, type_name};
 pub use rustfmt::formatted;
 
 use crate::advice::TOLERANCE;
-use crate::physical::impossible;
+use crate::physical::{impossible, sentence};
 use crate::text::{code_span, doc_name, doc_sentence, string_literal, visible};
 use crate::tree::{Body, Tree};
 
@@ -126,7 +126,8 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
         .for_each(|body| out += &body::entry(body));
     let _ = writeln!(
         out,
-        "]);\n}}\n\n// A robot with an impossible joint or a negative mass does not compile.{}\nconst _: {model} = {type_name}::MODEL;",
+        "]){};\n}}\n\n// A robot with an impossible joint or a negative mass does not compile.{}\nconst _: {model} = {type_name}::MODEL;",
+        parts(tree),
         inertias(tree)
     );
     out += &constants::effects(tree, type_name);
@@ -136,10 +137,24 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
     out
 }
 
+/// The call that names the links which are part of bodies; none without such links.
+fn parts(tree: &Tree) -> String {
+    let of = |body: &Body| {
+        let name = string_literal(&body.name);
+        let merged = body.merged.iter();
+        let each = merged.map(|link| format!("({}, {name})", string_literal(link)));
+        each.collect::<Vec<_>>()
+    };
+    match tree.bodies.iter().flat_map(of).collect::<Vec<_>>() {
+        all if all.is_empty() => String::new(),
+        all => format!(".with_parts(&[{}])", all.join(", ")),
+    }
+}
+
 /// Which bodies have an inertia that no body has, each on a line of a comment: such a robot is computed with all the same.
 fn inertias(tree: &Tree) -> String {
     let each = tree.bodies.iter().filter_map(|body| {
-        let words = impossible(body.inertia.inertia, TOLERANCE)?;
+        let words = sentence(&impossible(body.inertia.inertia, TOLERANCE)?);
         Some(format!(
             "\n// Body `{}` has an impossible inertia, which compiles. {words}",
             visible(&body.name)

@@ -57,7 +57,13 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         docs::print_json(&report)?;
         return Ok(ExitCode::SUCCESS);
     }
-    output::print(&text)?;
+    // What is measured is not estimated.
+    let is_measured = matches!(&measured, Some(Ok(rows)) if !rows.is_empty());
+    output::print(if is_measured {
+        without_estimate(&text)
+    } else {
+        &text
+    })?;
     match measured {
         Some(Ok(rows)) => output::print(&format!("\n{MODEL}:\n{}", table(&rows).text()))?,
         Some(Err(error)) => output::note(&format!("not measured: {error}")),
@@ -65,6 +71,13 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     }
     show(&robot.file, kept.is_some())?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The importer's report up to its last paragraph, the estimate of the cycles.
+fn without_estimate(text: &str) -> &str {
+    let estimate = "\nInverse dynamics by the engine: about ";
+    text.rsplit_once(estimate)
+        .map_or(text, |(before, _)| before)
 }
 
 /// The file itself, where it is not kept.
@@ -95,4 +108,16 @@ pub fn table(rows: &[Row]) -> Table {
         table.row(names.into_iter().chain(figures.map(thousands)));
     }
     table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_estimate;
+
+    #[test]
+    fn no_estimate_stands_beside_a_measurement() {
+        let report = "Advice:\n  none\n\nInverse dynamics by the engine: about 740 cycles on a Cortex-M4F and 2664 B of code (estimated).\n";
+        assert_eq!(without_estimate(report), "Advice:\n  none\n");
+        assert_eq!(without_estimate("Advice:\n  none\n"), "Advice:\n  none\n");
+    }
 }

@@ -107,16 +107,6 @@ fn sizes(file: &object::File<'_>) -> Sizes {
     }
 }
 
-/// Bytes of the machine code of a program, whatever the processor.
-pub fn code_bytes(program: &Path) -> Result<u64> {
-    let data = std::fs::read(program).map_err(Error::file("read", program))?;
-    let file = object::File::parse(&*data).map_err(|e| check!("{}: {e}", program.display()))?;
-    let code = file
-        .sections()
-        .filter(|section| section.kind() == SectionKind::Text);
-    Ok(code.map(|section| section.size()).sum())
-}
-
 fn words(file: &object::File<'_>) -> BTreeSet<u32> {
     let sections = file.sections().filter(is_in_flash);
     let data = sections.filter_map(|section| section.data().ok());

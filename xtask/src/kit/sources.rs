@@ -22,14 +22,6 @@ pub fn sources(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// The number of lines of a source that are neither blank nor comments.
-pub fn lines_of_code(source: &str) -> usize {
-    let lines = source.lines().map(str::trim);
-    lines
-        .filter(|line| !line.is_empty() && !line.starts_with("//"))
-        .count()
-}
-
 /// The lines of code of a source that rustfmt has written, with their numbers from 1: none that are blank, comments,
 /// or of an item behind `#[cfg(test)]`.
 pub fn code(source: &str) -> impl Iterator<Item = (usize, &str)> {
@@ -60,7 +52,7 @@ pub fn code(source: &str) -> impl Iterator<Item = (usize, &str)> {
 
 #[cfg(test)]
 mod tests {
-    use super::{code, lines_of_code, sources};
+    use super::{code, sources};
 
     #[test]
     fn sources_in_a_folder_called_target_count() {
@@ -91,6 +83,5 @@ mod tests {
             (24, "fn last() {}"),
         ];
         assert_eq!(lines, expected);
-        assert_eq!(lines_of_code(source), 18);
     }
 }

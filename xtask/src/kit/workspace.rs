@@ -25,16 +25,6 @@ pub struct Workspace {
     pub full: bool,
     /// The firmware's bins that need no feature.
     pub bins: Vec<String>,
-    /// What packages use of this workspace.
-    pub uses: Vec<Use>,
-}
-
-/// A package's dependency on one of the workspace, both by their folders from its root.
-pub struct Use {
-    pub user: PathBuf,
-    pub used: PathBuf,
-    /// Only the package's tests and examples use it.
-    pub is_for_tests: bool,
 }
 
 /// Set once from the command line.
@@ -81,8 +71,6 @@ impl Workspace {
         let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
         let root = path("workspace_root").ok_or_else(lacks)?;
         let packages = list(&metadata["packages"]);
-        let uses = packages.iter().flat_map(|package| uses(&root, package));
-        let uses = uses.collect();
         let targets = packages
             .into_iter()
             .filter(|package| FIRMWARE.iter().any(|name| package["name"] == *name));
@@ -98,7 +86,6 @@ impl Workspace {
             reports: REPORTS.get().cloned(),
             full: false,
             bins: names.collect(),
-            uses,
         })
     }
 
@@ -144,28 +131,10 @@ impl Workspace {
             root: folder.to_owned(),
             target: PathBuf::new(),
             bins: Vec::new(),
-            uses: Vec::new(),
             reports: None,
             full: false,
         }
     }
-}
-
-/// What a package of cargo's metadata uses of the workspace.
-fn uses(root: &Path, package: &Value) -> Vec<Use> {
-    fn below<'a>(root: &Path, path: &'a Value) -> Option<&'a Path> {
-        Path::new(path.as_str()?).strip_prefix(root).ok()
-    }
-    let manifest = below(root, &package["manifest_path"]).and_then(Path::parent);
-    let dependencies = package["dependencies"].as_array();
-    let uses = dependencies.into_iter().flatten().filter_map(|dependency| {
-        Some(Use {
-            user: manifest?.to_owned(),
-            used: below(root, &dependency["path"])?.to_owned(),
-            is_for_tests: dependency["kind"] == "dev",
-        })
-    });
-    uses.collect()
 }
 
 fn host_cargo() -> Command {

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 
 use indexmap::IndexMap;
 use serde::Deserialize;
-use serde::de::IgnoredAny;
 use toml_edit::{DocumentMut, InlineTable, Item, value};
 
 use crate::kit::bars::{Bars, Compared, OTHER_RUSTC};
@@ -37,9 +36,6 @@ struct Budgets {
     #[serde(default)]
     ratios: Bars,
     costs: Option<Rows>,
-    /// For `cargo xtask test weight`.
-    #[serde(rename = "weight")]
-    _weight: Option<IgnoredAny>,
     #[serde(flatten)]
     scenes: BTreeMap<String, Budget>,
 }

@@ -8,14 +8,13 @@ use crate::kit::error::Result;
 use crate::kit::workspace::{self, Workspace};
 
 /// Pages and what draws theirs.
-const DRAWN: [(&str, Draw); 8] = [
+const DRAWN: [(&str, Draw); 7] = [
     ("docs/scenes.md", scenes),
     ("docs/costs.md", costs),
     ("docs/peers.md", peers),
     ("docs/eliminations.md", eliminations),
     ("docs/robots.md", robots),
     ("docs/boards.md", cores),
-    ("docs/mutants.md", mutants),
     ("docs/silicon.md", silicon),
 ];
 type Draw = fn(&str) -> Result<String>;
@@ -145,22 +144,6 @@ fn cores(page: &str) -> Result<String> {
         mark: None,
     }
     .svg(&halves(page, "How it is measured", &columns))
-}
-
-fn mutants(page: &str) -> Result<String> {
-    Panels {
-        title: "Changes to the code that no test noticed, part by part".into(),
-        note: "In per cent of the changes to that part; the bar is for all of them together.",
-        legend: &[("survived", ORANGE)],
-        x: Axis::linear("%", [0.0, 20.0], 4, 0),
-        names: 190,
-        mark: Some((8.0, "bar")),
-    }
-    .svg(&halves(
-        page,
-        "How it is measured",
-        &[(5, Shape::Dot, ORANGE)],
-    ))
 }
 
 fn silicon(page: &str) -> Result<String> {

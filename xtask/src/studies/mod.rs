@@ -4,7 +4,6 @@
 
 pub mod accuracy;
 pub mod budgets;
-pub mod claims;
 pub mod cores;
 pub mod costs;
 pub mod drawn;
@@ -16,7 +15,6 @@ pub mod hard_cases;
 pub mod history;
 pub mod host_table;
 pub mod loops;
-pub mod mutants;
 pub mod peers;
 pub mod robots;
 pub mod scenes;
@@ -50,12 +48,6 @@ fn film(workspace: &Workspace, options: &[&str]) -> Result<String> {
 /// In the order in which their steps run.
 #[rustfmt::skip]
 pub const STUDIES: &[Study] = &[
-    Study {
-        name: "claims", about: "Check the ledger of claims against README, guide and tests, rewrite docs/claims.md",
-        files: &["docs/claims.md"],
-        held: Step(Host, Everyday, "each claim of the ledger stands in its page, what shows it exists, and docs/claims.md has all"),
-        form: Own(|command| command, claims::run, claims::check),
-    },
     Study {
         name: "costs", about: "Measure what each algorithm costs on each robot, rewrite docs/costs.md",
         files: &["docs/costs.md", "docs/costs.svg"],
@@ -181,12 +173,6 @@ pub const STUDIES: &[Study] = &[
         files: &["docs/peers.md", "docs/peers.svg"],
         held: Bars("the other libraries are not installed for a test, and times are those of one machine"),
         form: Own(peers::Args::augment_args, |options, matches| peers::run(options, given(matches)?), NO_STEP),
-    },
-    Study {
-        name: "mutants", about: "Change the code in a few thousand places, one at a time, and rewrite docs/mutants.md: takes an hour",
-        files: &["docs/mutants.md", "docs/mutants.svg"],
-        held: Bars("a run over the whole sample takes an hour"),
-        form: Own(mutants::Args::augment_args, |options, matches| mutants::run(options, given(matches)?), NO_STEP),
     },
 ];
 

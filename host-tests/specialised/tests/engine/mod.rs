@@ -18,6 +18,7 @@ use proptest::test_runner::{RngAlgorithm, TestRng};
 
 mod bodies;
 mod elastic;
+mod free_base;
 mod joints;
 mod large;
 mod loaded;

@@ -22,6 +22,7 @@ pub const OPTIONS: fn() -> Options = || Options {
         JointEffect::Viscous,
         JointEffect::Coulomb,
         JointEffect::Armature,
+        JointEffect::Offset,
     ],
     width: 0.02,
     cutoff: 10.0,
@@ -84,13 +85,18 @@ pub fn swing(t: f64, size: [f64; 2], rates: [f64; 2]) -> At {
 
 /// The record of a motion of the described arm: positions in counts, torques with noise, of the middle of each tick.
 pub fn record(motion: impl Fn(f64) -> At, ticks: u32) -> String {
+    record_late(motion, ticks, 0.0)
+}
+
+/// The record of torques that come so much later than their positions, s.
+pub fn record_late(motion: impl Fn(f64) -> At, ticks: u32, late: f64) -> String {
     let (robot, mut rng) = (described(), fastrand::Rng::with_seed(7));
     let mut text = String::from(
         "number,tick,mode,fault,limited,dropped,time_s,reference_0,estimate_0,torque_0,reference_1,estimate_1,torque_1,read_counts\n",
     );
     for k in 0..ticks {
         let t = TICK * f64::from(k);
-        let (q, tau) = (motion(t).q, torques(&robot, &motion(t + 0.5 * TICK)));
+        let (q, tau) = (motion(t).q, torques(&robot, &motion(t + 0.5 * TICK - late)));
         let _ = write!(text, "{k},{k},full,,false,0,{t:.6}");
         for j in 0..2 {
             let estimate = (q[j] / COUNT).round() * COUNT;

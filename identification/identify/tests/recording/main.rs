@@ -3,3 +3,4 @@
 mod arm;
 mod found;
 mod hostile;
+mod mistakes;

@@ -1,5 +1,7 @@
 use super::*;
 
+mod steps;
+
 const H: f64 = 1e-3;
 
 fn observer(bandwidth: f64) -> Observer<f64, 1> {

@@ -4,6 +4,7 @@ use super::*;
 use dynamics_core::effects::smooth_sign;
 
 mod config;
+mod numbers;
 
 const BAD: [f64; 4] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX];
 

@@ -6,6 +6,8 @@ use dynamics_core::scalar::Real;
 
 use super::*;
 
+mod numbers;
+
 fn law<R: Real>() -> CartesianImpedance<R, 6> {
     let stiffness = [30.0, 30.0, 30.0, 600.0, 600.0, 600.0].map(R::from_f64);
     let [zeta, slowest] = [0.7, 2.0].map(R::from_f64);

@@ -171,7 +171,10 @@ fn numbers_that_are_negative_or_not_finite_are_refused() {
         torque: [1.0],
     };
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
-        let named = |config: InertiaShapingConfig<f64, 1>| config.check();
+        let named = |config: InertiaShapingConfig<f64, 1>| {
+            assert_eq!(InertiaShaping::try_new(config).err(), config.check().err());
+            config.check()
+        };
         let amplification = InertiaShapingConfig {
             amplification: bad,
             ..good

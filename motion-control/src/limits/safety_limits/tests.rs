@@ -164,3 +164,29 @@ fn what_a_description_does_not_limit_is_unlimited() {
     let motion = MotionLimits::from(joint);
     assert_eq!((motion.velocity, motion.acceleration), (3.0, f32::INFINITY));
 }
+
+#[test]
+fn a_margin_makes_a_range_smaller_at_both_ends() {
+    let limits = GOOD.with_position_margin(0.25);
+    assert_eq!(limits.lower, [-0.75, f32::NEG_INFINITY]);
+    assert_eq!(limits.upper, [0.75, f32::INFINITY]);
+    let others = |limits: SafetyLimits<f32, 2>| (limits.torque, limits.rate, limits.speed);
+    assert_eq!(others(limits), others(GOOD));
+    let shares = GOOD.with_rate_share(0.5).with_speed_share(0.25);
+    assert_eq!((shares.torque, shares.rate), (GOOD.torque, [5.0, 0.0]));
+    assert_eq!(shares.speed, [0.5, f32::INFINITY]);
+    assert_eq!((shares.lower, shares.upper), (GOOD.lower, GOOD.upper));
+    // What is left of a range may be nothing.
+    let all = GOOD.with_position_margin(1.0).check();
+    assert_eq!(all, Ok(()));
+    let more = GOOD.with_position_margin(1.125).check();
+    let (joint, lower, upper) = (0, 0.125, -0.125);
+    assert_eq!(
+        more,
+        Err(SafetyLimitsError::Empty {
+            joint,
+            lower,
+            upper
+        })
+    );
+}

@@ -172,7 +172,7 @@ fn a_way_ends_at_the_begin_of_its_motion() {
 
 #[test]
 fn a_motion_that_begins_in_motion_is_refused() {
-    for bad in [0.5, f64::NAN, f64::INFINITY] {
+    for bad in [0.5, -0.5, f64::NAN, f64::INFINITY] {
         let motion = Leave {
             q: [0.0; 2],
             qd: [0.0, bad],
@@ -180,4 +180,103 @@ fn a_motion_that_begins_in_motion_is_refused() {
         let refused = Approach::plan(&[0.0; 2], &motion, TICK, &LIMITS, &BOUNDS).unwrap_err();
         assert_eq!(refused, ApproachError::Moving { joint: 1 });
     }
+}
+
+#[test]
+fn both_ends_of_a_way_have_to_be_within_the_bounds() {
+    let outside = |joint, position| ApproachError::Position {
+        joint,
+        position,
+        lower: -2.0,
+        upper: 2.0,
+    };
+    let way = |from: [f64; 2], q| {
+        let motion = Leave { q, qd: [0.0; 2] };
+        Approach::plan(&from, &motion, TICK, &LIMITS, &BOUNDS).map(|way| way.ends)
+    };
+    // On the bounds themselves.
+    for ends in [[[2.0; 2], [-2.0; 2]], [[-2.0; 2], [2.0; 2]]] {
+        assert_eq!(way(ends[0], ends[1]), Ok(ends));
+    }
+    let (inside, none) = ([0.5; 2], ApproachError::NotFinite { joint: 1 });
+    for (q, error) in [
+        ([2.01, 0.0], outside(0, 2.01)),
+        ([0.0, -2.01], outside(1, -2.01)),
+        ([0.0, f64::NAN], none),
+        ([0.0, f64::INFINITY], none),
+        ([0.0, f64::NEG_INFINITY], none),
+    ] {
+        assert_eq!(way(q, inside), Err(error), "an arm at {q:?}");
+        assert_eq!(way(inside, q), Err(error), "a motion from {q:?}");
+    }
+}
+
+#[test]
+fn the_slowest_joint_has_the_time_that_its_limits_need() {
+    let limit = |velocity, acceleration| MotionLimits {
+        velocity,
+        acceleration,
+    };
+    // 15/8 of the distance by the speed, and √(10/√3 · distance by the acceleration): the longer one.
+    for (distance, limit, seconds) in [
+        (2.0, limit(0.5, 1e3), 7.5),
+        (2.0, limit(1e3, 2.0), 2.402_811_414_134_757_2),
+        (
+            0.5,
+            limit(2.0, 10.0 / 3.0_f64.sqrt()),
+            0.707_106_781_186_547_5,
+        ),
+        (0.5, limit(f64::INFINITY, 5.0 / 3.0_f64.sqrt()), 1.0),
+        (0.0, limit(0.0, 0.0), 0.0),
+    ] {
+        let least = least_seconds(0, distance, &limit).expect("a limit that allows motion");
+        assert!((least - seconds).abs() < 1e-12, "{least}, not {seconds}");
+    }
+    // Whichever joint is the slower one; a tick more for what rounding takes.
+    for from in [[-1.6, 0.1], [0.1, -3.2]] {
+        let bounds = SafetyLimits {
+            lower: [-4.0; 2],
+            ..BOUNDS
+        };
+        let way = Approach::plan(&from, &Rest, TICK, &LIMITS, &bounds).expect("limits");
+        assert_eq!(way.path_ticks(), 3001);
+    }
+}
+
+#[test]
+fn a_stopped_arm_alone_gets_an_approach() {
+    let config = MotionControllerConfig {
+        supervisor: SupervisorConfig {
+            limits: BOUNDS,
+            tick: TICK,
+            resolution: 0.0,
+            ride_through_ticks: 2,
+            hold_ticks: 3,
+            reentry_ticks: 10,
+        },
+        observer_bandwidth: 250.0,
+        decay_rate: 25.0,
+        restart_distance: 0.1,
+    };
+    let mut controller = MotionController::<f64, 2>::new(config);
+    let tick = |controller: &mut MotionController<f64, 2>| {
+        controller.tick(Ok(&[1.0; 2]), &Rest, |_, _| [0.0; 2])
+    };
+    for _ in 0..5 {
+        tick(&mut controller);
+    }
+    let refused = Some(ApproachError::Reset(ResetError::NotStopped));
+    let asked = |controller: &mut MotionController<f64, 2>| {
+        controller.approach(&Rest, &LIMITS, &BOUNDS).err()
+    };
+    assert_eq!(asked(&mut controller), refused, "it follows");
+    assert_eq!(controller.trajectory_tick(), 5);
+    controller.stop_by(Fault::External, StopCategory::ControlledHold);
+    assert_eq!(asked(&mut controller), refused, "it is decelerated");
+    for _ in 0..4 {
+        tick(&mut controller);
+    }
+    assert_eq!(asked(&mut controller), None, "it stands");
+    // The motion begins at its begin.
+    assert_eq!(controller.trajectory_tick(), 0);
 }

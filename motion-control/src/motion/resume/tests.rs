@@ -188,3 +188,55 @@ fn the_acceleration_of_a_return_is_that_of_its_velocity() {
         assert!(change.abs() < 2e-4, "{change}");
     }
 }
+
+/// A motion of one rad in each tick.
+struct Steady;
+
+impl Reference<f64, 1> for Steady {
+    fn at(&self, tick: u32) -> State<f64, 1, 1> {
+        State {
+            qd: [1.0 / H],
+            ..State::at([f64::from(tick)])
+        }
+    }
+    fn ticks(&self) -> u32 {
+        u32::MAX
+    }
+}
+
+#[test]
+fn before_the_return_no_time_passes() {
+    // A return of four ticks, which begins with a share of zero.
+    let mut resume = ResumeTrajectory::<f64, 1>::new(H, DECAY, 4);
+    let start = Estimate {
+        q: [0.5],
+        qd: [0.0],
+    };
+    resume.start(&start, 400);
+    assert_eq!(resume.at(&Steady, 0.0).q, [0.5]);
+    assert_eq!((resume.fraction, resume.advanced), (0.0, 0));
+    // w at 1/8, the middle of the first quarter: 0.125³ · (10 − 15/8 + 6/64).
+    resume.at(&Steady, 0.25);
+    assert!((resume.fraction - 0.016_052_246_093_75).abs() < 1e-15);
+}
+
+#[test]
+fn a_speed_that_decays_within_a_tick_does_not_turn_back() {
+    for (decay, keep) in [(0.5 / H, 0.5), (1.0 / H, 0.0), (3.0 / H, 0.0)] {
+        let mut resume = ResumeTrajectory::<f64, 1>::new(H, decay, TICKS);
+        let start = Estimate {
+            q: [0.25],
+            qd: [2.0],
+        };
+        resume.start(&start, 400);
+        resume.at(&Steady, 0.0);
+        assert_eq!((resume.rest.q, resume.rest.qd), ([0.25], [2.0]));
+        resume.at(&Steady, 1.0 / f64::from(TICKS));
+        let [qd] = resume.rest.qd;
+        assert!((qd - 2.0 * keep).abs() < 1e-12, "{qd}");
+        // The mean speed of the tick.
+        let [q] = resume.rest.q;
+        assert!((q - 0.25 - 0.5 * H * (2.0 + qd)).abs() < 1e-15);
+        assert!((resume.rest.qdd[0] + decay * qd).abs() < 1e-9);
+    }
+}

@@ -1,6 +1,8 @@
 use super::*;
 use crate::limits::{Command, Mode, Status};
 
+mod signs;
+
 // The reference comes back to the frozen angle.
 #[test]
 fn a_frozen_encoder_stays_a_fault() {

@@ -3,6 +3,7 @@ use super::*;
 mod bounds;
 mod forgetting;
 mod protocol;
+mod signs;
 mod states;
 mod stops;
 mod transitions;

@@ -2,10 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
-
 use super::Context;
-use crate::commands::weight;
 use crate::kit::error::{Result, refuse_if};
 use crate::kit::host_bin::{SHARED, SIMULATED, Together};
 use crate::kit::sources::sources;
@@ -73,29 +70,6 @@ pub fn simulations(context: &Context) -> Result<String> {
     Ok(format!("{} tests", count(&printed)))
 }
 
-/// Weighs the tests' programs of an everyday run; a full run builds others.
-pub fn weight(context: &Context) -> Result<String> {
-    let programs = match context.full {
-        true => None,
-        false => Some(programs(context)?),
-    };
-    weight::check(&context.workspace, programs.as_deref())
-}
-
-/// The programs of the tests, built.
-fn programs(context: &Context) -> Result<Vec<PathBuf>> {
-    let lines = lines(false).map(|line| format!("{line} --no-run --message-format json"));
-    let printed = context.cargo(&lines)?;
-    Ok(printed.lines().filter_map(executable).collect())
-}
-
-/// The test program that a message of cargo announces, if it does.
-fn executable(message: &str) -> Option<PathBuf> {
-    let message: Value = serde_json::from_str(message).ok()?;
-    let is_test = message["profile"]["test"] == true;
-    is_test.then(|| message["executable"].as_str().map(PathBuf::from))?
-}
-
 pub fn doctests(context: &Context) -> Result<String> {
     let line = |these: Together| format!("test {} --doc", these.words(context.full));
     let lines = [SHARED, SIMULATED].map(line);
@@ -126,7 +100,7 @@ fn count(output: &str) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{executable, unnamed};
+    use super::unnamed;
 
     #[test]
     fn a_file_of_tests_without_its_mod_is_found() {
@@ -138,23 +112,5 @@ mod tests {
         }
         let found = unnamed(folder.path()).expect("a folder");
         assert_eq!(found, [tests.join("loops.rs")]);
-    }
-
-    #[test]
-    fn only_programs_of_tests_are_weighed() {
-        let message = |test: bool, executable: &str| {
-            format!(
-                r#"{{"reason":"compiler-artifact","profile":{{"test":{test}}},"executable":{executable}}}"#
-            )
-        };
-        let program = executable(&message(true, r#""/target/laws""#)).expect("a test");
-        assert_eq!(program.to_str(), Some("/target/laws"));
-        for other in [
-            message(false, r#""/target/xtask""#),
-            message(true, "null"),
-            "running 3 tests".into(),
-        ] {
-            assert_eq!(executable(&other), None, "{other}");
-        }
     }
 }

@@ -18,7 +18,7 @@ use clap::builder::PossibleValuesParser;
 use cycle_meter::Sample;
 
 use crate::commands::demo::{Built, Measured};
-use crate::commands::{layers, pil, play, watch};
+use crate::commands::{play, watch};
 use crate::kit::error::{Error, Result};
 use crate::kit::progress::Spinner;
 use crate::kit::qemu::Run;
@@ -62,7 +62,6 @@ const STEPS: &[Step] = &[
     ("simulations", Host, Full, "arms that are simulated for seconds to hours behave as claimed", host::simulations),
     ("doctests", Host, Everyday, "the examples in the documentation run", host::doctests),
     ("doc", Host, Full, "the documentation builds without a warning, that of private items too", host::doc),
-    ("layers", Host, Full, "each module of the libraries uses those above it alone, and nothing that ships the laboratory", |c| layers::check(&c.workspace)),
     ("examples", Host, Everyday, "the library's examples run", package::examples),
     ("features", Host, Full, "the library's features build for the target and change no number", package::features),
     ("msrv", Host, Full, "the library builds with the oldest compiler that its manifest promises", others::msrv),
@@ -84,7 +83,6 @@ const STEPS: &[Step] = &[
     // From here on programs for the host are built too: earlier they would wait for the other lane's.
     ("faults", Target, Named, "100 arms under injected faults keep their limits in QEMU, with the host's torques", functions::faults),
     ("telemetry", Target, Full, "a tick costs the same with a listener, without one, and with a full queue", |c| watch::check(&c.workspace, &c.tools, c.meter()?)),
-    ("pil", Target, Named, "with its robot in f64 on the host the scene ur5e moves as with its robot inside", |c| pil::check(&c.workspace, &c.tools)),
     ("play", Host, Full, "the page of docs/play is small, fast, accessible, and computes the host's bits", |c| play::check(&c.workspace, c.options)),
     ("site", Host, Full, "every link of the site resolves, its pages are accessible, narrow and load nothing from elsewhere", |c| play::check_site(&c.workspace, c.options)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
@@ -93,8 +91,6 @@ const STEPS: &[Step] = &[
     ("readme", Target, Everyday, "the tables of README.md and docs/scenes.md are those of this run, which repeats itself", scenes::readme),
     ("debian", Target, Full, "Debian's own compiler builds a scene that runs", others::debian),
     ("qemu-10", Target, Full, "QEMU 10 logs and measures what this machine's QEMU does, byte for byte", others::qemu_10),
-    // By name only until the code of the tests is within its bound (decision 2).
-    ("weight", Host, Named, "the tests and the apparatus weigh no more than budgets.toml allows", host::weight),
     ("compilers", Target, Full, "the UR5e's demo and costs are within their budgets with rustup's other compilers", others::compilers),
 ];
 

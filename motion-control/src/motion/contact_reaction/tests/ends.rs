@@ -91,3 +91,19 @@ fn a_floating_arm_is_decelerated_beyond_its_speed() {
         assert!((qdd - expected).abs() < 1e-9, "{qdd} {expected}");
     }
 }
+
+#[test]
+fn a_contact_that_holds_the_arm_is_a_stop_from_outside() {
+    let mut joint = Joint::new(ContactResponse::Stop);
+    joint.run(500, Ok(None));
+    joint.run(1, CONTACT);
+    let measured = [joint.q];
+    let law = |_: &_, _: &_| [0.0];
+    for _ in 0..100 {
+        let command = joint.controller.tick(Ok(&measured), &joint.motion, law);
+        let status = command.status;
+        let held = (Mode::Hold, Some(Fault::External));
+        assert_eq!((status.mode, status.fault), held);
+        assert!(!command.brake);
+    }
+}

@@ -198,3 +198,22 @@ fn a_straight_retraction_takes_the_least_time() {
     // 15/8 · 1 rad at 0.625 rad/s, and a tick for rounding.
     assert_eq!(path.ticks(), 3001);
 }
+
+#[test]
+fn a_retraction_of_a_short_path_ends_at_its_oldest_point() {
+    for points in 2..6 {
+        let mut path = TravelledPath::<f64, 2, 16>::new(DISTANCE);
+        let spacing = path.spacing;
+        let at = |k: usize| [1.01 * spacing * k as f64, -0.5 * spacing * (k % 2) as f64];
+        for k in 0..points {
+            path.record(&at(k));
+        }
+        assert!(path.plan(&at(points - 1), TICK, &SLOW));
+        let end = path.at(path.ticks());
+        assert!(most(end.q.into_iter()) < 1e-12, "{points}: {end:?}");
+        assert!(most(end.qd.into_iter().chain(end.qdd)) < 1e-9, "{end:?}");
+        // There it stays.
+        assert_eq!(path.at(path.ticks() + 1), end);
+        assert_eq!(path.at(u32::MAX), end);
+    }
+}

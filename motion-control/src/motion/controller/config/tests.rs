@@ -77,6 +77,20 @@ fn a_configuration_in_other_units_gets_this_advice_alone() {
 }
 
 #[test]
+fn the_farther_end_of_a_range_is_the_one_in_degrees() {
+    for (lower, upper, limit) in [(-115.0, 90.0, -115.0), (-90.0, 115.0, 115.0)] {
+        let mut config = config();
+        config.supervisor.limits.lower = [lower; 2];
+        config.supervisor.limits.upper = [upper; 2];
+        let first = config.advice().next();
+        let Some(Advice::PositionsInDegrees { limit: found, .. }) = first else {
+            panic!("no such advice: {first:?}");
+        };
+        assert_eq!(found, limit);
+    }
+}
+
+#[test]
 fn the_advice_on_a_configuration_says_number_reason_and_remedy() {
     let mut wrong = config();
     wrong.supervisor.tick = 1.0;

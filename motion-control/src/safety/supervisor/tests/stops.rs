@@ -257,3 +257,14 @@ fn a_stop_within_a_tick_acts_in_it() {
     let status = supervisor.gate(&[3.0; 2], &[0.0; 2]).status;
     assert_eq!((status.mode, status.fault), (Mode::Hold, EXTERNAL));
 }
+
+#[test]
+fn without_a_choice_a_stop_is_of_category_1() {
+    let mut supervisor = riding(2);
+    good(&mut supervisor, [3.0; 2]);
+    supervisor.react(Fault::External);
+    let wanted = [Mode::Hold, Mode::Hold, Mode::Hold, Mode::Stopped];
+    assert_eq!(modes(&mut supervisor, 4), wanted);
+    // It has no damping either.
+    assert_eq!(good(&mut supervisor, [3.0; 2]).torque, [0.0; 2]);
+}

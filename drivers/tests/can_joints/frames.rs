@@ -1,0 +1,144 @@
+//! Which frames a tick takes, and what is made of them.
+
+use std::collections::VecDeque;
+
+use super::*;
+
+/// A bus that says in each call what is next.
+struct Script(VecDeque<nb::Result<FdFrame, ErrorKind>>);
+
+impl Can for Script {
+    type Frame = FdFrame;
+    type Error = ErrorKind;
+    fn transmit(&mut self, _: &FdFrame) -> nb::Result<Option<FdFrame>, ErrorKind> {
+        Ok(None)
+    }
+    fn receive(&mut self) -> nb::Result<FdFrame, ErrorKind> {
+        self.0.pop_front().unwrap_or(Err(nb::Error::WouldBlock))
+    }
+}
+
+fn scripted(frames: &[nb::Result<FdFrame, ErrorKind>]) -> CanJoints<Script, Moteus, 2> {
+    let of = |node| Moteus::new(node, 0, 10.0, JointMapping::IDENTITY).unwrap();
+    CanJoints::new(Script(frames.iter().cloned().collect()), [of(1), of(2)])
+}
+
+#[test]
+fn a_tick_takes_what_has_come_and_no_more() {
+    let [first, second] = [1, 2].map(|node| Ok(reply(node, 10, 0.0, 0)));
+    let later = Ok(reply(1, 10, 0.5, 0));
+    // What comes after a pause is of the next tick.
+    let pause = Err(nb::Error::WouldBlock);
+    let joints = scripted(&[first, second, pause, later]);
+    assert_eq!((&joints).read(), Ok([0.0; 2]));
+    assert_eq!((&joints).read(), Err(at(1, CanError::NoReply)));
+    // The last of several replies counts, of which a tick takes four of each joint.
+    let all = [vec![first; 6], vec![second; 1], vec![later; 2]].concat();
+    let joints = scripted(&all);
+    assert_eq!((&joints).read(), Ok([core::f32::consts::PI, 0.0]));
+    assert_eq!((&joints).read(), Err(at(1, CanError::NoReply)));
+    // The ninth was left for that tick, and was taken in it.
+    let left = joints.release().0;
+    assert_eq!(left.len(), 0);
+}
+
+#[test]
+fn a_bus_that_fails_gives_no_positions() {
+    let error = ErrorKind::Acknowledge;
+    let joints = scripted(&[Ok(reply(1, 10, 0.0, 0)), Err(nb::Error::Other(error))]);
+    assert_eq!((&joints).read(), Err(at(0, CanError::Bus(error))));
+}
+
+#[test]
+fn the_start_commands_zero_torque() {
+    let joints = joints(Bus::default());
+    (&joints).start();
+    let sent = joints.release().sent;
+    let of = |node| {
+        let joint = Moteus::new(node, 0, 10.0, JointMapping::IDENTITY).unwrap();
+        joint.set_torque::<FdFrame>(0.0).unwrap()
+    };
+    assert_eq!(sent, [of(1), of(2)]);
+}
+
+#[test]
+fn the_first_joint_that_failed_is_named_else_the_first_not_ready() {
+    let (ready, waiting, fault) = ((10, 0), (0, 0), (1, 33));
+    let failed = |joint| Err(at(joint, CanError::Fault(33)));
+    for (states, expected) in [
+        ([ready, ready], Ok(())),
+        ([waiting, waiting], Err(at(0, CanError::NotReady))),
+        ([ready, waiting], Err(at(1, CanError::NotReady))),
+        ([waiting, fault], failed(1)),
+        ([fault, waiting], failed(0)),
+        ([fault, fault], failed(0)),
+        ([ready, fault], failed(1)),
+    ] {
+        let frame = |joint: usize| {
+            let (mode, fault) = states[joint];
+            Ok(reply(joint as u32 + 1, mode, 0.0, fault))
+        };
+        let joints = scripted(&[frame(0), frame(1)]);
+        (&joints).read().unwrap();
+        assert_eq!((&joints).set_torques(&[0.0; 2]), expected, "{states:?}");
+    }
+}
+
+/// A bus that takes another frame out of its queue for some of the frames.
+struct Crowded {
+    sent: usize,
+    full: [bool; 2],
+}
+
+impl Can for Crowded {
+    type Frame = FdFrame;
+    type Error = ErrorKind;
+    fn transmit(&mut self, frame: &FdFrame) -> nb::Result<Option<FdFrame>, ErrorKind> {
+        self.sent += 1;
+        Ok(self.full[self.sent - 1].then_some(*frame))
+    }
+    fn receive(&mut self) -> nb::Result<FdFrame, ErrorKind> {
+        Err(nb::Error::WouldBlock)
+    }
+}
+
+#[test]
+fn every_joint_gets_a_frame_though_the_first_has_no_room() {
+    for (full, joint) in [([true, false], 0), ([false, true], 1), ([true; 2], 0)] {
+        let of = |node| Moteus::new(node, 0, 10.0, JointMapping::IDENTITY).unwrap();
+        let joints = CanJoints::new(Crowded { sent: 0, full }, [of(1), of(2)]);
+        // A frame that takes another's place in the queue leaves that one unsent.
+        let set = (&joints).set_torques(&[0.0; 2]);
+        assert_eq!(set, Err(at(joint, CanError::Full)));
+        assert_eq!(joints.release().sent, 2);
+    }
+}
+
+#[test]
+fn a_frame_without_a_position_keeps_the_one_before() {
+    let frame = |command: u16, data: [u8; 8]| {
+        FdFrame::new(StandardId::new(3 << 5 | command).unwrap(), &data).unwrap()
+    };
+    let half = frame(0x09, [0, 0, 0, 0x3f, 0, 0, 0, 0]);
+    let heartbeat = frame(0x01, [0, 0, 0, 0, 1, 0, 0, 0]);
+    // The target and the torque of the axis: neither a position nor a state.
+    let torques = frame(0x1c, [0; 8]);
+    let waiting = Err(at(0, CanError::NotReady));
+    // A bus hands out its last frame first.
+    for frames in [
+        [half, heartbeat, torques],
+        [half, torques, heartbeat],
+        [heartbeat, half, torques],
+        [torques, half, heartbeat],
+        [heartbeat, torques, half],
+        [torques, heartbeat, half],
+    ] {
+        let axis = ODrive::new(3, 10.0, JointMapping::IDENTITY).unwrap();
+        let joints = CanJoints::new(heard(&frames), [axis]);
+        assert_eq!((&joints).read(), Ok([core::f32::consts::PI]));
+        assert_eq!((&joints).set_torques(&[0.0]), waiting);
+        // The state is known until another is reported, the position in its tick alone.
+        assert_eq!((&joints).read(), Err(at(0, CanError::NoReply)));
+        assert_eq!((&joints).set_torques(&[0.0]), waiting);
+    }
+}

@@ -1,0 +1,317 @@
+//! What the loop does at its ends: the law, the detectors, the brake, the clock of a timer.
+
+use std::cell::RefCell;
+
+use motion_control::{Command, Detect, Reference, Status, StopCategory};
+
+use super::*;
+
+/// What the detectors were asked, and the fault that each of them finds.
+#[derive(Default)]
+struct Watched {
+    measured: RefCell<Vec<([f32; 2], [f32; 2])>>,
+    referenced: RefCell<Vec<(State<f32, 2, 2>, Mode)>>,
+    commanded: RefCell<Vec<Command<f32, 2>>>,
+    restarts: Cell<u32>,
+    faults: [Cell<Option<Fault>>; 3],
+}
+
+impl Watched {
+    fn found(&self, which: usize) -> Result<(), Fault> {
+        self.faults[which].get().map_or(Ok(()), Err)
+    }
+}
+
+impl Detect<f32, 2> for &Watched {
+    fn measured(&mut self, q: &[f32; 2], reference: &[f32; 2]) -> Result<(), Fault> {
+        self.measured.borrow_mut().push((*q, *reference));
+        self.found(0)
+    }
+    fn referenced(&mut self, reference: &State<f32, 2, 2>, mode: Mode) -> Result<(), Fault> {
+        self.referenced.borrow_mut().push((*reference, mode));
+        self.found(1)
+    }
+    fn commanded(&mut self, command: &Command<f32, 2>) -> Result<(), Fault> {
+        self.commanded.borrow_mut().push(*command);
+        self.found(2)
+    }
+    fn restart(&mut self) {
+        self.restarts.set(self.restarts.get() + 1);
+    }
+}
+
+/// A brake whose pin fails, if its wire is broken.
+struct WeakBrake<'a>(&'a Wire);
+
+impl digital::Error for Broken {
+    fn kind(&self) -> digital::ErrorKind {
+        digital::ErrorKind::Other
+    }
+}
+
+impl digital::ErrorType for WeakBrake<'_> {
+    type Error = Broken;
+}
+
+impl OutputPin for WeakBrake<'_> {
+    fn set_low(&mut self) -> Result<(), Broken> {
+        self.0.access()
+    }
+    fn set_high(&mut self) -> Result<(), Broken> {
+        self.0.access()
+    }
+}
+
+type Watching<'a> = ControlLoop<[Encoder<'a>; 2], [Drive<'a>; 2], WeakBrake<'a>, 2, &'a Watched>;
+
+fn arm<'a>(wires: &'a Wires, watched: &'a Watched) -> Watching<'a> {
+    let (encoders, drives) = (
+        wires.encoders.each_ref().map(Encoder),
+        wires.drives.each_ref().map(Drive),
+    );
+    let brake = WeakBrake(&wires.brake);
+    ControlLoop::new(encoders, drives, brake, GAINS, controller(), watched)
+}
+
+fn status(arm: &mut Watching<'_>) -> Status {
+    arm.tick::<One, _, ()>(&at_rest(), &()).status
+}
+
+/// A motion of 1 mrad in each tick of 1 ms, through where the encoders are.
+struct Moving;
+
+impl Reference<f32, 2> for Moving {
+    fn at(&self, tick: u32) -> State<f32, 2, 2> {
+        State {
+            qd: [1.0, -1.0],
+            ..State::at([0.25 + 1e-3 * tick as f32; 2])
+        }
+    }
+    fn ticks(&self) -> u32 {
+        u32::MAX
+    }
+}
+
+#[test]
+fn a_brake_that_fails_stops_the_arm_in_the_next_tick() {
+    let (wires, watched) = Default::default();
+    let mut arm = arm(&wires, &watched);
+    assert_eq!(status(&mut arm).fault, None);
+    wires.brake.error.set(Some(Broken::Wire));
+    assert_eq!(status(&mut arm).fault, None);
+    let after = status(&mut arm);
+    assert_eq!(
+        (after.mode, after.fault),
+        (Mode::Stopped, Some(Fault::Brake))
+    );
+    // One that fails while it is set is a fault as well, and a failed drive is the reason if both fail.
+    for (drive, fault) in [
+        (None, Fault::Brake),
+        (Some(Broken::Wire), Fault::Drive { joint: 0 }),
+    ] {
+        arm.reset(&at_rest()).unwrap();
+        wires.drives[0].error.set(drive);
+        status(&mut arm);
+        let after = status(&mut arm);
+        assert_eq!((after.mode, after.fault), (Mode::Stopped, Some(fault)));
+    }
+}
+
+#[test]
+fn a_fault_of_completion_is_that_of_the_next_tick() {
+    for (fault, mode) in [
+        (Fault::Saturated { joint: 1 }, Mode::Stopped),
+        (Fault::External, Mode::Hold),
+        (Fault::Overrun, Mode::Full),
+    ] {
+        let (wires, watched): (Wires, Watched) = Default::default();
+        let mut arm = arm(&wires, &watched);
+        watched.faults[2].set(Some(fault));
+        let now = status(&mut arm);
+        assert_eq!((now.mode, now.fault), (Mode::Full, None));
+        watched.faults[2].set(None);
+        let after = status(&mut arm);
+        assert_eq!((after.mode, after.fault), (mode, Some(fault)));
+    }
+}
+
+#[test]
+fn a_detected_measurement_is_a_fault_of_its_tick() {
+    let (wires, watched): (Wires, Watched) = Default::default();
+    let mut arm = arm(&wires, &watched);
+    status(&mut arm);
+    let fault = Some(Fault::Frozen { joint: 1 });
+    watched.faults[0].set(fault);
+    for tick in 0..=RIDE {
+        let now = status(&mut arm);
+        let mode = if tick < RIDE { Mode::Full } else { Mode::Hold };
+        assert_eq!((now.mode, now.fault), (mode, fault));
+    }
+}
+
+#[test]
+fn a_detected_reference_holds_the_arm_in_its_tick() {
+    let (wires, watched): (Wires, Watched) = Default::default();
+    let mut arm = arm(&wires, &watched);
+    arm.tick::<One, _, ()>(&Moving, &());
+    let fault = Some(Fault::Reference { joint: 1 });
+    watched.faults[1].set(fault);
+    let telemetry = arm.tick::<One, _, ()>(&Moving, &());
+    let status = telemetry.status;
+    assert_eq!((status.mode, status.fault), (Mode::Hold, fault));
+    // The law is that of the hold: where the arm is, not where the reference went.
+    assert_eq!(telemetry.reference, [0.25; 2]);
+    // Category 1: after `hold_ticks` the arm is stopped.
+    watched.faults[1].set(None);
+    let after = [(); 3].map(|()| arm.tick::<One, _, ()>(&Moving, &()).status.mode);
+    assert_eq!(after, [Mode::Hold, Mode::Hold, Mode::Stopped]);
+}
+
+#[test]
+fn detectors_see_what_acted_and_what_was_commanded() {
+    let (wires, watched): (Wires, Watched) = Default::default();
+    let mut arm = arm(&wires, &watched);
+    let ticks = [(); 2].map(|()| arm.tick::<One, _, ()>(&Moving, &()));
+    // The reference of the tick before acted until this measurement.
+    assert_eq!(
+        *watched.measured.borrow(),
+        [([0.25; 2], [0.0; 2]), ([0.25; 2], Moving.at(0).q)]
+    );
+    let referenced = [0, 1].map(|tick| (Moving.at(tick), Mode::Full));
+    assert_eq!(*watched.referenced.borrow(), referenced);
+    let commanded = ticks.map(|tick| (tick.torque, tick.status));
+    let seen: Vec<_> = (watched.commanded.borrow().iter())
+        .map(|command| (command.torque, command.status))
+        .collect();
+    assert_eq!(seen, commanded);
+    // What no encoder measured is not examined; the torque is that of every mode.
+    wires.encoders[1].error.set(Some(Broken::Wire));
+    arm.tick::<One, _, ()>(&Moving, &());
+    assert_eq!(watched.measured.borrow().len(), 2);
+    assert_eq!(watched.commanded.borrow().len(), 3);
+}
+
+#[test]
+fn detectors_restart_after_missed_ticks_and_a_reset_alone() {
+    let (wires, watched): (Wires, Watched) = Default::default();
+    let mut arm = arm(&wires, &watched);
+    let count = Cell::new(7);
+    let mut missed_before = |now: u32| {
+        count.set(now);
+        let restarts = watched.restarts.get();
+        let (telemetry, completed) = arm.tick_at::<One, _, ()>(&Moving, &(), || count.get());
+        assert!(completed.is_some(), "it ended in time");
+        (telemetry.tick, watched.restarts.get() - restarts)
+    };
+    // The trajectory goes on in the ticks that were missed.
+    assert_eq!(
+        [7, 8, 10, 11, 14].map(&mut missed_before),
+        [(0, 0), (1, 0), (3, 1), (4, 0), (7, 1)]
+    );
+    assert_eq!(arm.tick::<One, _, ()>(&Moving, &()).status.fault, None);
+    arm.stop_by(Fault::External, StopCategory::TorqueOff);
+    let stopped = arm.tick::<One, _, ()>(&Moving, &()).status;
+    assert_eq!(
+        (stopped.mode, stopped.fault, watched.restarts.get()),
+        (Mode::Stopped, Some(Fault::External), 2)
+    );
+    arm.reset(&Moving).unwrap();
+    assert_eq!(watched.restarts.get(), 3);
+    assert_eq!(arm.tick::<One, _, ()>(&Moving, &()).status.mode, Mode::Full);
+    // A reset of an arm that is not stopped is refused.
+    assert!(arm.reset(&Moving).is_err());
+}
+
+#[test]
+fn more_missed_ticks_than_a_fault_may_last_stop_the_arm() {
+    for (missed, mode) in [(RIDE + 2, Mode::Full), (RIDE + 3, Mode::Stopped)] {
+        let (wires, watched): (Wires, Watched) = Default::default();
+        let mut arm = arm(&wires, &watched);
+        arm.tick_at::<One, _, ()>(&at_rest(), &(), || 0);
+        let (telemetry, _) = arm.tick_at::<One, _, ()>(&at_rest(), &(), || missed + 1);
+        assert_eq!(telemetry.status.mode, mode, "{missed}");
+    }
+}
+
+#[test]
+fn a_tick_that_ends_late_completes_none_and_is_a_fault() {
+    let (wires, watched): (Wires, Watched) = Default::default();
+    let mut arm = arm(&wires, &watched);
+    let count = Cell::new(0);
+    let late = || count.replace(count.get() + 1);
+    let (telemetry, completed) = arm.tick_at::<One, _, ()>(&at_rest(), &(), late);
+    assert_eq!((telemetry.status.fault, completed), (None, None));
+    let (telemetry, completed) = arm.tick_at::<One, _, ()>(&at_rest(), &(), || count.get());
+    assert_eq!(telemetry.status.fault, Some(Fault::Overrun));
+    assert!(completed.is_some());
+}
+
+/// A law without inertia, whose feed-forward is the velocity of its reference; or the same law, said to have it.
+struct OfVelocity<const INERTIA: bool>;
+
+impl<const INERTIA: bool> Law<2> for OfVelocity<INERTIA> {
+    const ACCELERATES: bool = INERTIA;
+    fn feedforward(reference: &State<f32, 2, 2>, (): &()) -> [f32; 2] {
+        reference.qd
+    }
+}
+
+/// Encoders that move by 1 mrad in each reading.
+struct Turning(f32);
+
+impl EncoderType for Turning {
+    type Error = Infallible;
+    type Age = CurrentTick;
+}
+
+impl JointEncoders<2> for Turning {
+    fn start(&mut self) {}
+    fn read(&mut self) -> Result<[f32; 2], JointError<Infallible>> {
+        self.0 += 1e-3;
+        Ok([self.0; 2])
+    }
+}
+
+/// The torque of a law in the full mode, and in a hold of an arm that still moves.
+fn full_and_held<L: Law<2>>() -> [[f32; 2]; 2] {
+    let mut arm = ControlLoop::new(Turning(0.0), Bus(0), NoBrake, GAINS, controller(), ());
+    let full = [(); 20].map(|()| arm.tick::<L, _, ()>(&Moving, &()).torque);
+    arm.stop_by(Fault::External, StopCategory::ControlledHold);
+    [full[19], arm.tick::<L, _, ()>(&Moving, &()).torque]
+}
+
+#[test]
+fn a_law_without_inertia_holds_at_zero_velocity() {
+    assert_eq!(
+        full_and_held::<OfVelocity<false>>(),
+        [[1.0, -1.0], [0.0; 2]]
+    );
+    let [full, held] = full_and_held::<OfVelocity<true>>();
+    assert_eq!(full, [1.0, -1.0]);
+    assert!(
+        held.iter().all(|speed| (speed - 1.0).abs() < 0.1),
+        "{held:?}"
+    );
+}
+
+#[test]
+fn the_law_is_feedforward_and_feedback() {
+    let (reference, estimate) = (
+        State {
+            q: [0.5, 0.0],
+            qd: [0.25, -1.0],
+            qdd: [0.0; 2],
+        },
+        motion_control::Estimate {
+            q: [0.25, 0.5],
+            qd: [0.5, -1.5],
+        },
+    );
+    let gains = Gains {
+        kp: [8.0, 2.0],
+        kd: [4.0, 16.0],
+    };
+    // 1 + 8 · 0.25 − 4 · 0.25 and 2 − 2 · 0.5 + 16 · 0.5.
+    let torque = One::torque(&gains, &reference, &estimate, &());
+    assert_eq!(torque, [2.0, 9.0]);
+}

@@ -1,0 +1,57 @@
+//! The time by which the torque of a tick is later than its position, from the recording itself.
+//!
+//! The sum of the squares of the residuals is a parabola in the delay as long as that is short beside the periods of the motion:
+//! its minimum by three values, and again from there.
+
+use identification::{Fit, Fitted, IdentificationError};
+
+/// The distance of the three values, s, or a tick if that is longer.
+const STEP: f64 = 5e-3;
+/// The farthest that one parabola reaches, s.
+const REACH: f64 = 20e-3;
+const PARABOLAS: usize = 4;
+/// The residuals' squares at the minimum relative to those at half a tick, from which on it is taken.
+const SHARE: f64 = 0.9;
+
+type Fits<const V: usize> = Result<Fitted<V>, IdentificationError>;
+
+/// The fit at the delay of least residuals; `fit` keeps its delay unless the recording shows another one.
+pub fn least<const V: usize>(
+    fit: &mut Fit,
+    torque: &[f64; V],
+    run: impl Fn(&Fit) -> Fits<V>,
+) -> Fits<V> {
+    let at = |delay: f64| run(&Fit { delay, ..*fit });
+    let score = |found: &Fitted<V>| -> f64 {
+        let shares = found.noise.iter().zip(torque);
+        shares.map(|(noise, torque)| (noise / torque).powi(2)).sum()
+    };
+    let first = at(fit.delay)?;
+    let step = STEP.max(2.0 * fit.delay);
+    let (mut best, mut delay) = (first.clone(), fit.delay);
+    for _ in 0..PARABOLAS {
+        let beside = [at(delay - step), at(delay + step)];
+        // A recording too short for a later time says nothing of it.
+        let [Ok(early), Ok(late)] = beside else { break };
+        let [early, middle, late] = [&early, &best, &late].map(score);
+        let bend = early - 2.0 * middle + late;
+        if bend <= 0.0 {
+            break;
+        }
+        let change = (0.5 * step * (early - late) / bend).clamp(-REACH, REACH);
+        let Ok(next) = at(delay + change) else { break };
+        if score(&next) >= middle {
+            break;
+        }
+        (best, delay) = (next, delay + change);
+        if change.abs() < 0.1 * step {
+            break;
+        }
+    }
+    let is_shown = (delay - fit.delay).abs() > 2.0 * fit.delay;
+    if is_shown && score(&best) < SHARE * score(&first) {
+        fit.delay = delay;
+        return Ok(best);
+    }
+    Ok(first)
+}

@@ -1,0 +1,231 @@
+//! Mistakes of a recording that explain what no robot does: a unit, a sign, a zero.
+//!
+//! A recording that no possible robot explains is corrected by one mistake at a time and fitted again.
+//! The mistake after which a possible robot explains most of it is named.
+
+use std::f64::consts::PI;
+
+use identification::{OfJoint, Parameter, TickRecording};
+use serde::Serialize;
+
+use crate::run::{Attempt, Task, own};
+
+/// A set so many standard deviations from the estimate is no robot's.
+pub const IMPOSSIBLE: f64 = 3.0;
+/// Residuals above this share of the joints' torques may have such a mistake as their cause.
+const UNEXPLAINED: f64 = 0.02;
+/// A mistake explains the recording if without it the squares of the residuals are below this share.
+const EXPLAINED: f64 = 0.6;
+/// Torques of another unit are at least so many times those of the description, or less than one of as many parts.
+const OTHER_UNIT: f64 = 5.0;
+/// A friction below minus so many deviations is that of a reversed sign.
+const REVERSED: f64 = 3.0;
+/// The shift of a zero that is tried first, rad or m, and the least and the greatest that are named.
+const SHIFT: f64 = 0.05;
+const SHIFTS: [f64; 2] = [0.01, 0.5];
+const PARABOLAS: usize = 4;
+/// A zero whose first parabola leaves more than this share of the residuals is not followed further.
+const MENDED: f64 = 0.8;
+
+/// A mistake that explains a recording.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Mistake {
+    /// All torques are so many times those of the robot.
+    Unit { factor: f64 },
+    /// The torques of these joints are reversed.
+    TorqueSign { joints: Vec<String> },
+    /// The positions of these joints are reversed.
+    PositionSign { joints: Vec<String> },
+    /// The positions of a joint lack so much, rad or m.
+    Zero { joint: String, shift: f64 },
+}
+
+impl std::fmt::Display for Mistake {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let list = |joints: &[String]| joints.join("`, `");
+        match self {
+            Self::Unit { factor } => {
+                let why = match (factor / 1e3).ln().abs() < 0.5 {
+                    true => ": are they in mN·m, or currents in mA?",
+                    false => ": are they in another unit, or on the motor's side of a gear?",
+                };
+                write!(
+                    out,
+                    "the torques are about {factor:.3} times those of the description{why}"
+                )
+            }
+            Self::TorqueSign { joints } => {
+                write!(out, "the torques of `{}` have the wrong sign", list(joints))
+            }
+            Self::PositionSign { joints } => {
+                write!(
+                    out,
+                    "the positions of `{}` have the wrong sign",
+                    list(joints)
+                )
+            }
+            Self::Zero { joint, shift } => write!(
+                out,
+                "the zero of `{joint}` is shifted: its positions lack about {shift:.3} rad or m ({:.1}° of an angle)",
+                shift * 180.0 / PI
+            ),
+        }
+    }
+}
+
+/// The corrections of a recording, joint by joint.
+#[derive(Clone, Copy)]
+struct Correction<const V: usize> {
+    torque: [f64; V],
+    position: [f64; V],
+    shift: [f64; V],
+}
+
+impl<const V: usize> Correction<V> {
+    const NONE: Self = Self {
+        torque: [1.0; V],
+        position: [1.0; V],
+        shift: [0.0; V],
+    };
+
+    fn of(&self, recording: &TickRecording<V>) -> TickRecording<V> {
+        recording.map(|q, tau| {
+            (
+                std::array::from_fn(|j| self.position[j] * q[j] + self.shift[j]),
+                std::array::from_fn(|j| self.torque[j] * tau[j]),
+            )
+        })
+    }
+}
+
+/// The mistake that explains an estimate which no robot has, or residuals that the model leaves, if one does.
+pub(crate) fn explains<const V: usize>(
+    task: &Task<'_>,
+    whole: &TickRecording<V>,
+    part: &TickRecording<V>,
+    attempt: &Attempt<V>,
+    names: &[String],
+) -> Option<Mistake> {
+    let after = |correction: Correction<V>| {
+        let [whole, part] = [whole, part].map(|recording| correction.of(recording));
+        let corrected = task.attempt(&whole, &part, Some(attempt.fit.delay));
+        // Nothing is explained by a zero that leads beyond the joint's limits.
+        corrected.map_or(f64::INFINITY, |corrected| corrected.residual)
+    };
+    let before = attempt.residual;
+    let factor = unit(attempt);
+    if !(OTHER_UNIT.recip()..=OTHER_UNIT).contains(&factor) {
+        let same = Correction {
+            torque: [1.0 / factor; V],
+            ..Correction::NONE
+        };
+        if after(same) < 2.0 * before {
+            return Some(Mistake::Unit { factor });
+        }
+    }
+    let reversed = reversed(attempt);
+    let is_possible = attempt.set.misfit < IMPOSSIBLE && before < UNEXPLAINED.powi(2);
+    if is_possible && reversed.is_empty() {
+        return None;
+    }
+    let each: Vec<Vec<usize>> = match reversed.is_empty() {
+        true => (0..V).map(|joint| vec![joint]).collect(),
+        false => vec![reversed],
+    };
+    let mut tried = Vec::new();
+    for joints in each {
+        let signs = std::array::from_fn(|j| if joints.contains(&j) { -1.0 } else { 1.0 });
+        let joints: Vec<String> = joints.iter().map(|&j| names[j].clone()).collect();
+        let torque = Correction {
+            torque: signs,
+            ..Correction::NONE
+        };
+        let position = Correction {
+            position: signs,
+            ..Correction::NONE
+        };
+        let named = joints.clone();
+        tried.push((after(torque), Mistake::TorqueSign { joints }));
+        tried.push((after(position), Mistake::PositionSign { joints: named }));
+    }
+    tried.extend((0..V).filter_map(|joint| zero(joint, names, before, &after)));
+    let best = tried.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b));
+    best.filter(|(left, _)| *left < EXPLAINED * before)
+        .map(|(_, mistake)| mistake)
+}
+
+/// The shift of a joint's zero that leaves the least residuals: the minimum of the parabola through three of them.
+fn zero<const V: usize>(
+    joint: usize,
+    names: &[String],
+    before: f64,
+    after: &impl Fn(Correction<V>) -> f64,
+) -> Option<(f64, Mistake)> {
+    let at = |shift: f64| {
+        let mut correction = Correction::NONE;
+        correction.shift[joint] = shift;
+        after(correction)
+    };
+    let (mut shift, mut left) = (0.0, before);
+    for _ in 0..PARABOLAS {
+        let [back, ahead] = [shift - SHIFT, shift + SHIFT].map(at);
+        let bend = back - 2.0 * left + ahead;
+        let change = 0.5 * SHIFT * (back - ahead) / bend;
+        // Where the residuals are no parabola, or one side is beyond the limits, the better side is tried.
+        let change = match bend > 0.0 && change.is_finite() {
+            true => change.clamp(-2.0 * SHIFT, 2.0 * SHIFT),
+            false => SHIFT * if back < ahead { -1.0 } else { 1.0 },
+        };
+        let next = at(shift + change);
+        if next >= left {
+            break;
+        }
+        (shift, left) = (shift + change, next);
+        if change.abs() < 0.1 * SHIFT || left > MENDED * before {
+            break;
+        }
+    }
+    let [least, most] = SHIFTS;
+    let joint = names[joint].clone();
+    (least..=most)
+        .contains(&shift.abs())
+        .then_some((left, Mistake::Zero { joint, shift }))
+}
+
+/// How many times the description's first moments of mass the estimated ones are, by least squares relative to their torques.
+fn unit<const V: usize>(attempt: &Attempt<V>) -> f64 {
+    let (mut product, mut square) = (0.0, 0.0);
+    for (base, scale) in attempt.arm.scales().into_iter().enumerate() {
+        let (_, own) = attempt.arm.terms(base)[0];
+        let is_moment = matches!(own, Parameter::Body { place: 1..=3, .. });
+        if is_moment && attempt.found.is_determined(base) {
+            let [found, nominal] =
+                [&attempt.found.base, &attempt.nominal].map(|all| scale * all[base]);
+            product += found * nominal;
+            square += nominal * nominal;
+        }
+    }
+    match square > 0.0 {
+        true => (product / square).abs(),
+        // Without gravity nothing is compared.
+        false => 1.0,
+    }
+}
+
+/// The joints whose friction would drive them.
+fn reversed<const V: usize>(attempt: &Attempt<V>) -> Vec<usize> {
+    let (found, scales) = (&attempt.found, attempt.arm.scales());
+    let is_negative = |joint: usize, of: OfJoint| {
+        let base = own(&attempt.arm, joint, of);
+        base.is_some_and(|base| found.base[base] < -REVERSED * found.deviations[base])
+    };
+    let drives = |joint: usize| {
+        // One of the two is negative in a recording whose friction is of another kind.
+        let kinds = [OfJoint::Viscous, OfJoint::Coulomb];
+        let torque = |of| own(&attempt.arm, joint, of).map(|base| found.base[base] * scales[base]);
+        let sum: f64 = kinds.into_iter().filter_map(torque).sum();
+        kinds.into_iter().any(|of| is_negative(joint, of)) && sum < 0.0
+    };
+    (0..V).filter(|&joint| drives(joint)).collect()
+}

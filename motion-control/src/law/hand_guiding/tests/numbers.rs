@@ -1,0 +1,117 @@
+//! The compensation and the configuration of several joints, in numbers.
+
+use super::*;
+
+/// Joints of which each number is another one.
+fn two() -> HandGuidingConfig<f64, 2> {
+    let spring = LimitedSpring {
+        stiffness: [100.0, 300.0],
+        damping: [10.0, 30.0],
+        torque: [5.0, 15.0],
+    };
+    HandGuidingConfig {
+        error: 0.25,
+        share: 0.75,
+        rest_speed: [0.01, 0.02],
+        compensation: [4.0, 8.0],
+        lower: [-1.0, -2.0],
+        upper: [1.5, 2.5],
+        wall: spring,
+        lock: spring,
+    }
+}
+
+#[test]
+fn compensation_is_a_share_less_the_error_of_either_sign() {
+    let guiding = HandGuiding::try_new(two()).expect("a good one");
+    let torque = |qd: [f64; 2], friction: [f64; 2], errors: [f64; 2]| {
+        let estimate = Estimate { q: [0.0; 2], qd };
+        guiding.torque(&estimate, &friction, &errors)
+    };
+    let fast = [0.5, -0.5];
+    for errors in [[0.5, 1.5], [-0.5, -1.5], [0.5, -1.5]] {
+        // 0.75 · 4 − 0.5 and 0.75 · 8 − 1.5, in the direction of the motion.
+        assert_eq!(torque(fast, [4.0, -8.0], errors), [2.5, -4.5]);
+        // An error that exceeds the share leaves nothing.
+        assert_eq!(torque(fast, [0.5, -1.0], errors), [0.0; 2]);
+        // Friction that drives is not compensated.
+        assert_eq!(torque(fast, [-4.0, 8.0], errors), [0.0; 2]);
+        // Its limit.
+        assert_eq!(torque(fast, [40.0, -80.0], errors), [4.0, -8.0]);
+    }
+    let none = [0.0; 2];
+    // Nothing up to the speed of rest, all of it from twice that speed on.
+    for (speed, share) in [
+        (0.5, 0.0),
+        (1.0, 0.0),
+        (1.25, 0.25),
+        (1.75, 0.75),
+        (2.0, 1.0),
+    ] {
+        let qd = [0.01 * speed, -0.02 * speed];
+        let tau = torque(qd, [4.0, -8.0], none);
+        for (tau, full) in tau.into_iter().zip([3.0, -6.0]) {
+            assert!((tau - share * full).abs() < 1e-12, "{speed}: {tau}");
+        }
+    }
+}
+
+#[test]
+fn each_joint_has_its_own_walls_and_its_own_lock() {
+    let mut guiding = HandGuiding::try_new(two()).expect("a good one");
+    let none = [0.0; 2];
+    let at = |guiding: &HandGuiding<f64, 2>, q: [f64; 2], qd: [f64; 2]| {
+        guiding.torque(&Estimate { q, qd }, &none, &none)
+    };
+    let near = |got: [f64; 2], want: [f64; 2]| {
+        let apart = [0, 1].map(|k| (got[k] - want[k]).abs());
+        assert!(apart.iter().all(|x| *x < 1e-9), "{got:?}, not {want:?}");
+    };
+    // 0.02 rad in the wall, and 0.1 rad/s deeper.
+    near(at(&guiding, [-1.02, 2.52], none), [2.0, -6.0]);
+    near(at(&guiding, [1.52, -2.02], none), [-2.0, 6.0]);
+    near(at(&guiding, [-1.02, 2.52], [-0.1, 0.1]), [3.0, -9.0]);
+    near(at(&guiding, [1.52, -2.02], [0.1, -0.1]), [-3.0, 9.0]);
+    near(at(&guiding, [-9.0, 9.0], none), [5.0, -15.0]);
+    guiding.lock(&[false, true], &[0.0, 1.0]).expect("finite");
+    near(at(&guiding, [0.5, 0.98], [0.0, 0.1]), [0.0, 3.0]);
+    assert_eq!(
+        guiding.lock(&[true, true], &[f64::NAN, 7.0]),
+        Err(Fault::NotFinite { joint: 0 })
+    );
+    guiding.lock(&[true, true], &[0.5, 7.0]).expect("finite");
+    // The one that was locked stays where it was.
+    near(at(&guiding, [0.48, 0.98], none), [2.0, 6.0]);
+    // At a wall a locked joint has both.
+    guiding.lock(&[true, false], &[0.5, 0.0]).expect("finite");
+    near(at(&guiding, [1.51, 0.0], none), [-5.0 - 1.0, 0.0]);
+}
+
+#[test]
+fn every_joint_of_a_configuration_is_checked() {
+    use crate::limits::ConfigParameter::{Compensation, Lock, RestSpeed, Wall, WallPosition};
+    let good = two();
+    assert_eq!(good.check(), Ok(()));
+    type Change = fn(&mut HandGuidingConfig<f64, 2>, usize);
+    let changes: [(Change, _); 10] = [
+        (|c, k| c.rest_speed[k] = 0.0, RestSpeed),
+        (|c, k| c.compensation[k] = -1.0, Compensation),
+        (|c, k| c.lower[k] = 9.0, WallPosition),
+        (|c, k| c.upper[k] = -9.0, WallPosition),
+        (|c, k| c.wall.stiffness[k] = -1.0, Wall),
+        (|c, k| c.wall.damping[k] = -1.0, Wall),
+        (|c, k| c.wall.torque[k] = -1.0, Wall),
+        (|c, k| c.lock.stiffness[k] = -1.0, Lock),
+        (|c, k| c.lock.damping[k] = -1.0, Lock),
+        (|c, k| c.lock.torque[k] = -1.0, Lock),
+    ];
+    for (change, parameter) in changes {
+        for joint in 0..2 {
+            let mut config = good;
+            change(&mut config, joint);
+            let refused = Err(ConfigError::OutOfRange { parameter });
+            assert_eq!(config.check(), refused, "joint {joint}");
+            assert!(HandGuiding::try_new(config).is_err());
+        }
+    }
+}

@@ -189,8 +189,12 @@ impl<'t> Tolerant<'t> {
             };
             let shown: Vec<String> = lines.iter().take(3).map(u32::to_string).collect();
             let noun = if lines.len() == 1 { "Line" } else { "Lines" };
+            let is_xml = match kind {
+                Kind::DocumentType => "It",
+                _ => "This is not well-formed XML, and",
+            };
             format!(
-                "{noun} {}{more}: {}{detail}; XML has none, and the file is read as TinyXML-2 does, the reader of urdfdom and of MuJoCo.",
+                "{noun} {}{more}: {}{detail}. {is_xml} is read as TinyXML-2 does, the reader of urdfdom and of MuJoCo.",
                 shown.join(", "),
                 kind.words(),
             )

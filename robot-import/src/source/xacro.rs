@@ -89,8 +89,13 @@ pub fn left_out(root: Node<'_, '_>) -> Vec<String> {
     for node in root.children().filter(Node::is_element) {
         let tag = xml::tag(node);
         if !KNOWN.contains(&tag) {
+            // A prefix is that of an extension.
+            let macros = match tag.contains(':') {
+                true => String::new(),
+                false => format!("; if it is a macro of xacro, {EXPAND}"),
+            };
             notes.push(format!(
-                "The element <{}> on line {} is none of URDF and is left out with all that is in it; if it is a macro of xacro, {EXPAND}.",
+                "The element <{}> on line {} is none of URDF and is left out with all that is in it{macros}.",
                 shortened(tag),
                 line(node)
             ));

@@ -38,7 +38,9 @@ fn chosen(name: &str) -> (String, Option<String>) {
         None => Some("the robot's name has no letter from A to Z".to_owned()),
         Some('0'..='9') => Some("no name of Rust begins with a digit".to_owned()),
         _ if is_taken(&camel) => Some(format!("the file or Rust itself uses `{camel}`")),
-        _ if camel.len() > MOST_TYPE_NAME => Some(format!("a type's name is cut after {MOST_TYPE_NAME} characters")),
+        _ if camel.len() > MOST_TYPE_NAME => Some(format!(
+            "a type's name is cut after {MOST_TYPE_NAME} characters"
+        )),
         _ if has_others => Some("other letters than A to Z are left out".to_owned()),
         _ => None,
     };

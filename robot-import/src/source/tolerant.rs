@@ -302,10 +302,10 @@ impl<'t> Pass<'t> {
             }
             return Ok(Next::At(end));
         }
-        if rest.starts_with("<?") {
+        if let Some(instruction) = rest.strip_prefix("<?") {
             let end = self.end_of(at, 2, "?>", "an instruction")?;
-            let is_declaration =
-                rest[2..].starts_with("xml") && rest[5..].starts_with(char::is_whitespace);
+            let name = instruction.strip_prefix("xml");
+            let is_declaration = name.is_some_and(|rest| rest.starts_with(char::is_whitespace));
             if is_declaration && at > 0 && is_blank(&self.text[..at]) {
                 self.edits.push((at..end, None));
                 self.tolerate(Kind::BeforeDeclaration, at, String::new());

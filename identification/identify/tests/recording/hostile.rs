@@ -136,8 +136,9 @@ fn a_recording_of_another_robot_is_refused() {
 
 #[test]
 fn no_output_replaces_the_recording_or_another() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let at = |name: &str| folder.path().join(name);
+    let folder = std::env::temp_dir().join(format!("identify-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let at = |name: &str| folder.join(name);
     std::fs::write(at("r.csv"), "recorded").expect("a file");
     std::fs::write(at("r.urdf"), "<robot name='r'/>").expect("a file");
     for (out, picture, words) in [
@@ -159,8 +160,7 @@ fn no_output_replaces_the_recording_or_another() {
         let error = String::from_utf8_lossy(&ended.stderr);
         assert!(!ended.status.success() && error.contains(words), "{error}");
     }
-    assert_eq!(
-        std::fs::read_to_string(at("r.csv")).expect("a file"),
-        "recorded"
-    );
+    let left = std::fs::read_to_string(at("r.csv")).expect("a file");
+    std::fs::remove_dir_all(&folder).expect("a folder");
+    assert_eq!(left, "recorded");
 }

@@ -10,7 +10,7 @@ const CRATES: [&str; 4] = ["drivers", "dynamics-core", "motion-control", "teleme
 /// Its folders that are carried: the sources, and what their documentation includes.
 const FOLDERS: [&str; 2] = ["src", "equations"];
 /// What of a crate is carried beside them.
-const BESIDE: [&str; 2] = ["Cargo.toml", "NOTATION.md"];
+const BESIDE: [&str; 3] = ["build.rs", "Cargo.toml", "NOTATION.md"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let own = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?);

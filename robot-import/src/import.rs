@@ -9,15 +9,16 @@ use crate::description::{Description, Format, shortened};
 use crate::dropped::dropped;
 use crate::error::{ImportError, Problem, Result};
 use crate::estimate;
-use crate::limits::{LEAST, PEER_TIME};
+use crate::limits::{LEAST, MOST_JOINTS_OF_PROJECT, PEER_TIME};
 use crate::loops::{Closed, Motors};
 use crate::model::AnyModel;
 use crate::outputs::{self, are_apart};
 use crate::physical::impossible;
 use crate::plausible::plausible;
-use crate::project::{FileEffects, RobotFile};
+use crate::project::{Feedback, FileEffects, RobotFile};
 use crate::report::{Report, rows};
 use crate::selection::{Selected, Selection};
+use crate::text::shell_word;
 use crate::tree::{Numbers, Tree};
 use crate::{loops, source, write};
 use dynamics_core::model::ImpossibleInertia;
@@ -105,6 +106,61 @@ impl Options {
     }
 }
 
+impl Args {
+    /// The name of the type in the file that is written anew: a program that uses it compiles on.
+    fn kept_type(&self) -> Option<String> {
+        let out = self.out.as_ref().filter(|_| self.name.is_none())?;
+        write::type_of(&std::fs::read_to_string(out).ok()?)
+    }
+
+    /// The words after `import` that write the file of this robot again, as a shell takes them.
+    fn again(&self, name: &str) -> String {
+        let Options {
+            base,
+            tip,
+            joints,
+            without,
+            lock,
+            free_base,
+            motors,
+            repair,
+            keep_roundings,
+            ..
+        } = &self.options;
+        let mut words = vec![file_name(&self.file), "--name".to_owned(), name.to_owned()];
+        let mut option = |option: &str, value: String| words.push(format!("{option}={value}"));
+        for (name, value) in [
+            ("--base", base),
+            ("--tip", tip),
+            ("--type", &self.type_name),
+        ] {
+            value.iter().for_each(|value| option(name, value.clone()));
+        }
+        for (name, values) in [("--joints", joints), ("--motors", motors)] {
+            (!values.is_empty()).then(|| option(name, values.join(",")));
+        }
+        without
+            .iter()
+            .for_each(|link| option("--without", link.clone()));
+        for (joint, position) in lock {
+            option("--lock", format!("{joint}={position}"));
+        }
+        let flags = [
+            ("--free-base", free_base),
+            ("--repair", repair),
+            ("--keep-roundings", keep_roundings),
+        ];
+        words.extend(
+            flags
+                .iter()
+                .filter(|flag| *flag.1)
+                .map(|flag| flag.0.to_owned()),
+        );
+        let quoted: Vec<String> = words.iter().map(|word| shell_word(word)).collect();
+        quoted.join(" ")
+    }
+}
+
 fn locked(text: &str) -> std::result::Result<(String, f64), String> {
     let (name, position) = text.rsplit_once('=').ok_or("expected JOINT=POSITION")?;
     let position: f64 = position
@@ -129,6 +185,8 @@ pub struct Imported {
     pub name: String,
     /// Its Rust file.
     pub source: String,
+    /// The words after `import` that write its file again, without where to.
+    pub again: String,
     /// What its user should know.
     pub report: Report,
 }
@@ -225,10 +283,9 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
     loops_of_the_library(&robot, &tree, &closed)?;
     notes.extend(left_out);
     let name = args.name.clone().unwrap_or_else(|| robot.name.clone());
-    let type_name = args
-        .type_name
-        .clone()
-        .unwrap_or_else(|| write::type_name(&name));
+    let kept = args.kept_type();
+    let type_name =
+        (args.type_name.clone().or(kept.clone())).unwrap_or_else(|| write::type_name(&name));
     let mut own = advice(&robot, &selected, &tree);
     // The motors of a machine with loops share what its joints need.
     own.extend(needless_torque(&tree, &checked).filter(|_| closed.is_empty()));
@@ -253,9 +310,12 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         name: name.clone(),
         text: note.clone(),
     }));
-    let renamed = match args.type_name {
-        Some(_) => None,
-        None => write::renamed(&name),
+    let renamed = match (&args.type_name, kept) {
+        (Some(_), _) => None,
+        (None, Some(kept)) => (kept != write::type_name(&name)).then(|| {
+            format!("The type is called `{kept}` as in the file that this import replaces; --type NAME calls it otherwise.")
+        }),
+        (None, None) => write::renamed(&name),
     };
     own.extend(renamed.map(|text| Advice {
         topic: crate::advice::Topic::Renamed,
@@ -297,6 +357,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         robot,
         selected,
         tree,
+        again: args.again(&name),
         name,
         source,
         report,
@@ -454,6 +515,7 @@ impl Imported {
         RobotFile {
             type_name: self.report.type_name.clone(),
             text: self.source.clone(),
+            again: self.again.clone(),
             joints: joints.collect(),
             bodies: self
                 .tree
@@ -470,6 +532,11 @@ impl Imported {
                 coulomb: is_some(|body| body.friction),
                 armature: is_some(|body| body.armature),
                 spring: self.tree.has_springs(),
+            },
+            // More joints than a project has are not looked at.
+            feedback: match v <= MOST_JOINTS_OF_PROJECT {
+                true => Feedback::of(&self.tree).unwrap_or_default(),
+                false => Feedback::default(),
             },
         }
     }

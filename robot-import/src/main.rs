@@ -158,8 +158,8 @@ fn new(args: New) -> Result<(), Box<dyn std::error::Error>> {
         };
         println!("\nnext: cd {} && {next}", args.folder.display());
     }
-    if let Some(note) = created.note {
-        println!("note: {note}");
+    for note in created.notes {
+        println!("note: {}", visible(&note));
     }
     Ok(())
 }

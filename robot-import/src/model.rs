@@ -5,7 +5,7 @@
 
 use dynamics_core::advice::Advice;
 use dynamics_core::algorithms::{crba, poses, rnea};
-use dynamics_core::effects::{Inertia, RIGID_BODY};
+use dynamics_core::effects::{Gravity, Inertia, RIGID_BODY};
 use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, ModelError};
 use dynamics_core::state::State;
@@ -95,6 +95,15 @@ impl AnyModel {
             Self::Small(model) => model.exact.advice().collect(),
             Self::Middle(model) => model.exact.advice().collect(),
             Self::Large(model) => model.exact.advice().collect(),
+        }
+    }
+
+    /// The torques that hold it at rest at q, N·m or N.
+    pub fn gravity(&self, q: &[f64]) -> Vec<f64> {
+        match self {
+            Self::Small(model) => model.gravity(q),
+            Self::Middle(model) => model.gravity(q),
+            Self::Large(model) => model.gravity(q),
         }
     }
 
@@ -253,6 +262,11 @@ impl<const N: usize, const Q: usize> Sized<N, Q> {
             let problem = text.strip_prefix("loop `loop`: ").map(str::to_owned);
             problem.unwrap_or(text)
         })
+    }
+
+    fn gravity(&self, q: &[f64]) -> Vec<f64> {
+        let torque = rnea(&self.exact, &State::at(self.position(q)), &Gravity::EARTH);
+        torque[..q.len()].to_vec()
     }
 
     fn torque(&self, motion: &Motion) -> Vec<f64> {

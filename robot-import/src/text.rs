@@ -27,6 +27,21 @@ pub fn string_literal(text: &str) -> String {
     format!("{text:?}")
 }
 
+/// A text as one word of a shell's command line, all of it visible.
+///
+/// ```
+/// use robot_import::text::shell_word;
+/// assert_eq!(shell_word("--tip=wrist_3"), "--tip=wrist_3");
+/// assert_eq!(shell_word("it's $HOME"), r"'it'\''s $HOME'");
+/// ```
+pub fn shell_word(text: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c);
+    match !text.is_empty() && text.chars().all(is_plain) {
+        true => text.to_owned(),
+        false => format!("'{}'", visible(text).replace('\'', r"'\''")),
+    }
+}
+
 /// A text as code in Markdown, whatever it has of Markdown itself.
 ///
 /// ```

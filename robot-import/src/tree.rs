@@ -153,17 +153,17 @@ impl Tree {
         self.bodies.iter().any(|body| body.follows.is_some())
     }
 
-    /// Whether a joint has a spring.
-    pub fn has_springs(&self) -> bool {
-        self.bodies.iter().any(|body| body.spring[0] != 0.0)
-    }
-
     /// How many joints follow none.
     pub fn motors(&self) -> usize {
         self.bodies
             .iter()
             .filter(|body| body.follows.is_none())
             .count()
+    }
+
+    /// Whether a joint has a spring.
+    pub fn has_springs(&self) -> bool {
+        self.bodies.iter().any(|body| body.spring[0] != 0.0)
     }
 
     /// Adds a link's mass to the body that it is part of.

@@ -14,7 +14,7 @@ use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia};
 use dynamics_core::model::Robot;
 use dynamics_core::state::State;
 use robot_import::project::{
-    BOARDS, Board, FileEffects, Kind, Library, Project, RobotFile, create,
+    BOARDS, Board, Feedback, FileEffects, Kind, Library, Project, RobotFile, create,
 };
 
 #[allow(dead_code, reason = "a robot's file has more than the test compares")]
@@ -48,6 +48,7 @@ fn robot(
     RobotFile {
         type_name: type_name.into(),
         text: text.into(),
+        again: "FILE".into(),
         joints: joints.iter().map(|&joint| joint.into()).collect(),
         bodies: bodies.iter().map(|&body| body.into()).collect(),
         b: n,
@@ -55,6 +56,7 @@ fn robot(
         v: n,
         coupled: false,
         effects,
+        feedback: Feedback::default(),
     }
 }
 
@@ -341,6 +343,58 @@ fn a_project_that_cannot_be_written_is_refused_at_once() {
     }
     assert_eq!(fs::read_dir(&folder).expect("a folder").count(), 1);
     fs::remove_dir_all(&folder).expect("removed");
+}
+
+/// By the command of the project's README, and by one without a name: the file is called otherwise than the project.
+#[test]
+#[cfg(unix)]
+fn a_robot_that_is_imported_again_keeps_its_type() {
+    let scratch = env::temp_dir().join(format!("again-{}", std::process::id()));
+    let _ = fs::remove_dir_all(&scratch);
+    fs::create_dir_all(&scratch).expect("a folder");
+    let zoo = include_str!("urdf/so101.urdf");
+    fs::write(scratch.join("it's kestrel.urdf"), zoo).expect("a description");
+    let shell = |folder: &Path, line: &str| {
+        let line = line.replace(
+            "robot-import ",
+            &format!("'{}' ", env!("CARGO_BIN_EXE_robot-import")),
+        );
+        let mut shell = Command::new("sh");
+        let output = shell.args(["-c", &line]).current_dir(folder).output();
+        let output = output.expect("a shell");
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{line}\n{errors}");
+    };
+    for (kind, name) in [("", "my-arm"), ("--c", "arm-c"), ("--board pico2", "arm-b")] {
+        let line = format!(
+            "robot-import new {name} --robot \"it's kestrel.urdf\" --python none --tip wrist_link --library . {kind}"
+        );
+        shell(&scratch, &line);
+        let project = scratch.join(name);
+        let robot = || fs::read_to_string(project.join("src/robot.rs")).expect("a robot");
+        let (first, readme) = (robot(), fs::read_to_string(project.join("README.md")));
+        let readme = readme.expect("a README");
+        let again = readme
+            .lines()
+            .find(|line| line.starts_with("robot-import import "));
+        let again = again.unwrap_or_else(|| panic!("no command in\n{readme}"));
+        assert!(again.contains(" --tip=wrist_link "), "{again}");
+        shell(&project, &again.replace(" 'it", " ../'it"));
+        assert_eq!(robot(), first);
+        shell(
+            &project,
+            "robot-import import \"../it's kestrel.urdf\" --tip wrist_link --out src/robot.rs",
+        );
+        let type_of = |file: &str| robot_import::write::type_of(file).expect("a type");
+        assert_eq!(type_of(&robot()), type_of(&first));
+        // A name of the user's own is the type's.
+        shell(
+            &project,
+            "robot-import import \"../it's kestrel.urdf\" --name other --out src/robot.rs",
+        );
+        assert_eq!(type_of(&robot()), "Other");
+    }
+    fs::remove_dir_all(&scratch).expect("removed");
 }
 
 #[test]

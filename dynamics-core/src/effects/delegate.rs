@@ -4,21 +4,6 @@ use super::{BodyState, JointState, LoadFactors, RegroupedInertia};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 
-/// Inlines a function where this crate is optimised, also in the crate that expands a macro. A cfg in
-/// the expansion would be that crate's.
-#[cfg(optimised)]
-#[doc(hidden)]
-#[macro_export]
-macro_rules! inlined {
-    ($($function:tt)*) => { #[inline(always)] $($function)* };
-}
-#[cfg(not(optimised))]
-#[doc(hidden)]
-#[macro_export]
-macro_rules! inlined {
-    ($($function:tt)*) => { $($function)* };
-}
-
 /// Calls the function of a hook, if it has one, directly: the `const` block names it while compiling.
 #[doc(hidden)]
 #[macro_export]
@@ -28,6 +13,26 @@ macro_rules! call_hook {
             function($($argument),*);
         }
     };
+}
+
+/// A function that is inlined where this crate is optimised. An exported macro cannot ask for the
+/// cfg `optimised` itself: it would be that of the crate in which the macro is expanded.
+#[cfg(optimised)]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! inlined {
+    ($($function:tt)*) => {
+        #[inline(always)]
+        $($function)*
+    };
+}
+
+/// A function that is inlined where this crate is optimised, which it is not.
+#[cfg(not(optimised))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! inlined {
+    ($($function:tt)*) => { $($function)* };
 }
 
 /// The functions of a forwarder's hooks. `delegate_effect!` implements it. It has no default bodies, so that no hook is

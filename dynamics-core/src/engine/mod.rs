@@ -5,8 +5,8 @@
 //! robot that are 0, 1 or −1, [`compile`] regroups its inertias to base parameters at compile time, and one recursion
 //! over its bodies keeps intermediate values in registers.
 //!
-//! Functions are inlined by force unless debug assertions are on: the folding needs it where code is optimised, and an
-//! unoptimised build of forced inlining has twenty times the code.
+//! Functions are inlined by force where this crate is optimised (the cfg `optimised`, which the build
+//! script sets): the folding needs it, and forced inlining at opt-level 0 has fifty times the code.
 //!
 //! Joints: all kinds ([`crate::model::JointKind`]), on trees of up to 64 velocity coordinates.
 

@@ -45,20 +45,9 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     const fn no_body(&self, name: &str) -> ! {
         let mut text = Text::EMPTY
             .with("no body of the robot has the name `")
-            .with(name);
+            .with(name)
+            .with("`: its bodies are ");
         let mut i = 0;
-        while i < self.parts.len() {
-            let (link, body) = self.parts[i];
-            if same(link, name) {
-                text.with("`: that link is a part of body `")
-                    .with(body)
-                    .with("`, in whose frame a payload or a point on it is stated")
-                    .panic();
-            }
-            i += 1;
-        }
-        text = text.with("`: its bodies are ");
-        i = 0;
         while i < B {
             let name = self.links[i].name;
             if !text.has_room_for(name) {

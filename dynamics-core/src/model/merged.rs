@@ -154,7 +154,6 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             lambda: self.lambda,
             kinds,
             chain,
-            parts: self.parts,
         };
         Ok(Merged { model, places })
     }

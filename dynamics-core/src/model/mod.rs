@@ -159,8 +159,6 @@ pub struct Model<R: Real, const B: usize, const Q: usize, const V: usize> {
     kinds: JointKinds,
     /// Whether the parent of every body is the one before it.
     chain: bool,
-    /// Names of links that are part of bodies, with the bodies' names.
-    parts: &'static [(&'static str, &'static str)],
 }
 
 /// A robot of N bodies on N joints of one degree of freedom.
@@ -244,26 +242,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             lambda,
             kinds,
             chain,
-            parts: &[],
         })
-    }
-
-    /// The same with the names of links that are part of bodies, such as flanges on fixed joints that an importer merges:
-    /// [`Model::body`] then says of which body a link is a part.
-    ///
-    /// ```compile_fail,E0080
-    /// use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
-    /// const WRIST: Body = Body::new("wrist", BASE, Joint::revolute([0.0, 0.0, 1.0])).mass(1.0);
-    /// const ARM: ArmModel<f64, 1> = Model::new("arm", [WRIST]).with_parts(&[("flange", "wrist")]);
-    /// const FLANGE: usize = ARM.body("flange");
-    /// // error: no body of the robot has the name `flange`: that link is a part of body `wrist`, in whose frame a payload or a
-    /// // point on it is stated
-    /// # let _ = FLANGE;
-    /// ```
-    #[must_use]
-    pub const fn with_parts(mut self, parts: &'static [(&'static str, &'static str)]) -> Self {
-        self.parts = parts;
-        self
     }
 
     /// The same tree with its links in another scalar, which the host's tools bring.
@@ -275,7 +254,6 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             lambda: self.lambda,
             kinds: self.kinds,
             chain: self.chain,
-            parts: self.parts,
         }
     }
 

@@ -6,6 +6,7 @@
 
 mod board;
 mod error;
+mod feedback;
 mod libraries;
 mod names;
 mod templates;
@@ -21,6 +22,7 @@ use crate::text::code_span;
 pub use board::{BOARDS, Board, Framework};
 use board::{JOINTS, of_joints};
 pub use error::ProjectError;
+pub use feedback::{Feedback, OMEGA_N};
 use names::{check_name, enumerators, snake_case, toml_string};
 use templates::{C, File, RUST, constants};
 
@@ -55,6 +57,8 @@ pub struct RobotFile {
     pub type_name: String,
     /// The file.
     pub text: String,
+    /// The words after `robot-import import` that write it again, as a shell takes them.
+    pub again: String,
     /// The names of the joints, one for each velocity coordinate.
     pub joints: Vec<String>,
     /// The names of the bodies, in their order.
@@ -69,6 +73,8 @@ pub struct RobotFile {
     pub coupled: bool,
     /// Which of `VISCOUS`, `COULOMB`, `ARMATURE`, `SPRING` have a number other than zero. The others are left out of the scene.
     pub effects: FileEffects,
+    /// How the projects' feedback holds it.
+    pub feedback: Feedback,
 }
 
 /// The effects to which a robot's file gives numbers.
@@ -131,7 +137,7 @@ pub struct Created {
     /// Why it is only the robot's file, if it is.
     pub robot_only: Option<RobotOnly>,
     /// What the user has to know of the project.
-    pub note: Option<&'static str>,
+    pub notes: Vec<String>,
 }
 
 /// A robot for which there is no project; its file was written.
@@ -191,12 +197,42 @@ pub fn create(folder: &Path, project: &Project) -> Result<Created, ProjectError>
     }
     format(&files, &folder.join(libraries::FOLDER));
     let robot_only = project.robot.robot_only();
-    let note = (project.robot.coupled && robot_only.is_none()).then_some(COUPLED);
+    let notes = match robot_only {
+        Some(_) => Vec::new(),
+        None => notes(project),
+    };
     Ok(Created {
         files,
         robot_only,
-        note,
+        notes,
     })
+}
+
+/// What the user has to know of a project.
+fn notes(project: &Project) -> Vec<String> {
+    let Feedback { omega_n, words } = &project.robot.feedback;
+    let mut notes: Vec<String> = project
+        .robot
+        .coupled
+        .then(|| COUPLED.to_owned())
+        .into_iter()
+        .collect();
+    let is_c = matches!(project.kind, Kind::C);
+    if *omega_n > OMEGA_N {
+        let taken = if is_c {
+            "give the controller as much"
+        } else {
+            "`OMEGA_N` in src/scene.rs is that"
+        };
+        notes.push(format!(
+            "the links of this file have little inertia for their weight, and a feedback of {OMEGA_N} rad/s does not hold them against \
+             gravity within the joints' limits; {omega_n:.1} rad/s does: {taken}, or state the rotors' inertia (armature) in the file"
+        ));
+    }
+    if !is_c {
+        notes.extend(words.iter().cloned());
+    }
+    notes
 }
 
 /// The path of each file of a project in its folder, and its text before it is formatted.
@@ -301,6 +337,7 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         ),
         ("bodies", enumerators(&prefix, "BODY", &robot.bodies, taken)),
         ("n", robot.v.to_string()),
+        ("omega_n", format!("{:.1}", robot.feedback.omega_n)),
         ("form", form.into()),
         ("crate_name", crate_name),
         ("crate_name | upcase", prefix),
@@ -314,6 +351,7 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         ("effect_values", effects),
         ("force_types", force_types),
         ("force_values", force_values),
+        ("import_again", robot.again.clone()),
         ("library_note", project.library.note()?),
     ];
     if let Kind::Board(board) = project.kind {

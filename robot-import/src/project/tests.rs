@@ -7,6 +7,7 @@ fn pendulum() -> RobotFile {
     RobotFile {
         type_name: "Pendulum".into(),
         text: include_str!("../../template/rust/src/robot.rs").into(),
+        again: "rod.urdf --name my-arm".into(),
         joints: vec!["bearing".into()],
         bodies: vec!["rod".into()],
         b: 1,
@@ -17,6 +18,7 @@ fn pendulum() -> RobotFile {
             viscous: true,
             ..FileEffects::default()
         },
+        feedback: Feedback::default(),
     }
 }
 

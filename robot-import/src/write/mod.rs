@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 pub use body::placed;
-pub use names::{given_type_name, renamed, type_name};
+pub use names::{given_type_name, renamed, type_name, type_of};
 pub use rustfmt::formatted;
 
 use crate::advice::TOLERANCE;
@@ -126,8 +126,7 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
         .for_each(|body| out += &body::entry(body));
     let _ = writeln!(
         out,
-        "]){};\n}}\n\n// A robot with an impossible joint or a negative mass does not compile.{}\nconst _: {model} = {type_name}::MODEL;",
-        parts(tree),
+        "]);\n}}\n\n// A robot with an impossible joint or a negative mass does not compile.{}\nconst _: {model} = {type_name}::MODEL;",
         inertias(tree)
     );
     out += &constants::effects(tree, type_name);
@@ -135,20 +134,6 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
         out += &constants::coupling(tree);
     }
     out
-}
-
-/// The call that names the links which are part of bodies; none without such links.
-fn parts(tree: &Tree) -> String {
-    let of = |body: &Body| {
-        let name = string_literal(&body.name);
-        let merged = body.merged.iter();
-        let each = merged.map(|link| format!("({}, {name})", string_literal(link)));
-        each.collect::<Vec<_>>()
-    };
-    match tree.bodies.iter().flat_map(of).collect::<Vec<_>>() {
-        all if all.is_empty() => String::new(),
-        all => format!(".with_parts(&[{}])", all.join(", ")),
-    }
 }
 
 /// Which bodies have an inertia that no body has, each on a line of a comment: such a robot is computed with all the same.

@@ -75,6 +75,22 @@ pub fn renamed(name: &str) -> Option<String> {
     ))
 }
 
+/// The name of the type in a file that was written by an import, if it is one.
+///
+/// ```
+/// use robot_import::write::type_of;
+/// let file = "//! Imported on 2026-01-01 by robot-import 0.1.0.\n\npub struct MyArm;\n";
+/// assert_eq!(type_of(file), Some("MyArm".to_owned()));
+/// assert_eq!(type_of("pub struct MyArm;\n"), None);
+/// ```
+pub fn type_of(file: &str) -> Option<String> {
+    let mut head = file.lines().take_while(|line| line.starts_with("//!"));
+    head.find(|line| line.contains(" by robot-import "))?;
+    let mut lines = file.lines();
+    let name = lines.find_map(|line| line.strip_prefix("pub struct ")?.strip_suffix(';'))?;
+    given_type_name(name).ok()
+}
+
 /// A type's name that the user gives.
 ///
 /// # Errors

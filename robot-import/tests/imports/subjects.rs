@@ -294,19 +294,6 @@ fn numbers_of_one_body_or_joint_are_named_with_it() {
 }
 
 #[test]
-fn a_merged_link_is_named_in_the_written_file() {
-    let arm = chain(&[("wrist_3", FULL)]).replace(
-        "</robot>",
-        "<link name='flange'/><joint name='to_flange' type='fixed'><parent link='wrist_3_link'/><child link='flange'/></joint></robot>",
-    );
-    let source = imported(&arm, "r.urdf").source;
-    assert!(
-        source.contains(".with_parts(&[(\"flange\", \"wrist_3_link\")])"),
-        "{source}"
-    );
-}
-
-#[test]
 fn a_negative_moment_of_a_file_is_computed_with() {
     let arm = chain(&[("a", FULL), ("b", FULL)]).replacen("iyy='0.005'", "iyy='-0.004'", 1);
     let robot = imported(&arm, "r.urdf");

@@ -148,8 +148,7 @@ impl Robot<7, 7, 7> for Panda {
                     torque: 12.0,
                 }),
         ],
-    )
-    .with_parts(&[("panda_link8", "panda_link7")]);
+    );
 }
 
 // A robot with an impossible joint or a negative mass does not compile.

@@ -170,8 +170,7 @@ impl Robot<7, 7, 7> for XArm7 {
                     torque: 20.0,
                 }),
         ],
-    )
-    .with_parts(&[("link_eef", "link7")]);
+    );
 }
 
 // A robot with an impossible joint or a negative mass does not compile.

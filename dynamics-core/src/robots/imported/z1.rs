@@ -157,8 +157,7 @@ impl Robot<7, 7, 7> for Z1 {
                     torque: 30.0,
                 }),
         ],
-    )
-    .with_parts(&[("gripperStator", "link06")]);
+    );
 }
 
 // A robot with an impossible joint or a negative mass does not compile.

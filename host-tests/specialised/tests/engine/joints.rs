@@ -1,7 +1,7 @@
 //! The engine on joints of every kind: two trees that mix them, and robots on a free base.
 
 use dynamics_core::effects::{Armature, MovingBase, RIGID_BODY, Spring, Viscous, WorldWrench};
-use dynamics_core::model::{OnBody, Robot};
+use dynamics_core::model::Robot;
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
@@ -112,6 +112,8 @@ fn engine_equals_core_on_every_kind_of_joint_under_every_effect() {
 
 #[cfg(feature = "full")]
 mod full {
+    use dynamics_core::model::OnBody;
+
     use dynamics_core::algorithms::Prescribed::{Acceleration, Torque};
     use dynamics_core::algorithms::{self, MassMatrix, frame::LocalWorldAligned};
     use dynamics_core::model::Calibrated;

@@ -29,7 +29,6 @@ pub const fn run_time(bodies: [Body; 1]) -> ArmModel<f64, 1> {
     Model::new("arm", bodies)
 }
 pub const WRIST: usize = Ur5e::MODEL.body("wrist3"); //~ no body of the robot has the name `wrist3`: its bodies are `shoulder`, `upper_arm`, `forearm`, `wrist_1`, `wrist_2`, `wrist_3`
-pub const FLANGE: usize = Model::<f64, 1, 1, 1>::new("arm", [ROD]).with_parts(&[("tool0", "rod"), ("flange", "rod")]).body("flange"); //~ no body of the robot has the name `flange`: that link is a part of body `rod`
 
 /// Nothing evaluates its model but a scene.
 pub struct Massless;

@@ -110,7 +110,7 @@ impl Args {
     /// The name of the type in the file that is written anew: a program that uses it compiles on.
     fn kept_type(&self) -> Option<String> {
         let out = self.out.as_ref().filter(|_| self.name.is_none())?;
-        write::type_of(&std::fs::read_to_string(out).ok()?)
+        write::type_of(&outputs::written_before(out)?)
     }
 
     /// The words after `import` that write the file of this robot again, as a shell takes them.
@@ -125,14 +125,19 @@ impl Args {
             motors,
             repair,
             keep_roundings,
+            include_root,
             ..
         } = &self.options;
+        let include_root = include_root
+            .as_ref()
+            .map(|folder| folder.display().to_string());
         let mut words = vec![file_name(&self.file), "--name".to_owned(), name.to_owned()];
         let mut option = |option: &str, value: String| words.push(format!("{option}={value}"));
         for (name, value) in [
             ("--base", base),
             ("--tip", tip),
             ("--type", &self.type_name),
+            ("--include-root", &include_root),
         ] {
             value.iter().for_each(|value| option(name, value.clone()));
         }

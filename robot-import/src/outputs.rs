@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::error::{Problem, Result};
-use crate::limits::MOST_FOLLOWED;
+use crate::limits::{MOST_BYTES, MOST_FOLLOWED};
 
 /// Fails if an output is one of the inputs, or another output, by whatever path and link of the file system.
 ///
@@ -72,6 +72,13 @@ fn target(path: &Path) -> PathBuf {
         (Ok(folder), Some(name)) => folder.join(name),
         _ => std::path::absolute(&path).unwrap_or(path),
     }
+}
+
+/// The text of a file that is to be written anew, if there is one: a device has no end.
+pub fn written_before(path: &Path) -> Option<String> {
+    let is_one = |of: &std::fs::Metadata| of.is_file() && of.len() <= MOST_BYTES as u64;
+    std::fs::metadata(path).ok().filter(is_one)?;
+    std::fs::read_to_string(path).ok()
 }
 
 /// Writes a file.

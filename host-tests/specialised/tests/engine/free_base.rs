@@ -99,7 +99,7 @@ fn joints_of_a_free_base_accelerate_as_by_hybrid_dynamics() {
         let got = Engine::<Hull>::free_base_inverse_dynamics(&state, &scene).expect("it has mass");
         agree(&got.tau, &want.tau, "τ");
         agree(&got.qdd, &want.qdd, "q̈");
-        // Nothing holds the hull, and the joints do as they are told.
+        // No wrench acts on the hull, and the joints have the prescribed accelerations.
         assert_eq!(got.tau[..6], [0.0; 6]);
         assert_eq!(got.qdd[6..], state.qdd[6..]);
         let whole = State {

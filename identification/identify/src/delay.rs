@@ -1,16 +1,18 @@
-//! The time by which the torque of a tick is later than its position, from the recording itself.
+//! The time to which the torque of a tick belongs, relative to its position, from the recording itself.
 //!
-//! The sum of the squares of the residuals is a parabola in the delay as long as that is short beside the periods of the motion:
-//! its minimum by three values, and again from there.
+//! The sum of the squares of the residuals is nearly a parabola in this time, as long as the time is
+//! short relative to the periods of the motion. The minimum of a parabola through three values is
+//! taken, and again from there.
 
 use identification::{Fit, Fitted, IdentificationError};
 
-/// The distance of the three values, s, or a tick if that is longer.
+/// The distance of the three values, s; a tick if that is longer.
 const STEP: f64 = 5e-3;
 /// The farthest that one parabola reaches, s.
 const REACH: f64 = 20e-3;
+/// The largest number of parabolas.
 const PARABOLAS: usize = 4;
-/// The residuals' squares at the minimum relative to those at half a tick, from which on it is taken.
+/// The minimum is taken if the squares of its residuals are below this share of those at half a tick.
 const SHARE: f64 = 0.9;
 
 type Fits<const V: usize> = Result<Fitted<V>, IdentificationError>;

@@ -81,7 +81,7 @@ pub enum Error {
         path: PathBuf,
         source: IdentificationError,
     },
-    /// A mistake of the recording explains what no robot does.
+    /// The recording has a mistake, for which no possible robot fits it.
     #[error("{}: {mistake}. Nothing is offered to paste: correct the recording and identify again", path.display())]
     Mistake {
         path: PathBuf,

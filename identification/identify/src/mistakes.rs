@@ -1,7 +1,7 @@
-//! Mistakes of a recording that explain what no robot does: a unit, a sign, a zero.
+//! Mistakes in a recording: a wrong unit of torque, a reversed sign, a shifted zero.
 //!
-//! A recording that no possible robot explains is corrected by one mistake at a time and fitted again.
-//! The mistake after which a possible robot explains most of it is named.
+//! If no physically possible robot fits a recording, each mistake is corrected on trial and the
+//! recording is fitted again. The mistake whose correction lowers the residuals most is reported.
 
 use std::f64::consts::PI;
 
@@ -10,34 +10,37 @@ use serde::Serialize;
 
 use crate::run::{Attempt, Task, own};
 
-/// A set so many standard deviations from the estimate is no robot's.
+/// A physical set at more than this distance from the estimate, in standard deviations, does not fit.
 pub const IMPOSSIBLE: f64 = 3.0;
-/// Residuals above this share of the joints' torques may have such a mistake as their cause.
+/// Mistakes are looked for if the residuals exceed this share of the joints' largest torques.
 const UNEXPLAINED: f64 = 0.02;
-/// A mistake explains the recording if without it the squares of the residuals are below this share.
+/// A mistake is reported if its correction lowers the mean square of the residuals to this share.
 const EXPLAINED: f64 = 0.6;
-/// Torques of another unit are at least so many times those of the description, or less than one of as many parts.
+/// The unit of torque is wrong if the torques exceed those of the description, or are exceeded by
+/// them, by this factor.
 const OTHER_UNIT: f64 = 5.0;
-/// A friction below minus so many deviations is that of a reversed sign.
+/// A friction below zero by this number of standard deviations indicates a reversed sign.
 const REVERSED: f64 = 3.0;
-/// The shift of a zero that is tried first, rad or m, and the least and the greatest that are named.
+/// The distance of the three points of a parabola, rad or m.
 const SHIFT: f64 = 0.05;
+/// The smallest and the largest shift of a zero that is reported, rad or m.
 const SHIFTS: [f64; 2] = [0.01, 0.5];
+/// The largest number of parabolas for the zero of a joint.
 const PARABOLAS: usize = 4;
-/// A zero whose first parabola leaves more than this share of the residuals is not followed further.
+/// The search for a zero ends if more than this share of the residuals remains.
 const MENDED: f64 = 0.8;
 
-/// A mistake that explains a recording.
+/// A mistake in a recording.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Mistake {
-    /// All torques are so many times those of the robot.
+    /// The torques of all joints are `factor` times those of the robot.
     Unit { factor: f64 },
     /// The torques of these joints are reversed.
     TorqueSign { joints: Vec<String> },
     /// The positions of these joints are reversed.
     PositionSign { joints: Vec<String> },
-    /// The positions of a joint lack so much, rad or m.
+    /// The positions of a joint are too small by `shift`, rad or m.
     Zero { joint: String, shift: f64 },
 }
 
@@ -67,7 +70,7 @@ impl std::fmt::Display for Mistake {
             }
             Self::Zero { joint, shift } => write!(
                 out,
-                "the zero of `{joint}` is shifted: its positions lack about {shift:.3} rad or m ({:.1}° of an angle)",
+                "the zero of `{joint}` is shifted: its positions are too small by about {shift:.3} rad or m ({:.1}° for a revolute joint)",
                 shift * 180.0 / PI
             ),
         }

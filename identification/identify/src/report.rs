@@ -31,9 +31,10 @@ pub struct Found {
     pub condition: f64,
     /// Of the physical set from the estimate, in standard deviations.
     pub misfit: f64,
-    /// The time by which the torques are later than the positions of their ticks, s.
+    /// The time to which a torque belongs, after the position of its tick, s: half a tick for a torque that is
+    /// held for a tick, less if the torques lag behind.
     pub delay: f64,
-    /// What explains an estimate that no robot has; nothing is offered to paste then.
+    /// The mistake in the recording, if one was found; nothing is offered to paste then.
     pub mistake: Option<Mistake>,
     pub parameters: Vec<ParameterFound>,
     pub joints: Vec<JointFound>,
@@ -208,16 +209,23 @@ impl Found {
     }
 
     fn time_of_torque(&self, text: &mut String) {
-        let [delay, half] = [self.delay, 0.5 * self.tick].map(|t| short(1e3 * t));
-        let _ = match self.delay == 0.5 * self.tick {
-            true => writeln!(
+        let half = 0.5 * self.tick;
+        let lag = half - self.delay;
+        let [half, ms] = [half, lag.abs()].map(|t| short(1e3 * t));
+        let _ = match lag {
+            0.0 => writeln!(
                 text,
-                "torques belong to the middle of their tick, {half} ms after its position: no other delay is shown"
+                "delay: none; each torque belongs to the middle of its tick, {half} ms after its position"
             ),
-            false => writeln!(
+            _ => writeln!(
                 text,
-                "warning: torques are {delay} ms later than the positions of their ticks, in place of the {half} ms of a torque \
-                 that is held for a tick; the fit takes this into account"
+                "warning: the torques {} the positions by {ms} ms, relative to a torque that is held for a tick; the fit \
+                 takes this into account",
+                if lag > 0.0 {
+                    "lag behind"
+                } else {
+                    "are ahead of"
+                }
             ),
         };
     }
@@ -281,7 +289,7 @@ impl Found {
             Some(mistake) => {
                 let _ = writeln!(
                     text,
-                    "warning: no possible robot has this estimate ({:.1} standard deviations away), but one has it without this: {mistake}",
+                    "warning: no possible robot fits this recording ({:.1} standard deviations away), unless a mistake is corrected: {mistake}",
                     self.misfit
                 );
             }

@@ -133,6 +133,12 @@ fn a_late_torque_is_estimated_and_reported() {
             "{} for {late}",
             found.delay
         );
-        assert!(found.text().contains("ms later"), "{}", found.text());
+        assert!(
+            found
+                .text()
+                .contains("the torques lag behind the positions by 2"),
+            "{}",
+            found.text()
+        );
     }
 }

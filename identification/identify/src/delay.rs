@@ -14,6 +14,8 @@ const REACH: f64 = 20e-3;
 const PARABOLAS: usize = 4;
 /// The minimum is taken if the squares of its residuals are below this share of those at half a tick.
 const SHARE: f64 = 0.9;
+/// The same with friction of gears, which reverses with the power and is nearly that of a short delay.
+const SHARE_WITH_GEARS: f64 = 0.5;
 
 type Fits<const V: usize> = Result<Fitted<V>, IdentificationError>;
 
@@ -51,7 +53,11 @@ pub fn least<const V: usize>(
         }
     }
     let is_shown = (delay - fit.delay).abs() > 2.0 * fit.delay;
-    if is_shown && score(&best) < SHARE * score(&first) {
+    let share = match first.gears {
+        Some(_) => SHARE_WITH_GEARS,
+        None => SHARE,
+    };
+    if is_shown && score(&best) < share * score(&first) {
         fit.delay = delay;
         return Ok(best);
     }

@@ -3,9 +3,8 @@
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
-use firmware_demo::scene::{self, Full, Scene, SceneLoop, Start};
+use firmware_demo::scene::{self, Full, Scene, SceneLoop, SetupError, Start};
 use firmware_demo::scenes::ur5e::PickAndPlace;
-use joint_drivers::h_bridge::DriveError;
 use motion_control::{Detect, Detectors, Gains};
 
 pub use firmware_demo::scenes::ur5e::plan;
@@ -13,6 +12,7 @@ pub use firmware_demo::scenes::ur5e::plan;
 /// Joints.
 pub const N: usize = 6;
 pub type Motion = <PickAndPlace as Scene<N, N, N, N>>::Reference;
+pub type Found = Detectors<f32, N>;
 pub type Law = Full<PickAndPlace, N, N, N>;
 pub type Devices<Spi, Pwm, Brake> = scene::Devices<Spi, Pwm, Brake, N>;
 pub type Control<Spi, Pwm, Brake, D> = SceneLoop<Spi, Pwm, Brake, N, D>;
@@ -23,7 +23,7 @@ pub fn gains() -> Gains<f32, N> {
 }
 
 #[inline(always)]
-pub fn detectors(_: &Motion) -> Detectors<f32, N> {
+pub fn detectors(_: &Motion) -> Found {
     PickAndPlace::detectors()
 }
 
@@ -35,6 +35,6 @@ pub fn on_brake<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f
     gains: Gains<f32, N>,
     detectors: D,
     _: &Motion,
-) -> Result<Control<Spi, Pwm, Brake, D>, DriveError> {
+) -> Result<Control<Spi, Pwm, Brake, D>, SetupError> {
     PickAndPlace::control_loop(devices, gains, detectors, Start::OnBrake)
 }

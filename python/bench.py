@@ -159,8 +159,10 @@ def text(found: dict) -> str:
             f"| {name:19} | {row['f32']:6.1f} | {row['f64']:6.1f} | {row['pinocchio']:9.1f} |"
             f" {row['ratio_f32']:15.1f} | {row['ratio_f64']:15.1f} |"
         )
-    lines += ["", f"Bar: 5 for `rnea` of f32. Measured sources: `{found['sources']}`.", END]
-    return "\n".join(lines)
+    lines += ["", f"Bar: 5 for `rnea` of f32. Measured sources: `{found['sources']}`."]
+    # As xtask/src/kit/docs/seal.rs reads it, so that a changed digit is seen.
+    total = hashlib.sha256("\n".join(lines[1:]).encode()).hexdigest()[:16]
+    return "\n".join([*lines, "", f"<!-- sum of the above: {total} -->", END])
 
 
 # Colour and, in a dark scheme, another, as in the other pictures of docs/.

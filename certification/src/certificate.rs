@@ -8,6 +8,7 @@ use crate::bodies;
 use crate::bound::{Bound, Bounder, Enclosure, SineErrors};
 use crate::branch::{Proven, prove};
 use crate::error::{Error, Result};
+use crate::exact::Exact;
 use crate::factors::{Factored, Order};
 use crate::forward::Forward;
 use crate::graph::{Graph, Node};
@@ -16,7 +17,7 @@ use crate::image::Image;
 use crate::interval::Interval;
 use crate::paths;
 use crate::program::Program;
-use crate::search::{Effort, search};
+use crate::search::{self, Effort};
 use crate::sheet::Target;
 use crate::state_box::{Joint, Robot};
 use crate::walk::{Walked, walk};
@@ -295,9 +296,15 @@ impl Subject {
     ///
     /// # Errors
     /// [`Error::Contradicted`], [`Error::Infinite`], [`Error::Missing`] of an input that the box does not bound.
-    pub fn outputs(&self, robot: &Robot, sines: SineErrors, spent: Spent) -> Result<Vec<Output>> {
+    pub fn outputs(
+        &self,
+        robot: &Robot,
+        exact: &Exact,
+        sines: SineErrors,
+        spent: Spent,
+    ) -> Result<Vec<Output>> {
         let graph = &self.graph;
-        let observed = search(graph, robot, self.effort(spent.search), 1);
+        let observed = search::against(exact, graph, robot, self.effort(spent.search), 1);
         let proven = in_parallel(graph.outputs.len(), |output| {
             let mut bounder = Bounder::new(graph, output, robot, sines, Enclosure::WrittenOut)?;
             let one = graph.of_output(output);
@@ -311,6 +318,8 @@ impl Subject {
                 program.and_then(|program| program.greatest_value(spent.points, spent.points));
             Some((proven, by_grid, most))
         });
+        let greatest = proven.iter().flatten().map(|one| one.0.range.magnitude());
+        let slack = REFERENCE * greatest.fold(0.0, f64::max);
         let mut outputs = Vec::new();
         for (output, ((offset, _), (observed, proven))) in graph
             .outputs
@@ -327,10 +336,14 @@ impl Subject {
                 parts,
                 ..
             } = proven;
-            let (bound, proof) = match by_grid {
+            let (mut bound, proof) = match by_grid {
                 Some(other) if other.total() < bound.total() => (other, Proof::Grid),
                 _ => (bound, Proof::Parts),
             };
+            if graph.is_constant(output) {
+                // The compiler may have added literals, each rounded: the number is compared itself.
+                bound.literals = bound.literals.max(observed.error + slack);
+            }
             let total = bound.total();
             // By the grid the function is at most so much, and computed by at most the error more.
             let most = most.map_or(f64::INFINITY, |most| most + total);
@@ -338,18 +351,19 @@ impl Subject {
             if !total.is_finite() {
                 return Err(Error::Infinite { output: output + 1 });
             }
-            if total < observed.error {
+            let error = (observed.error - slack).max(0.0);
+            if total < error {
                 return Err(Error::Contradicted {
                     output: output + 1,
                     bound: total,
-                    observed: observed.error,
+                    observed: error,
                 });
             }
             outputs.push(Output {
                 name,
                 bound: total,
                 of: bound,
-                observed: observed.error,
+                observed: error,
                 state: observed.state,
                 range,
                 parts: parts.len(),
@@ -360,6 +374,8 @@ impl Subject {
     }
 }
 
+/// More than the error of the exact function in f64, as a share of the greatest result of any joint.
+const REFERENCE: f64 = 1e-14;
 /// The parts of the floor of the scaled inertia matrix.
 const FLOOR_PARTS: usize = 20_000;
 /// Of the states of the search, the share for each result that forward dynamics solves with.
@@ -384,7 +400,8 @@ pub fn certify(
     if subject.factored.is_none() {
         paths::prove(walked, robot, sines, PATH_PARTS)?;
     }
-    let outputs = subject.outputs(robot, sines, spent)?;
+    let exact = Exact::of(function, || bodies::read(&image))?;
+    let outputs = subject.outputs(robot, &exact, sines, spent)?;
     let forward = subject.factored.as_ref().map(|factored| {
         let bodies = bodies::read(&image)?;
         let mut forward = Forward::prove(factored, &outputs, &bodies, robot, sines, FLOOR_PARTS)?;

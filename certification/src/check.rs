@@ -2,12 +2,15 @@
 
 use std::path::Path;
 
+use sha2::{Digest, Sha256};
+
 use crate::bound::{Bounder, Enclosure, SineErrors};
 use crate::certificate::{Certificate, Function, Subject};
 use crate::error::{Error, Result};
 use crate::gappa;
-use crate::image::Image;
+use crate::image::{Image, hexadecimal};
 use crate::interval::Interval;
+use crate::page;
 use crate::state_box::Robot;
 
 /// A part of the page, between its marks.
@@ -30,31 +33,116 @@ pub enum Part {
 /// # Errors
 /// [`Error::Missing`] if the page has no place for it.
 pub fn page(written: &str, part: Part, text: &str) -> Result<String> {
-    let name = clap::ValueEnum::to_possible_value(&part);
-    let name = name.as_ref().map_or("", |name| name.get_name());
-    let begin = format!(
-        "<!-- {name}:begin -->\n<!-- written by `cargo xtask certify --write-docs`: do not edit -->\n"
-    );
-    let end = format!("<!-- {name}:end -->");
+    let (name, begin, end) = markers(part);
     let missing = || Error::Missing(format!("place for {name} on the page"));
     let (before, rest) = written.split_once(&begin).ok_or_else(missing)?;
     let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
-    Ok(format!("{before}{begin}\n{text}{end}{after}"))
+    let block =
+        format!("<!-- written by `cargo xtask certify --write-docs`: do not edit -->\n\n{text}");
+    Ok(format!("{before}{begin}{}{end}{after}", sealed(&block)))
 }
 
-/// Fails unless the page has the hashes of these functions of a program.
+/// The name of a part, and what stands before and after it on the page.
+fn markers(part: Part) -> (String, String, String) {
+    let name = clap::ValueEnum::to_possible_value(&part);
+    let name = name.as_ref().map_or("", |name| name.get_name());
+    let marker = |which| format!("<!-- {name}:{which} -->");
+    (name.to_owned(), marker("begin") + "\n", marker("end"))
+}
+
+/// A block of the page with the sum of its text at its end, as `xtask/src/kit/docs/seal.rs` writes and reads it.
+fn sealed(block: &str) -> String {
+    let block = block.trim();
+    let sum = &hexadecimal(Sha256::new_with_prefix(block))[..16];
+    format!("{block}\n\n{BEFORE_SUM}{sum} -->\n")
+}
+
+/// A block without its sum.
+fn unsealed(block: &str) -> &str {
+    block
+        .rsplit_once(BEFORE_SUM)
+        .map_or(block, |(block, _)| block)
+}
+
+const BEFORE_SUM: &str = "<!-- sum of the above: ";
+
+/// Fails unless each block of the page is as it was written and has no bound below what was observed.
+///
+/// # Errors
+/// [`Error::Page`], with the row.
+pub fn numbers(page: &str) -> Result<()> {
+    for part in [
+        Part::Certificates,
+        Part::Forward,
+        Part::Clusters,
+        Part::Limits,
+    ] {
+        let (name, begin, end) = markers(part);
+        let block = page
+            .split_once(&begin)
+            .and_then(|(_, rest)| rest.split_once(&end));
+        let Some((block, _)) = block else {
+            return Err(Error::Missing(format!("place for {name} on the page")));
+        };
+        let rows = block.lines().filter(|line| line.starts_with("| "));
+        let mut head: Vec<&str> = Vec::new();
+        for row in rows {
+            let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+            if cells
+                .first()
+                .is_some_and(|cell| cell.parse::<f64>().is_err() && !cell.contains(','))
+            {
+                head = cells;
+                continue;
+            }
+            // A bound is left of what was observed or found.
+            let is_observed =
+                |at: &usize| ["worst observed", "found"].contains(head.get(*at).unwrap_or(&""));
+            for at in (1..cells.len()).filter(is_observed) {
+                let [bound, observed] = [at - 1, at].map(|at| page::number(cells[at]));
+                if bound.is_none_or(|bound| observed.is_none_or(|observed| bound < observed)) {
+                    return Err(Error::Page(format!(
+                        "{name}: a bound below what was observed: {row}"
+                    )));
+                }
+            }
+        }
+        if block.trim() != sealed(unsealed(block)).trim() {
+            return Err(Error::Page(format!(
+                "{name}: a number was changed: its sum is another"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Fails unless the certificates of these functions of a program have their hashes on the page.
 ///
 /// # Errors
 /// [`Error::Stale`], [`Error::Missing`] of a function that the program does not have.
 pub fn hashes(image: &Image, functions: &[Function], robot: &str, page: &str) -> Result<()> {
     for function in functions {
         let hash = image.hash(&Subject::of(image, *function)?.walked.visited);
-        if !page.contains(&hash) {
-            let what = format!("the certificate of {robot}, {},", function.name());
-            return Err(Error::Stale(what));
-        }
+        hash_of(page, robot, *function, &hash)?;
     }
     Ok(())
+}
+
+/// Fails unless the certificate of this robot and function names this machine code.
+///
+/// # Errors
+/// [`Error::Stale`].
+pub fn hash_of(page: &str, robot: &str, function: Function, hash: &str) -> Result<()> {
+    let heading = format!("### {robot}: {}\n", function.name());
+    let certificate = page.split_once(&heading).map(|(_, rest)| rest);
+    let certificate = certificate.and_then(|rest| rest.split("\n### ").next());
+    match certificate {
+        Some(text) if text.contains(&format!("machine code `{hash}`")) => Ok(()),
+        _ => {
+            let what = format!("the certificate of {robot}, {},", function.name());
+            Err(Error::Stale(what))
+        }
+    }
 }
 
 /// Has Gappa, and Coq if wanted, check a part of the box around the worst state of each output: its bound must hold there, and be no less than what was

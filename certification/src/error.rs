@@ -24,6 +24,9 @@ pub enum Error {
     /// A page or file is of other machine code.
     #[error("{0} is not of today's machine code: run `cargo xtask certify --write-docs`")]
     Stale(String),
+    /// The page is not as it was written.
+    #[error("docs/certificates.md, {0}; run `cargo xtask certify --write-docs`")]
+    Page(String),
     /// Recorded errors of configurations are of other machine code, kernels or ranges.
     #[error(
         "docs/accuracy-proven.json is not of today's {what} of {robot}: run `cargo xtask accuracy --prove`"

@@ -135,6 +135,12 @@ macro_rules! number {
 number!(f32: Guess::inverse_root, f64: |_, x: f64| 1.0 / x.sqrt());
 
 impl Graph {
+    /// Whether a result depends on no input.
+    pub fn is_constant(&self, output: usize) -> bool {
+        let of_inputs = |node: &Node| matches!(node, Node::Input(_));
+        !self.of_output(output).nodes.iter().any(of_inputs)
+    }
+
     /// The value of each node; `values` holds them.
     pub fn evaluate<T: Number>(&self, input: impl Fn(Input) -> T, values: &mut Vec<T>) {
         values.clear();

@@ -34,6 +34,7 @@ pub mod cycles;
 mod decode;
 pub mod emulation;
 pub mod error;
+pub mod exact;
 pub mod factors;
 mod flags;
 pub mod floor;

@@ -29,6 +29,19 @@ pub(crate) fn short(x: f64) -> String {
     format!("{digits} · 10{power}")
 }
 
+/// A number of the page: as [`short`] writes it, or plain.
+pub(crate) fn number(text: &str) -> Option<f64> {
+    let Some((digits, power)) = text.split_once(" · 10") else {
+        return text.parse().ok();
+    };
+    let digit = |sign: char| match SUPERSCRIPTS.iter().position(|one| *one == sign) {
+        Some(digit) => char::from_digit(digit as u32, 10),
+        None => (sign == '⁻').then_some('-'),
+    };
+    let power: Option<String> = power.chars().map(digit).collect();
+    format!("{digits}e{}", power?).parse().ok()
+}
+
 const SUPERSCRIPTS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
 
 /// The worst states of forward dynamics, for the script that computes them in 50 digits.

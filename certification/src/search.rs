@@ -1,4 +1,5 @@
-//! The worst error that a search finds: the graph in f32, as the target computes it, against the same in f64 with exact sines.
+//! The worst error that a search finds: the graph in f32, as the target computes it, against the exact function in f64
+//! ([`crate::exact`]), or against the same graph in f64 with exact sines.
 //!
 //! No gradients: rounding errors have none. Random states first, then for each output the worst of them, changed at random by less and
 //! less.
@@ -6,6 +7,7 @@
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
 
+use crate::exact::Exact;
 use crate::graph::{Graph, Input};
 use crate::sines;
 use crate::state_box::{Leaf, Robot};
@@ -31,7 +33,7 @@ impl Effort {
 /// The worst error of one output that was found, and where.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Observed {
-    /// |f32 − f64|
+    /// |f32 − exact|
     pub error: f64,
     /// q, q̇, q̈ of it, numbers of f32.
     pub state: Vec<f64>,
@@ -122,7 +124,27 @@ fn ranges(robot: &Robot) -> Vec<(f64, f64)> {
 /// The worst states kept from one generation to the next.
 const KEPT: usize = 100;
 
-/// Searches the worst error of each output.
+/// Searches the worst error of each output against the exact function, errors of literals included.
+pub fn against(
+    exact: &Exact,
+    graph: &Graph,
+    robot: &Robot,
+    effort: Effort,
+    seed: u64,
+) -> Vec<Observed> {
+    let mut evaluation = Evaluation::new(graph, robot);
+    worst(robot, graph.outputs.len(), effort, seed, |state| {
+        let places = graph.outputs.iter().map(|(offset, _)| *offset as usize / 4);
+        let exact = exact.at(state, places);
+        let computed = evaluation.at(state);
+        let errors = computed
+            .zip(exact)
+            .map(|((single, _), exact)| (f64::from(single) - exact).abs());
+        errors.collect()
+    })
+}
+
+/// Searches the worst error of each output by the graph alone, its literals taken as they are.
 pub fn search(graph: &Graph, robot: &Robot, effort: Effort, seed: u64) -> Vec<Observed> {
     let mut evaluation = Evaluation::new(graph, robot);
     let error = |(a, b): (f32, f64)| (f64::from(a) - b).abs();

@@ -28,12 +28,13 @@ use certification::branch::prove;
 use certification::certificate::Function;
 use certification::check::around;
 use certification::error::Error;
+use certification::exact::Exact;
 use certification::gappa::{self, Script};
 use certification::graph::{Graph, Input, Node};
 use certification::image::Image;
 use certification::interval::{Interval, half_ulp};
 use certification::program::{CLUSTERED, Program};
-use certification::search::{Evaluation, search};
+use certification::search::{self, Evaluation, search};
 use certification::state_box::{Robot, Sector};
 use certification::walk::walk;
 use dynamics_core::Core;
@@ -209,6 +210,46 @@ fn the_expression_is_inverse_dynamics() {
         }
     }
     assert_eq!(Ur5e::MODEL.links.len(), 6);
+}
+
+#[test]
+fn observed_errors_include_those_of_the_literals() {
+    let (graph, robot) = (graph(GRAVITY), robot(6));
+    let exact = Exact::of(Function::Gravity, || Ok(limits::bodies(&Ur5e::MODEL))).expect("bodies");
+    let [with, without] = [
+        search::against(&exact, &graph, &robot, LITTLE, 1),
+        search(&graph, &robot, LITTLE, 1),
+    ];
+    // The weight on the shoulder: a tenth of its bound is of literals.
+    let (with_literals, alone) = (with[1].error, without[1].error);
+    assert!(with_literals > 1.1 * alone, "{with_literals:e} {alone:e}");
+    let bound = bounder(&graph, 1, &robot).bound(&robot.whole());
+    assert!(with_literals <= bound.total());
+    // The core in f64 says the same at the worst state.
+    let state = State::at(std::array::from_fn(|k| with[1].state[k]));
+    let tau: [f64; 6] = Core::<Ur5e>::rnea(&state, &(Gravity::EARTH,));
+    let computed = Evaluation::new(&graph, &robot)
+        .at(&with[1].state)
+        .nth(1)
+        .expect("the shoulder");
+    let error = (f64::from(computed.0) - tau[1]).abs();
+    assert!(
+        (error - with_literals).abs() < 1e-12,
+        "{error:e} {with_literals:e}"
+    );
+    // A literal that is off by some units is found, and a bound that trusts it contradicted.
+    let mut wrong = graph.clone();
+    let literals = wrong.nodes.iter_mut().filter_map(|node| match node {
+        Node::Literal(x) if x.abs() > 1.0 => Some(x),
+        _ => None,
+    });
+    for literal in literals {
+        *literal *= 1.0 + 20.0 * f32::EPSILON;
+    }
+    let off = search::against(&exact, &wrong, &robot, LITTLE, 1)[1].error;
+    let trusted = bounder(&wrong, 1, &robot).bound(&robot.whole()).total();
+    assert!(off > trusted, "{off:e} {trusted:e}");
+    assert!(search(&wrong, &robot, LITTLE, 1)[1].error < trusted);
 }
 
 #[test]

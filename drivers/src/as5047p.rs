@@ -14,9 +14,10 @@ use core::f32::consts::TAU;
 use core::fmt;
 
 use embedded_hal::spi::{Error, ErrorKind, SpiDevice};
-use motion_control::PreviousTick;
+use motion_control::{Fault, PreviousTick};
 
-use crate::{EncoderType, JointEncoder, JointMapping, MultiTurnEncoder};
+use crate::multi_turn::Before;
+use crate::{EncoderMapping, EncoderType, JointEncoder, LostTurn, MappingError, MultiTurnEncoder};
 
 /// Counts per turn.
 pub const COUNTS: u16 = 1 << BITS;
@@ -43,6 +44,8 @@ pub enum FrameError {
     Parity,
     /// The encoder reports an error of the previous frame.
     Flag,
+    /// The count does not say where the joint is, until [`As5047p::place_near`].
+    LostTurn,
 }
 
 impl fmt::Display for FrameError {
@@ -51,6 +54,7 @@ impl fmt::Display for FrameError {
             Self::Bus(kind) => write!(out, "the encoder's bus failed: {kind}"),
             Self::Parity => out.write_str("the parity of the encoder's frame is odd"),
             Self::Flag => out.write_str("the encoder reports an error of the frame before"),
+            Self::LostTurn => LostTurn.fmt(out),
         }
     }
 }
@@ -61,50 +65,46 @@ impl core::error::Error for FrameError {}
 ///
 /// ```
 /// use embedded_hal_mock::eh1::spi::{Mock, Transaction};
-/// use joint_drivers::{JointMapping, as5047p::{As5047p, READ_ANGLE, encode}};
+/// use joint_drivers::{JointMapping, JointRange, as5047p::{As5047p, READ_ANGLE, encode}};
+/// let mapping = JointMapping::IDENTITY.with_range(JointRange::Continuous, 5e-3)?;
 /// let (angle, answer) = (READ_ANGLE.to_be_bytes().to_vec(), encode(4096).to_be_bytes().to_vec());
 /// let spi = Mock::new(&[
 ///     Transaction::transaction_start(),
 ///     Transaction::transfer_in_place(angle, answer),
 ///     Transaction::transaction_end(),
 /// ]);
-/// let mut encoder = As5047p::new(spi, JointMapping::IDENTITY);
+/// let mut encoder = As5047p::new(spi, mapping);
 /// assert_eq!(encoder.read(), Ok(core::f32::consts::FRAC_PI_2));
 /// encoder.release().done();
+/// # Ok::<(), joint_drivers::MappingError>(())
 /// ```
 #[derive(Debug)]
 pub struct As5047p<Spi> {
     pub(crate) spi: Spi,
     turns: MultiTurnEncoder<BITS>,
-    mapping: JointMapping,
 }
 
 impl<Spi> As5047p<Spi> {
-    /// An encoder that has not been read yet; the first angle of its shaft lies within half a turn of zero.
-    pub const fn new(spi: Spi, mapping: JointMapping) -> Self {
-        Self::near(spi, mapping, 0)
-    }
-
-    /// An encoder whose first angle lies within half a turn of `turns` whole turns of its shaft, for an encoder on the
-    /// motor's side of a gear.
-    pub const fn near(spi: Spi, mapping: JointMapping, turns: i32) -> Self {
+    /// An encoder that has not been read yet; the first angle is where the mapping says that the joint can be.
+    pub const fn new(spi: Spi, mapping: EncoderMapping) -> Self {
         Self {
             spi,
-            turns: MultiTurnEncoder::near(turns),
-            mapping,
+            turns: MultiTurnEncoder::new(mapping),
         }
-    }
-
-    /// The angle of the encoder's shaft in rad at the last good frame, turns included, without the mapping.
-    #[inline(always)]
-    pub fn shaft_angle(&self) -> f32 {
-        self.turns.angle()
     }
 
     /// The joint's angle in rad at the last good frame.
     #[inline(always)]
     pub fn angle(&self) -> f32 {
-        self.mapping.joint_position(self.shaft_angle())
+        self.turns.position()
+    }
+
+    /// As [`MultiTurnEncoder::place_near`].
+    ///
+    /// # Errors
+    /// [`MappingError::Range`]; nothing is changed.
+    pub fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
+        self.turns.place_near(position)
     }
 
     /// The bus.
@@ -112,18 +112,45 @@ impl<Spi> As5047p<Spi> {
         self.spi
     }
 
-    /// Takes what a transfer brought: the part that the blocking and the asynchronous form share.
+    /// Takes the angle of a frame, or says what was before one that is not the joint's. With [`Self::accept_otherwise`] the
+    /// part that the blocking and the asynchronous form share.
     #[inline(always)]
     pub(crate) fn accept<E: Error>(
         &mut self,
+        sent: &Result<(), E>,
+        frame: [u8; 2],
+    ) -> Result<(), Before> {
+        let frame = u16::from_be_bytes(frame);
+        // It is taken before it is examined: one branch for all checks, and both loads side by side.
+        let (before, missing) = self.turns.follow(frame);
+        if sent.is_ok() && (u32::from(wrong(frame)) | missing) == 0 {
+            Ok(())
+        } else {
+            Err(before)
+        }
+    }
+
+    /// Takes what a transfer brought that was not accepted: a function of its own, so that the usual frame has no case for
+    /// it.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn accept_otherwise<E: Error>(
+        &mut self,
         sent: Result<(), E>,
         frame: [u8; 2],
+        before: Before,
     ) -> Result<(), FrameError> {
-        match sent {
-            Ok(()) => decode(u16::from_be_bytes(frame)).map(|raw| {
-                self.turns.update(raw);
-            }),
-            Err(error) => Err(FrameError::Bus(error.kind())),
+        self.turns.back(before);
+        let sent = sent.map_err(|error| FrameError::Bus(error.kind()));
+        match sent.and_then(|()| decode(u16::from_be_bytes(frame))) {
+            Ok(raw) => {
+                let update = self.turns.update(raw);
+                update.map_err(|LostTurn| FrameError::LostTurn)
+            }
+            Err(error) => {
+                self.turns.missed(1);
+                Err(error)
+            }
         }
     }
 }
@@ -150,19 +177,42 @@ impl<Spi: SpiDevice> As5047p<Spi> {
     pub fn read(&mut self) -> Result<f32, FrameError> {
         let mut frame = READ_ANGLE.to_be_bytes();
         let sent = self.spi.transfer_in_place(&mut frame);
-        match self.accept(sent, frame) {
-            Ok(()) => Ok(self.angle()),
-            Err(error) => {
-                self.start();
-                Err(error)
-            }
+        if let Err(before) = self.accept(&sent, frame) {
+            self.read_otherwise(sent, frame, before)?;
         }
+        Ok(self.angle())
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn read_otherwise(
+        &mut self,
+        sent: Result<(), Spi::Error>,
+        frame: [u8; 2],
+        before: Before,
+    ) -> Result<(), FrameError> {
+        let accepted = self.accept_otherwise(sent, frame, before);
+        if !matches!(accepted, Ok(()) | Err(FrameError::LostTurn)) {
+            self.start();
+        }
+        accepted
     }
 }
 
 impl<Spi> EncoderType for As5047p<Spi> {
     type Error = FrameError;
     type Age = PreviousTick;
+
+    fn missed(&mut self, ticks: u32) {
+        self.turns.missed(ticks);
+    }
+
+    fn fault(error: &FrameError, joint: usize) -> Fault {
+        match error {
+            FrameError::LostTurn => Fault::LostTurn { joint },
+            _ => Fault::Encoder { joint },
+        }
+    }
 }
 
 impl<Spi: SpiDevice> JointEncoder for As5047p<Spi> {
@@ -193,8 +243,7 @@ impl<Spi: SpiDevice> JointEncoder for As5047p<Spi> {
 /// ```
 #[inline(always)]
 pub fn decode(frame: u16) -> Result<u16, FrameError> {
-    // One branch for both, which almost no frame takes.
-    if (parity(frame) | frame >> ERROR_BIT) & 1 == 0 {
+    if wrong(frame) == 0 {
         return Ok(frame & MASK);
     }
     Err(if parity(frame) & 1 != 0 {
@@ -202,6 +251,12 @@ pub fn decode(frame: u16) -> Result<u16, FrameError> {
     } else {
         FrameError::Flag
     })
+}
+
+/// Whether a frame has a wrong parity or the error flag, in bit 0: one branch for both, which almost no frame takes.
+#[inline(always)]
+const fn wrong(frame: u16) -> u16 {
+    (parity(frame) | frame >> ERROR_BIT) & 1
 }
 
 /// The answer with a 14-bit angle, as sent by a simulated encoder.

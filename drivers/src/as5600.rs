@@ -13,9 +13,9 @@
 use core::fmt;
 
 use embedded_hal::i2c::{Error, ErrorKind, I2c};
-use motion_control::CurrentTick;
+use motion_control::{CurrentTick, Fault};
 
-use crate::{EncoderType, JointEncoder, JointMapping, MultiTurnEncoder};
+use crate::{EncoderMapping, EncoderType, JointEncoder, LostTurn, MappingError, MultiTurnEncoder};
 
 /// The 7-bit address of the device, which cannot be changed.
 pub const ADDRESS: u8 = 0x36;
@@ -48,6 +48,8 @@ pub enum As5600Error {
     MagnetTooStrong,
     /// The status is impossible, too weak and too strong: the bytes are not those of an AS5600.
     Status(u8),
+    /// The count does not say where the joint is, until [`As5600::place_near`].
+    LostTurn,
 }
 
 impl fmt::Display for As5600Error {
@@ -58,6 +60,7 @@ impl fmt::Display for As5600Error {
             Self::MagnetTooWeak => out.write_str("the encoder's magnet is too weak"),
             Self::MagnetTooStrong => out.write_str("the encoder's magnet is too strong"),
             Self::Status(status) => write!(out, "the encoder's status {status:#04x} is impossible"),
+            Self::LostTurn => LostTurn.fmt(out),
         }
     }
 }
@@ -68,37 +71,40 @@ impl core::error::Error for As5600Error {}
 ///
 /// ```
 /// use embedded_hal_mock::eh1::i2c::{Mock, Transaction};
-/// use joint_drivers::{JointMapping, as5600::{As5600, As5600Error}};
+/// use joint_drivers::{JointMapping, JointRange, as5600::{As5600, As5600Error}};
+/// let mapping = JointMapping::IDENTITY.with_range(JointRange::Continuous, 5e-3)?;
 /// let bus = Mock::new(&[Transaction::write_read(0x36, vec![0x0b], vec![0x30])]);
-/// let mut encoder = As5600::new(bus, JointMapping::IDENTITY);
+/// let mut encoder = As5600::new(bus, mapping);
 /// assert_eq!(encoder.read(), Err(As5600Error::MagnetTooWeak));
 /// encoder.release().done();
+/// # Ok::<(), joint_drivers::MappingError>(())
 /// ```
 #[derive(Debug)]
 pub struct As5600<Bus> {
     pub(crate) bus: Bus,
-    turns: MultiTurnEncoder<BITS>,
-    mapping: JointMapping,
+    pub(crate) turns: MultiTurnEncoder<BITS>,
 }
 
 impl<Bus> As5600<Bus> {
-    /// An encoder that has not been read yet; the first angle of its shaft lies within half a turn of zero.
-    pub const fn new(bus: Bus, mapping: JointMapping) -> Self {
-        Self::near(bus, mapping, 0)
-    }
-
-    /// An encoder whose first angle lies within half a turn of `turns` whole turns of its shaft.
-    pub const fn near(bus: Bus, mapping: JointMapping, turns: i32) -> Self {
+    /// An encoder that has not been read yet; the first angle is where the mapping says that the joint can be.
+    pub const fn new(bus: Bus, mapping: EncoderMapping) -> Self {
         Self {
             bus,
-            turns: MultiTurnEncoder::near(turns),
-            mapping,
+            turns: MultiTurnEncoder::new(mapping),
         }
     }
 
     /// The joint's angle in rad at the last reading.
     pub fn angle(&self) -> f32 {
-        self.mapping.joint_position(self.turns.angle())
+        self.turns.position()
+    }
+
+    /// As [`MultiTurnEncoder::place_near`].
+    ///
+    /// # Errors
+    /// [`MappingError::Range`]; nothing is changed.
+    pub fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
+        self.turns.place_near(position)
     }
 
     /// The bus.
@@ -107,9 +113,18 @@ impl<Bus> As5600<Bus> {
     }
 
     /// Takes the two bytes of RAW ANGLE, of which the upper four bits are not part of the angle.
-    pub(crate) fn accept(&mut self, bytes: [u8; 2]) -> f32 {
-        self.turns.update(u16::from_be_bytes(bytes));
-        self.angle()
+    pub(crate) fn accept<E: Error>(
+        &mut self,
+        read: Result<(), E>,
+        bytes: [u8; 2],
+    ) -> Result<f32, As5600Error> {
+        if let Err(error) = read {
+            self.turns.missed(1);
+            return Err(bus_error(error));
+        }
+        let update = self.turns.update(u16::from_be_bytes(bytes));
+        update.map_err(|LostTurn| As5600Error::LostTurn)?;
+        Ok(self.angle())
     }
 }
 
@@ -120,22 +135,19 @@ impl<Bus: I2c> As5600<Bus> {
     /// [`As5600Error`].
     pub fn check_magnet(&mut self) -> Result<(), As5600Error> {
         let mut status = [0];
-        self.bus
-            .write_read(ADDRESS, &[STATUS], &mut status)
-            .map_err(bus_error)?;
+        let read = self.bus.write_read(ADDRESS, &[STATUS], &mut status);
+        read.map_err(bus_error)?;
         decode_status(status[0])
     }
 
     /// The joint's angle in rad without a check of the magnet: 5 bytes on the bus, 0.11 ms at 400 kHz.
     ///
     /// # Errors
-    /// [`As5600Error::Bus`]; the count of turns is then unchanged.
+    /// [`As5600Error::Bus`], [`As5600Error::LostTurn`]; the count of turns is then unchanged.
     pub fn read_angle(&mut self) -> Result<f32, As5600Error> {
         let mut raw = [0; 2];
-        self.bus
-            .write_read(ADDRESS, &[RAW_ANGLE], &mut raw)
-            .map_err(bus_error)?;
-        Ok(self.accept(raw))
+        let read = self.bus.write_read(ADDRESS, &[RAW_ANGLE], &mut raw);
+        self.accept(read, raw)
     }
 
     /// The joint's angle in rad, after a check of the magnet: 9 bytes on the bus, 0.2 ms at 400 kHz.
@@ -143,7 +155,8 @@ impl<Bus: I2c> As5600<Bus> {
     /// # Errors
     /// [`As5600Error`]; the count of turns is then unchanged.
     pub fn read(&mut self) -> Result<f32, As5600Error> {
-        self.check_magnet()?;
+        let magnet = self.check_magnet();
+        magnet.inspect_err(|_| self.turns.missed(1))?;
         self.read_angle()
     }
 }
@@ -151,6 +164,17 @@ impl<Bus: I2c> As5600<Bus> {
 impl<Bus> EncoderType for As5600<Bus> {
     type Error = As5600Error;
     type Age = CurrentTick;
+
+    fn missed(&mut self, ticks: u32) {
+        self.turns.missed(ticks);
+    }
+
+    fn fault(error: &As5600Error, joint: usize) -> Fault {
+        match error {
+            As5600Error::LostTurn => Fault::LostTurn { joint },
+            _ => Fault::Encoder { joint },
+        }
+    }
 }
 
 impl<Bus: I2c> JointEncoder for As5600<Bus> {

@@ -95,13 +95,14 @@ impl<Spi: SpiDevice> As5047p<Spi> {
     pub async fn read_async(&mut self) -> Result<f32, FrameError> {
         let mut frame = READ_ANGLE.to_be_bytes();
         let sent = self.spi.transfer_in_place(&mut frame).await;
-        match self.accept(sent, frame) {
-            Ok(()) => Ok(self.angle()),
-            Err(error) => {
+        if let Err(before) = self.accept(&sent, frame) {
+            let accepted = self.accept_otherwise(sent, frame, before);
+            if !matches!(accepted, Ok(()) | Err(FrameError::LostTurn)) {
                 self.start_async().await;
-                Err(error)
             }
+            accepted?;
         }
+        Ok(self.angle())
     }
 }
 
@@ -122,14 +123,11 @@ impl<Bus: I2c> As5600<Bus> {
     /// As [`Self::read_angle`], over `embedded-hal-async`.
     ///
     /// # Errors
-    /// [`As5600Error::Bus`]; the count of turns is then unchanged.
+    /// [`As5600Error::Bus`], [`As5600Error::LostTurn`]; the count of turns is then unchanged.
     pub async fn read_angle_async(&mut self) -> Result<f32, As5600Error> {
         let mut raw = [0; 2];
-        self.bus
-            .write_read(ADDRESS, &[RAW_ANGLE], &mut raw)
-            .await
-            .map_err(bus_error)?;
-        Ok(self.accept(raw))
+        let read = self.bus.write_read(ADDRESS, &[RAW_ANGLE], &mut raw).await;
+        self.accept(read, raw)
     }
 
     /// As [`Self::read`], over `embedded-hal-async`.
@@ -137,7 +135,8 @@ impl<Bus: I2c> As5600<Bus> {
     /// # Errors
     /// [`As5600Error`]; the count of turns is then unchanged.
     pub async fn read_async(&mut self) -> Result<f32, As5600Error> {
-        self.check_magnet_async().await?;
+        let magnet = self.check_magnet_async().await;
+        magnet.inspect_err(|_| self.turns.missed(1))?;
         self.read_angle_async().await
     }
 }
@@ -168,7 +167,12 @@ mod tests {
 
     use super::*;
     use crate::as5047p::{ERROR, RESOLUTION, encode, with_parity};
-    use crate::{ControlLoop, JointDrive, JointMapping, Law, NoBrake};
+    use crate::{ControlLoop, EncoderMapping, JointDrive, JointMapping, JointRange, Law, NoBrake};
+
+    fn near_zero() -> EncoderMapping {
+        let near = JointRange::Near(0.0);
+        JointMapping::IDENTITY.with_range(near, 3e-3).unwrap()
+    }
 
     fn transfers(frames: &[(u16, u16)]) -> spi::Mock<u8> {
         let of = |&(command, answer): &(u16, u16)| {
@@ -198,14 +202,14 @@ mod tests {
             Err(FrameError::Flag),
             Ok(-crate::as5047p::RESOLUTION),
         ];
-        let mut encoder = As5047p::new(transfers(&frames), JointMapping::IDENTITY);
+        let mut encoder = As5047p::new(transfers(&frames), near_zero());
         ready(encoder.start_async());
         for angle in expected {
             assert_eq!(ready(encoder.read_async()), angle);
         }
         encoder.release().done();
 
-        let mut encoder = As5047p::new(transfers(&frames), JointMapping::IDENTITY);
+        let mut encoder = As5047p::new(transfers(&frames), near_zero());
         encoder.start();
         for angle in expected {
             assert_eq!(encoder.read(), angle);
@@ -228,13 +232,13 @@ mod tests {
             &registers(0x20, [0x04, 0x00]),
         ];
         let expected = [Ok(FRAC_PI_2), Err(As5600Error::MagnetAbsent), Ok(FRAC_PI_2)];
-        let mut encoder = As5600::new(i2c::Mock::new(&all.concat()), JointMapping::IDENTITY);
+        let mut encoder = As5600::new(i2c::Mock::new(&all.concat()), near_zero());
         for angle in expected {
             assert_eq!(ready(encoder.read_async()), angle);
         }
         encoder.release().done();
 
-        let mut encoder = As5600::new(i2c::Mock::new(&all.concat()), JointMapping::IDENTITY);
+        let mut encoder = As5600::new(i2c::Mock::new(&all.concat()), near_zero());
         for angle in expected {
             assert_eq!(encoder.read(), angle);
         }
@@ -277,7 +281,7 @@ mod tests {
         ];
         let buses = [(); 2].map(|()| transfers(&frames));
         let encoders = buses.clone();
-        let [first, second] = encoders.map(|spi| [As5047p::new(spi, JointMapping::IDENTITY)]);
+        let [first, second] = encoders.map(|spi| [As5047p::new(spi, near_zero())]);
         let config = MotionControllerConfig {
             supervisor: SupervisorConfig {
                 limits: SafetyLimits {

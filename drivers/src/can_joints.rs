@@ -23,7 +23,7 @@ pub trait CanJoint {
     ///
     /// # Errors
     /// [`CanError::Identifier`] for a frame of another joint; else the frame is wrong.
-    fn report<F: embedded_can::Frame>(&self, frame: &F) -> Result<Report, CanError>;
+    fn report<F: embedded_can::Frame>(&mut self, frame: &F) -> Result<Report, CanError>;
 }
 
 /// What a frame says of a joint.
@@ -40,7 +40,7 @@ impl CanJoint for moteus::Moteus {
         self.set_torque(torque)
     }
 
-    fn report<F: embedded_can::Frame>(&self, frame: &F) -> Result<Report, CanError> {
+    fn report<F: embedded_can::Frame>(&mut self, frame: &F) -> Result<Report, CanError> {
         let state = self.reply(frame)?;
         Ok(Report {
             position: Some(state.position),
@@ -59,7 +59,7 @@ impl CanJoint for odrive::ODrive {
         self.set_torque(torque)
     }
 
-    fn report<F: embedded_can::Frame>(&self, frame: &F) -> Result<Report, CanError> {
+    fn report<F: embedded_can::Frame>(&mut self, frame: &F) -> Result<Report, CanError> {
         let (mut position, mut delivers) = (None, None);
         match self.reply(frame)? {
             Reply::Estimates { position: at, .. } => position = Some(at),
@@ -84,7 +84,7 @@ impl CanJoint for odrive::ODrive {
 /// ```
 /// use embedded_can::{ExtendedId, Frame, nb::Can};
 /// use joint_drivers::can::{CanError, FdFrame};
-/// use joint_drivers::{CanJoints, JointDrives, JointEncoders, JointError, JointMapping, moteus::Moteus};
+/// use joint_drivers::{CanJoints, JointDrives, JointEncoders, JointError, JointMapping, JointRange, moteus::Moteus};
 /// # struct Bus(Vec<FdFrame>);
 /// # impl Can for Bus {
 /// #     type Frame = FdFrame;
@@ -95,7 +95,8 @@ impl CanJoint for odrive::ODrive {
 /// # // The reply of the protocol's own example: 2.88°, position mode.
 /// # let data = [0x24, 4, 0, 0x0a, 0, 0x50, 0, 0, 1, 0x70, 0xff, 0x23, 0x0d, 0x18, 0x14, 0];
 /// # let bus = Bus(vec![FdFrame::new(ExtendedId::new(0x100).unwrap(), &data).unwrap()]);
-/// let joints = CanJoints::new(bus, [Moteus::new(1, 0, 10.0, JointMapping::IDENTITY)?]);
+/// let mapping = JointMapping::IDENTITY.with_range(JointRange::Within { lower: -3.0, upper: 3.0 }, 5e-3)?;
+/// let joints = CanJoints::new(bus, [Moteus::new(1, 0, 10.0, mapping)?]);
 /// let (mut encoders, mut drives) = (&joints, &joints);
 /// assert!((encoders.read()?[0].to_degrees() - 2.88).abs() < 1e-5);
 /// drives.set_torques(&[0.5])?;
@@ -146,7 +147,7 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
     /// A frame that is wrong says nothing: its joint has then no position.
     fn take(&mut self, frame: &Bus::Frame) {
         let kept = self.positions.iter_mut().zip(&mut self.delivers);
-        for (joint, (position, delivers)) in self.joints.iter().zip(kept) {
+        for (joint, (position, delivers)) in self.joints.iter_mut().zip(kept) {
             if let Ok(report) = joint.report(frame) {
                 *position = report.position.or(*position);
                 *delivers = report.delivers.unwrap_or(*delivers);

@@ -7,7 +7,8 @@ use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
 use motion_control::{
     Command, CompletedTick, Detect, Estimate, Fault, Gains, MeasurementAge, MotionController,
-    ObservedTick, Reference, ReferencedTick, ResetError, StopCategory, TickCounter, feedback,
+    ObservedTick, OnCircles, Reference, ReferencedTick, ResetError, StopCategory, TickCounter,
+    feedback,
 };
 
 #[cfg(any(test, feature = "async"))]
@@ -72,14 +73,15 @@ fn kept<E>(kept: &Kept<E>) -> Option<JointError<&E>> {
 
 /// The control loop of a robot with V joints: its devices, a [`MotionController`] and its detectors.
 ///
-/// The age of the measurements is that of the encoders ([`EncoderType::Age`]). It has no heap and no panic.
+/// The age of the measurements is that of the encoders ([`EncoderType::Age`]), or
+/// [`OnCircles`](motion_control::OnCircles) of it for a robot with continuous joints. It has no heap and no panic.
 ///
 /// ```
 /// use dynamics_core::state::State;
 /// use embedded_hal_mock::eh1::pwm;
 /// use joint_drivers::as5047p::{As5047p, FrameError};
 /// use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
-/// use joint_drivers::{ControlLoop, Direction, JointError, JointMapping, Law, NoBrake};
+/// use joint_drivers::{ControlLoop, Direction, JointError, JointMapping, JointRange, Law, NoBrake};
 /// use motion_control::*;
 ///
 /// /// A joint of 2 kg·m² without gravity.
@@ -113,7 +115,8 @@ fn kept<E>(kept: &Kept<E>) -> Option<JointError<&E>> {
 /// #     }
 /// # }
 /// # let spi = Bus(vec![0, 0, 0, 1, 0, 0].into_iter());
-/// let encoder = As5047p::new(spi, JointMapping::IDENTITY);
+/// let range = JointRange::Within { lower: -1.0, upper: 1.0 };
+/// let encoder = As5047p::new(spi, JointMapping::IDENTITY.with_range(range, 3.0 * 1e-3)?);
 /// let pwm = pwm::Mock::new(&[
 ///     pwm::Transaction::max_duty_cycle(8400),
 ///     pwm::Transaction::set_duty_cycle(4200),
@@ -133,7 +136,7 @@ fn kept<E>(kept: &Kept<E>) -> Option<JointError<&E>> {
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct ControlLoop<E, D, Brake, const V: usize, Detectors = ()>
+pub struct ControlLoop<E, D, Brake, const V: usize, Detectors = (), A = <E as EncoderType>::Age>
 where
     E: EncoderType,
     D: JointDrives<V>,
@@ -143,14 +146,14 @@ where
     /// High holds the joints.
     brake: Brake,
     gains: Gains<f32, V>,
-    controller: MotionController<f32, V, E::Age>,
+    controller: MotionController<f32, V, A>,
     detectors: Detectors,
     counter: TickCounter,
     encoder_error: Kept<E::Error>,
     drive_error: Kept<D::Error>,
 }
 
-impl<E, D, Brake, const V: usize, Detectors> ControlLoop<E, D, Brake, V, Detectors>
+impl<E, D, Brake, const V: usize, Detectors> ControlLoop<E, D, Brake, V, Detectors, E::Age>
 where
     E: EncoderType,
     D: JointDrives<V>,
@@ -174,14 +177,49 @@ where
         encoders.start();
         Self::started(encoders, drives, brake, gains, controller, detectors)
     }
+}
 
+impl<E, D, Brake, const V: usize, Detectors, const CIRCLES: u128>
+    ControlLoop<E, D, Brake, V, Detectors, OnCircles<CIRCLES, E::Age>>
+where
+    E: EncoderType,
+    D: JointDrives<V>,
+    Brake: OutputPin,
+    Detectors: Detect<f32, V>,
+{
+    /// As [`ControlLoop::new`], of a controller with joints that are circles. Its detectors are those
+    /// [`on_circles`](motion_control::Detectors::on_circles), too.
+    pub fn on_circles(
+        mut encoders: E,
+        drives: D,
+        brake: Brake,
+        gains: Gains<f32, V>,
+        controller: MotionController<f32, V, OnCircles<CIRCLES, E::Age>>,
+        detectors: Detectors,
+    ) -> Self
+    where
+        E: JointEncoders<V>,
+    {
+        encoders.start();
+        Self::started(encoders, drives, brake, gains, controller, detectors)
+    }
+}
+
+impl<E, D, Brake, const V: usize, Detectors, A> ControlLoop<E, D, Brake, V, Detectors, A>
+where
+    E: EncoderType,
+    A: MeasurementAge,
+    D: JointDrives<V>,
+    Brake: OutputPin,
+    Detectors: Detect<f32, V>,
+{
     #[inline(always)]
     fn started(
         encoders: E,
         drives: D,
         brake: Brake,
         gains: Gains<f32, V>,
-        controller: MotionController<f32, V, E::Age>,
+        controller: MotionController<f32, V, A>,
         detectors: Detectors,
     ) -> Self {
         Self {
@@ -273,6 +311,7 @@ where
     {
         let tick = self.counter.begin(timer());
         if tick.missed() > 0 {
+            self.encoders.missed(tick.missed());
             self.controller.missed(tick.missed(), trajectory);
             self.detectors.restart();
         }
@@ -297,8 +336,13 @@ where
         self.controller.reset(trajectory)
     }
 
-    /// The error of the first encoder without a position in the last tick, which was [`Fault::Encoder`]. Joints above 255
-    /// are called 255.
+    /// The encoders, to tell one that has lost its turn where its joint is: [`crate::MultiTurnEncoder::place_near`].
+    pub fn encoders(&mut self) -> &mut E {
+        &mut self.encoders
+    }
+
+    /// The error of the first encoder without a position in the last tick, which was the fault of [`EncoderType::fault`].
+    /// Joints above 255 are called 255.
     pub fn encoder_error(&self) -> Option<JointError<&E::Error>> {
         kept(&self.encoder_error)
     }
@@ -328,14 +372,14 @@ where
 }
 
 #[cfg(any(test, feature = "async"))]
-impl<E, D, Brake, const V: usize, Detectors> ControlLoop<E, D, Brake, V, Detectors>
+impl<E, D, Brake, const V: usize, Detectors> ControlLoop<E, D, Brake, V, Detectors, E::Age>
 where
     E: asynch::JointEncoders<V>,
     D: JointDrives<V>,
     Brake: OutputPin,
     Detectors: Detect<f32, V>,
 {
-    /// As [`Self::new`], with encoders over `embedded-hal-async`.
+    /// As [`ControlLoop::new`], with encoders over `embedded-hal-async`.
     pub async fn new_async(
         mut encoders: E,
         drives: D,
@@ -347,7 +391,40 @@ where
         encoders.start().await;
         Self::started(encoders, drives, brake, gains, controller, detectors)
     }
+}
 
+#[cfg(any(test, feature = "async"))]
+impl<E, D, Brake, const V: usize, Detectors, const CIRCLES: u128>
+    ControlLoop<E, D, Brake, V, Detectors, OnCircles<CIRCLES, E::Age>>
+where
+    E: asynch::JointEncoders<V>,
+    D: JointDrives<V>,
+    Brake: OutputPin,
+    Detectors: Detect<f32, V>,
+{
+    /// As [`ControlLoop::on_circles`], with encoders over `embedded-hal-async`.
+    pub async fn on_circles_async(
+        mut encoders: E,
+        drives: D,
+        brake: Brake,
+        gains: Gains<f32, V>,
+        controller: MotionController<f32, V, OnCircles<CIRCLES, E::Age>>,
+        detectors: Detectors,
+    ) -> Self {
+        encoders.start().await;
+        Self::started(encoders, drives, brake, gains, controller, detectors)
+    }
+}
+
+#[cfg(any(test, feature = "async"))]
+impl<E, D, Brake, const V: usize, Detectors, A> ControlLoop<E, D, Brake, V, Detectors, A>
+where
+    E: asynch::JointEncoders<V>,
+    A: MeasurementAge,
+    D: JointDrives<V>,
+    Brake: OutputPin,
+    Detectors: Detect<f32, V>,
+{
     /// As [`Self::tick`]; other tasks run while the encoders' bus is busy.
     pub async fn tick_async<L: Law<V, X>, T: Reference<f32, V>, X>(
         &mut self,
@@ -356,7 +433,7 @@ where
     ) -> Telemetry<V> {
         let read = self.encoders.read().await;
         let (error, detectors) = (&mut self.encoder_error, &mut self.detectors);
-        let tick = observe(read, error, &mut self.controller, detectors);
+        let tick = observe::<E, _, _, V>(read, error, &mut self.controller, detectors);
         let gains = &self.gains;
         let computed =
             compute::<L, T, X, _, _, V>(tick, detectors, gains, trajectory, environment, &mut ());
@@ -366,20 +443,20 @@ where
 
 /// Reads the encoders and starts the controller's tick.
 #[inline(never)]
-fn read<'a, E: JointEncoders<V>, D: Detect<f32, V>, const V: usize>(
+fn read<'a, E: JointEncoders<V>, D: Detect<f32, V>, A: MeasurementAge, const V: usize>(
     encoders: &mut E,
     last: &mut Kept<E::Error>,
-    controller: &'a mut MotionController<f32, V, E::Age>,
+    controller: &'a mut MotionController<f32, V, A>,
     detectors: &mut D,
-) -> ObservedTick<'a, f32, V, E::Age> {
-    observe(encoders.read(), last, controller, detectors)
+) -> ObservedTick<'a, f32, V, A> {
+    observe::<E, _, _, V>(encoders.read(), last, controller, detectors)
 }
 
 /// Starts the controller's tick with what the encoders have read.
 #[inline(always)]
-fn observe<'a, E, D: Detect<f32, V>, A: MeasurementAge, const V: usize>(
-    read: Result<[f32; V], JointError<E>>,
-    last: &mut Kept<E>,
+fn observe<'a, E: EncoderType, D: Detect<f32, V>, A: MeasurementAge, const V: usize>(
+    read: Result<[f32; V], JointError<E::Error>>,
+    last: &mut Kept<E::Error>,
     controller: &'a mut MotionController<f32, V, A>,
     detectors: &mut D,
 ) -> ObservedTick<'a, f32, V, A> {
@@ -390,9 +467,9 @@ fn observe<'a, E, D: Detect<f32, V>, A: MeasurementAge, const V: usize>(
             controller.observe(measured.map(|()| &q))
         }
         Err(error) => {
-            let joint = error.joint;
+            let fault = E::fault(&error.error, error.joint);
             *last = keep(error);
-            controller.observe(Err(Fault::Encoder { joint }))
+            controller.observe(Err(fault))
         }
     }
 }

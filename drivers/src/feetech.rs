@@ -7,18 +7,23 @@
 //! 0x2C (in the position mode the time of the motion), present position 0x38. Low byte first; 4096 counts per turn.
 //!
 //! The duties need the servos in mode 2, PWM; the positions in mode 0. The mode is in the EPROM: set it with Feetech's
-//! tool, or by [`Servos::write`]. The register of speed is not read: its unit depends on a setting of the servo, and a
+//! tool, or by [`Servos::write`]. In mode 0 a servo of one turn goes from its count to its goal without passing from 4095
+//! to 0: a goal on the other side of that seam is refused. A range with the seam in it needs another offset (address 0x1F)
+//! of the servo, or its multi-turn form ([`Servos::with_turns`]).
+//! The register of speed is not read: its unit depends on a setting of the servo, and a
 //! controller's observer estimates the velocity from positions.
 //!
 //! At 1 Mbit/s, reading the positions of six servos takes 62 bytes, 0.62 ms, and setting six duties 26 bytes, 0.26 ms,
 //! without the pauses before the replies: a control loop of 500 Hz has room for both, one of 1 kHz does not.
 
-use core::f32::consts::TAU;
-
 use embedded_io::{Read, ReadReady, Write};
-use motion_control::CurrentTick;
+use motion_control::{CurrentTick, Fault};
 
-use crate::{EncoderType, JointEncoders, JointError, JointMapping};
+use crate::encoder_mapping::floor;
+use crate::{
+    EncoderMapping, EncoderType, JointEncoders, JointError, JointRange, LostTurn, MappingError,
+    MultiTurnEncoder,
+};
 
 #[cfg(any(test, feature = "async"))]
 mod asynch;
@@ -32,7 +37,8 @@ pub use packet::{BROADCAST, Packet, Parser, Reply};
 use reply::{next_reply, parameters};
 
 /// Counts per turn.
-pub const COUNTS: u16 = 4096;
+pub const COUNTS: u16 = 1 << BITS;
+const BITS: u32 = 12;
 /// The address of the torque switch: 1 on, 0 off.
 pub const TORQUE_ENABLE: u8 = 0x28;
 /// The address of the goal position.
@@ -41,8 +47,9 @@ pub const GOAL_POSITION: u8 = 0x2a;
 pub const GOAL_DUTY: u8 = 0x2c;
 /// The address of the present position.
 pub const PRESENT_POSITION: u8 = 0x38;
-/// A position below zero.
+/// A position below zero, and the greatest position of a servo in its multi-turn form.
 const POSITION_SIGN: u16 = 1 << 15;
+const MOST_COUNTS: f32 = 32_767.0;
 /// A duty below zero, and the greatest duty, in thousandths.
 const DUTY_SIGN: u16 = 1 << 10;
 const FULL_DUTY: f32 = 1000.0;
@@ -67,9 +74,10 @@ const MOST_NOISE: usize = 64;
 /// #     fn write(&mut self, bytes: &[u8]) -> Result<usize, Self::Error> { self.1.extend(bytes); Ok(bytes.len()) }
 /// #     fn flush(&mut self) -> Result<(), Self::Error> { Ok(()) }
 /// # }
-/// use joint_drivers::{Direction, JointMapping, feetech::Servos};
+/// use joint_drivers::{Direction, JointMapping, JointRange, feetech::Servos};
 /// // The joint is at zero in the middle of the servo's turn.
 /// let middle = JointMapping::new(core::f32::consts::PI, Direction::Forward, 1.0)?;
+/// let middle = middle.with_range(JointRange::Within { lower: -2.0, upper: 2.0 }, 5.0 * 2e-3)?;
 /// # let uart = Uart(&[0xff, 0xff, 1, 4, 0, 0, 0x0c, 0xee, 0xff, 0xff, 2, 4, 0, 0, 0x08, 0xf1], Vec::new());
 /// let mut servos = Servos::new(uart, [1, 2], [middle; 2])?;
 /// let [first, second] = servos.positions()?; // counts 3072 and 2048
@@ -82,19 +90,24 @@ const MOST_NOISE: usize = 64;
 pub struct Servos<Port, const N: usize> {
     port: Port,
     has_echo: bool,
+    has_turns: bool,
     ids: [u8; N],
-    mappings: [JointMapping; N],
+    mappings: [EncoderMapping; N],
+    counters: [MultiTurnEncoder<BITS>; N],
+    /// What each servo's own count lacks to that of its counter, since it replied.
+    offsets: [Option<i32>; N],
 }
 
 impl<Port, const N: usize> Servos<Port, N> {
-    /// The servos `ids`, 0 to 253, each with the mapping from its 0 rad (count 0) to its joint.
+    /// The servos `ids`, 0 to 253, each with the mapping from its 0 rad (count 0) to its joint; the first position of each is
+    /// where its mapping says that the joint can be.
     ///
     /// # Errors
     /// [`FeetechError::Id`].
     pub fn new(
         port: Port,
         ids: [u8; N],
-        mappings: [JointMapping; N],
+        mappings: [EncoderMapping; N],
     ) -> Result<Self, FeetechError> {
         for (place, id) in ids.iter().enumerate() {
             if *id >= BROADCAST || ids.iter().take(place).any(|other| other == id) {
@@ -104,8 +117,11 @@ impl<Port, const N: usize> Servos<Port, N> {
         Ok(Self {
             port,
             has_echo: false,
+            has_turns: false,
             ids,
             mappings,
+            counters: mappings.map(MultiTurnEncoder::new),
+            offsets: [None; N],
         })
     }
 
@@ -113,6 +129,26 @@ impl<Port, const N: usize> Servos<Port, N> {
     pub fn with_echo(mut self) -> Self {
         self.has_echo = true;
         self
+    }
+
+    /// The same servos in their multi-turn form, with both angle limits at 0: a goal is within ±32,767 counts instead of one
+    /// turn.
+    pub fn with_turns(mut self) -> Self {
+        self.has_turns = true;
+        self
+    }
+
+    /// As [`MultiTurnEncoder::place_near`], of the joint at a place, and nothing for one that there is not.
+    ///
+    /// # Errors
+    /// [`MappingError::Range`]; nothing is changed.
+    pub fn place_near(&mut self, joint: usize, position: f32) -> Result<(), MappingError> {
+        let joints = self.counters.iter_mut().zip(&mut self.offsets);
+        if let Some((counter, offset)) = joints.into_iter().nth(joint) {
+            counter.place_near(position)?;
+            *offset = None;
+        }
+        Ok(())
     }
 
     /// The port.
@@ -125,31 +161,73 @@ impl<Port, const N: usize> Servos<Port, N> {
     }
 
     /// The position of a joint from the register of its servo, rad.
-    fn position(&self, joint: usize, register: [u8; 2]) -> f32 {
+    fn position(&mut self, joint: usize, register: [u8; 2]) -> Result<f32, FeetechError> {
         let counts = from_sign(u16::from_le_bytes(register), POSITION_SIGN);
-        let shaft = f32::from(counts) * (TAU / f32::from(COUNTS));
-        self.mappings[joint].joint_position(shaft)
+        let counter = &mut self.counters[joint];
+        self.offsets[joint] = None;
+        let update = counter.update(counts as u16);
+        update.map_err(|LostTurn| FeetechError::LostTurn { joint })?;
+        self.offsets[joint] = Some(counter.counts().wrapping_sub(i32::from(counts)));
+        Ok(counter.position())
+    }
+
+    /// Takes what the exchange of a joint brought: of the joints from a failed one on there is no reading.
+    fn accept(
+        &mut self,
+        joint: usize,
+        register: Result<[u8; 2], FeetechError>,
+    ) -> Result<f32, JointError<FeetechError>> {
+        let position = register.and_then(|register| self.position(joint, register));
+        position.map_err(|error| {
+            let from = match error {
+                FeetechError::LostTurn { .. } => joint + 1,
+                _ => joint,
+            };
+            let unread = self.counters.iter_mut().skip(from);
+            unread.for_each(|counter| counter.missed(1));
+            JointError { joint, error }
+        })
     }
 
     fn goal_positions(&self, positions: &[f32; N]) -> Result<Packet, FeetechError> {
+        let (least, most) = if self.has_turns {
+            (-MOST_COUNTS, MOST_COUNTS)
+        } else {
+            (0.0, f32::from(COUNTS - 1))
+        };
         let mut goals = [0; N];
         for (joint, goal) in goals.iter_mut().enumerate() {
-            let shaft = self.mappings[joint].shaft_position(positions[joint]);
-            let counts = shaft.map(|shaft| shaft * (f32::from(COUNTS) / TAU));
-            match counts {
-                Ok(counts) if counts.abs() <= 32_767.0 => {
-                    *goal = to_sign(counts, POSITION_SIGN);
-                }
-                _ => return Err(FeetechError::Goal { joint }),
+            let offset = self.offset(joint, positions[joint]);
+            let offset = offset.ok_or(FeetechError::Goal { joint })?;
+            let exact = self.counters[joint].count_at(positions[joint]) - offset as f32;
+            // NaN is in no range.
+            if !(exact > least - 0.5 && exact < most + 0.5) {
+                return Err(FeetechError::Goal { joint });
             }
+            *goal = to_sign(exact, POSITION_SIGN);
         }
         self.goals(GOAL_POSITION, goals)
+    }
+
+    /// What the servo's own count lacks to that of its counter for a goal: since its last reply, or before it if the whole
+    /// range of the joint is within one turn of the servo.
+    fn offset(&self, joint: usize, goal: f32) -> Option<i32> {
+        let counter = &self.counters[joint];
+        let turns = |position| floor(counter.count_at(position) + 0.5) & !i32::from(COUNTS - 1);
+        match (self.mappings[joint].range(), self.offsets[joint]) {
+            // Either way round a circle leads to the goal.
+            (JointRange::Continuous, _) if !self.has_turns => Some(turns(goal)),
+            (JointRange::Within { lower, upper }, None) if !self.has_turns => {
+                (turns(lower) == turns(upper)).then_some(turns(lower))
+            }
+            (_, offset) => offset,
+        }
     }
 
     fn goal_duties(&self, duties: &[f32; N]) -> Result<Packet, FeetechError> {
         let mut goals = [0; N];
         for (joint, goal) in goals.iter_mut().enumerate() {
-            let sign = self.mappings[joint].direction().sign();
+            let sign = self.mappings[joint].mapping().direction().sign();
             let duty = sign * duties[joint] * FULL_DUTY;
             *goal = to_sign(duty.clamp(-FULL_DUTY, FULL_DUTY), DUTY_SIGN);
         }
@@ -173,14 +251,15 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
 
     /// The positions, or the joint whose servo did not reply; the first if the request could not be sent.
     fn read_all(&mut self) -> Result<[f32; N], JointError<FeetechError>> {
-        let sent = self.request().and_then(|request| self.send(&request));
-        sent.map_err(|error| JointError { joint: 0, error })?;
+        let mut sent = self.request().and_then(|request| self.send(&request));
         let mut positions = [0.0; N];
         let mut parser = Parser::new();
         for (joint, position) in positions.iter_mut().enumerate() {
-            let register = self.receive(self.ids[joint], &mut parser);
-            let register = register.map_err(|error| JointError { joint, error })?;
-            *position = self.position(joint, register);
+            let register = match core::mem::replace(&mut sent, Ok(())) {
+                Ok(()) => self.receive(self.ids[joint], &mut parser),
+                Err(error) => Err(error),
+            };
+            *position = self.accept(joint, register)?;
         }
         Ok(positions)
     }
@@ -279,6 +358,19 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
 impl<Port, const N: usize> EncoderType for Servos<Port, N> {
     type Error = FeetechError;
     type Age = CurrentTick;
+
+    fn missed(&mut self, ticks: u32) {
+        self.counters
+            .iter_mut()
+            .for_each(|counter| counter.missed(ticks));
+    }
+
+    fn fault(error: &FeetechError, joint: usize) -> Fault {
+        match error {
+            FeetechError::LostTurn { .. } => Fault::LostTurn { joint },
+            _ => Fault::Encoder { joint },
+        }
+    }
 }
 
 /// No reading of the servos that come after one that did not reply.

@@ -17,13 +17,27 @@ use motion_control::{Fault, MeasurementAge};
 /// use motion_control::CurrentTick;
 /// // An AS5600 answers with the angle of now: a controller that expects that of the tick before does not compile.
 /// fn current<E: EncoderType<Age = CurrentTick>>(_: &E) {}
-/// current(&As5600::new((), joint_drivers::JointMapping::IDENTITY));
+/// # use joint_drivers::{JointMapping, JointRange};
+/// let mapping = JointMapping::IDENTITY.with_range(JointRange::Continuous, 5e-3)?;
+/// current(&As5600::new((), mapping));
+/// # Ok::<(), joint_drivers::MappingError>(())
 /// ```
 pub trait EncoderType {
     /// The reason why there is no position.
     type Error: Error;
     /// The age of the positions: of this tick, or of the one before.
     type Age: MeasurementAge;
+
+    /// Notes so many ticks without a reading: an encoder whose count wraps may have lost its turn.
+    fn missed(&mut self, ticks: u32) {
+        let _ = ticks;
+    }
+
+    /// The fault of a controller that an error of a joint is.
+    fn fault(error: &Self::Error, joint: usize) -> Fault {
+        let _ = error;
+        Fault::Encoder { joint }
+    }
 }
 
 /// The encoder of a joint.
@@ -210,6 +224,14 @@ impl<E: Error> Error for JointError<E> {}
 impl<E: EncoderType, const V: usize> EncoderType for [E; V] {
     type Error = E::Error;
     type Age = E::Age;
+
+    fn missed(&mut self, ticks: u32) {
+        self.iter_mut().for_each(|encoder| encoder.missed(ticks));
+    }
+
+    fn fault(error: &E::Error, joint: usize) -> Fault {
+        E::fault(error, joint)
+    }
 }
 
 impl<E: JointEncoder, const V: usize> JointEncoders<V> for [E; V] {
@@ -219,14 +241,10 @@ impl<E: JointEncoder, const V: usize> JointEncoders<V> for [E; V] {
 
     #[inline(always)]
     fn read(&mut self) -> Result<[f32; V], JointError<E::Error>> {
-        let mut failed = None;
-        for (joint, encoder) in self.iter_mut().enumerate() {
-            if let Err(error) = encoder.sample() {
-                keep_first(&mut failed, JointError { joint, error });
+        for joint in 0..V {
+            if let Err(error) = self[joint].sample() {
+                return Err(sample_others(self, JointError { joint, error }));
             }
-        }
-        if let Some(failed) = failed {
-            return Err(failed);
         }
         Ok(self.each_ref().map(E::position))
     }
@@ -251,13 +269,19 @@ impl<D: JointDrive, const V: usize> JointDrives<V> for [D; V] {
     }
 }
 
-/// Keeps the first error: in a function of its own, so that a tick without errors keeps no register for them.
+/// Reads the encoders after one that failed, and keeps its error: in a function of its own, so that a tick without errors
+/// keeps nothing for them.
 #[cold]
 #[inline(never)]
-fn keep_first<E>(kept: &mut Option<JointError<E>>, other: JointError<E>) {
-    if kept.is_none() {
-        *kept = Some(other);
+fn sample_others<E: JointEncoder, const V: usize>(
+    encoders: &mut [E; V],
+    failed: JointError<E::Error>,
+) -> JointError<E::Error> {
+    for encoder in encoders.iter_mut().skip(failed.joint + 1) {
+        // Its reading is lost with the others of this tick, but not its turn.
+        let _ = encoder.sample();
     }
+    failed
 }
 
 /// Keeps the first error of those that failed, else of those that are not ready.

@@ -10,7 +10,8 @@
 //! | [`Probe`] | sees the phases of a tick |
 //!
 //! Each driver has the zero, the direction and the resolution of its joint as parameters ([`JointMapping`],
-//! [`Resolution`]): it measures rad at the joint and commands N·m, V or a share of the full scale there.
+//! [`Resolution`]): it measures rad at the joint and commands N·m, V or a share of the full scale there. An encoder is told
+//! where its joint can be, too ([`JointRange`]): its count says only where it is within a turn.
 //!
 //! The encoders and the H-bridges implement the traits of a joint, the servos that of all encoders. The controllers on CAN are
 //! both at once, on a bus that they share ([`CanJoints`]). Three half-bridges take a voltage and the servos a duty: they are
@@ -31,10 +32,12 @@
 //! infinite; input that is wrong leads to an error, never to a panic.
 //!
 //! ```
-//! use joint_drivers::{Direction, JointMapping, as5600::As5600};
+//! use joint_drivers::{Direction, JointMapping, JointRange, as5600::As5600};
 //! use embedded_hal_mock::eh1::i2c::{Mock, Transaction};
 //! // The encoder reads 1.5 rad where the joint is at zero, and turns the other way round.
 //! let mapping = JointMapping::new(1.5, Direction::Reverse, 1.0)?;
+//! // The joint is between its stops at ±3 rad, and moves by 5 rad/s at most in ticks of 1 ms.
+//! let mapping = mapping.with_range(JointRange::Within { lower: -3.0, upper: 3.0 }, 5.0 * 1e-3)?;
 //! let bus = Mock::new(&[
 //!     Transaction::write_read(0x36, vec![0x0b], vec![0x20]),       // a magnet was detected
 //!     Transaction::write_read(0x36, vec![0x0c], vec![0x04, 0x00]), // 1024 of 4096 counts: 90°
@@ -69,6 +72,7 @@ pub mod asynch;
 pub mod can;
 mod can_joints;
 mod control_loop;
+mod encoder_mapping;
 pub mod feetech;
 pub mod h_bridge;
 pub mod incremental;
@@ -77,10 +81,13 @@ mod mapping;
 pub mod moteus;
 mod multi_turn;
 pub mod odrive;
+#[cfg(test)]
+mod starts;
 pub mod three_phase;
 
 pub use can_joints::{CanJoint, CanJoints, Report};
 pub use control_loop::{ControlLoop, Law, Phase, Probe, Telemetry};
+pub use encoder_mapping::{EncoderMapping, JointRange, LostTurn};
 pub use joint::{
     DriveFault, DriveFaultKind, EncoderType, JointDrive, JointDrives, JointEncoder, JointEncoders,
     JointError, NoBrake,

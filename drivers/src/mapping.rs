@@ -38,6 +38,14 @@ pub enum MappingError {
     Counts,
     /// The quantity to convert, or its result, is not finite.
     NotFinite,
+    /// Where the joint can be is not a number, has its ends in the wrong order, or is too many turns of the encoder away.
+    Range,
+    /// The range of the joint is longer than a turn of the encoder, which then does not say where the joint is.
+    Turns,
+    /// A turn of the encoder is not a whole number of turns of the continuous joint.
+    Circle,
+    /// The step of the joint in a tick is not above zero, or half a turn of the encoder and more.
+    Step,
 }
 
 impl fmt::Display for MappingError {
@@ -47,6 +55,12 @@ impl fmt::Display for MappingError {
             Self::Ratio => "the ratio of the gear is not within 1e-6 to 1e6",
             Self::Counts => "the counts per turn are not within 1 to 2^24",
             Self::NotFinite => "the quantity of the joint is not finite",
+            Self::Range => {
+                "the range of the joint is not one, or too many turns of the encoder away"
+            }
+            Self::Turns => "the range of the joint is longer than a turn of the encoder",
+            Self::Circle => "a turn of the encoder is not a whole number of turns of the joint",
+            Self::Step => "the joint moves by half a turn of the encoder in a tick, or not at all",
         })
     }
 }
@@ -101,6 +115,21 @@ impl JointMapping {
         })
     }
 
+    /// The shaft's angle where the joint is at zero, rad.
+    pub(crate) const fn zero(&self) -> f32 {
+        self.zero
+    }
+
+    /// Turns of the shaft in one of the joint.
+    pub(crate) const fn ratio(&self) -> f32 {
+        self.to_shaft.abs()
+    }
+
+    /// The same, with the sign of the direction.
+    pub(crate) const fn to_shaft(&self) -> f32 {
+        self.to_shaft
+    }
+
     /// Which way the joint turns.
     pub const fn direction(&self) -> Direction {
         if self.to_joint > 0.0 {
@@ -150,7 +179,7 @@ impl JointMapping {
         finite(joint * self.to_joint)
     }
 
-    /// The position of [`Self::position`] without its check, for angles that are counts and therefore finite.
+    /// The position of [`Self::position`] without its check.
     #[inline(always)]
     pub(crate) fn joint_position(&self, shaft: f32) -> f32 {
         (shaft - self.zero) * self.to_joint

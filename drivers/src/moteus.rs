@@ -9,13 +9,16 @@
 //! refuses a command ([`CanError::Length`]). [`embedded_can::Frame`] does not say whether the data phase has its own
 //! bit rate: set that in the HAL (1 Mbit/s, data 5 Mbit/s from the factory). CAN FD has no lengths between 8, 12, 16,
 //! 20, 24, 32, 48 and 64: commands are padded by NOP (0x50). `can.prefix` of the controller must be 0.
+//!
+//! After power-up a position is known within a turn of the shaft that the controller measures; then the controller counts its
+//! turns itself. The shaft of the mapping is that one: `motor_position.rotor_to_output_ratio` is 1.
 
 use core::f32::consts::TAU;
 
 use embedded_can::{ExtendedId, Frame};
 
-use crate::JointMapping;
 use crate::can::{self, CanError};
+use crate::{EncoderMapping, MappingError};
 
 mod multiplex;
 
@@ -65,8 +68,9 @@ pub struct State {
 ///
 /// ```
 /// use embedded_can::{ExtendedId, Frame};
-/// use joint_drivers::{JointMapping, can::FdFrame, moteus::{Mode, Moteus}};
-/// let joint = Moteus::new(1, 0, 10.0, JointMapping::IDENTITY)?;
+/// use joint_drivers::{JointMapping, JointRange, can::FdFrame, moteus::{Mode, Moteus}};
+/// let mapping = JointMapping::IDENTITY.with_range(JointRange::Continuous, 5e-3)?;
+/// let mut joint = Moteus::new(1, 0, 10.0, mapping)?;
 /// let command: FdFrame = joint.set_torque(-0.25)?;
 /// assert_eq!(command.data().len(), 24);
 /// // The reply of the protocol's own example.
@@ -74,14 +78,16 @@ pub struct State {
 /// let state = joint.reply(&FdFrame::new(ExtendedId::new(0x100).unwrap(), &data).unwrap())?;
 /// assert_eq!((state.mode, state.fault), (Mode::Position, 0));
 /// assert!((state.position.to_degrees() - 2.88).abs() < 1e-5 && (state.torque + 1.44).abs() < 1e-6);
-/// # Ok::<(), joint_drivers::can::CanError>(())
+/// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moteus {
     id: u8,
     host: u8,
     most: f32,
-    mapping: JointMapping,
+    mapping: EncoderMapping,
+    /// The turns that the controller's count lacks.
+    whole: Option<f32>,
 }
 
 impl Moteus {
@@ -90,17 +96,28 @@ impl Moteus {
     ///
     /// # Errors
     /// [`CanError::Node`], [`CanError::Torque`].
-    pub fn new(id: u8, host: u8, most: f32, mapping: JointMapping) -> Result<Self, CanError> {
+    pub fn new(id: u8, host: u8, most: f32, mapping: EncoderMapping) -> Result<Self, CanError> {
         if id == 0 || id > 127 || host > 127 {
             return Err(CanError::Node);
         }
-        can::check_most(most, &mapping)?;
+        can::check_most(most, mapping.mapping())?;
         Ok(Self {
             id,
             host,
             most,
             mapping,
+            whole: None,
         })
+    }
+
+    /// Takes the joint to be at `position` rad or m: the next reply is within half a turn of the shaft from there.
+    ///
+    /// # Errors
+    /// [`MappingError::Range`]; nothing is changed.
+    pub fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
+        self.mapping = self.mapping.moved_near(position)?;
+        self.whole = None;
+        Ok(())
     }
 
     /// A torque in N·m at the joint, limited to the greatest, and a query of the state; NaN becomes zero torque.
@@ -113,7 +130,7 @@ impl Moteus {
     /// [`CanError::Length`]: the frame type is not CAN FD.
     pub fn set_torque<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
         let torque = can::limit(torque, self.most);
-        let at_shaft = self.mapping.shaft_torque(torque);
+        let at_shaft = self.mapping.mapping().shaft_torque(torque);
         let [t0, t1, t2, t3] = at_shaft.map_err(|_| CanError::NotFinite)?.to_le_bytes();
         let [q0, q1, q2, q3, q4, q5] = QUERY;
         self.frame(&[
@@ -146,12 +163,13 @@ impl Moteus {
         self.frame(&QUERY)
     }
 
-    /// The state in a reply, mapped to the joint; registers may have any of the four types and any order.
+    /// The state in a reply, mapped to the joint; registers may have any of the four types and any order. In the first one the
+    /// joint is where the mapping says that it can be.
     ///
     /// # Errors
     /// [`CanError`]: another node or host, a remote frame, a frame that is short or has an unknown subframe, a register
     /// that was refused or is missing, a quantity that is not finite.
-    pub fn reply<F: Frame>(&self, frame: &F) -> Result<State, CanError> {
+    pub fn reply<F: Frame>(&mut self, frame: &F) -> Result<State, CanError> {
         if can::raw(frame.id()) != u32::from(self.id) << 8 | u32::from(self.host) {
             return Err(CanError::Identifier);
         }
@@ -161,7 +179,7 @@ impl Moteus {
         self.state(&Registers::of_reply(frame.data())?)
     }
 
-    fn state(&self, registers: &Registers) -> Result<State, CanError> {
+    fn state(&mut self, registers: &Registers) -> Result<State, CanError> {
         let not_finite = |_| CanError::NotFinite;
         let of = |value: Option<f32>, register| value.ok_or(CanError::Missing(register));
         let turns = of(registers.position, POSITION)?;
@@ -174,14 +192,13 @@ impl Moteus {
             11 => Mode::Timeout,
             other => Mode::Other(other),
         };
+        let position = self.mapping.position_at(turns, &mut self.whole);
+        let mapping = self.mapping.mapping();
         Ok(State {
             mode,
-            position: self.mapping.position(turns * TAU).map_err(not_finite)?,
-            velocity: self
-                .mapping
-                .velocity(per_second * TAU)
-                .map_err(not_finite)?,
-            torque: self.mapping.torque(torque).map_err(not_finite)?,
+            position: position.map_err(not_finite)?,
+            velocity: mapping.velocity(per_second * TAU).map_err(not_finite)?,
+            torque: mapping.torque(torque).map_err(not_finite)?,
             fault: number(of(registers.fault, FAULT)?)?,
         })
     }

@@ -7,6 +7,9 @@
 //! which 0.5 does not have: the CAN database of firmware 0.6.10, as odrive-can documents it ("odrive-cansimple-0.6.10
 //! interface").
 //!
+//! After power-up the position of an axis with an absolute encoder is known within a turn of its motor; then the axis counts the
+//! turns itself.
+//!
 //! Nodes with extended identifiers are not supported. Of the heartbeat only the errors and the state are decoded, which
 //! both versions have in the same place.
 
@@ -14,8 +17,8 @@ use core::f32::consts::TAU;
 
 use embedded_can::{Frame, Id, StandardId};
 
-use crate::JointMapping;
 use crate::can::{self, CanError};
+use crate::{EncoderMapping, MappingError};
 
 const HEARTBEAT: u16 = 0x01;
 const ESTOP: u16 = 0x02;
@@ -89,21 +92,24 @@ pub enum Reply {
 ///
 /// ```
 /// use embedded_can::Frame;
-/// use joint_drivers::{JointMapping, can::FdFrame, odrive::{ODrive, Reply}};
-/// let axis = ODrive::new(3, 10.0, JointMapping::IDENTITY)?;
+/// use joint_drivers::{JointMapping, JointRange, can::FdFrame, odrive::{ODrive, Reply}};
+/// let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(2.0), 5e-3)?;
+/// let mut axis = ODrive::new(3, 10.0, mapping)?;
 /// let command: FdFrame = axis.set_torque(1.5)?;
 /// assert_eq!(command.data(), [0x00, 0x00, 0xc0, 0x3f]);
 /// let request: FdFrame = axis.request_estimates()?;
 /// let reply = FdFrame::new(request.id(), &[0, 0, 0, 0x3f, 0, 0, 0, 0]).unwrap();
 /// let expected = Reply::Estimates { position: core::f32::consts::PI, velocity: 0.0 };
 /// assert_eq!(axis.reply(&reply)?, expected);
-/// # Ok::<(), joint_drivers::can::CanError>(())
+/// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ODrive {
     node: u8,
     most: f32,
-    mapping: JointMapping,
+    mapping: EncoderMapping,
+    /// The turns that the axis' count lacks.
+    whole: Option<f32>,
 }
 
 impl ODrive {
@@ -111,16 +117,27 @@ impl ODrive {
     ///
     /// # Errors
     /// [`CanError::Node`], [`CanError::Torque`].
-    pub fn new(node: u8, most: f32, mapping: JointMapping) -> Result<Self, CanError> {
+    pub fn new(node: u8, most: f32, mapping: EncoderMapping) -> Result<Self, CanError> {
         if node > 0x3f {
             return Err(CanError::Node);
         }
-        can::check_most(most, &mapping)?;
+        can::check_most(most, mapping.mapping())?;
         Ok(Self {
             node,
             most,
             mapping,
+            whole: None,
         })
+    }
+
+    /// Takes the joint to be at `position` rad or m: the next estimate is within half a turn of the motor from there.
+    ///
+    /// # Errors
+    /// [`MappingError::Range`]; nothing is changed.
+    pub fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
+        self.mapping = self.mapping.moved_near(position)?;
+        self.whole = None;
+        Ok(())
     }
 
     /// Set_Input_Torque: a torque in N·m at the joint, limited to the greatest; NaN becomes zero torque.
@@ -129,7 +146,7 @@ impl ODrive {
     /// [`CanError::Length`].
     pub fn set_torque<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
         let torque = can::limit(torque, self.most);
-        let at_motor = self.mapping.shaft_torque(torque);
+        let at_motor = self.mapping.mapping().shaft_torque(torque);
         let at_motor = at_motor.map_err(|_| CanError::NotFinite)?;
         self.frame(SET_INPUT_TORQUE, &at_motor.to_le_bytes())
     }
@@ -183,12 +200,12 @@ impl ODrive {
         self.remote(GET_TORQUES)
     }
 
-    /// What a frame says, mapped to the joint.
+    /// What a frame says, mapped to the joint. In the first estimate the joint is where the mapping says that it can be.
     ///
     /// # Errors
     /// [`CanError::Identifier`] for another node or message, [`CanError::Remote`], [`CanError::Short`],
     /// [`CanError::NotFinite`].
-    pub fn reply<F: Frame>(&self, frame: &F) -> Result<Reply, CanError> {
+    pub fn reply<F: Frame>(&mut self, frame: &F) -> Result<Reply, CanError> {
         let Id::Standard(id) = frame.id() else {
             return Err(CanError::Identifier);
         };
@@ -209,13 +226,13 @@ impl ODrive {
                 });
             }
             GET_ENCODER_ESTIMATES => floats().map(|[turns, per_second]| {
-                let position = self.mapping.position(turns * TAU)?;
-                let velocity = self.mapping.velocity(per_second * TAU)?;
+                let position = self.mapping.position_at(turns, &mut self.whole)?;
+                let velocity = self.mapping.mapping().velocity(per_second * TAU)?;
                 Ok(Reply::Estimates { position, velocity })
             })?,
             GET_TORQUES => floats().map(|[target, estimate]| {
-                let target = self.mapping.torque(target)?;
-                let estimate = self.mapping.torque(estimate)?;
+                let target = self.mapping.mapping().torque(target)?;
+                let estimate = self.mapping.mapping().torque(estimate)?;
                 Ok(Reply::Torques { target, estimate })
             })?,
             _ => return Err(CanError::Identifier),

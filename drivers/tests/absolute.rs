@@ -6,7 +6,9 @@ use embedded_hal::spi::{ErrorKind as SpiError, ErrorType, Operation, SpiDevice};
 use embedded_hal_mock::eh1::{i2c, spi};
 use joint_drivers::as5047p::{self, As5047p, FrameError, READ_ANGLE, READ_ERRORS};
 use joint_drivers::as5600::{As5600, As5600Error};
-use joint_drivers::{Direction, JointMapping};
+use joint_drivers::{Direction, JointMapping, JointRange};
+
+use super::near_zero;
 
 /// The transactions of one AS5047P frame.
 fn frame(command: u16, answer: u16) -> [spi::Transaction<u8>; 3] {
@@ -26,7 +28,10 @@ fn restart() -> Vec<spi::Transaction<u8>> {
 fn the_as5047p_is_commanded_as_its_data_sheet_says() {
     // Read ANGLECOM: bits 15 (parity of 15 ones) and 14 (read) and the address 0x3FFF. Read ERRFL: 0x4001 is even.
     assert_eq!((READ_ANGLE, READ_ERRORS), (0xffff, 0x4001));
-    let mut encoder = As5047p::new(spi::Mock::new(&restart()), JointMapping::IDENTITY);
+    let mut encoder = As5047p::new(
+        spi::Mock::new(&restart()),
+        near_zero(JointMapping::IDENTITY),
+    );
     encoder.start();
     encoder.release().done();
 }
@@ -39,7 +44,7 @@ fn the_as5047p_counts_turns_and_maps_them_to_the_joint() {
         .flat_map(|raw| frame(READ_ANGLE, as5047p::encode(*raw)))
         .collect();
     let mapping = JointMapping::new(FRAC_PI_2, Direction::Reverse, 2.0).unwrap();
-    let mut encoder = As5047p::new(spi::Mock::new(&frames), mapping);
+    let mut encoder = As5047p::new(spi::Mock::new(&frames), near_zero(mapping));
     for counts in [-384, -1, 0, 4096, 8192, 12_288, 16_384] {
         let shaft = counts as f32 * as5047p::RESOLUTION;
         let angle = encoder.read().unwrap();
@@ -63,7 +68,10 @@ fn each_as5047p_error_costs_one_angle_and_a_restart() {
         ok(),
     ]
     .concat();
-    let mut encoder = As5047p::new(spi::Mock::new(&transactions), JointMapping::IDENTITY);
+    let mut encoder = As5047p::new(
+        spi::Mock::new(&transactions),
+        near_zero(JointMapping::IDENTITY),
+    );
     let angle = 100.0 * as5047p::RESOLUTION;
     assert_eq!(encoder.read(), Ok(angle));
     for error in [FrameError::Parity, FrameError::Flag] {
@@ -89,9 +97,9 @@ impl SpiDevice for FailedBus {
 
 #[test]
 fn an_as5047p_bus_failure_is_an_error() {
-    let mut encoder = As5047p::new(FailedBus, JointMapping::IDENTITY);
+    let mut encoder = As5047p::new(FailedBus, near_zero(JointMapping::IDENTITY));
     assert_eq!(encoder.read(), Err(FrameError::Bus(SpiError::Overrun)));
-    assert_eq!(encoder.angle(), 0.0);
+    assert!(encoder.angle().abs() < as5047p::RESOLUTION);
 }
 
 #[test]
@@ -128,8 +136,9 @@ fn angles_round_to_the_nearest_count() {
 #[test]
 fn a_geared_encoder_starts_near_the_known_turn() {
     let mapping = JointMapping::new(0.0, Direction::Forward, 10.0).unwrap();
+    let mapping = mapping.with_range(JointRange::Near(3.0), 1e-3).unwrap();
     let bus = spi::Mock::new(&frame(READ_ANGLE, as5047p::encode(16_383)));
-    let mut encoder = As5047p::near(bus, mapping, 5);
+    let mut encoder = As5047p::new(bus, mapping);
     let expected = (5.0 * TAU - as5047p::RESOLUTION) / 10.0;
     assert!((encoder.read().unwrap() - expected).abs() < 1e-6);
     encoder.release().done();
@@ -149,12 +158,45 @@ fn the_as5600_counts_turns_and_ignores_upper_bits() {
     let raws = [0x0fff, 0x0000, 0xf400, 0x0800, 0x0c00, 0x0000];
     let all: Vec<_> = raws.iter().flat_map(|raw| registers(0x20, *raw)).collect();
     let mapping = JointMapping::new(-0.5, Direction::Forward, 1.0).unwrap();
-    let mut encoder = As5600::new(i2c::Mock::new(&all), mapping);
+    let mut encoder = As5600::new(i2c::Mock::new(&all), near_zero(mapping));
     for counts in [-1, 0, 1024, 2048, 3072, 4096] {
         let expected = counts as f32 * (TAU / 4096.0) + 0.5;
         assert!((encoder.read().unwrap() - expected).abs() < 1e-6);
     }
     encoder.release().done();
+}
+
+/// Four joints whose ranges are shorter than a turn of their encoders, and lie across its seam.
+#[test]
+fn a_first_reading_lies_in_the_joints_range() {
+    let joints = [
+        (2.4, Direction::Forward, 1.0, 1.2),
+        // Of the guide's page on a board.
+        (1.5, Direction::Reverse, 1.0, 3.0),
+        (2.4, Direction::Reverse, 3.0, 0.5),
+        (-2.9, Direction::Forward, 1.0, 0.6),
+    ];
+    for (zero, direction, ratio, half) in joints {
+        let mapping = JointMapping::new(zero, direction, ratio).unwrap();
+        let range = JointRange::Within {
+            lower: -half,
+            upper: half,
+        };
+        let mapping = mapping.with_range(range, 5e-3).unwrap();
+        for part in [-1.0, -0.5, 0.0, 0.5, 1.0] {
+            let truth = part * half;
+            let shaft = (zero + direction.sign() * truth * ratio).rem_euclid(TAU);
+            let count = (shaft / TAU * 4096.0).round() as u16 & 4095;
+            let bus = i2c::Mock::new(&registers(0x20, count));
+            let mut encoder = As5600::new(bus, mapping);
+            let read = encoder.read().unwrap();
+            assert!(
+                (read - truth).abs() < 0.51 * TAU / 4096.0 / ratio,
+                "{zero} {truth} {read}"
+            );
+            encoder.release().done();
+        }
+    }
 }
 
 #[test]
@@ -169,7 +211,7 @@ fn an_absent_weak_or_strong_magnet_is_an_error() {
     ];
     for (status, error) in cases {
         let bus = i2c::Mock::new(&registers(status, 0)[..1]);
-        let mut encoder = As5600::new(bus, JointMapping::IDENTITY);
+        let mut encoder = As5600::new(bus, near_zero(JointMapping::IDENTITY));
         assert_eq!(encoder.read(), Err(error));
         encoder.release().done();
     }
@@ -180,7 +222,10 @@ fn an_as5600_bus_failure_keeps_the_last_angle() {
     let [_, angle] = registers(0x20, 1024);
     let lost =
         i2c::Transaction::write_read(0x36, vec![0x0c], vec![0, 0]).with_error(I2cError::Other);
-    let mut encoder = As5600::new(i2c::Mock::new(&[angle, lost]), JointMapping::IDENTITY);
+    let mut encoder = As5600::new(
+        i2c::Mock::new(&[angle, lost]),
+        near_zero(JointMapping::IDENTITY),
+    );
     assert_eq!(encoder.read_angle(), Ok(FRAC_PI_2));
     assert_eq!(encoder.read_angle(), Err(As5600Error::Bus(I2cError::Other)));
     assert_eq!(encoder.angle(), FRAC_PI_2);

@@ -6,7 +6,9 @@ use embedded_can::{ExtendedId, Frame, Id, StandardId};
 use joint_drivers::can::{CanError, FdFrame};
 use joint_drivers::moteus::{self, Mode, Moteus};
 use joint_drivers::odrive::{AxisState, ODrive, Reply};
-use joint_drivers::{Direction, JointMapping};
+use joint_drivers::{Direction, EncoderMapping, JointMapping, JointRange};
+
+use super::near_zero;
 
 /// A frame of classic CAN: at most 8 bytes.
 #[derive(Debug, PartialEq)]
@@ -50,8 +52,8 @@ fn extended(id: u32, data: &[u8]) -> FdFrame {
     FdFrame::new(ExtendedId::new(id).unwrap(), data).unwrap()
 }
 
-fn geared() -> JointMapping {
-    JointMapping::new(1.0, Direction::Reverse, 2.0).unwrap()
+fn geared() -> EncoderMapping {
+    near_zero(JointMapping::new(1.0, Direction::Reverse, 2.0).unwrap())
 }
 
 fn near(a: f32, b: f32) -> bool {
@@ -60,7 +62,7 @@ fn near(a: f32, b: f32) -> bool {
 
 #[test]
 fn odrive_commands_are_the_protocols_golden_frames() {
-    let axis = ODrive::new(1, 100.0, JointMapping::IDENTITY).unwrap();
+    let axis = ODrive::new(1, 100.0, near_zero(JointMapping::IDENTITY)).unwrap();
     // The identifier of axis 1, command 0x0C, is 0x2C in the document: commands of axis 1 begin at 0x20.
     let golden: [(Result<ClassicFrame, _>, u16, &[u8]); 7] = [
         (axis.set_torque(1.5), 0x2e, &[0x00, 0x00, 0xc0, 0x3f]),
@@ -86,7 +88,9 @@ fn odrive_commands_are_the_protocols_golden_frames() {
 
 #[test]
 fn odrive_replies_are_mapped_to_the_joint() {
-    let axis = ODrive::new(0, 100.0, geared()).unwrap();
+    // The motor's encoder says where it is within half a turn of the joint.
+    let near_it = geared().mapping().with_range(JointRange::Near(-4.0), 1e-3);
+    let mut axis = ODrive::new(0, 100.0, near_it.unwrap()).unwrap();
     // The heartbeat that the documentation of odrive-can encodes: error 1, state 11, homing.
     let heartbeat = standard(0x001, &[1, 0, 0, 0, 0x0b, 0, 0, 0]);
     let expected = Reply::Heartbeat {
@@ -123,7 +127,7 @@ fn odrive_replies_are_mapped_to_the_joint() {
 
 #[test]
 fn every_wrong_reply_of_an_odrive_is_a_typed_error() {
-    let axis = ODrive::new(3, 100.0, JointMapping::IDENTITY).unwrap();
+    let mut axis = ODrive::new(3, 100.0, near_zero(JointMapping::IDENTITY)).unwrap();
     let nan = [[0, 0, 0xc0, 0x7f], [0; 4]].concat();
     let infinite = [[0; 4], [0, 0, 0x80, 0xff]].concat();
     let huge = [f32::MAX.to_le_bytes(), [0; 4]].concat();
@@ -159,8 +163,8 @@ fn a_remote_frame_has_the_lengths_of_classic_can() {
 
 #[test]
 fn torques_are_limited_and_nan_becomes_zero() {
-    let axis = ODrive::new(3, 2.0, JointMapping::IDENTITY).unwrap();
-    let joint = Moteus::new(3, 0, 2.0, JointMapping::IDENTITY).unwrap();
+    let axis = ODrive::new(3, 2.0, near_zero(JointMapping::IDENTITY)).unwrap();
+    let joint = Moteus::new(3, 0, 2.0, near_zero(JointMapping::IDENTITY)).unwrap();
     for (torque, sent) in [(f32::NAN, 0.0_f32), (9.0, 2.0), (f32::NEG_INFINITY, -2.0)] {
         let frame: FdFrame = axis.set_torque(torque).unwrap();
         assert_eq!(frame.data(), sent.to_le_bytes());
@@ -171,7 +175,7 @@ fn torques_are_limited_and_nan_becomes_zero() {
 
 #[test]
 fn nodes_and_limits_outside_their_ranges_are_refused() {
-    let identity = JointMapping::IDENTITY;
+    let identity = near_zero(JointMapping::IDENTITY);
     assert_eq!(ODrive::new(0x40, 1.0, identity), Err(CanError::Node));
     for (id, host) in [(0, 0), (128, 0), (1, 128)] {
         assert_eq!(Moteus::new(id, host, 1.0, identity), Err(CanError::Node));
@@ -184,7 +188,7 @@ fn nodes_and_limits_outside_their_ranges_are_refused() {
 
 #[test]
 fn commands_of_the_moteus_are_golden_frames_of_registers() {
-    let joint = Moteus::new(1, 0, 100.0, JointMapping::IDENTITY).unwrap();
+    let joint = Moteus::new(1, 0, 100.0, near_zero(JointMapping::IDENTITY)).unwrap();
     let command = [
         0x01, 0x00, 0x0a, // write 1 int8: mode = position
         0x02, 0x20, 0x80, 0x00, // write 2 int8: position = the present one, velocity = 0
@@ -205,7 +209,7 @@ fn commands_of_the_moteus_are_golden_frames_of_registers() {
 
 #[test]
 fn moteus_commands_are_too_long_for_classic_can() {
-    let joint = Moteus::new(1, 0, 100.0, JointMapping::IDENTITY).unwrap();
+    let joint = Moteus::new(1, 0, 100.0, near_zero(JointMapping::IDENTITY)).unwrap();
     assert_eq!(
         joint.set_torque::<ClassicFrame>(1.0),
         Err(CanError::Length(24))
@@ -227,7 +231,7 @@ fn moteus_reply(mode: u8, values: [f32; 3], fault: u8) -> Vec<u8> {
 
 #[test]
 fn moteus_replies_of_every_type_are_mapped_to_the_joint() {
-    let joint = Moteus::new(1, 0, 100.0, JointMapping::IDENTITY).unwrap();
+    let mut joint = Moteus::new(1, 0, 100.0, near_zero(JointMapping::IDENTITY)).unwrap();
     // The document's example: position 2.88°, velocity 23.04°/s, torque −1.44 N·m, as int16.
     let golden = [
         0x24, 4, 0, 0x0a, 0, 0x50, 0, 0, 1, 0x70, 0xff, 0x23, 0x0d, 0x18, 0x14, 0,
@@ -259,7 +263,7 @@ fn moteus_replies_of_every_type_are_mapped_to_the_joint() {
         let state = joint.reply(&standard(0x100, &data)).unwrap();
         assert!(near(state.position, PI));
     }
-    let geared = Moteus::new(1, 0, 100.0, geared()).unwrap();
+    let mut geared = Moteus::new(1, 0, 100.0, geared()).unwrap();
     let data = moteus_reply(1, [0.25, -0.5, 2.0], 33);
     let state = geared.reply(&standard(0x100, &data)).unwrap();
     assert!(near(state.position, (1.0 - 0.25 * TAU) / 2.0));
@@ -269,7 +273,7 @@ fn moteus_replies_of_every_type_are_mapped_to_the_joint() {
 
 #[test]
 fn every_wrong_reply_of_a_moteus_is_a_typed_error() {
-    let joint = Moteus::new(1, 2, 100.0, JointMapping::IDENTITY).unwrap();
+    let mut joint = Moteus::new(1, 2, 100.0, near_zero(JointMapping::IDENTITY)).unwrap();
     let good = moteus_reply(10, [0.0; 3], 0);
     assert!(joint.reply(&standard(0x102, &good)).is_ok());
     for id in [0x100, 0x202, 0x201, 0x002] {
@@ -334,8 +338,8 @@ fn every_wrong_reply_of_a_moteus_is_a_typed_error() {
 
 #[test]
 fn no_reply_bytes_panic_or_give_nonfinite_quantities() {
-    let axis = ODrive::new(1, 1.0, JointMapping::IDENTITY).unwrap();
-    let joint = Moteus::new(1, 0, 1.0, JointMapping::IDENTITY).unwrap();
+    let mut axis = ODrive::new(1, 1.0, near_zero(JointMapping::IDENTITY)).unwrap();
+    let mut joint = Moteus::new(1, 0, 1.0, near_zero(JointMapping::IDENTITY)).unwrap();
     let mut random = 7_u32;
     let mut next = || {
         random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

@@ -10,6 +10,8 @@ use joint_drivers::{JointDrives, JointEncoders, JointError, JointMapping};
 
 mod frames;
 
+use super::near_zero;
+
 #[derive(Default)]
 struct Bus {
     received: Vec<FdFrame>,
@@ -45,7 +47,7 @@ fn reply(node: u32, mode: u8, turns: f32, fault: u8) -> FdFrame {
 }
 
 fn joints(bus: Bus) -> CanJoints<Bus, Moteus, 2> {
-    let of = |node| Moteus::new(node, 0, 10.0, JointMapping::IDENTITY).unwrap();
+    let of = |node| Moteus::new(node, 0, 10.0, near_zero(JointMapping::IDENTITY)).unwrap();
     CanJoints::new(bus, [of(1), of(2)])
 }
 
@@ -81,7 +83,7 @@ fn each_joint_gets_its_torque() {
     (&joints).set_torques(&[1.0, -2.0]).unwrap();
     let sent = joints.release().sent;
     let of = |node, torque| {
-        let joint = Moteus::new(node, 0, 10.0, JointMapping::IDENTITY).unwrap();
+        let joint = Moteus::new(node, 0, 10.0, near_zero(JointMapping::IDENTITY)).unwrap();
         joint.set_torque::<FdFrame>(torque).unwrap()
     };
     assert_eq!(sent, [of(1, 1.0), of(2, -2.0)]);
@@ -126,7 +128,7 @@ fn an_odrive_measures_and_says_whether_it_is_ready() {
         ([0, 0, 0, 0, 1, 0, 0, 0], Err(at(0, CanError::NotReady))),
         ([1, 0, 0, 0, 1, 0, 0, 0], Err(at(0, CanError::Fault(1)))),
     ] {
-        let axis = ODrive::new(3, 10.0, JointMapping::IDENTITY).unwrap();
+        let axis = ODrive::new(3, 10.0, near_zero(JointMapping::IDENTITY)).unwrap();
         let joints = CanJoints::new(heard(&[half, frame(0x01, heartbeat)]), [axis]);
         assert_eq!((&joints).read(), Ok([core::f32::consts::PI]));
         assert_eq!((&joints).set_torques(&[0.0]), expected);

@@ -2,16 +2,19 @@
 
 use std::cell::Cell;
 use std::convert::Infallible;
+use std::f32::consts::TAU;
 use std::fmt;
 
 use dynamics_core::state::State;
+use dynamics_core::state::manifold::nearest_turn;
 use embedded_hal::digital::{self, OutputPin};
 use joint_drivers::{
     ControlLoop, DriveFault, DriveFaultKind, EncoderType, JointDrive, JointDrives, JointEncoder,
     JointEncoders, JointError, Law, NoBrake, Phase, Probe, Telemetry,
 };
 use motion_control::{
-    CurrentTick, Fault, Gains, Mode, MotionController, MotionControllerConfig, SafetyLimits,
+    Circles, CurrentTick, Detectors, Fault, FrozenEncoder, Gains, Mode, MotionController,
+    MotionControllerConfig, OnCircles, Reference, ReferenceStep, SafetyLimits, Saturation,
     SupervisorConfig,
 };
 
@@ -124,7 +127,11 @@ struct Wires {
 type Arm<'a> = ControlLoop<[Encoder<'a>; 2], [Drive<'a>; 2], Brake<'a>, 2>;
 
 fn controller() -> MotionController<f32, 2, CurrentTick> {
-    MotionController::new(MotionControllerConfig {
+    MotionController::new(config())
+}
+
+fn config() -> MotionControllerConfig<f32, 2> {
+    MotionControllerConfig {
         supervisor: SupervisorConfig {
             limits: SafetyLimits {
                 torque: [10.0; 2],
@@ -142,7 +149,7 @@ fn controller() -> MotionController<f32, 2, CurrentTick> {
         observer_bandwidth: 250.0,
         decay_rate: 25.0,
         restart_distance: 0.1,
-    })
+    }
 }
 
 const GAINS: Gains<f32, 2> = Gains {
@@ -352,4 +359,68 @@ fn devices_of_all_joints_at_once_are_encoders_and_drives() {
         (telemetry.status.fault, telemetry.torque),
         (None, [1.0, 2.0])
     );
+}
+
+/// An encoder of a joint without end, which gives the angle within a turn.
+struct Endless<'a>(&'a Cell<f32>);
+
+impl EncoderType for Endless<'_> {
+    type Error = Infallible;
+    type Age = CurrentTick;
+}
+
+impl JointEncoder for Endless<'_> {
+    fn sample(&mut self) -> Result<(), Infallible> {
+        Ok(())
+    }
+    fn position(&self) -> f32 {
+        nearest_turn(self.0.get(), 0.0)
+    }
+}
+
+#[test]
+fn a_loop_on_circles_turns_without_end() {
+    const BOTH: u128 = Circles::NONE.with(0).with(1).bits();
+    /// Both joints cruise at 2.5 rad/s.
+    struct Cruise;
+    impl Reference<f32, 2> for Cruise {
+        fn at(&self, tick: u32) -> State<f32, 2, 2> {
+            // The angle of a whole number of ticks, of which 2513 are a turn.
+            let q = TAU / 2513.0 * (tick % 2513) as f32;
+            let qd = TAU / 2.513;
+            State {
+                q: [q, -q],
+                qd: [qd, -qd],
+                qdd: [0.0; 2],
+            }
+        }
+        fn ticks(&self) -> u32 {
+            u32::MAX
+        }
+    }
+    let mut config = config();
+    let limits = &mut config.supervisor.limits;
+    (limits.lower, limits.upper) = ([f32::NEG_INFINITY; 2], [f32::INFINITY; 2]);
+    let controller = MotionController::<f32, 2, OnCircles<BOTH, CurrentTick>>::try_new(config);
+    let controller = controller.expect("circles without bounds");
+    let (q, wires) = ([Cell::new(0.0), Cell::new(0.0)], Wires::default());
+    let encoders = q.each_ref().map(Endless);
+    let drives = wires.drives.each_ref().map(Drive);
+    let detectors = Detectors {
+        frozen: FrozenEncoder::new([0.01; 2], 3),
+        steps: ReferenceStep::new([6e-3; 2]),
+        saturation: Saturation::new([10.0; 2], 5),
+    };
+    let detectors = detectors.on_circles::<BOTH>();
+    let mut arm = ControlLoop::on_circles(encoders, drives, NoBrake, GAINS, controller, detectors);
+    for tick in 0..10_000 {
+        let telemetry = arm.tick::<One, _, ()>(&Cruise, &());
+        assert_eq!(telemetry.status.fault, None, "{tick}");
+        let [off, _] = core::array::from_fn(|i| telemetry.reference[i] - telemetry.estimate[i]);
+        assert!(off.abs() < 0.01, "{tick}: {off}");
+        // A joint that follows.
+        for (q, aim) in q.iter().zip(Cruise.at(tick + 1).q) {
+            q.set(aim);
+        }
+    }
 }

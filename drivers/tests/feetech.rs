@@ -9,7 +9,9 @@ use embedded_io::{ErrorKind, ErrorType, Read, ReadReady, Write};
 use joint_drivers::feetech::{
     FeetechError, GOAL_POSITION, PRESENT_POSITION, Packet, Parser, Servos,
 };
-use joint_drivers::{Direction, JointMapping};
+use joint_drivers::{Direction, JointMapping, JointRange};
+
+use super::near_zero;
 
 /// The mock as a port of `embedded-io`, of which some bytes are there before the first packet is sent.
 struct Port {
@@ -101,7 +103,7 @@ fn port(steps: &[Step]) -> Port {
 /// The servos 1 to N, without a mapping, on a port with these steps.
 fn servos<const N: usize>(steps: &[Step]) -> Servos<Port, N> {
     let ids = core::array::from_fn(|joint| joint as u8 + 1);
-    Servos::new(port(steps), ids, [JointMapping::IDENTITY; N]).unwrap()
+    Servos::new(port(steps), ids, [near_zero(JointMapping::IDENTITY); N]).unwrap()
 }
 
 fn done<const N: usize>(servos: Servos<Port, N>) {
@@ -188,7 +190,9 @@ fn six_positions_are_read_in_one_exchange() {
     let request = sent(request.bytes());
     let port = port(&[request, received(&replies)]);
     let reverse = JointMapping::new(PI, Direction::Reverse, 1.0).unwrap();
-    let mut servos = Servos::new(port, [1, 2, 3, 4, 5, 6], [reverse; 6]).unwrap();
+    let near = [PI, 1.5, 0.2, -3.0, 4.5, -47.0].map(JointRange::Near);
+    let mappings = near.map(|near| reverse.with_range(near, 1e-3).unwrap());
+    let mut servos = Servos::new(port, [1, 2, 3, 4, 5, 6], mappings).unwrap();
     let positions = servos.positions().unwrap();
     for (position, counts) in positions
         .into_iter()
@@ -207,7 +211,7 @@ fn six_positions_are_read_in_one_exchange() {
 #[test]
 fn goals_of_all_servos_are_sent_in_one_packet() {
     let duties = [0, 500, 0x0400 | 250, 1000, 0x0400 | 1000, 0_u16];
-    let positions = [0, 1024, 0x8400, 1, 0, 0x7fff_u16];
+    let positions = [0, 1024, 2048, 1, 0, 4095_u16];
     let data = |goals: [u16; 6]| (1..).zip(goals.map(u16::to_le_bytes));
     let packets = [
         Packet::sync_write(0x2c, data(duties)).unwrap(),
@@ -215,7 +219,14 @@ fn goals_of_all_servos_are_sent_in_one_packet() {
     ];
     assert_eq!(packets[0].bytes().len(), 26);
     let transactions = packets.map(|packet| sent(packet.bytes()));
-    let mut servos = servos::<6>(&transactions);
+    // The range of each joint is one turn of its servo, from its count 0: no reading is needed.
+    let range = JointRange::Within {
+        lower: 0.0,
+        upper: 4093.0 / 2048.0 * PI,
+    };
+    let mapping = JointMapping::IDENTITY.with_range(range, 1e-3).unwrap();
+    let port = port(&transactions);
+    let mut servos = Servos::new(port, [1, 2, 3, 4, 5, 6], [mapping; 6]).unwrap();
     servos
         .set_duties(&[0.0, 0.5, -0.25, 7.0, f32::NEG_INFINITY, f32::NAN])
         .unwrap();
@@ -224,13 +235,20 @@ fn goals_of_all_servos_are_sent_in_one_packet() {
         .set_positions(&[
             0.0,
             FRAC_PI_2,
-            -FRAC_PI_2,
+            PI,
             0.6 * count,
             -0.4 * count,
-            32_767.0 * count,
+            4095.4 * count,
         ])
         .unwrap();
-    for goal in [f32::NAN, f32::INFINITY, 60.0, -60.0] {
+    for goal in [
+        f32::NAN,
+        f32::INFINITY,
+        60.0,
+        -60.0,
+        -0.6 * count,
+        4095.6 * count,
+    ] {
         let mut goals = [0.0; 6];
         goals[3] = goal;
         assert_eq!(
@@ -245,11 +263,52 @@ fn goals_of_all_servos_are_sent_in_one_packet() {
             .unwrap()
             .bytes(),
     );
-    let port = port(&[request]);
+    let port = self::port(&[request]);
     let reverse = JointMapping::new(0.0, Direction::Reverse, 5.0).unwrap();
-    let mut one = Servos::new(port, [9], [reverse]).unwrap();
+    let mut one = Servos::new(port, [9], [near_zero(reverse)]).unwrap();
     one.set_duties(&[0.3]).unwrap();
     done(one);
+}
+
+/// At zero the servo is at 5.9 rad, count 3846; its seam is at +0.38 rad.
+#[test]
+fn a_servo_reads_small_steps_across_its_seam() {
+    let range = JointRange::Within {
+        lower: -0.8,
+        upper: 0.8,
+    };
+    let mapping = JointMapping::new(5.9, Direction::Forward, 1.0).unwrap();
+    let mapping = mapping.with_range(range, 0.1).unwrap();
+    let request = Packet::sync_read(&[1], PRESENT_POSITION, 2).unwrap();
+    let turn = |truth: f32| ((truth + 5.9) / (2.0 * PI)).rem_euclid(1.0);
+    let reading = |truth| {
+        let count = (turn(truth) * 4096.0).round() as u16 & 4095;
+        [
+            sent(request.bytes()),
+            received(&reply(1, 0, &count.to_le_bytes())),
+        ]
+    };
+    let goal = Packet::sync_write(GOAL_POSITION, [(1, 141_u16.to_le_bytes())]).unwrap();
+    let truths: Vec<f32> = (-8..=8).map(|step| 0.1 * step as f32).collect();
+    let mut steps = truths.iter().copied().flat_map(reading).collect::<Vec<_>>();
+    steps.push(sent(goal.bytes()));
+    let mut servos = Servos::new(port(&steps), [1], [mapping]).unwrap();
+    for truth in truths {
+        let [read] = servos.positions().unwrap();
+        assert!((read - truth).abs() < 8e-4, "{truth} {read}");
+    }
+    // A goal within the turn of the servo's count, and one for which it would turn back by 5.9 rad.
+    servos.set_positions(&[0.6]).unwrap();
+    let refused = servos.set_positions(&[0.3]);
+    assert_eq!(refused, Err(FeetechError::Goal { joint: 0 }));
+    done(servos);
+    // From any place at power-up.
+    for truth in [-0.8, -0.3, 0.3, 0.4, 0.8] {
+        let mut servos = Servos::new(port(&reading(truth)), [1], [mapping]).unwrap();
+        let [read] = servos.positions().unwrap();
+        assert!((read - truth).abs() < 8e-4, "{truth} {read}");
+        done(servos);
+    }
 }
 
 #[test]
@@ -342,7 +401,7 @@ fn a_late_reply_is_not_taken_for_the_next() {
     let good = received(&reply(1, 0, &[0x18, 0x05]));
     let mut port = port(&[received(&late), request, good]);
     port.stale = late.len();
-    let mut servos = Servos::new(port, [1], [JointMapping::IDENTITY]).unwrap();
+    let mut servos = Servos::new(port, [1], [near_zero(JointMapping::IDENTITY)]).unwrap();
     assert_eq!(servos.read(1, PRESENT_POSITION), Ok([0x18, 0x05]));
     done(servos);
 }
@@ -384,7 +443,7 @@ fn invalid_servo_ids_and_too_long_packets_are_refused() {
     for (ids, wrong) in [([1, 1], 1), ([254, 1], 254), ([0, 255], 255)] {
         let unused = port(&[]);
         let mut mock = unused.mock.clone();
-        let refused = Servos::new(unused, ids, [JointMapping::IDENTITY; 2]).map(|_| ());
+        let refused = Servos::new(unused, ids, [near_zero(JointMapping::IDENTITY); 2]).map(|_| ());
         assert_eq!(refused, Err(FeetechError::Id(wrong)));
         mock.done();
     }

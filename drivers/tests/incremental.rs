@@ -5,7 +5,9 @@ use embedded_hal_mock::eh1::digital::{Mock, State, Transaction};
 use joint_drivers::incremental::{
     IncrementalEncoder, IncrementalError, InvalidTransition, QuadratureCounter, QuadratureDecoder,
 };
-use joint_drivers::{Direction, JointMapping, Resolution};
+use joint_drivers::{Direction, EncoderMapping, JointMapping, JointRange, Resolution};
+
+use super::near_zero;
 
 /// Counts per turn of the simulated encoder.
 const TURN: i32 = 40;
@@ -20,9 +22,14 @@ fn levels(count: i32) -> (bool, bool, bool) {
     )
 }
 
-fn joint(mapping: JointMapping) -> IncrementalEncoder<QuadratureDecoder> {
+fn joint(mapping: EncoderMapping) -> IncrementalEncoder<QuadratureDecoder> {
     let resolution = Resolution::new(TURN as u32).unwrap();
-    IncrementalEncoder::new(QuadratureDecoder::new(), resolution, mapping)
+    IncrementalEncoder::new(QuadratureDecoder::new(), resolution, mapping).unwrap()
+}
+
+/// The mapping of a joint whose encoder reads its own angle.
+fn at(range: JointRange) -> EncoderMapping {
+    JointMapping::IDENTITY.with_range(range, 1e-3).unwrap()
 }
 
 /// Turns the shaft from one count to another, one edge after the other.
@@ -43,7 +50,8 @@ fn angle(count: i32) -> f32 {
 #[test]
 fn the_position_is_known_once_the_index_is_passed() {
     for start in [-30, 10] {
-        let mut encoder = joint(JointMapping::IDENTITY);
+        // Where the joint is at the first reading says in which turn the index is passed.
+        let mut encoder = joint(at(JointRange::Near(angle(start))));
         *encoder.counter() = QuadratureDecoder::at(levels(start).0, levels(start).1, false);
         assert_eq!(encoder.read(), Err(IncrementalError::NotReferenced));
         assert_eq!(encoder.position(), None);
@@ -59,7 +67,8 @@ fn the_position_is_known_once_the_index_is_passed() {
 #[test]
 fn the_joint_mapping_applies_from_the_index() {
     let mapping = JointMapping::new(0.25, Direction::Reverse, 3.0).unwrap();
-    let mut encoder = joint(mapping);
+    let range = JointRange::Near(-1.5);
+    let mut encoder = joint(mapping.with_range(range, 1e-3).unwrap());
     turn(&mut encoder, 0, 33);
     let position = encoder.read().unwrap();
     assert!((position - (0.25 - angle(33)) / 3.0).abs() < 1e-6);
@@ -68,7 +77,7 @@ fn the_joint_mapping_applies_from_the_index() {
 
 #[test]
 fn the_count_is_followed_across_the_wrap_of_16_bits() {
-    let mut encoder = joint(JointMapping::IDENTITY);
+    let mut encoder = joint(near_zero(JointMapping::IDENTITY));
     // Whole turns are counted from the first index that was read.
     turn(&mut encoder, 0, 20);
     assert_eq!(encoder.read(), Ok(angle(20)));
@@ -86,7 +95,7 @@ fn the_count_is_followed_across_the_wrap_of_16_bits() {
 // The transition is counted, and the next index makes the position known again.
 #[test]
 fn after_an_invalid_transition_the_position_is_unknown() {
-    let mut encoder = joint(JointMapping::IDENTITY);
+    let mut encoder = joint(at(JointRange::Continuous));
     turn(&mut encoder, 0, 8);
     assert_eq!(encoder.read(), Ok(angle(8)));
     let (a, b, z) = levels(10);
@@ -102,7 +111,7 @@ fn after_an_invalid_transition_the_position_is_unknown() {
 
 #[test]
 fn an_index_before_lost_counts_gives_no_position() {
-    let mut encoder = joint(JointMapping::IDENTITY);
+    let mut encoder = joint(near_zero(JointMapping::IDENTITY));
     turn(&mut encoder, 0, 8);
     let (a, b, z) = levels(10);
     encoder.counter().update(a, b, z).unwrap_err();
@@ -124,7 +133,8 @@ fn lost_or_added_counts_are_found_at_the_index() {
         let (mut counts, mut indices) = (counts.into_iter(), indices.into_iter());
         let timer = (|| counts.next().unwrap(), || indices.next().unwrap());
         let resolution = Resolution::new(TURN as u32).unwrap();
-        let mut encoder = IncrementalEncoder::new(timer, resolution, JointMapping::IDENTITY);
+        let mut encoder =
+            IncrementalEncoder::new(timer, resolution, near_zero(JointMapping::IDENTITY)).unwrap();
         assert_eq!(encoder.read(), Err(IncrementalError::NotReferenced));
         assert_eq!(encoder.read(), Ok(resolution.angle(5)));
         let excess = i32::from(excess);
@@ -139,8 +149,10 @@ fn a_wide_index_is_tolerated_within_its_width() {
         let (mut counts, mut indices) = ([5, 50].into_iter(), [2, 42 + excess].into_iter());
         let timer = (move || counts.next().unwrap(), move || indices.next());
         let resolution = Resolution::new(TURN as u32).unwrap();
-        let mut encoder = IncrementalEncoder::new(timer, resolution, JointMapping::IDENTITY)
-            .with_index_width(width);
+        let mut encoder =
+            IncrementalEncoder::new(timer, resolution, near_zero(JointMapping::IDENTITY))
+                .unwrap()
+                .with_index_width(width);
         encoder.read().unwrap();
         encoder.read()
     };
@@ -176,7 +188,7 @@ fn the_decoder_follows_levels_that_pins_return() {
 #[test]
 fn no_level_sequence_panics_or_gives_nonfinite_positions() {
     let (mut random, mut positions) = (1_u32, 0);
-    let mut encoder = joint(JointMapping::IDENTITY);
+    let mut encoder = joint(at(JointRange::Continuous));
     for _ in 0..100_000 {
         random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         let bit = |shift: u32| random >> shift & 1 != 0;

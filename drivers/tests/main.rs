@@ -1,5 +1,7 @@
 //! Every driver against its data sheet or protocol document, in one program.
 
+use joint_drivers::{EncoderMapping, JointMapping, JointRange};
+
 mod absolute;
 mod arrays;
 mod can;
@@ -8,4 +10,10 @@ mod control_loop;
 mod drives;
 mod feetech;
 mod incremental;
+mod lost_turn;
 mod mapping;
+
+/// The mapping of a joint that starts near zero.
+fn near_zero(mapping: JointMapping) -> EncoderMapping {
+    mapping.with_range(JointRange::Near(0.0), 1e-3).unwrap()
+}

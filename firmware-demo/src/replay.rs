@@ -66,7 +66,7 @@ where
         let reference = S::reference().map_err(StartError::Trajectory)?;
         wires.publish(&reference.at(0).q);
         let control =
-            simulated_loop::<S, _, B, Q, V, N>(&reference, wires, ()).map_err(StartError::Drive)?;
+            simulated_loop::<S, _, B, Q, V, N>(&reference, wires, ()).map_err(StartError::Setup)?;
         Ok(Self {
             reference,
             wires,

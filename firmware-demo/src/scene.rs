@@ -10,7 +10,6 @@ use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
 use joint_drivers::ControlLoop;
 use joint_drivers::as5047p::RESOLUTION;
-use joint_drivers::h_bridge::DriveError;
 use motion_control::{
     Detect, Detectors, FrozenEncoder, Gains, MotionLimits, Reference, ReferenceStep, Saturation,
     Trajectory, TrajectoryError, WayPoint,
@@ -34,7 +33,9 @@ pub use app::{
 pub(crate) use app::{SETTLE, start};
 pub use errors::{Errors, larger};
 use firmware::SATURATED;
-pub use firmware::{Devices, HOLD, NEAR, OMEGA_N, REENTRY, RIDE, SceneLoop, Start, TICK, ZETA};
+pub use firmware::{
+    Devices, HOLD, NEAR, OMEGA_N, REENTRY, RIDE, SceneLoop, SetupError, Start, TICK, ZETA,
+};
 pub use noise::Noise;
 pub use run::{Full, Less, Name, PdOnly, PlantModel, Run};
 
@@ -152,13 +153,13 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     /// have the joints' own zero and direction.
     ///
     /// # Errors
-    /// [`DriveError::FullScale`]: a torque limit of the scene is not above zero.
+    /// [`SetupError`]: a limit of torque or speed of the scene is not above zero.
     fn control_loop<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f32, N>>(
         devices: Devices<Spi, Pwm, Brake, N>,
         gains: Gains<f32, N>,
         detectors: D,
         start: Start,
-    ) -> Result<SceneLoop<Spi, Pwm, Brake, N, D>, DriveError> {
+    ) -> Result<SceneLoop<Spi, Pwm, Brake, N, D>, SetupError> {
         let new = ControlLoop::new;
         firmware::control_loop::<Self, _, _, _, _, B, Q, V, N>(
             devices, gains, detectors, start, new,

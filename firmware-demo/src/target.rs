@@ -87,7 +87,7 @@ where
     let app = match App::new(wires, records) {
         Ok(app) => app,
         Err(StartError::Trajectory(_)) => fail("the arm's limits do not allow the trajectory"),
-        Err(StartError::Drive(_)) => fail("a torque limit is no full scale of a drive"),
+        Err(StartError::Setup(_)) => fail("a limit of the scene is impossible for its devices"),
     };
     match place(app) {
         Some(app) => run(app, log),

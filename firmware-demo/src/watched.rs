@@ -5,7 +5,6 @@ use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use dynamics_core::model::{JointKind, model};
 use heapless::{String, Vec};
-use joint_drivers::h_bridge::DriveError;
 use joint_drivers::{Phase, Probe, Telemetry};
 use motion_control::{Detectors, Mode, Reference};
 use telemetry::{Axis, Machine, Producer, Sample};
@@ -13,7 +12,7 @@ use telemetry::{Axis, Machine, Producer, Sample};
 use crate::marker::measured;
 use crate::plant::Rig;
 use crate::region::{self, Marked};
-use crate::scene::{Full, PlantModel, SETTLE, Scene, SimLoop, StartError, start};
+use crate::scene::{Full, PlantModel, SETTLE, Scene, SetupError, SimLoop, StartError, start};
 use crate::sim_io::Wires;
 
 /// Ticks that an injected fault lasts: longer than it is ridden through.
@@ -75,7 +74,7 @@ where
     ) -> Result<Self, StartError> {
         let reference = S::reference().map_err(StartError::Trajectory)?;
         let (rig, control) =
-            at_start::<S, B, Q, V, N>(&reference, wires).map_err(StartError::Drive)?;
+            at_start::<S, B, Q, V, N>(&reference, wires).map_err(StartError::Setup)?;
         Ok(Self {
             reference,
             wires,
@@ -153,7 +152,7 @@ where
 fn at_start<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
     reference: &S::Reference,
     wires: &'static Wires<N>,
-) -> Result<(Rig<S::Plant, N>, SimLoop<N, Detectors<f32, N>>), DriveError>
+) -> Result<(Rig<S::Plant, N>, SimLoop<N, Detectors<f32, N>>), SetupError>
 where
     S: Scene<B, Q, V, N>,
 {

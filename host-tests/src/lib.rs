@@ -1,6 +1,7 @@
 //! The core on the host: recordings of independent oracles, one tolerance table, and the robots
 //! as those oracles are given them.
 
+pub mod carried;
 pub mod controller;
 pub mod drawing;
 pub mod export;

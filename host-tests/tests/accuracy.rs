@@ -6,10 +6,10 @@ use std::collections::BTreeSet;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
-use dynamics_core::state::IncrementalTrig;
 use dynamics_core::state::State;
 use dynamics_core::trig::{Kernel, Minimax, Table};
 use dynamics_core::{Core, Engine};
+use host_tests::carried;
 use host_tests::measured::largest;
 use host_tests::recordings::{Precise, load, read};
 use host_tests::tolerances::check;
@@ -168,17 +168,15 @@ fn kernels_are_within_their_stated_error() {
 }
 
 #[test]
-fn incremental_sines_drift_slowly() {
-    let mut turns = IncrementalTrig::at([0.0_f32]);
-    let mut worst = 0.0_f64;
-    for tick in 0..10_000 {
-        let q = (f64::from(tick) * 1e-3).sin() as f32 * 3.0;
-        let turn = turns.follow(&[q]).coordinates[0];
-        let (sin, cos) = f64::from(q).sin_cos();
-        let off = [f64::from(turn.sin) - sin, f64::from(turn.cos) - cos];
-        worst = largest(off.map(f64::abs).into_iter().chain([worst]));
-    }
-    check("trig", "carried for 10⁴ ticks", "f32", worst).unwrap();
+fn carried_sines_do_not_drift_in_any_motion() {
+    let errors = carried::motions()
+        .into_iter()
+        .map(|(name, first, mut motion)| {
+            let error = carried::worst_error::<7>(20_000, first, &mut motion);
+            println!("{name}: {error:.1e}");
+            error
+        });
+    check("trig", "carried, seven joints", "f32", largest(errors)).unwrap();
 }
 
 #[test]

@@ -4,8 +4,8 @@ use dynamics_core::algorithms::NotPositiveDefinite;
 use embedded_hal::spi::SpiDevice;
 use firmware_demo::plant::{Rig, Simulated};
 use firmware_demo::sim_io::Wires;
-use joint_drivers::JointMapping;
 use joint_drivers::as5047p::{As5047p, RESOLUTION};
+use joint_drivers::{JointMapping, JointRange};
 
 /// A joint whose spring is wound: motor and link are elsewhere.
 struct Wound;
@@ -27,7 +27,8 @@ impl Simulated<(), 1> for Wound {
 #[test]
 fn encoders_measure_the_motors_not_the_joints() {
     let wires: &'static Wires<1> = Box::leak(Box::new(Wires::new()));
-    let mut encoder = As5047p::new(wires.encoder(0), JointMapping::IDENTITY);
+    let mapping = JointMapping::IDENTITY.with_range(JointRange::Continuous, 3e-3);
+    let mut encoder = As5047p::new(wires.encoder(0), mapping.unwrap());
     let mut rig = Rig::new(Wound, [1.0], wires);
     let mut encoder_positions = || {
         encoder.start();

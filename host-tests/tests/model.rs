@@ -187,10 +187,15 @@ fn limits_that_are_not_numbers_or_negative_are_refused() {
 }
 
 #[test]
-fn const_messages_are_error_messages_without_amounts() {
+fn const_messages_are_error_messages_but_for_masses() {
     let free = Body::new("tip", 0, Joint::free());
-    // A `const` evaluation cannot print an f64.
+    let negative = |moment| tip().inertia([0.3, 0.0, 0.0, 0.2, 0.0, moment]);
     for (bodies, amount) in [
+        ([root(), negative(-0.12345)], ""),
+        ([root(), negative(-99.999)], ""),
+        ([root(), negative(-9.99e-4)], ""),
+        ([root(), negative(-1234.5)], ""),
+        ([root(), tip().inertia([0.3, 0.2, 0.2, 0.0, 0.0, 0.0])], ""),
         ([root(), tip().mass(-1.0)], ": -1 kg"),
         ([root(), free], ""),
     ] {
@@ -217,11 +222,53 @@ fn an_impossible_inertia_is_named_with_its_amount() {
         "body `tip`: its moments of inertia break the triangle inequality by 5.00e-1 of the largest"
     );
     assert!(model.check(0.51).is_ok(), "the tolerance is the caller's");
-    let negative = arm(tip().inertia([-0.1, 0.0, 0.0, 0.1, 0.0, 0.1]));
-    assert_eq!(negative.check(1e-6).unwrap_err().body, "tip");
+    let negative = arm(tip().inertia_as_published([-0.1, 0.0, 0.0, 0.1, 0.0, 0.1]));
+    let error = negative.check(1e-6).unwrap_err();
+    assert_eq!(error.body, "tip");
+    let Problem::NegativeMoment(moment) = error.problem else {
+        panic!("{error}");
+    };
+    assert!((moment + 0.1).abs() < 1e-12, "{moment}");
     // The same moments about other axes: they are principal ones that count, not the diagonal.
     let turned = arm(tip().inertia([2.5, 1.5, 0.0, 2.5, 0.0, 1.0]));
     assert_eq!(turned.check(1e-6).unwrap_err().body, "tip");
+}
+
+#[test]
+fn a_negative_moment_is_refused_with_its_amount() {
+    let said = |inertia| {
+        let bodies = [root(), tip().inertia(inertia)];
+        let error = Model::<f64, 2, 2, 2>::try_new("arm", bodies).err()?;
+        assert_eq!(error.body, "tip");
+        Some(error.to_string())
+    };
+    let negative = "body `tip`: a principal moment of its inertia is negative: -2.60e-2 kg·m²";
+    assert_eq!(
+        said([0.03, 0.0, 0.0, -0.026, 0.0, 0.03]).as_deref(),
+        Some(negative)
+    );
+    // A negative moment with a diagonal that is positive: 0.02 ± 0.046.
+    assert_eq!(
+        said([0.02, 0.046, 0.0, 0.02, 0.0, 0.03]).as_deref(),
+        Some(negative)
+    );
+    // Six right numbers in the order of other descriptions; the moment is the root of a cubic.
+    for [xx, xy, xz, yy, yz, zz] in [
+        [0.03, 0.001, -0.002, 0.04, 0.003, 0.05],
+        [0.04, 0.0, 0.0, 0.04, 0.0, 0.001],
+        [0.001, 0.0, 0.0, 0.04, 0.0, 0.04],
+        [0.01, 0.0, 0.0, 0.01, 0.0, 0.01],
+    ] {
+        assert_eq!(said([xx, xy, xz, yy, yz, zz]), None);
+        let text = said([xx, yy, zz, xy, xz, yz]).expect("a negative moment");
+        assert!(
+            text.contains("in the order xx, yy, zz, xy, xz, yz it has none: -"),
+            "{text}"
+        );
+    }
+    // Rounded digits, and what breaks the triangle inequality alone, as published robots do.
+    assert_eq!(said([0.03, 0.0, 0.0, 0.03, 0.0, -2e-5]), None);
+    assert_eq!(said([0.0, 0.0, 0.0, 0.0, 0.0, 2.0]), None);
 }
 
 #[test]

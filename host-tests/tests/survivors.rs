@@ -1,5 +1,5 @@
 //! Terms whose loss no other test noticed: slopes that implicit steps use, momenta with a payload or on a moving base,
-//! the tolerance of a payload's check, what brings carried sines back to the unit circle.
+//! the tolerance of a payload's check.
 
 use dynamics_core::algorithms::{
     base_velocity_from_momentum, centroidal_matrix, centroidal_momentum, cholesky, crba, ltdl,
@@ -12,7 +12,6 @@ use dynamics_core::effects::{
 };
 use dynamics_core::model::{ArmModel, BASE, Body, BodyInertia, Joint, Model, Problem};
 use dynamics_core::spatial::{Force, Motion};
-use dynamics_core::state::IncrementalTrig;
 use dynamics_core::state::State;
 use dynamics_core::state::manifold::{integrate, neutral};
 use glam::DVec3;
@@ -194,18 +193,6 @@ fn a_wanted_momentum_is_reached_on_a_moving_base() {
         base_velocity_from_momentum(&FLOATING, &state, wanted, &ship).expect("the trunk has mass");
     same(momentum(&FLOATING, &state, &ship), wanted);
     assert!((momentum(&FLOATING, &state, &()).lin - wanted.lin).length() > 0.5);
-}
-
-#[test]
-fn incremental_sines_stay_on_the_unit_circle() {
-    let (mut turns, mut q) = (IncrementalTrig::at([0.3_f64]), 0.3);
-    for _ in 0..100_000 {
-        q += 0.01;
-        turns.follow(&[q]);
-    }
-    let turn = turns.follow(&[q]).coordinates[0];
-    let off = turn.sin * turn.sin + turn.cos * turn.cos - 1.0;
-    assert!(off.abs() < 1e-15, "{off:e}");
 }
 
 const WHEEL: ArmModel<f64, 1> = Model::new(

@@ -30,6 +30,7 @@
 //! | [`FrozenEncoder`], [`ReferenceStep`], [`Saturation`] | faults that take several ticks to show | the last ticks |
 //! | [`TickCounter`], [`Watchdog`] | missed ticks, overruns, and what feeds a watchdog | a count |
 //! | [`Approach`] | the way from any pose to the start of a motion | none |
+//! | [`Circles`], [`OnCircles`] | which joints are points on a circle: the short way, at any number of turns | none |
 //! | [`BackOff`] | the return of an arm that is beyond its bounds | how far it has come back |
 //!
 //! Types with a configuration struct have a `try_new`, which checks the struct, and a `new` for constants, which does
@@ -102,13 +103,14 @@ pub use law::{
     orientation_error, passivity_based_torque, pose_error, quaternion_error,
 };
 pub use limits::{
-    Command, ConfigError, ConfigParameter, Fault, LimitKind, Mode, MotionLimits, Reaction,
+    Circles, Command, ConfigError, ConfigParameter, Fault, LimitKind, Mode, MotionLimits, Reaction,
     SafetyLimits, SafetyLimitsError, Status,
 };
 pub use motion::{
     Approach, ApproachError, BackOff, BackOffConfig, ContactPhase, ContactReaction,
     ContactReactionConfig, ContactResponse, CurrentTick, MeasurementAge, MotionController,
-    MotionControllerConfig, ObservedTick, PreviousTick, ReferencedTick, ResetError, hold,
+    MotionControllerConfig, ObservedTick, OnCircles, PreviousTick, ReferencedTick, ResetError,
+    hold,
 };
 pub use reference::{
     GeometricPath, JointFriction, PathLimits, PathPoint, PathSpline, PathSplineError, Recorded,

@@ -81,7 +81,7 @@ impl Robot {
         let number = |body: &BodyRef| self.body_number(body);
         let alone = |coordinate| self.is_alone(coordinate);
         fit(request.effects, self.counts.v, alone, |body| {
-            number(body).ok_or_else(|| format!("the robot has no body {body:?}"))
+            number(body).ok_or_else(|| format!("the robot has no body {body}"))
         })
         .map_err(|error| {
             let text = format!("{}: {}", error.effect, error.problem);

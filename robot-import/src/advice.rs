@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::check::Checked;
 use crate::description::{Description, Format, Joint, Kind};
 use crate::inertia::MassProperties;
-use crate::physical::impossible;
+use crate::physical::{impossible, sentence};
 use crate::selection::{Role, Selected};
 use crate::tree::{Body, Tree};
 
@@ -57,6 +57,9 @@ pub struct Advice {
 
 /// By how much a principal moment may exceed the sum of the others: the rounding of a file's digits.
 pub const TOLERANCE: f64 = 1e-3;
+
+/// The radius of gyration, m, beyond which an inertia is a placeholder or in another unit.
+pub const FAR_GYRATION: f64 = 2.0;
 
 /// The longest time for a joint's range at its limit of speed without a word, s.
 const SLOWEST: f64 = 600.0;
@@ -149,7 +152,8 @@ fn links(robot: &Description, tree: &Tree, all: &mut Vec<Advice>) {
             });
         };
         let own = MassProperties::in_frame(inertial.mass, &inertial.exact, inertial.inertia);
-        if let Some(words) = impossible(own.inertia, TOLERANCE) {
+        if let Some(found) = impossible(own.inertia, TOLERANCE) {
+            let words = sentence(&found);
             let text = format!("{words} `--repair` takes the nearest physical one.");
             add(Topic::NonPhysical, text);
         }
@@ -162,7 +166,7 @@ fn links(robot: &Description, tree: &Tree, all: &mut Vec<Advice>) {
                 Topic::Placeholder,
                 format!("The inertia is {xx} kg·m² about every axis: a placeholder."),
             );
-        } else if own.mass > 0.0 && gyration > 2.0 {
+        } else if own.mass > 0.0 && gyration > FAR_GYRATION {
             add(
                 Topic::Placeholder,
                 format!(
@@ -267,10 +271,20 @@ fn joint(robot: &Description, joint: &Joint, selected: &Selected, all: &mut Vec<
             ),
         );
     }
+    // A follower has no motor of its own, nor has a joint without one where the file has some.
+    let leader = (joint.mimic.as_ref()).and_then(|mimic| {
+        let mut others = robot.joints.iter();
+        others.position(|other| other.name == mimic.joint)
+    });
+    let is_passive = leader.is_some_and(|leader| selected.order.contains(&leader))
+        || robot.format == Format::Mjcf
+            && !joint.driven
+            && robot.joints.iter().any(|other| other.driven);
     let missing: Vec<&str> = [("speed", limits.velocity), ("torque", limits.effort)]
         .into_iter()
         // MJCF has no limits of speed.
         .filter(|(name, _)| robot.format == Format::Urdf || *name != "speed")
+        .filter(|_| !is_passive)
         .filter_map(|(name, limit)| limit.is_none_or(|limit| limit <= 0.0).then_some(name))
         .collect();
     if !missing.is_empty() {

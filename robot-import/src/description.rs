@@ -3,6 +3,7 @@
 use dynamics_core::glam::{DMat3, DVec3};
 
 use crate::error::{ImportError, Problem};
+use crate::limits::{MOST_COMPARED, MOST_SHOWN};
 
 /// A format of descriptions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,8 +29,10 @@ pub struct Description {
     pub joints: Vec<Joint>,
     /// Joints that close loops.
     pub loops: Vec<Loop>,
-    /// What the file states and the import leaves out, a sentence each.
+    /// What the file states and the import leaves out, and what it takes other than XML does, a sentence each.
     pub notes: Vec<String>,
+    /// The files that it includes.
+    pub files: Vec<std::path::PathBuf>,
 }
 
 /// A link.
@@ -98,6 +101,8 @@ pub struct Joint {
     pub friction: f64,
     /// Rotor inertia reflected to the joint, kg·m² or kg.
     pub armature: f64,
+    /// Stiffness (N·m/rad or N/m) and rest position (rad or m) of a spring; no stiffness is none.
+    pub spring: [f64; 2],
     /// Whether the file has a motor on it; of URDF, whether it states the torque of one.
     pub driven: bool,
     /// Position = multiplier · (position of another joint) + offset.
@@ -258,13 +263,8 @@ pub(crate) fn index_of<'a>(
     if let Some(i) = names.clone().position(|other| other == name) {
         return Ok(i);
     }
-    let shared = |other: &str| {
-        let same = std::iter::zip(other.chars(), name.chars());
-        same.take_while(|(a, b)| a.eq_ignore_ascii_case(b)).count()
-    };
-    let like = names.max_by_key(|other| shared(other));
-    let suggestion = match like.filter(|other| shared(other) > 1) {
-        Some(other) => format!("; did you mean `{other}`?"),
+    let suggestion = match most_similar(name, names) {
+        Some(other) => format!("; did you mean `{}`?", shortened(other)),
         None => String::new(),
     };
     let name = shortened(name);
@@ -276,9 +276,57 @@ pub(crate) fn index_of<'a>(
     .into())
 }
 
-/// A text of a file for a message: at most 60 characters.
+/// The name that differs by the fewest letters, if that is at most a third of them; otherwise the one with the longest common
+/// beginning, if that is more than one letter.
+pub(crate) fn most_similar<'a>(
+    name: &str,
+    names: impl Iterator<Item = &'a str> + Clone,
+) -> Option<&'a str> {
+    let most = name.chars().take(MOST_COMPARED).count() / 3;
+    let nearest = names.clone().map(|other| (edits(name, other), other));
+    let nearest = nearest.min_by_key(|(edits, _)| *edits);
+    if let Some((_, other)) = nearest.filter(|(edits, _)| *edits <= most) {
+        return Some(other);
+    }
+    let shared = |other: &str| {
+        let same = std::iter::zip(other.chars(), name.chars());
+        same.take_while(|(a, b)| a.eq_ignore_ascii_case(b)).count()
+    };
+    let like = names.max_by_key(|other| shared(other));
+    like.filter(|other| shared(other) > 1)
+}
+
+/// By how many letters that are inserted, left out, replaced or exchanged with the next one two names differ.
+fn edits(a: &str, b: &str) -> usize {
+    let letters = |text: &str| -> Vec<char> {
+        let lower = text.chars().map(|letter| letter.to_ascii_lowercase());
+        lower.take(MOST_COMPARED).collect()
+    };
+    let (a, b) = (letters(a), letters(b));
+    let mut rows = vec![(0..=b.len()).collect::<Vec<usize>>()];
+    for i in 0..a.len() {
+        let mut row = vec![i + 1];
+        for j in 0..b.len() {
+            let replaced = rows[i][j] + usize::from(a[i] != b[j]);
+            let mut least = replaced.min(rows[i][j + 1] + 1).min(row[j] + 1);
+            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+                least = least.min(rows[i - 1][j - 1] + 1);
+            }
+            row.push(least);
+        }
+        rows.push(row);
+    }
+    rows[a.len()][b.len()]
+}
+
+/// A text of a file for a message: at most [`MOST_SHOWN`] characters.
 pub(crate) fn shortened(text: &str) -> String {
-    match text.char_indices().nth(60) {
+    cut(text, MOST_SHOWN)
+}
+
+/// The beginning of a text that is longer than so many characters.
+pub(crate) fn cut(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_owned(),
     }

@@ -43,6 +43,17 @@ pub enum Problem {
         /// The error of the operating system.
         reason: String,
     },
+    /// The file cannot be written.
+    #[error("cannot write {path}: {reason}")]
+    Write {
+        /// Its path.
+        path: String,
+        /// The error of the operating system, or why it must not be written.
+        reason: String,
+    },
+    /// The encoding that the file declares is not known, or not that of its bytes.
+    #[error("its encoding {0}")]
+    Encoding(String),
     /// The file, or its number of elements, is larger than any robot's.
     #[error("{what}: {found}, at most {most}")]
     TooLarge {

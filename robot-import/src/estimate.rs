@@ -34,14 +34,23 @@ pub struct Saved {
     pub cycles: i64,
 }
 
-/// Cycles of inverse dynamics with sines and cosines; none if the engine does not take the robot's joints.
+/// The least estimate of the robots from which it is made, whose fewest cycles are 104: below it says nothing.
+const LEAST: f64 = 73.0;
+
+/// Cycles of inverse dynamics with sines and cosines; none of joints that the engine is not measured with, and of a robot that is
+/// smaller than those which were measured, such as one of a single joint.
 pub fn cycles(tree: &Tree) -> Option<u64> {
-    tree.is_single().then(|| estimated(tree) as u64)
+    known(tree).map(|cycles| cycles as u64)
 }
 
 /// Bytes of its code.
 pub fn flash(tree: &Tree) -> Option<u64> {
-    tree.is_single().then(|| (FLASH * estimated(tree)) as u64)
+    known(tree).map(|cycles| (FLASH * cycles) as u64)
+}
+
+fn known(tree: &Tree) -> Option<f64> {
+    let estimated = tree.is_single().then(|| estimated(tree));
+    estimated.filter(|cycles| *cycles >= LEAST)
 }
 
 fn estimated(tree: &Tree) -> f64 {
@@ -55,7 +64,7 @@ fn estimated(tree: &Tree) -> f64 {
         };
         PER_JOINT + of_mass + placed
     });
-    each.sum::<f64>().max(0.0)
+    each.sum()
 }
 
 /// How many entries of a placement's rotation are neither 0 nor ±1.

@@ -5,22 +5,23 @@ use std::time::Duration;
 
 use crate::advice::{Advice, advice, needless_torque};
 use crate::check::{self, NoPeer, Python, STATES};
-use crate::description::{Description, shortened};
+use crate::description::{Description, Format, shortened};
+use crate::dropped::dropped;
 use crate::error::{ImportError, Problem, Result};
 use crate::estimate;
+use crate::limits::{LEAST, MOST_JOINTS_OF_PROJECT, PEER_TIME};
 use crate::loops::{Closed, Motors};
 use crate::model::AnyModel;
-use crate::physical::violation;
+use crate::outputs::{self, are_apart};
+use crate::physical::impossible;
 use crate::plausible::plausible;
-use crate::project::{FileEffects, RobotFile};
+use crate::project::{Feedback, FileEffects, RobotFile};
 use crate::report::{Report, rows};
 use crate::selection::{Selected, Selection};
 use crate::text::shell_word;
 use crate::tree::{Numbers, Tree};
 use crate::{loops, source, write};
-
-/// How long a comparison with a peer may take, s: the first start of a Python with large packages takes ten.
-const PEER_TIME: f64 = 60.0;
+use dynamics_core::model::ImpossibleInertia;
 
 /// Which file becomes which robot.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -88,8 +89,11 @@ pub struct Options {
     #[arg(long)]
     pub python_environment: bool,
     /// How long the comparison may take, s
-    #[arg(long, value_name = "SECONDS", default_value_t = PEER_TIME)]
+    #[arg(long, value_name = "SECONDS", default_value_t = PEER_TIME.as_secs_f64())]
     pub peer_time: f64,
+    /// Let an MJCF include files below this folder, too; otherwise those below its own
+    #[arg(long, value_name = "FOLDER")]
+    pub include_root: Option<PathBuf>,
 }
 
 impl Options {
@@ -98,7 +102,67 @@ impl Options {
         let given = Duration::try_from_secs_f64(self.peer_time).ok();
         given
             .filter(|time| !time.is_zero() && *time < Duration::from_secs(1 << 20))
-            .unwrap_or(Duration::from_secs_f64(PEER_TIME))
+            .unwrap_or(PEER_TIME)
+    }
+}
+
+impl Args {
+    /// The name of the type in the file that is written anew: a program that uses it compiles on.
+    fn kept_type(&self) -> Option<String> {
+        let out = self.out.as_ref().filter(|_| self.name.is_none())?;
+        write::type_of(&outputs::written_before(out)?)
+    }
+
+    /// The words after `import` that write the file of this robot again, as a shell takes them.
+    fn again(&self, name: &str) -> String {
+        let Options {
+            base,
+            tip,
+            joints,
+            without,
+            lock,
+            free_base,
+            motors,
+            repair,
+            keep_roundings,
+            include_root,
+            ..
+        } = &self.options;
+        let include_root = include_root
+            .as_ref()
+            .map(|folder| folder.display().to_string());
+        let mut words = vec![file_name(&self.file), "--name".to_owned(), name.to_owned()];
+        let mut option = |option: &str, value: String| words.push(format!("{option}={value}"));
+        for (name, value) in [
+            ("--base", base),
+            ("--tip", tip),
+            ("--type", &self.type_name),
+            ("--include-root", &include_root),
+        ] {
+            value.iter().for_each(|value| option(name, value.clone()));
+        }
+        for (name, values) in [("--joints", joints), ("--motors", motors)] {
+            (!values.is_empty()).then(|| option(name, values.join(",")));
+        }
+        without
+            .iter()
+            .for_each(|link| option("--without", link.clone()));
+        for (joint, position) in lock {
+            option("--lock", format!("{joint}={position}"));
+        }
+        let flags = [
+            ("--free-base", free_base),
+            ("--repair", repair),
+            ("--keep-roundings", keep_roundings),
+        ];
+        words.extend(
+            flags
+                .iter()
+                .filter(|flag| *flag.1)
+                .map(|flag| flag.0.to_owned()),
+        );
+        let quoted: Vec<String> = words.iter().map(|word| shell_word(word)).collect();
+        quoted.join(" ")
     }
 }
 
@@ -192,7 +256,12 @@ pub struct Imported {
 /// # Errors
 /// Of the file, with line and element; of the selection; [`Problem::Value`] if the check fails.
 pub fn import(args: &Args, today: &str) -> Result<Imported> {
-    let mut robot = source::read(&args.file)?;
+    let written = [&args.out, &args.report].into_iter().flatten();
+    let written: Vec<&Path> = written.map(PathBuf::as_path).collect();
+    are_apart(&[&args.file], &written)?;
+    let mut robot = source::read_below(&args.file, args.options.include_root.as_deref())?;
+    let included: Vec<&Path> = robot.files.iter().map(PathBuf::as_path).collect();
+    are_apart(&included, &written)?;
     let mut notes = Vec::new();
     if args.options.repair {
         repair(&mut robot, &mut notes);
@@ -248,7 +317,17 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         ))
         .into());
     }
-    let (peer, no_peer) = match compared(args, &robot, &selected, &tree, &checked)? {
+    if checked.full_scale > 0.0 && checked.full_scale < LEAST {
+        return Err(Problem::Value(format!(
+            "its torques are at most {:.0e} N·m or N, and f32 computes with none below {LEAST:e}: its masses and inertias are too small, \
+             maybe by their unit",
+            checked.full_scale
+        ))
+        .into());
+    }
+    let mut complaint = None;
+    let (peer, no_peer) = match compared(args, &robot, &selected, &tree, &checked, &mut complaint)?
+    {
         Ok(peer) => (Some(peer), None),
         Err(no_peer) => (None, Some(no_peer)),
     };
@@ -257,11 +336,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
             "Couplings of joints are left out: they need joints of one coordinate.".to_owned(),
         );
     }
-    for name in &args.options.without {
-        notes.push(format!(
-            "Link `{name}` and all that it carries are left out."
-        ));
-    }
+    notes.extend(dropped(&robot, &selection, &selected));
     let (closed, _) = loops::closed(&robot, &tree);
     let motors = Motors::of(&tree, &closed, &args.options.motors)?;
     notes.extend(motors.advice.clone());
@@ -282,6 +357,12 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
             text: format!("The import was compared with no peer: {reason}."),
         });
     }
+    own.extend(complaint.map(|text| Advice {
+        topic: crate::advice::Topic::Peer,
+        line: 0,
+        name: name.clone(),
+        text,
+    }));
     own.extend(plausible(&tree, &name));
     own.extend(notes.iter().map(|note| Advice {
         topic: crate::advice::Topic::LeftOut,
@@ -320,6 +401,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         base: tree.base.clone(),
         bodies: rows(&tree),
         loops: closed.iter().map(|one| one.name.clone()).collect(),
+        coupled_motors: (tree.has_followers() && tree.is_single()).then(|| tree.motors()),
         sizes: [tree.bodies.len(), q, v],
         advice: own,
         exact: estimate::savings(&robot, &selected, &tree),
@@ -352,6 +434,7 @@ fn compared(
     selected: &Selected,
     tree: &Tree,
     checked: &check::Checked,
+    complaint: &mut Option<String>,
 ) -> Result<std::result::Result<check::Peer, NoPeer>> {
     let options = &args.options;
     let peer = match options.repair || options.base.is_some() || !options.without.is_empty() {
@@ -364,8 +447,24 @@ fn compared(
                 environment: options.python_environment,
                 time: options.peer_time(),
             };
-            let text = source::for_peer(&args.file)?;
-            check::compare(&python, &text, robot, selected, tree, checked)
+            let text = source::for_peer(&args.file, options.include_root.as_deref())?;
+            let compare =
+                |text: &str| check::compare(&python, text, robot, selected, tree, checked);
+            match (compare(&text), robot.format) {
+                (Ok(peer), Format::Urdf)
+                    if peer.difference > check::MOST && !peer.complaint.is_empty() =>
+                {
+                    let plain = compare(&source::with_plain_numbers(&args.file)?);
+                    match plain.ok().filter(|plain| plain.difference <= check::MOST) {
+                        Some(plain) => {
+                            *complaint = Some(misread(&peer));
+                            Ok(plain)
+                        }
+                        None => Ok(peer),
+                    }
+                }
+                (peer, _) => peer,
+            }
         }
     };
     match &peer {
@@ -376,15 +475,29 @@ fn compared(
         .into()),
         Ok(peer) if peer.difference > check::MOST => Err(Problem::Value(format!(
             "the import differs from {} by {:.1e} of full scale, at most {:.0e}, most at joint `{}`: nothing that the import leaves \
-             out explains it, so that one of the two misreads the file; with `--python none` the import is compared with no peer",
+             out explains it, so that one of the two misreads the file{}; with `--python none` the import is compared with no peer",
             peer.name,
             peer.difference,
             check::MOST,
-            peer.joint
+            peer.joint,
+            match peer.complaint.as_str() {
+                "" => String::new(),
+                words => format!(", of which {} says: \"{words}\"", peer.name),
+            }
         ))
         .into()),
         _ => Ok(peer),
     }
+}
+
+/// The advice on a file of which a peer leaves a part out that it takes where the same numbers have no blanks around them.
+fn misread(peer: &check::Peer) -> String {
+    format!(
+        "{} misreads the file and says: \"{}\". Its torques then differ by {:.1e} of full scale, most at joint `{}`. Where the numbers of \
+         the file have no blanks and line ends around them, which XML allows, it has the torques of the import. Programs that read the \
+         file as it does leave that out: remove them.",
+        peer.name, peer.complaint, peer.difference, peer.joint
+    )
 }
 
 fn file_name(path: &Path) -> String {
@@ -430,8 +543,8 @@ fn repair(robot: &mut Description, notes: &mut Vec<String>) {
         let Some(inertial) = &mut link.inertial else {
             continue;
         };
-        if let Some(found) = violation(inertial.inertia, 0.0) {
-            inertial.inertia = found.repaired;
+        if let Some(found) = impossible(inertial.inertia, 0.0) {
+            inertial.inertia = ImpossibleInertia::nearest(inertial.inertia);
             notes.push(format!(
                 "The inertia of link `{}` was not physical by {:.1e} of its largest moment: the nearest physical one is taken.",
                 link.name, found.excess
@@ -440,19 +553,14 @@ fn repair(robot: &mut Description, notes: &mut Vec<String>) {
     }
 }
 
-/// Imports and writes the file.
+/// Imports and writes the robot's file.
 ///
 /// # Errors
 /// As [`import`], and a file that cannot be written.
 pub fn run(args: &Args, today: &str) -> Result<Imported> {
     let imported = import(args, today)?;
     if let Some(out) = &args.out {
-        std::fs::write(out, &imported.source).map_err(|error| {
-            ImportError::from(Problem::File {
-                path: out.display().to_string(),
-                reason: error.to_string(),
-            })
-        })?;
+        outputs::write(out, &imported.source)?;
     }
     Ok(imported)
 }
@@ -483,6 +591,12 @@ impl Imported {
                 viscous: is_some(|body| body.damping),
                 coulomb: is_some(|body| body.friction),
                 armature: is_some(|body| body.armature),
+                spring: self.tree.has_springs(),
+            },
+            // More joints than a project has are not looked at.
+            feedback: match v <= MOST_JOINTS_OF_PROJECT {
+                true => Feedback::of(&self.tree).unwrap_or_default(),
+                false => Feedback::default(),
             },
         }
     }

@@ -19,13 +19,16 @@
 pub mod advice;
 pub mod check;
 pub mod description;
+mod dropped;
 pub mod error;
 pub mod estimate;
 pub mod import;
 pub mod inertia;
+pub mod limits;
 pub mod loops;
 pub mod model;
 pub mod number;
+pub mod outputs;
 pub mod physical;
 pub mod plausible;
 mod print;

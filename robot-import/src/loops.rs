@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::description::{Description, Kind, Pose};
+use crate::description::{Description, Kind, Pose, most_similar, shortened};
 use crate::error::{Problem, Result};
 use crate::number::{Attitude, tidy};
 use crate::text::string_literal;
@@ -70,16 +70,21 @@ impl Motors {
     /// # Errors
     /// A name that no moving joint has, or fewer joints than the library takes.
     pub fn of(tree: &Tree, loops: &[Closed], names: &[String]) -> Result<Self> {
-        if let Some(name) = names.iter().find(|name| {
-            let mut bodies = tree.bodies.iter();
-            !bodies.any(|body| body.joint == **name)
-        }) {
-            let problem = format!("`--motors {name}`: no joint of this name moves");
+        let moving = tree.bodies.iter().map(|body| body.joint.as_str());
+        if let Some(name) = names
+            .iter()
+            .find(|name| !moving.clone().any(|joint| joint == **name))
+        {
+            let like = most_similar(name, moving).map_or(String::new(), |like| {
+                format!("; did you mean `{}`?", shortened(like))
+            });
+            let name = shortened(name);
+            let problem = format!("`--motors {name}`: no joint of this name moves{like}");
             return Err(Problem::Value(problem).into());
         }
         if let (false, true) = (names.is_empty(), loops.is_empty()) {
-            let problem =
-                "`--motors`: the robot has no loop, so that each of its joints has a motor";
+            let problem = "`--motors`: the robot has no loop, and its torques are those of all joints: that of a joint without a motor \
+                           is zero";
             return Err(Problem::Value(problem.to_owned()).into());
         }
         let of = |driven: &dyn Fn(&Body) -> bool| {
@@ -93,6 +98,13 @@ impl Motors {
             }
             all
         };
+        if loops.is_empty() {
+            return Ok(Self {
+                actuated: of(&|_| true),
+                which: "Every coordinate has a motor.",
+                advice: None,
+            });
+        }
         let [_, v] = tree.coordinates();
         // At least so many coordinates move freely; the library asks for as many motors.
         let least = v.saturating_sub(rows(loops)).max(1);

@@ -81,7 +81,7 @@ fn import(args: &import::Args) -> Result<(), Box<dyn std::error::Error>> {
     let imported = import::run(args, &today())?;
     let json = serde_json::to_string_pretty(&imported.report)? + "\n";
     if let Some(file) = &args.report {
-        std::fs::write(file, &json).map_err(|error| format!("{}: {error}", file.display()))?;
+        robot_import::outputs::write(file, &json)?;
     }
     let report = match args.json {
         true => json,
@@ -158,8 +158,8 @@ fn new(args: New) -> Result<(), Box<dyn std::error::Error>> {
         };
         println!("\nnext: cd {} && {next}", args.folder.display());
     }
-    if let Some(note) = created.note {
-        println!("note: {note}");
+    for note in created.notes {
+        println!("note: {}", visible(&note));
     }
     Ok(())
 }

@@ -5,14 +5,15 @@
 
 use dynamics_core::advice::Advice;
 use dynamics_core::algorithms::{crba, poses, rnea};
-use dynamics_core::effects::{Inertia, RIGID_BODY};
+use dynamics_core::effects::{Gravity, Inertia, RIGID_BODY};
 use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, ModelError};
 use dynamics_core::state::State;
 
 use crate::check::energy::{Rows, rows};
-use crate::description::{Kind, Pose};
+use crate::description::{Kind, Pose, shortened};
 use crate::error::{Problem, Result};
+use crate::limits::MOST_COORDINATES;
 use crate::loops::Closed;
 use crate::number::Attitude;
 use crate::tree::{self, Tree};
@@ -28,17 +29,6 @@ pub struct Motion {
     pub qdd: Vec<f64>,
 }
 
-/// The library's results of a tree at a state.
-#[derive(Clone, Debug)]
-pub struct Dynamics {
-    /// Inverse dynamics in f64, N·m or N.
-    pub torque: Vec<f64>,
-    /// The same in f32.
-    pub torque_f32: Vec<f64>,
-    /// M, row by row.
-    pub inertia: Vec<Vec<f64>>,
-}
-
 /// A tree as a model.
 #[derive(Debug)]
 pub enum AnyModel {
@@ -47,7 +37,7 @@ pub enum AnyModel {
     /// Of up to 64.
     Middle(Box<Sized<76, 80>>),
     /// Of up to 136.
-    Large(Box<Sized<160, 168>>),
+    Large(Box<Sized<MOST_BODIES, 168>>),
 }
 
 /// A model filled up to N bodies and velocity coordinates, and Q position coordinates.
@@ -59,14 +49,11 @@ pub struct Sized<const N: usize, const Q: usize> {
     balls: usize,
 }
 
-/// The most velocity coordinates of a tree that is checked.
-pub const MOST_COORDINATES: usize = 136;
-
 impl AnyModel {
     /// The model of a tree.
     ///
     /// # Errors
-    /// More coordinates than [`MOST_COORDINATES`], or numbers that the library refuses.
+    /// More coordinates than [`MOST_COORDINATES`](crate::limits::MOST_COORDINATES), or numbers that the library refuses.
     pub fn of(tree: &Tree) -> Result<Self> {
         let v = tree.coordinates()[1].max(tree.bodies.len());
         Ok(match v {
@@ -111,12 +98,39 @@ impl AnyModel {
         }
     }
 
-    /// Its dynamics at a state.
-    pub fn dynamics(&self, motion: &Motion) -> Dynamics {
+    /// The torques that hold it at rest at q, N·m or N.
+    pub fn gravity(&self, q: &[f64]) -> Vec<f64> {
         match self {
-            Self::Small(model) => model.dynamics(motion),
-            Self::Middle(model) => model.dynamics(motion),
-            Self::Large(model) => model.dynamics(motion),
+            Self::Small(model) => model.gravity(q),
+            Self::Middle(model) => model.gravity(q),
+            Self::Large(model) => model.gravity(q),
+        }
+    }
+
+    /// Inverse dynamics at a state, N·m or N.
+    pub fn torque(&self, motion: &Motion) -> Vec<f64> {
+        match self {
+            Self::Small(model) => model.torque(motion),
+            Self::Middle(model) => model.torque(motion),
+            Self::Large(model) => model.torque(motion),
+        }
+    }
+
+    /// The same in f32.
+    pub fn torque_f32(&self, motion: &Motion) -> Vec<f64> {
+        match self {
+            Self::Small(model) => model.torque_f32(motion),
+            Self::Middle(model) => model.torque_f32(motion),
+            Self::Large(model) => model.torque_f32(motion),
+        }
+    }
+
+    /// M of its v velocity coordinates at q, row by row.
+    pub fn inertia(&self, q: &[f64], v: usize) -> Vec<Vec<f64>> {
+        match self {
+            Self::Small(model) => model.inertia(q, v),
+            Self::Middle(model) => model.inertia(q, v),
+            Self::Large(model) => model.inertia(q, v),
         }
     }
 }
@@ -129,9 +143,45 @@ pub fn arm<const N: usize>(tree: &Tree) -> Result<ArmModel<f64, N>> {
     if !tree.is_single() || tree.bodies.len() != N {
         return Err(Problem::Value(format!("not {N} joints of one coordinate each")).into());
     }
-    let bodies = std::array::from_fn(|i| described(&tree.bodies[i]));
-    Model::try_new("tree", bodies)
-        .map_err(|error: ModelError| Problem::Value(error.to_string()).into())
+    let bodies = std::array::from_fn(|i| described(i, &tree.bodies[i]));
+    Model::try_new("tree", bodies).map_err(|error: ModelError| refused(tree, error).into())
+}
+
+/// An error of the library with the body's name in place of its number.
+fn refused(tree: &Tree, error: ModelError) -> Problem {
+    let text = error.to_string();
+    Problem::Value(
+        match number_of(error.body).and_then(|i| tree.bodies.get(i)) {
+            Some(body) => text.replacen(error.body, &shortened(&body.name), 1),
+            None => text,
+        },
+    )
+}
+
+/// The most bodies of a model.
+const MOST_BODIES: usize = 160;
+
+/// Three digits for each number of a body.
+static DIGITS: [u8; 3 * MOST_BODIES] = {
+    let (mut all, mut i) = ([b'0'; 3 * MOST_BODIES], 0);
+    while i < MOST_BODIES {
+        all[3 * i] += (i / 100) as u8;
+        all[3 * i + 1] += (i / 10 % 10) as u8;
+        all[3 * i + 2] += (i % 10) as u8;
+        i += 1;
+    }
+    all
+};
+
+/// A body's number as its name: the library's names are known while compiling.
+fn number(i: usize) -> &'static str {
+    let digits = DIGITS.get(3 * i..3 * i + 3).unwrap_or_default();
+    std::str::from_utf8(digits).unwrap_or_default()
+}
+
+/// The number of the body that has it as its name.
+pub fn number_of(name: &str) -> Option<usize> {
+    name.parse().ok()
 }
 
 impl<const N: usize, const Q: usize> Sized<N, Q> {
@@ -150,7 +200,7 @@ impl<const N: usize, const Q: usize> Sized<N, Q> {
         }
         let revolute = N - v - 3 * balls;
         let bodies = std::array::from_fn(|i| match tree.bodies.get(i) {
-            Some(body) => described(body),
+            Some(body) => described(i, body),
             None => {
                 let joint = match i - tree.bodies.len() {
                     more if more < balls => Joint::spherical(),
@@ -160,8 +210,7 @@ impl<const N: usize, const Q: usize> Sized<N, Q> {
                 Body::new("filler", BASE, joint)
             }
         });
-        let refused = |error: ModelError| Problem::Value(error.to_string());
-        let exact = Model::try_new("tree", bodies).map_err(refused)?;
+        let exact = Model::try_new("tree", bodies).map_err(|error| refused(tree, error))?;
         let rounded = exact.to_f32();
         Ok(Box::new(Self {
             exact,
@@ -215,26 +264,36 @@ impl<const N: usize, const Q: usize> Sized<N, Q> {
         })
     }
 
-    fn dynamics(&self, motion: &Motion) -> Dynamics {
-        let q = self.position(&motion.q);
-        let (qd, qdd) = (filled(&motion.qd), filled(&motion.qdd));
-        let state = State { q, qd, qdd };
-        let torque = rnea(&self.exact, &state, &RIGID_BODY);
-        let small = State {
-            q: q.map(|x| x as f32),
+    fn gravity(&self, q: &[f64]) -> Vec<f64> {
+        let torque = rnea(&self.exact, &State::at(self.position(q)), &Gravity::EARTH);
+        torque[..q.len()].to_vec()
+    }
+
+    fn torque(&self, motion: &Motion) -> Vec<f64> {
+        let state = State {
+            q: self.position(&motion.q),
+            qd: filled(&motion.qd),
+            qdd: filled(&motion.qdd),
+        };
+        rnea(&self.exact, &state, &RIGID_BODY)[..motion.qd.len()].to_vec()
+    }
+
+    fn torque_f32(&self, motion: &Motion) -> Vec<f64> {
+        let (qd, qdd) = (filled::<N>(&motion.qd), filled::<N>(&motion.qdd));
+        let state = State {
+            q: self.position(&motion.q).map(|x| x as f32),
             qd: qd.map(|x| x as f32),
             qdd: qdd.map(|x| x as f32),
         };
-        let torque_f32 = rnea(&self.rounded, &small, &RIGID_BODY);
-        let m = crba(&self.exact, &q, &(Inertia,));
-        let v = motion.qd.len();
-        Dynamics {
-            torque: torque[..v].to_vec(),
-            torque_f32: torque_f32[..v].iter().map(|&x| f64::from(x)).collect(),
-            inertia: (0..v)
-                .map(|i| (0..v).map(|j| m.get(i, j)).collect())
-                .collect(),
-        }
+        let torque = rnea(&self.rounded, &state, &RIGID_BODY);
+        let own = torque[..motion.qd.len()].iter();
+        own.map(|&x| f64::from(x)).collect()
+    }
+
+    fn inertia(&self, q: &[f64], v: usize) -> Vec<Vec<f64>> {
+        let m = crba(&self.exact, &self.position(q), &(Inertia,));
+        let row = |i| (0..v).map(|j| m.get(i, j)).collect();
+        (0..v).map(row).collect()
     }
 }
 
@@ -244,7 +303,7 @@ fn filled<const N: usize>(values: &[f64]) -> [f64; N] {
 }
 
 /// A body as the library takes it, with the numbers that the written file has.
-fn described(body: &tree::Body) -> Body {
+fn described(i: usize, body: &tree::Body) -> Body {
     let joint = match body.kind {
         Kind::Fixed => Joint::fixed(),
         Kind::Revolute => Joint::revolute(body.axis),
@@ -254,7 +313,7 @@ fn described(body: &tree::Body) -> Body {
         Kind::Planar => Joint::planar(),
         Kind::Free => Joint::free(),
     };
-    let placed = Body::new("body", body.parent.unwrap_or(BASE), joint).xyz(body.xyz);
+    let placed = Body::new(number(i), body.parent.unwrap_or(BASE), joint).xyz(body.xyz);
     let placed = match body.attitude {
         Attitude::QuarterTurns(turns) => placed.quarter_turns(turns),
         Attitude::Rpy(rpy) => placed.rpy(rpy),
@@ -266,7 +325,8 @@ fn described(body: &tree::Body) -> Body {
     placed
         .mass(body.inertia.mass)
         .com(body.inertia.com)
-        .inertia(body.inertia.inertia)
+        // The importer has words of its own on an inertia that is impossible.
+        .inertia_as_published(body.inertia.inertia)
         .limits(JointLimits {
             lower,
             upper,

@@ -3,39 +3,53 @@
 
 use dynamics_core::advice::{self as library, AdvisedJoint};
 
-use crate::advice::{Advice, Topic};
-use crate::model::AnyModel;
+use crate::advice::{Advice, FAR_GYRATION, Topic};
+use crate::model::{AnyModel, number_of};
+use crate::physical::capitalised;
 use crate::tree::{Body, Tree};
 
 /// The advice of the library; none for a tree that is too large for it.
 pub fn plausible(tree: &Tree, robot: &str) -> Vec<Advice> {
     let all = AnyModel::of(tree).map_or(Vec::new(), |model| model.advice());
-    // The importer's own advice on such limits knows the accelerations that a robot needs, too.
-    let is_own =
-        |advice: &&library::Advice| matches!(advice, library::Advice::TorqueLimitsFarAbove { .. });
     all.iter()
         .filter(|advice| !is_own(advice))
         .map(|advice| placed(advice, tree, robot))
         .collect()
 }
 
-/// With the joint's name and line in place of its number.
+/// Whether the importer has words of its own: on limits of torque it knows the accelerations that a robot needs, too, on inertias
+/// their links.
+fn is_own(advice: &library::Advice) -> bool {
+    match advice {
+        library::Advice::TorqueLimitsFarAbove { .. }
+        | library::Advice::ImpossibleInertia { .. } => true,
+        library::Advice::InertiaInMillimetres { gyration, .. } => *gyration > FAR_GYRATION,
+        _ => false,
+    }
+}
+
+/// With the name and line of the joint or body in place of its number.
 fn placed(advice: &library::Advice, tree: &Tree, robot: &str) -> Advice {
     let topic = match advice.is_about_units() {
         true => Topic::Units,
         false => Topic::Torque,
     };
-    let body = advice.joint().and_then(|joint| of_coordinate(tree, joint));
     // The text begins with what it is about, which stands in a column of its own.
     let text = advice.to_string();
-    let (_, reason) = text.split_once(": ").unwrap_or(("", &text));
-    let mut letters = reason.chars();
-    let first = letters.next().map(char::to_uppercase).into_iter().flatten();
+    let (subject, reason) = text.split_once(": ").unwrap_or(("", &text));
+    let number = subject
+        .strip_prefix("body `")
+        .map(|name| name.trim_end_matches('`'));
+    let body = number.and_then(number_of).and_then(|i| tree.bodies.get(i));
+    let joint = advice.joint().and_then(|joint| of_coordinate(tree, joint));
+    let name = body
+        .map(|body| &body.name)
+        .or(joint.map(|body| &body.joint));
     Advice {
         topic,
-        line: body.map_or(0, |body| body.line),
-        name: body.map_or(robot, |body| &body.joint).to_owned(),
-        text: first.chain(letters).chain(['.']).collect(),
+        line: body.or(joint).map_or(0, |body| body.line),
+        name: name.map_or(robot, |name| name).to_owned(),
+        text: capitalised(reason),
     }
 }
 

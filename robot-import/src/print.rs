@@ -3,12 +3,22 @@
 use std::fmt::Write as _;
 
 use crate::check::MOST;
+use crate::description::{cut, shortened};
+use crate::limits::MOST_CELL;
 use crate::report::Report;
 use crate::text::visible;
 
-/// A table with columns as wide as their widest cell.
+/// A table with columns as wide as their widest cell. A name in it is cut: those of a file have any length.
 fn table(rows: &[Vec<String>]) -> String {
-    let shown = |row: &Vec<String>| row.iter().map(|cell| visible(cell)).collect();
+    let shown = |row: &Vec<String>| {
+        let last = row.len() - 1;
+        let cells = row.iter().enumerate();
+        let cell = |(k, cell): (usize, &String)| match k == last {
+            true => visible(cell),
+            false => cut(&visible(cell), MOST_CELL),
+        };
+        cells.map(cell).collect()
+    };
     let rows: Vec<Vec<String>> = rows.iter().map(shown).collect();
     let columns = rows.iter().map(Vec::len).max().unwrap_or_default();
     let cell = |row: &Vec<String>, k: usize| row.get(k).map_or(0, |cell| cell.chars().count());
@@ -24,7 +34,8 @@ fn table(rows: &[Vec<String>]) -> String {
     for row in &rows {
         let mut line = String::from(" ");
         for (text, width) in row.iter().zip(&widths) {
-            let _ = write!(line, " {text:<width$} ");
+            let rest = width.saturating_sub(text.chars().count());
+            line.extend([" ", text, &" ".repeat(rest), " "]);
         }
         out += line.trim_end();
         out.push('\n');
@@ -39,14 +50,21 @@ impl Report {
         let licence = visible(self.licence.as_deref().unwrap_or("no licence stated"));
         let mut out = format!(
             "{} as `{}`: {bodies} bodies, {v} degrees of freedom, on `{}` ({}, {licence})\n\n",
-            visible(&self.name),
+            shortened(&visible(&self.name)),
             self.type_name,
-            visible(&self.base),
+            shortened(&visible(&self.base)),
             visible(&self.file)
         );
         out += &self.joints();
         if !self.loops.is_empty() {
             let _ = writeln!(out, "\nLoops: {}", visible(&self.loops.join(", ")));
+        }
+        if let Some(motors) = self.coupled_motors {
+            let _ = writeln!(
+                out,
+                "\nCoupled: {motors} motors drive {v} joints through `COUPLING`, a `Transmission`; its `torque` makes the motors' torques \
+                 of the joints'."
+            );
         }
         if !self.exact.is_empty() || !self.exact_inertias.is_empty() {
             out += "\nRoundings made exact (`--keep-roundings` keeps them):\n";

@@ -52,6 +52,8 @@ pub struct Body {
     pub friction: f64,
     /// Reflected inertia of the rotor, kg·m² or kg.
     pub armature: f64,
+    /// Stiffness (N·m/rad or N/m) and rest position (rad or m) of the spring at its joint.
+    pub spring: [f64; 2],
     /// Whether its joint has a motor, or a limit of torque.
     pub driven: bool,
     /// The body whose joint this one follows, with ratio and offset.
@@ -146,9 +148,22 @@ impl Tree {
         self.bodies.iter().all(|body| body.kind.has_axis())
     }
 
-    /// Whether each joint has one coordinate and none follows another.
+    /// Whether a joint follows another.
     pub fn has_followers(&self) -> bool {
         self.bodies.iter().any(|body| body.follows.is_some())
+    }
+
+    /// How many joints follow none.
+    pub fn motors(&self) -> usize {
+        self.bodies
+            .iter()
+            .filter(|body| body.follows.is_none())
+            .count()
+    }
+
+    /// Whether a joint has a spring.
+    pub fn has_springs(&self) -> bool {
+        self.bodies.iter().any(|body| body.spring[0] != 0.0)
     }
 
     /// Adds a link's mass to the body that it is part of.
@@ -214,6 +229,7 @@ fn floating(robot: &Description, base: usize) -> Body {
         damping: 0.0,
         friction: 0.0,
         armature: 0.0,
+        spring: [0.0; 2],
         driven: false,
         follows: None,
         merged: Vec::new(),
@@ -246,6 +262,11 @@ fn body_on(
         damping: joint.damping,
         friction: joint.friction,
         armature: joint.armature,
+        // Without stiffness there is no rest position either.
+        spring: match joint.spring {
+            [0.0, _] => [0.0; 2],
+            spring => spring,
+        },
         driven: joint.driven || joint.limits.effort.is_some_and(|effort| effort > 0.0),
         follows: None,
         merged: Vec::new(),

@@ -1,8 +1,10 @@
 //! What an import makes of a file, and that its check fails where the import is wrong.
 
 mod changes;
+mod extensions;
 mod locks;
 mod peer;
+mod subjects;
 
 use std::path::Path;
 

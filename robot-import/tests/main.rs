@@ -1,9 +1,12 @@
 //! Imports from files to written code and projects, in one program.
 
 mod edits;
+mod held;
 mod hostile;
 mod imports;
 mod mjcf;
 mod names;
+mod outputs;
 mod project;
+mod readers;
 mod written;

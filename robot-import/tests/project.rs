@@ -14,7 +14,7 @@ use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia};
 use dynamics_core::model::Robot;
 use dynamics_core::state::State;
 use robot_import::project::{
-    BOARDS, Board, FileEffects, Kind, Library, Project, RobotFile, create,
+    BOARDS, Board, Feedback, FileEffects, Kind, Library, Project, RobotFile, create,
 };
 
 #[allow(dead_code, reason = "a robot's file has more than the test compares")]
@@ -56,6 +56,7 @@ fn robot(
         v: n,
         coupled: false,
         effects,
+        feedback: Feedback::default(),
     }
 }
 
@@ -63,6 +64,7 @@ const ALL: FileEffects = FileEffects {
     viscous: true,
     coulomb: true,
     armature: true,
+    spring: false,
 };
 
 /// A project in a folder outside the workspace, so that nothing of its configuration acts; it is built in the

@@ -71,7 +71,7 @@ fn same_numbers<const N: usize>(written: &ArmModel<f64, N>, tree: &Tree) {
             qd: qd.into(),
             qdd: qdd.into(),
         };
-        assert_eq!(torque.to_vec(), checked.dynamics(&motion).torque);
+        assert_eq!(torque.to_vec(), checked.torque(&motion));
     }
 }
 

@@ -97,7 +97,7 @@ struct Args {
         conflicts_with_all = ["robot", "json"]
     )]
     write_docs: Option<Part>,
-    /// Only compare the hashes in docs/certificates.md with today's machine code
+    /// Only compare the hashes in docs/certificates.md with today's machine code, and its numbers with their sums and each other
     #[arg(long, conflicts_with_all = ["robot", "write_docs"])]
     hashes: bool,
     /// Bound the cycles and the stack of the measured rows of programs, as `cargo xtask static` passes them
@@ -203,6 +203,7 @@ fn run(args: &Args) -> Result<String> {
     let boxed = |program: &Program| boxed(args, program, args.acceleration);
     let robots: Vec<Robot> = programs.iter().map(boxed).collect::<Result<_>>()?;
     if args.hashes {
+        check::numbers(&written()?)?;
         for program in &programs {
             let image = Image::read(&program.elf)?;
             let asked = [&*args.function, &FORWARD].concat();

@@ -108,6 +108,48 @@ fn a_model_that_leaves_terms_out_needs_its_distance() {
     assert!(twice < 3.0 * alone, "{twice:e} {alone:e}");
 }
 
+#[test]
+fn a_changed_number_of_a_page_of_certificates_is_refused() {
+    let page = include_str!("../../../docs/certificates.md");
+    let said = |page: &str| check::numbers(page).err().map(|error| error.to_string());
+    assert_eq!(said(page), None);
+    // Of each table the first row: its bound, to below what was observed, and by one digit.
+    let mut rows: Vec<&str> = Vec::new();
+    for (head, row) in page.lines().zip(page.lines().skip(2)) {
+        if head.contains("| worst observed |") || head.contains("| found |") {
+            rows.push(row);
+        }
+    }
+    assert!(rows.len() > 15, "{}", rows.len());
+    for row in rows {
+        let digit = |figure: &str| figure.find(|c: char| c.is_ascii_digit()).expect("a digit");
+        let bound = row.split('|').nth(2).expect("a bound").trim();
+        let tiny = page.replacen(row, &row.replacen(bound, "1.00 · 10⁻³⁰", 1), 1);
+        let observed = row.split('|').nth(3).expect("what was observed").trim();
+        if ["0", "0.000"].contains(&observed) {
+            assert!(said(&tiny).is_some(), "{row}");
+        } else {
+            assert!(
+                said(&tiny).is_some_and(|said| said.contains("below")),
+                "{row}"
+            );
+        }
+        let at = digit(bound);
+        let other = if bound[at..].starts_with('9') {
+            "8"
+        } else {
+            "9"
+        };
+        let larger = format!("{}{other}{}", &bound[..at], &bound[at + 1..]);
+        assert!(
+            said(&page.replacen(row, &row.replacen(bound, &larger, 1), 1)).is_some(),
+            "{row}"
+        );
+    }
+    // A number of a sentence.
+    assert!(said(&page.replacen("Cycles: 576", "Cycles: 575", 1)).is_some());
+}
+
 /// A program whose variables point to this code and to its effects.
 fn program(mut code: Vec<u8>) -> Image {
     let (size, effects) = (code.len() as u32, bytes(EFFECTS));
@@ -129,8 +171,19 @@ fn a_page_of_other_machine_code_is_stale() {
         let checked = check::hashes(image, &[Function::Gravity], "ur5e", page);
         checked.err().map(|error| error.to_string())
     };
-    let page = format!("| gravity | `{hash}` |");
+    let page = format!(
+        "### ur5e: engine `rnea`\n\n### ur5e: engine `rnea`, gravity alone\n\n68 instructions; SHA-256 of the machine code `{hash}`\n\n\
+         ### panda: engine `rnea`, gravity alone\n\n"
+    );
     assert_eq!(stale(&image, &page), None);
+    // The hash of another robot or of another function.
+    assert!(stale(&image, &page.replace("ur5e", "iiwa14")).is_some());
+    let elsewhere = page.replace("### ur5e: engine `rnea`\n\n", "");
+    let elsewhere = elsewhere.replace(
+        "### ur5e: engine `rnea`, gravity alone",
+        "### ur5e: engine `rnea`",
+    );
+    assert!(stale(&image, &elsewhere).is_some());
     // One digit of the page, and one bit of a literal behind the code.
     let digit = if hash.starts_with('0') { "1" } else { "0" };
     let said = stale(

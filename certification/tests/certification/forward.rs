@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use certification::bodies::{Body, Position, inertia_matrix};
 use certification::certificate::{Function, Spent, Subject, expression};
 use certification::error::Error;
+use certification::exact::Exact;
 use certification::factors::{Factored, Noise, Order};
 use certification::forward::{Forward, Worst, inverse};
 use certification::graph::{Graph, Node, operands};
@@ -68,12 +69,15 @@ fn bodies() -> Vec<Body> {
 }
 
 fn proven(subject: &Subject, robot: &Robot) -> Forward {
+    let exact = Exact::of(Function::ForwardDynamics, || Ok(bodies())).expect("bodies");
     let spent = Spent {
         parts: 100,
         points: 3000,
         search: LITTLE,
     };
-    let outputs = subject.outputs(robot, SINES, spent).expect("bounds");
+    let outputs = subject
+        .outputs(robot, &exact, SINES, spent)
+        .expect("bounds");
     let factored = subject.factored.as_ref().expect("it is forward dynamics");
     Forward::prove(factored, &outputs, &bodies(), robot, SINES, 2000).expect("bounds")
 }

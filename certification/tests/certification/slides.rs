@@ -2,6 +2,7 @@
 
 use certification::bound::{Bounder, Enclosure};
 use certification::certificate::{Function, Spent, Subject, expression};
+use certification::exact::Exact;
 use certification::factors::{Factored, Order};
 use certification::forward::{Forward, greatest_over};
 use certification::fpcore::fpcore;
@@ -163,7 +164,10 @@ fn proven(subject: &Subject) -> Forward {
         search: LITTLE,
     };
     let (robot, bodies) = (reach(), limits::bodies(&Reach::MODEL));
-    let outputs = subject.outputs(&robot, SINES, spent).expect("bounds");
+    let exact = Exact::of(Function::ForwardDynamics, || Ok(bodies.clone())).expect("bodies");
+    let outputs = subject
+        .outputs(&robot, &exact, SINES, spent)
+        .expect("bounds");
     let factored = subject.factored.as_ref().expect("it is forward dynamics");
     let forward = Forward::prove(factored, &outputs, &bodies, &robot, SINES, 2000);
     let mut forward = forward.expect("bounds");

@@ -468,6 +468,9 @@ const tests = {
     const beyond = await page.$$eval("#cases .beyond", (all) => all.map((one) => one.closest("tr").querySelector("th").firstChild.textContent));
     must(files >= 60, `${files} cases`);
     must(beyond.length === 1 && beyond[0].startsWith("87."), `beyond their bounds: ${beyond.join(", ")}; host-tests/suite/README.md knows case 87 alone`);
+    const why = await page.$eval("#cases .beyond", (at) => at.closest("tr").querySelector("th").textContent);
+    must(why.includes("forward_dynamics"), `the row does not say why it is beyond: ${why}`);
+    must(sum.includes("1 beyond: case 87"), sum);
     await page.screenshot({ path: join(pictures, "gallery.png") });
     // An answer that is wrong in its sixth digit is found.
     const wrong = await page.evaluate(() => {

@@ -30,15 +30,18 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
     }
 
     async fn read_all_async(&mut self) -> Result<[f32; N], JointError<FeetechError>> {
-        let first = |error| JointError { joint: 0, error };
-        let request = self.request().map_err(first)?;
-        self.send_async(&request).await.map_err(first)?;
+        let mut sent = match self.request() {
+            Ok(request) => self.send_async(&request).await,
+            Err(error) => Err(error),
+        };
         let mut positions = [0.0; N];
         let mut parser = Parser::new();
         for (joint, position) in positions.iter_mut().enumerate() {
-            let register = self.receive_async(self.ids[joint], &mut parser).await;
-            let register = register.map_err(|error| JointError { joint, error })?;
-            *position = self.position(joint, register);
+            let register = match core::mem::replace(&mut sent, Ok(())) {
+                Ok(()) => self.receive_async(self.ids[joint], &mut parser).await,
+                Err(error) => Err(error),
+            };
+            *position = self.accept(joint, register)?;
         }
         Ok(positions)
     }
@@ -150,7 +153,7 @@ mod tests {
 
     use super::*;
     use crate::asynch::ready;
-    use crate::{Direction, JointMapping};
+    use crate::{Direction, JointMapping, JointRange};
 
     /// A port whose bytes and errors are written down.
     #[derive(Clone, Debug, Default, PartialEq)]
@@ -211,7 +214,12 @@ mod tests {
             stale,
             ..Script::default()
         };
-        let reverse = JointMapping::new(0.5, Direction::Reverse, 2.0).unwrap();
+        let reverse = JointMapping::new(3.0, Direction::Reverse, 2.0).unwrap();
+        let range = JointRange::Within {
+            lower: -1.0,
+            upper: 1.0,
+        };
+        let reverse = reverse.with_range(range, 0.01).unwrap();
         Servos::new(port, [1, 2], [reverse; 2]).unwrap()
     }
 

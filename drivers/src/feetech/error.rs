@@ -40,8 +40,14 @@ pub enum FeetechError {
     },
     /// An identity above 253, or two servos of the same.
     Id(u8),
-    /// The goal of a joint is not finite, or beyond ±32,767 counts of the servo.
+    /// The goal of a joint is not finite, or beyond the counts of its servo: from where the joint is the servo has to pass the
+    /// seam of its turn (or ±32,767 counts, if it counts turns), or it is not known where the joint is.
     Goal {
+        /// The place of the joint.
+        joint: usize,
+    },
+    /// The count of a servo does not say where its joint is, until [`Servos::place_near`](super::Servos::place_near).
+    LostTurn {
         /// The place of the joint.
         joint: usize,
     },
@@ -65,7 +71,13 @@ impl fmt::Display for FeetechError {
             }
             Self::Servo { id, status } => write!(out, "servo {id} reports errors {status:#04x}"),
             Self::Id(id) => write!(out, "{id} is not the identity of one servo"),
-            Self::Goal { joint } => write!(out, "the goal of joint {joint} is out of range"),
+            Self::Goal { joint } => write!(
+                out,
+                "the goal of joint {joint} is beyond the counts of its servo"
+            ),
+            Self::LostTurn { joint } => {
+                write!(out, "the servo of joint {joint} can have lost a turn")
+            }
             Self::TooLong => out.write_str("the packet is too long"),
         }
     }

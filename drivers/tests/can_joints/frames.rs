@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use super::near_zero;
 use super::*;
 
 /// A bus that says in each call what is next.
@@ -19,7 +20,7 @@ impl Can for Script {
 }
 
 fn scripted(frames: &[nb::Result<FdFrame, ErrorKind>]) -> CanJoints<Script, Moteus, 2> {
-    let of = |node| Moteus::new(node, 0, 10.0, JointMapping::IDENTITY).unwrap();
+    let of = |node| Moteus::new(node, 0, 10.0, near_zero(JointMapping::IDENTITY)).unwrap();
     CanJoints::new(Script(frames.iter().cloned().collect()), [of(1), of(2)])
 }
 
@@ -55,7 +56,7 @@ fn the_start_commands_zero_torque() {
     (&joints).start();
     let sent = joints.release().sent;
     let of = |node| {
-        let joint = Moteus::new(node, 0, 10.0, JointMapping::IDENTITY).unwrap();
+        let joint = Moteus::new(node, 0, 10.0, near_zero(JointMapping::IDENTITY)).unwrap();
         joint.set_torque::<FdFrame>(0.0).unwrap()
     };
     assert_eq!(sent, [of(1), of(2)]);
@@ -105,7 +106,7 @@ impl Can for Crowded {
 #[test]
 fn every_joint_gets_a_frame_though_the_first_has_no_room() {
     for (full, joint) in [([true, false], 0), ([false, true], 1), ([true; 2], 0)] {
-        let of = |node| Moteus::new(node, 0, 10.0, JointMapping::IDENTITY).unwrap();
+        let of = |node| Moteus::new(node, 0, 10.0, near_zero(JointMapping::IDENTITY)).unwrap();
         let joints = CanJoints::new(Crowded { sent: 0, full }, [of(1), of(2)]);
         // A frame that takes another's place in the queue leaves that one unsent.
         let set = (&joints).set_torques(&[0.0; 2]);
@@ -133,7 +134,7 @@ fn a_frame_without_a_position_keeps_the_one_before() {
         [heartbeat, torques, half],
         [torques, heartbeat, half],
     ] {
-        let axis = ODrive::new(3, 10.0, JointMapping::IDENTITY).unwrap();
+        let axis = ODrive::new(3, 10.0, near_zero(JointMapping::IDENTITY)).unwrap();
         let joints = CanJoints::new(heard(&frames), [axis]);
         assert_eq!((&joints).read(), Ok([core::f32::consts::PI]));
         assert_eq!((&joints).set_torques(&[0.0]), waiting);

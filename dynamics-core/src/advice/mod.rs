@@ -1,8 +1,8 @@
-//! What a robot's description or a controller's configuration looks like, in words: advice, never a refusal.
+//! What a robot's description, a scene or a controller's configuration looks like, in words: advice, never a refusal.
 //!
 //! A description in grams, millimetres or degrees is a correct one of another machine: it compiles and runs, and its
-//! torques are wrong by a factor of thousands. [`Model::advice`](crate::model::Model::advice) and
-//! `motion_control::MotionControllerConfig::advice` compare the numbers with those of
+//! torques are wrong by a factor of thousands. [`Model::advice`](crate::model::Model::advice),
+//! [`Model::advice_on`](crate::model::Model::advice_on) a scene and `motion_control::MotionControllerConfig::advice` compare the numbers with those of
 //! machines, and name the number, the reason and what to do. They are for a host, a test or the start of a firmware:
 //! none of it is in a tick, nor in an image that does not call it.
 //!
@@ -22,12 +22,14 @@
 //! ```
 
 mod model;
+mod scene;
 #[cfg(test)]
 mod tests;
 mod torques;
 mod units;
 mod words;
 
+use crate::model::ImpossibleInertia;
 pub use units::{positions_in_degrees, speeds_in_degrees};
 
 /// A joint that an [`Advice`] is about.
@@ -87,6 +89,23 @@ pub enum Advice {
         /// The robot's reach, m.
         reach: f64,
     },
+    /// The inertia of one body looks like kg·mm² or g·mm²: its mass would be farther from its centre than the robot is long, and
+    /// thinner than air.
+    InertiaInMillimetres {
+        /// The body.
+        body: &'static str,
+        /// Its radius of gyration, m.
+        gyration: f64,
+        /// The robot's reach, m.
+        reach: f64,
+    },
+    /// No distribution of mass has a body's inertia, by more than the rounding of its digits.
+    ImpossibleInertia {
+        /// The body.
+        body: &'static str,
+        /// What is impossible, in the frame of the description.
+        found: ImpossibleInertia,
+    },
     /// The inertias look like those about the joints in place of the centres of mass.
     InertiasAboutJoints {
         /// A body of which m d², with the distance d of its centre of mass, is the largest share of its inertia.
@@ -96,8 +115,25 @@ pub enum Advice {
         /// m d², kg·m².
         shift: f64,
     },
+    /// The inertia of one body looks like that about its joint in place of its centre of mass: it is wider than what lies between
+    /// its joints.
+    InertiaAboutJoint {
+        /// The body.
+        body: &'static str,
+        /// Its largest moment of inertia as described, kg·m².
+        inertia: f64,
+        /// m d² of the distance d of its centre of mass, kg·m².
+        shift: f64,
+    },
     /// The limits of position look like degrees.
     PositionsInDegrees {
+        /// The joint with the farthest limit.
+        joint: AdvisedJoint,
+        /// The limit, rad.
+        limit: f64,
+    },
+    /// The limit of position of one joint among others looks like degrees.
+    PositionInDegrees {
         /// The joint with the farthest limit.
         joint: AdvisedJoint,
         /// The limit, rad.
@@ -106,6 +142,13 @@ pub enum Advice {
     /// The limits of speed look like degrees per second.
     SpeedsInDegrees {
         /// The joint with the greatest limit.
+        joint: AdvisedJoint,
+        /// The limit, rad/s.
+        limit: f64,
+    },
+    /// The limit of speed of one joint among others looks like degrees per second.
+    SpeedInDegrees {
+        /// The joint.
         joint: AdvisedJoint,
         /// The limit, rad/s.
         limit: f64,
@@ -128,6 +171,34 @@ pub enum Advice {
         needed: f64,
         /// The limit, N·m or N.
         limit: f64,
+    },
+    /// The friction of a scene drives a joint: its power is negative.
+    DrivingFriction {
+        /// The joint.
+        joint: AdvisedJoint,
+        /// A speed, rad/s or m/s.
+        speed: f64,
+        /// The torque that the scene adds at this speed, N·m or N.
+        torque: f64,
+    },
+    /// The inertia that a scene adds at a joint is negative.
+    NegativeArmature {
+        /// The joint.
+        joint: AdvisedJoint,
+        /// The inertia, kg·m² or kg.
+        inertia: f64,
+    },
+    /// The payload of a scene has a negative mass.
+    NegativePayload {
+        /// The body that carries it.
+        body: &'static str,
+        /// The mass, kg.
+        mass: f64,
+    },
+    /// A scene has the friction of a joint's gear and no inertia of its rotor.
+    NoRotorInertia {
+        /// The joint.
+        joint: AdvisedJoint,
     },
     /// A tick is far longer than that of a control loop.
     LongTick {
@@ -192,9 +263,13 @@ impl Advice {
             Self::MassesInGrams { .. }
                 | Self::LengthsInMillimetres { .. }
                 | Self::InertiasInMillimetres { .. }
+                | Self::InertiaInMillimetres { .. }
                 | Self::InertiasAboutJoints { .. }
+                | Self::InertiaAboutJoint { .. }
                 | Self::PositionsInDegrees { .. }
+                | Self::PositionInDegrees { .. }
                 | Self::SpeedsInDegrees { .. }
+                | Self::SpeedInDegrees { .. }
                 | Self::LongTick { .. }
                 | Self::FarRestart { .. }
         )
@@ -204,7 +279,12 @@ impl Advice {
     pub const fn joint(&self) -> Option<AdvisedJoint> {
         match *self {
             Self::PositionsInDegrees { joint, .. }
+            | Self::PositionInDegrees { joint, .. }
             | Self::SpeedsInDegrees { joint, .. }
+            | Self::SpeedInDegrees { joint, .. }
+            | Self::DrivingFriction { joint, .. }
+            | Self::NegativeArmature { joint, .. }
+            | Self::NoRotorInertia { joint }
             | Self::TorqueLimitsFarAbove { joint, .. }
             | Self::GravityBeyondTorque { joint, .. }
             | Self::ZeroRate { joint, .. }
@@ -229,7 +309,12 @@ impl Advice {
     #[must_use]
     pub fn named(mut self, names: &[&'static str]) -> Self {
         if let Self::PositionsInDegrees { joint, .. }
+        | Self::PositionInDegrees { joint, .. }
         | Self::SpeedsInDegrees { joint, .. }
+        | Self::SpeedInDegrees { joint, .. }
+        | Self::DrivingFriction { joint, .. }
+        | Self::NegativeArmature { joint, .. }
+        | Self::NoRotorInertia { joint }
         | Self::TorqueLimitsFarAbove { joint, .. }
         | Self::GravityBeyondTorque { joint, .. }
         | Self::ZeroRate { joint, .. }

@@ -1,21 +1,24 @@
 //! Advice on the description of a robot.
 
 use super::{Advice, torques, units};
-use crate::model::Model;
-use crate::scalar::Real;
+use crate::model::{ImpossibleInertia, Link, Model, impossible};
+use crate::scalar::{Matrix, Real, Vector};
 
 impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> {
-    /// What of the description looks like another unit, or asks more of the motors than they have: a list of words with
-    /// numbers, empty for most robots. Never a refusal.
+    /// What of the description looks like another unit, is impossible, or asks more of the motors than they have: a list of words
+    /// with numbers, empty for most robots. Never a refusal.
     ///
     /// | advice | given where |
     /// |---|---|
     /// | [`Advice::MassesInGrams`] | mass over the cube of the reach is above 2,000 kg/m³ (of published robots 3 to 130), and most of it in bodies denser than a solid sphere of steel |
     /// | [`Advice::LengthsInMillimetres`] | the reach is above 20 m, and mass over its cube below 0.01 kg/m³ |
+    /// | [`Advice::ImpossibleInertia`] | a principal moment of a body is negative, or exceeds the sum of the two others, by more than 0.001 of the largest |
     /// | [`Advice::InertiasInMillimetres`] | most bodies have a radius of gyration above ten reaches (0.03 to 0.74) |
+    /// | [`Advice::InertiaInMillimetres`] | one has one above three reaches, and less than 0.01 kg/m³ for its cube |
     /// | [`Advice::InertiasAboutJoints`] | of every body with a far centre of mass the inertia about that would still be one after m d² is taken off |
-    /// | [`Advice::PositionsInDegrees`] | most limits of rotation are beyond four turns (of published robots up to 1.6) |
-    /// | [`Advice::SpeedsInDegrees`] | most limits of angular speed are above 60 rad/s (up to 32) |
+    /// | [`Advice::InertiaAboutJoint`] | of one body the same, and it is wider than what lies between its joints |
+    /// | [`Advice::PositionsInDegrees`], [`Advice::PositionInDegrees`] | most limits of rotation, or some, are beyond four turns (of published robots up to 1.6) |
+    /// | [`Advice::SpeedsInDegrees`], [`Advice::SpeedInDegrees`] | most limits of angular speed are above 60 rad/s (up to 32), or one is, and 20 times the next |
     /// | [`Advice::TorqueLimitsFarAbove`] | every limit is more than 20 times what holds all that the joint moves, stretched out |
     /// | [`Advice::GravityBeyondTorque`] | gravity along −z needs more torque than the limit, at a configuration within the limits |
     ///
@@ -38,10 +41,8 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     /// assert!(matches!(PENDULUM.advice().next(), Some(Advice::MassesInGrams { mass: 2000.0, .. })));
     /// ```
     pub fn advice(&self) -> impl Iterator<Item = Advice> + '_ {
-        units::of(self)
-            .into_iter()
-            .flatten()
-            .chain(torques::of(self))
+        let bodies = self.links.iter().filter_map(impossible_body);
+        bodies.chain(units::of(self)).chain(torques::of(self))
     }
 
     /// The name of the body of each velocity coordinate.
@@ -60,4 +61,21 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
         }
         names
     }
+}
+
+/// By how much of its largest moment an inertia may be impossible without a word: the rounding of a description's digits.
+const ROUNDING: f64 = 1e-3;
+
+/// What is impossible about the inertia of a body, in the frame of its description.
+fn impossible_body<R: Real>(link: &Link<R>) -> Option<Advice> {
+    let found = impossible(&link.inertia, ROUNDING)?;
+    let [x, y, z] = found.axis.map(R::from_f64);
+    let axis = link.to_joint_frame.transpose() * R::Vec3::new(x, y, z);
+    Some(Advice::ImpossibleInertia {
+        body: link.name,
+        found: ImpossibleInertia {
+            axis: axis.array().map(R::to_f64),
+            ..found
+        },
+    })
 }

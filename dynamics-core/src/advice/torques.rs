@@ -7,11 +7,8 @@
 
 use super::units::is_stated;
 use super::{Advice, AdvisedJoint};
-use crate::algorithms::rnea;
-use crate::effects::Gravity;
 use crate::model::{BASE, JointKind, Link, Model};
-use crate::scalar::{Real, Vector};
-use crate::state::State;
+use crate::scalar::{Matrix, Real, Vector};
 use crate::state::manifold::neutral;
 use core::f64::consts::PI;
 
@@ -127,10 +124,6 @@ fn worst<R: Real, const B: usize, const Q: usize, const V: usize>(
     model: &Model<R, B, Q, V>,
     of: &Link<R>,
 ) -> R {
-    let torque = |q: &[R; Q]| {
-        let all = rnea(model, &State::at(*q), &(Gravity::EARTH,));
-        all.get(of.idx_v).copied().unwrap_or_default()
-    };
     let mut greatest = R::ZERO;
     for (sign, share) in [(1.0, 0.5), (-1.0, 0.5), (1.0, 0.25), (-1.0, 0.25)] {
         let sign = R::from_f64(sign);
@@ -141,20 +134,149 @@ fn worst<R: Real, const B: usize, const Q: usize, const V: usize>(
             }
         }
         for _ in 0..SWEEPS {
-            for link in &model.links {
-                if let Some(range) = Range::of(link)
-                    && is_related(model, link, of)
-                {
-                    climb(&mut q, link.idx_q, &range, |q| sign * torque(q));
-                }
-            }
+            let levers = Levers::at(model, &q, of);
+            levers.climb(model, &mut q, of, sign);
         }
-        let found = sign * torque(&q);
+        let found = sign * Levers::at(model, &q, of).torque;
         if found > greatest {
             greatest = found;
         }
     }
     greatest
+}
+
+/// The torque of gravity at a joint as a function of each coordinate alone, from one pass over the bodies.
+///
+/// With up as ẑ, a hinge about n carries G ẑ · (n × h) and a slide G ẑ · m n, h the first moment and m the mass of all that the
+/// joint moves. A coordinate on the way to the base turns that vector, w; one further out turns the first moment of what it
+/// moves, in h · (ẑ × n).
+struct Levers<R: Real, const B: usize> {
+    /// Mass and first moment of all that each joint moves, in its aligned frame.
+    masses: [R; B],
+    moments: [R::Vec3; B],
+    /// w in the frame of each body from the joint to the base; none of the others.
+    turned: [Option<R::Vec3>; B],
+    /// The torque of gravity at the configuration.
+    torque: R,
+}
+
+impl<R: Real, const B: usize> Levers<R, B> {
+    fn at<const Q: usize, const V: usize>(
+        model: &Model<R, B, Q, V>,
+        q: &[R; Q],
+        of: &Link<R>,
+    ) -> Self {
+        let axis = R::Vec3::new(R::ZERO, R::ZERO, R::ONE);
+        let mut all = Self {
+            masses: [R::ZERO; B],
+            moments: [R::Vec3::ZERO; B],
+            turned: [None; B],
+            torque: R::ZERO,
+        };
+        for (i, link) in model.links.iter().enumerate().rev() {
+            let (Some(mass), Some(moment), Some(turned)) = (
+                all.masses.get_mut(i),
+                all.moments.get_mut(i),
+                all.turned.get_mut(i),
+            ) else {
+                continue;
+            };
+            *mass += link.inertia.mass;
+            *moment += link.inertia.first_moment;
+            if link.idx_v == of.idx_v {
+                *turned = Some(match link.joint.kind {
+                    JointKind::Prismatic => axis * *mass,
+                    _ => axis.cross(*moment),
+                });
+            }
+            let (mass, moment, turned) = (*mass, *moment, *turned);
+            let [angle, way] = at_joint(link, q);
+            let in_parent = |v| link.placement.rot.transpose_mul(about_axis(angle, v));
+            let origin = link.placement.pos + in_parent(axis * way);
+            match all.moments.get_mut(link.parent) {
+                Some(other) => *other = *other + in_parent(moment) + origin * mass,
+                None => {
+                    if let Some(w) = turned {
+                        let [_, _, up] = in_parent(w).array();
+                        all.torque = up * R::from_f64(G);
+                    }
+                }
+            }
+            if let Some(other) = all.masses.get_mut(link.parent) {
+                *other += mass;
+            }
+            if let (Some(w), Some(other)) = (turned, all.turned.get_mut(link.parent)) {
+                *other = Some(in_parent(w));
+            }
+        }
+        all
+    }
+
+    /// Sets each coordinate in turn, from the base outward, to where the torque is greatest.
+    fn climb<const Q: usize, const V: usize>(
+        &self,
+        model: &Model<R, B, Q, V>,
+        q: &mut [R; Q],
+        of: &Link<R>,
+        sign: R,
+    ) {
+        let axis = R::Vec3::new(R::ZERO, R::ZERO, R::ONE);
+        // Of a body from the joint to the base up, of one further out ẑ × n, in its frame; none of the others.
+        let mut known: [Option<R::Vec3>; B] = [None; B];
+        for (i, link) in model.links.iter().enumerate() {
+            let (on_way, mass, moment) =
+                match (self.turned.get(i), self.masses.get(i), self.moments.get(i)) {
+                    (Some(turned), Some(mass), Some(moment)) => (*turned, *mass, *moment),
+                    _ => continue,
+                };
+            let from = match (link.parent, on_way) {
+                (BASE, Some(_)) => Some(axis),
+                (parent, _) => known.get(parent).copied().flatten(),
+            };
+            let Some(from) = from else {
+                continue;
+            };
+            let before = link.placement.rot * from;
+            let lever = on_way.unwrap_or(moment);
+            let ([x, y, z], [a, b, _]) = (before.array(), lever.array());
+            if let (Some(range), Some(q)) = (Range::of(link), q.get_mut(link.idx_q)) {
+                *q = match (range.slides, on_way) {
+                    (false, _) => range.best(sign * (x * a + y * b), sign * (y * a - x * b)),
+                    // One on the way turns nothing.
+                    (true, None) if sign * z * mass > R::ZERO => range.upper,
+                    (true, _) => range.lower,
+                };
+            }
+            let [angle, _] = at_joint(link, q);
+            let after = about_axis(-angle, before);
+            let is_joint = link.idx_v == of.idx_v;
+            if let Some(own) = known.get_mut(i) {
+                *own = match (is_joint, link.joint.kind) {
+                    (false, _) => Some(after),
+                    // What moves further out does not change the force at a slide.
+                    (true, JointKind::Prismatic) => None,
+                    (true, _) => Some(after.cross(axis)),
+                };
+            }
+        }
+    }
+}
+
+/// Angle about, and way along, the axis of a joint of one coordinate; others stand at their neutral positions.
+fn at_joint<R: Real, const Q: usize>(link: &Link<R>, q: &[R; Q]) -> [R; 2] {
+    let x = q.get(link.idx_q).copied().unwrap_or_default();
+    match link.joint.kind {
+        JointKind::Revolute | JointKind::Continuous => [x, R::ZERO],
+        JointKind::Prismatic => [R::ZERO, x],
+        _ => [R::ZERO; 2],
+    }
+}
+
+/// A vector that is turned about z.
+fn about_axis<R: Real>(angle: R, v: R::Vec3) -> R::Vec3 {
+    let (sin, cos) = angle.sin_cos();
+    let [x, y, z] = v.array();
+    R::Vec3::new(cos * x - sin * y, sin * x + cos * y, z)
 }
 
 /// The positions of a joint of one coordinate.
@@ -190,68 +312,115 @@ impl<R: Real> Range<R> {
     fn at(&self, share: f64) -> R {
         self.lower + (self.upper - self.lower) * R::from_f64(share)
     }
-}
 
-/// Sets one coordinate to where `height` is greatest within its range.
-fn climb<R: Real, const Q: usize>(
-    q: &mut [R; Q],
-    k: usize,
-    range: &Range<R>,
-    height: impl Fn(&[R; Q]) -> R,
-) {
-    let at = |x: R, q: &mut [R; Q]| {
-        if let Some(q) = q.get_mut(k) {
-            *q = x;
-        }
-    };
-    let mut best = range.lower;
-    if range.slides {
-        at(range.upper, q);
-        let upper = height(q);
-        at(range.lower, q);
-        if upper > height(q) {
-            best = range.upper;
-        }
-        return at(best, q);
-    }
-    let [zero, quarter, half] = [0.0, 0.5 * PI, PI].map(|angle| {
-        at(R::from_f64(angle), q);
-        height(q)
-    });
-    let middle = R::from_f64(0.5) * (zero + half);
-    let (cos, sin) = (zero - middle, quarter - middle);
-    let value = |x: R| {
-        let (s, c) = x.sin_cos();
-        sin * s + cos * c
-    };
-    let top = sin.atan2(cos);
-    let turn = R::from_f64(2.0 * PI);
-    for candidate in [range.upper, top, top - turn, top + turn] {
-        let inside = candidate >= range.lower && candidate <= range.upper;
-        if inside && value(candidate) > value(best) {
-            best = candidate;
-        }
-    }
-    at(best, q);
-}
-
-/// Whether one body carries the other, or is it.
-fn is_related<R: Real, const B: usize, const Q: usize, const V: usize>(
-    model: &Model<R, B, Q, V>,
-    a: &Link<R>,
-    b: &Link<R>,
-) -> bool {
-    let carries = |below: &Link<R>, above: &Link<R>| {
-        let mut at = above;
-        loop {
-            if at.idx_v == below.idx_v {
-                return true;
-            }
-            match model.links.get(at.parent) {
-                Some(parent) if at.parent != BASE => at = parent,
-                _ => return false,
+    /// The angle within the range at which cos cos x + sin sin x is greatest.
+    fn best(&self, cos: R, sin: R) -> R {
+        let value = |x: R| {
+            let (s, c) = x.sin_cos();
+            sin * s + cos * c
+        };
+        let (top, turn) = (sin.atan2(cos), R::from_f64(2.0 * PI));
+        let mut best = self.lower;
+        for candidate in [self.upper, top, top - turn, top + turn] {
+            let inside = candidate >= self.lower && candidate <= self.upper;
+            if inside && value(candidate) > value(best) {
+                best = candidate;
             }
         }
-    };
-    carries(a, b) || carries(b, a)
+        best
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algorithms::rnea;
+    use crate::effects::Gravity;
+    use crate::model::{ArmModel, Body, Joint, JointLimits, Robot};
+    use crate::robots::Ur5e;
+    use crate::state::State;
+
+    /// The torque of a joint that inverse dynamics gives, climbed with in the same order.
+    fn climbed<const N: usize>(model: &ArmModel<f64, N>, of: &Link<f64>) -> f64 {
+        let torque = |q: &[f64; N]| rnea(model, &State::at(*q), &(Gravity::EARTH,))[of.idx_v];
+        let mut greatest = 0.0_f64;
+        for (sign, share) in [(1.0, 0.5), (-1.0, 0.5), (1.0, 0.25), (-1.0, 0.25)] {
+            let mut q = [0.0; N];
+            for link in &model.links {
+                q[link.idx_q] = Range::of(link).map_or(0.0, |range| range.at(share));
+            }
+            for _ in 0..SWEEPS {
+                for link in &model.links {
+                    let Some(range) = Range::of(link) else {
+                        continue;
+                    };
+                    let height = |x: f64| {
+                        let mut q = q;
+                        q[link.idx_q] = x;
+                        sign * torque(&q)
+                    };
+                    let [zero, quarter, half] = [0.0, 0.5 * PI, PI].map(height);
+                    let middle = 0.5 * (zero + half);
+                    let best = match range.slides {
+                        true if height(range.upper) > height(range.lower) => range.upper,
+                        true => range.lower,
+                        false => range.best(zero - middle, quarter - middle),
+                    };
+                    q[link.idx_q] = best;
+                }
+            }
+            greatest = greatest.max(sign * torque(&q));
+        }
+        greatest
+    }
+
+    /// Hinges and slides on two branches, about turned axes.
+    fn branched() -> ArmModel<f64, 5> {
+        let limits = |lower, upper| JointLimits {
+            lower,
+            upper,
+            velocity: 1.0,
+            torque: 1.0,
+        };
+        let body = |parent, joint| {
+            Body::new("body", parent, joint)
+                .xyz([0.1, -0.2, 0.3])
+                .rpy([0.3, -0.5, 0.7])
+                .mass(1.5)
+                .com([0.05, 0.1, -0.2])
+        };
+        ArmModel::new(
+            "branched",
+            [
+                body(BASE, Joint::revolute([0.0, 1.0, 0.0])).limits(limits(-1.0, 2.0)),
+                body(0, Joint::prismatic([1.0, 0.0, 0.0])).limits(limits(-0.4, 0.3)),
+                body(1, Joint::continuous([0.6, 0.0, 0.8])),
+                body(0, Joint::revolute([0.0, 0.0, 1.0])).limits(limits(-0.2, 0.9)),
+                body(3, Joint::prismatic([0.0, 0.6, -0.8])).limits(limits(0.0, 0.5)),
+            ],
+        )
+    }
+
+    // What a coordinate does not change, each finds by its own rounding; from there they can climb to different maxima.
+    #[test]
+    fn one_pass_climbs_as_high_as_inverse_dynamics() {
+        fn all<const N: usize>(model: &ArmModel<f64, N>) {
+            for link in &model.links {
+                let q = core::array::from_fn(|i| 0.7 - 0.45 * i as f64);
+                let [own, expected] = [
+                    Levers::at(model, &q, link).torque,
+                    rnea(model, &State::at(q), &(Gravity::EARTH,))[link.idx_v],
+                ];
+                assert!((own - expected).abs() < 1e-12, "{own} {expected}");
+                let (found, climbed) = (worst(model, link), climbed(model, link));
+                assert!(
+                    found > climbed * 0.999 - 1e-9,
+                    "{}: {found} {climbed}",
+                    link.idx_v
+                );
+            }
+        }
+        all(&Ur5e::MODEL);
+        all(&branched());
+    }
 }

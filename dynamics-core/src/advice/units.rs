@@ -4,7 +4,7 @@
 //! another unit; the figures are beside each.
 
 use super::{Advice, AdvisedJoint};
-use crate::model::{BASE, JointKind, Link, Model, moments_excess};
+use crate::model::{BASE, ImpossibleInertia, JointKind, Link, Model};
 use crate::scalar::{Matrix, Real, Vector};
 use core::f64::consts::PI;
 
@@ -19,17 +19,30 @@ const FAR: f64 = 20.0;
 const SOLID: f64 = 9.0 * 7850.0;
 /// Radius of gyration over reach. Robots have a median of 0.03 to 0.74, in kg·mm² 28 or more.
 const GYRATION: f64 = 10.0;
+/// The same of one body among others. Published robots have up to 1.5, of placeholders.
+const ONE_GYRATION: f64 = 3.0;
+/// Mass over the cube of the radius of gyration of one body, kg/m³. Bodies are at most of solid steel, 7 · 10⁴, and have in kg·mm² 10⁻⁹
+/// of it; a propeller with a placeholder of an inertia has 0.4, and a wheel about its centre, which has no reach, is not thin.
+const AIRY: f64 = 0.01;
 /// Position, rad: four turns. Robots have up to 1.6 turns; a median of 56° to 360° makes 9 turns or more.
 const TURNS: f64 = 8.0 * PI;
 /// Speed, rad/s: 573 turns a minute. Robots have a median of up to 32; in degrees/s a slow one has 70.
 const SPEED: f64 = 60.0;
+/// The speed of one joint over the next one, beside [`SPEED`]: degrees/s make 57.
+const FASTER: f64 = 20.0;
 /// The share of a body's largest moment of inertia beyond which m d² would be of note.
 const SHARE: f64 = 0.5;
+/// The same of one body among others, and the square of its radius of gyration, of the largest that its joints allow: a link of
+/// the G1 has 0.60 and 2.0, one of the Gen3 0.89 and 0.99; a rod about its end has 0.75 and 1.33. At a tip, where nothing says how
+/// long it is, a calf with a heavy foot has a share of 0.94.
+const ONE_SHARE: f64 = 0.65;
+const SPAN: f64 = 1.2;
+const TIP_SHARE: f64 = 0.9;
 
 /// The units that look wrong.
 pub(super) fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
     model: &Model<R, B, Q, V>,
-) -> [Option<Advice>; 6] {
+) -> impl Iterator<Item = Advice> {
     let size = Size::of(model);
     let millimetres = size.reach > FAR && size.density(1.0) < THIN;
     let (robot, mass, reach) = (model.name, size.mass, size.reach);
@@ -39,15 +52,11 @@ pub(super) fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
     } else {
         size.density(1.0) > DENSE && size.solid > 0.5 * size.mass
     };
-    [
+    let whole = [
         grams.then_some(Advice::MassesInGrams { robot, mass, reach }),
         millimetres.then_some(Advice::LengthsInMillimetres { robot, mass, reach }),
-        if millimetres {
-            None
-        } else {
-            gyration(model, reach)
-        },
-        about_joints(model),
+    ];
+    let limits = [
         positions_in_degrees(rotations(model).map(|(joint, link)| {
             let ends = [link.limits.lower, link.limits.upper];
             (joint, ends.map(R::to_f64))
@@ -55,7 +64,13 @@ pub(super) fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
         speeds_in_degrees(
             rotations(model).map(|(joint, link)| (joint, link.limits.velocity.to_f64())),
         ),
-    ]
+    ];
+    let bodies = gyrations(model, reach).filter(move |_| !millimetres);
+    let whole = whole.into_iter().flatten();
+    whole
+        .chain(bodies)
+        .chain(about_joints(model))
+        .chain(limits.into_iter().flatten())
 }
 
 /// Whether a limit is one, and not a number that stands for none: infinite, zero, or a power of ten.
@@ -173,40 +188,67 @@ fn length<R: Real>(v: R::Vec3) -> f64 {
     }
 }
 
-/// The largest radius of gyration, if most are beyond all reach.
-fn gyration<R: Real, const B: usize, const Q: usize, const V: usize>(
+/// The largest radius of gyration, if most are beyond all reach; else each that is.
+fn gyrations<R: Real, const B: usize, const Q: usize, const V: usize>(
     model: &Model<R, B, Q, V>,
     reach: f64,
-) -> Option<Advice> {
+) -> impl Iterator<Item = Advice> {
     let (mut beyond, mut bodies, mut largest, mut body) = (0, 0, 0.0, "");
     for link in &model.links {
-        let k = Massive::of(link).gyration;
+        let Massive {
+            mass, gyration: k, ..
+        } = Massive::of(link);
         if k > 0.0 {
             bodies += 1;
-            beyond += usize::from(k > GYRATION * reach);
+            beyond += usize::from(k > GYRATION * reach && is_airy(mass, k));
             if k > largest {
                 (largest, body) = (k, link.name);
             }
         }
     }
-    (reach > 0.0 && 2 * beyond > bodies).then_some(Advice::InertiasInMillimetres {
+    let most = reach > 0.0 && 2 * beyond > bodies;
+    let all = most.then_some(Advice::InertiasInMillimetres {
         body,
         gyration: largest,
         reach,
-    })
+    });
+    let each = model.links.iter().filter_map(move |link| {
+        let Massive { mass, gyration, .. } = Massive::of(link);
+        let beyond = gyration > ONE_GYRATION * reach && is_airy(mass, gyration);
+        (beyond && !most).then_some(Advice::InertiaInMillimetres {
+            body: link.name,
+            gyration,
+            reach,
+        })
+    });
+    all.into_iter().chain(each)
 }
 
-/// A body whose inertia is mostly the distance of its centre, if those of all such bodies could be about their joints.
-fn about_joints<R: Real, const B: usize, const Q: usize, const V: usize>(
-    model: &Model<R, B, Q, V>,
-) -> Option<Advice> {
-    let (mut bodies, mut far, mut most, mut found) = (0, 0, 0.0, None);
-    for link in &model.links {
+/// Whether a body of this mass and radius of gyration would be thinner than [`AIRY`].
+fn is_airy(mass: f64, gyration: f64) -> bool {
+    mass < AIRY * gyration * gyration * gyration
+}
+
+/// A body's inertia as one about its joint.
+struct AboutJoint {
+    /// m d² of its largest moment.
+    share: f64,
+    /// Whether what is left without m d² is one that a body may have.
+    is_possible: bool,
+    /// Whether it is wider than masses between its joint and the next one are; of a tip, whether it is no rod with a mass at its end.
+    is_wide: bool,
+    largest: f64,
+    shift: f64,
+}
+
+impl AboutJoint {
+    /// Of a body with a centre of mass beside its joint; `next` is the distance of the farthest joint on it, m; none of a
+    /// tip.
+    fn of<R: Real>(link: &Link<R>, next: Option<f64>) -> Option<Self> {
         let size = Massive::of(link);
         if size.mass == 0.0 || size.com == 0.0 || size.gyration == 0.0 {
-            continue;
+            return None;
         }
-        bodies += 1;
         let mut about_com = moments(link);
         let com = link
             .inertia
@@ -229,27 +271,64 @@ fn about_joints<R: Real, const B: usize, const Q: usize, const V: usize>(
                 *entry -= offset(i, j);
             }
         }
-        let share = shift / largest;
-        if share > SHARE {
-            far += 1;
-            if moments_excess(about_com) > 1e-6 {
-                return None;
+        // Masses on a line of length L have a variance of at most d (L − d) (Bhatia and Davis 2000).
+        let is_wide = match next {
+            Some(next) => {
+                let widest = size.com * (next - size.com);
+                next > size.com && size.gyration * size.gyration > SPAN * widest
             }
-            if share > most {
-                most = share;
+            None => shift < TIP_SHARE * largest,
+        };
+        Some(Self {
+            share: shift / largest,
+            is_possible: ImpossibleInertia::beyond(about_com, 1e-6, 0.0).is_none(),
+            is_wide,
+            largest,
+            shift,
+        })
+    }
+}
+
+/// A body whose inertia is mostly the distance of its centre, if those of all such bodies could be about their joints; else each
+/// that is wider than its joints allow.
+fn about_joints<R: Real, const B: usize, const Q: usize, const V: usize>(
+    model: &Model<R, B, Q, V>,
+) -> impl Iterator<Item = Advice> {
+    let of = |i: usize, link: &Link<R>| {
+        let on_it = model.links.iter().filter(|other| other.parent == i);
+        let joints = on_it.map(|other| length::<R>(other.placement.pos));
+        AboutJoint::of(link, joints.reduce(f64::max))
+    };
+    let (mut bodies, mut far, mut most, mut found, mut all) = (0, 0, 0.0, None, true);
+    for (i, link) in model.links.iter().enumerate() {
+        let Some(about) = of(i, link) else {
+            continue;
+        };
+        bodies += 1;
+        if about.share > SHARE {
+            far += 1;
+            all &= about.is_possible;
+            if about.share > most {
+                most = about.share;
                 found = Some(Advice::InertiasAboutJoints {
                     body: link.name,
-                    inertia: largest,
-                    shift,
+                    inertia: about.largest,
+                    shift: about.shift,
                 });
             }
         }
     }
-    if far > 1 && 2 * far >= bodies {
-        found
-    } else {
-        None
-    }
+    let all = all && far > 1 && 2 * far >= bodies;
+    let each = model.links.iter().enumerate().filter_map(move |(i, link)| {
+        let about = of(i, link)?;
+        let is_about_joint = about.share > ONE_SHARE && about.is_wide && about.is_possible;
+        (!all && is_about_joint).then_some(Advice::InertiaAboutJoint {
+            body: link.name,
+            inertia: about.largest,
+            shift: about.shift,
+        })
+    });
+    found.filter(|_| all).into_iter().chain(each)
 }
 
 /// The joints that rotate about one axis.
@@ -264,8 +343,8 @@ fn rotations<R: Real, const B: usize, const Q: usize, const V: usize>(
     })
 }
 
-/// [`Advice::PositionsInDegrees`], if most joints that state limits of position, rad, have one beyond four turns: published
-/// robots have up to 1.6.
+/// [`Advice::PositionsInDegrees`], if most joints that state limits of position, rad, have one beyond four turns, or
+/// [`Advice::PositionInDegrees`], if some do: published robots have up to 1.6.
 ///
 /// Limits that are infinite, zero or a power of ten of 100 or more state none.
 ///
@@ -274,6 +353,8 @@ fn rotations<R: Real, const B: usize, const Q: usize, const V: usize>(
 /// let joint = |number| AdvisedJoint { number, body: None };
 /// let advice = positions_in_degrees([(joint(0), [-170.0, 170.0]), (joint(1), [0.0, 120.0])].into_iter());
 /// assert_eq!(advice, Some(Advice::PositionsInDegrees { joint: joint(0), limit: 170.0 }));
+/// let advice = positions_in_degrees([(joint(0), [-170.0, 170.0]), (joint(1), [0.0, 2.0])].into_iter());
+/// assert_eq!(advice, Some(Advice::PositionInDegrees { joint: joint(0), limit: 170.0 }));
 /// ```
 pub fn positions_in_degrees(
     limits: impl Iterator<Item = (AdvisedJoint, [f64; 2])>,
@@ -290,36 +371,74 @@ pub fn positions_in_degrees(
             },
         )
     });
-    mostly_beyond(farther, TURNS).map(|(joint, limit)| Advice::PositionsInDegrees { joint, limit })
+    let Greatest {
+        joint,
+        limit,
+        most_beyond,
+        ..
+    } = Greatest::of(farther, TURNS)?;
+    Some(if most_beyond {
+        Advice::PositionsInDegrees { joint, limit }
+    } else {
+        Advice::PositionInDegrees { joint, limit }
+    })
 }
 
-/// [`Advice::SpeedsInDegrees`], if most joints that state a limit of speed, rad/s, have one above 60: published robots have
-/// a median of up to 32.
+/// [`Advice::SpeedsInDegrees`], if most joints that state a limit of speed, rad/s, have one above 60, or
+/// [`Advice::SpeedInDegrees`], if one does and is 20 times the next: published robots have a median of up to 32.
 ///
 /// Limits that are infinite, zero or a power of ten of 100 or more state none.
 ///
 /// ```
-/// use dynamics_core::advice::{AdvisedJoint, speeds_in_degrees};
+/// use dynamics_core::advice::{Advice, AdvisedJoint, speeds_in_degrees};
 /// let joint = |number| AdvisedJoint { number, body: None };
-/// assert_eq!(speeds_in_degrees([(joint(0), 3.14), (joint(1), 180.0)].into_iter()), None); // not most
-/// assert!(speeds_in_degrees([(joint(0), 120.0), (joint(1), 180.0)].into_iter()).is_some());
+/// let speeds = |all: [f64; 2]| speeds_in_degrees([(joint(0), all[0]), (joint(1), all[1])].into_iter());
+/// assert_eq!(speeds([3.14, 62.0]), None);
+/// assert_eq!(speeds([120.0, 180.0]), Some(Advice::SpeedsInDegrees { joint: joint(1), limit: 180.0 }));
+/// assert_eq!(speeds([3.14, 180.0]), Some(Advice::SpeedInDegrees { joint: joint(1), limit: 180.0 }));
 /// ```
 pub fn speeds_in_degrees(limits: impl Iterator<Item = (AdvisedJoint, f64)>) -> Option<Advice> {
-    mostly_beyond(limits, SPEED).map(|(joint, limit)| Advice::SpeedsInDegrees { joint, limit })
+    let greatest = Greatest::of(limits, SPEED)?;
+    let (joint, limit) = (greatest.joint, greatest.limit);
+    if greatest.most_beyond {
+        return Some(Advice::SpeedsInDegrees { joint, limit });
+    }
+    let is_alone = limit.abs() > FASTER * greatest.next;
+    is_alone.then_some(Advice::SpeedInDegrees { joint, limit })
 }
 
-/// The greatest limit, if most of those that are stated are greater than this.
-fn mostly_beyond(
-    joints: impl Iterator<Item = (AdvisedJoint, f64)>,
-    most: f64,
-) -> Option<(AdvisedJoint, f64)> {
-    let (mut beyond, mut stated, mut greatest) = (0, 0, None::<(AdvisedJoint, f64)>);
-    for (joint, limit) in joints.filter(|&(_, limit)| is_stated(limit)) {
-        stated += 1;
-        beyond += usize::from(limit.abs() > most);
-        if greatest.is_none_or(|(_, before)| limit.abs() > before.abs()) {
-            greatest = Some((joint, limit));
+/// The greatest of the limits that are stated.
+struct Greatest {
+    joint: AdvisedJoint,
+    limit: f64,
+    /// The size of the next one.
+    next: f64,
+    /// Whether most are beyond the bound.
+    most_beyond: bool,
+}
+
+impl Greatest {
+    /// If it is beyond the bound.
+    fn of(joints: impl Iterator<Item = (AdvisedJoint, f64)>, bound: f64) -> Option<Self> {
+        let (mut beyond, mut stated, mut next) = (0, 0, 0.0_f64);
+        let mut greatest = None::<(AdvisedJoint, f64)>;
+        for (joint, limit) in joints.filter(|&(_, limit)| is_stated(limit)) {
+            stated += 1;
+            beyond += usize::from(limit.abs() > bound);
+            match greatest {
+                Some((_, before)) if limit.abs() <= before.abs() => next = next.max(limit.abs()),
+                before => {
+                    next = before.map_or(0.0, |(_, before)| before.abs());
+                    greatest = Some((joint, limit));
+                }
+            }
         }
+        let (joint, limit) = greatest.filter(|_| beyond > 0)?;
+        Some(Self {
+            joint,
+            limit,
+            next,
+            most_beyond: 2 * beyond > stated,
+        })
     }
-    if 2 * beyond > stated { greatest } else { None }
 }

@@ -49,9 +49,18 @@ impl Display for Advice {
             Self::MassesInGrams { .. }
             | Self::LengthsInMillimetres { .. }
             | Self::InertiasInMillimetres { .. }
+            | Self::InertiaInMillimetres { .. }
             | Self::InertiasAboutJoints { .. }
-            | Self::PositionsInDegrees { .. }
-            | Self::SpeedsInDegrees { .. } => self.write_units(out),
+            | Self::InertiaAboutJoint { .. } => self.write_masses(out),
+            Self::PositionsInDegrees { .. }
+            | Self::PositionInDegrees { .. }
+            | Self::SpeedsInDegrees { .. }
+            | Self::SpeedInDegrees { .. } => self.write_limits(out),
+            Self::ImpossibleInertia { body, ref found } => write!(out, "body `{body}`: {found}"),
+            Self::DrivingFriction { .. }
+            | Self::NegativeArmature { .. }
+            | Self::NegativePayload { .. }
+            | Self::NoRotorInertia { .. } => self.write_scene(out),
             Self::TorqueLimitsFarAbove {
                 joint,
                 limit,
@@ -84,7 +93,7 @@ impl Display for Advice {
 }
 
 impl Advice {
-    fn write_units(&self, out: &mut Formatter<'_>) -> Result {
+    fn write_masses(&self, out: &mut Formatter<'_>) -> Result {
         match *self {
             Self::MassesInGrams { robot, mass, reach } => write!(
                 out,
@@ -124,6 +133,49 @@ impl Advice {
                 Short(inertia),
                 Short(shift)
             ),
+            Self::InertiaInMillimetres {
+                body,
+                gyration,
+                reach,
+            } => write!(
+                out,
+                "body `{body}`: its inertia is that of a mass {} m from the centre, and the robot's reach is {} m: inertias are in \
+                 kg·m², this one looks like kg·mm² or g·mm²; divide it by 1e6 or 1e9",
+                Short(gyration),
+                Short(reach)
+            ),
+            Self::InertiaAboutJoint {
+                body,
+                inertia,
+                shift,
+            } => write!(
+                out,
+                "body `{body}`: its inertia of {} kg·m² is more than masses between its joints have, and without the {} of the \
+                 distance of its centre of mass from the joint it is not: inertias are about the centre of mass, this one looks like \
+                 that about the joint; subtract m d²",
+                Short(inertia),
+                Short(shift)
+            ),
+            _ => Ok(()),
+        }
+    }
+
+    fn write_limits(&self, out: &mut Formatter<'_>) -> Result {
+        match *self {
+            Self::PositionInDegrees { joint, limit } => write!(
+                out,
+                "{joint}: a position limit of {} rad is {} turns, and joints of robots have less than two: limits are in rad, this one \
+                 looks like degrees; divide it by 57.3",
+                Short(limit),
+                Short(limit.abs() / (2.0 * PI))
+            ),
+            Self::SpeedInDegrees { joint, limit } => write!(
+                out,
+                "{joint}: a speed limit of {} rad/s is {} turns a minute, more than 20 times that of every other joint: limits are in rad/s, \
+                 this one looks like degrees/s; divide it by 57.3",
+                Short(limit),
+                Short(limit * 30.0 / PI)
+            ),
             Self::PositionsInDegrees { joint, limit } => write!(
                 out,
                 "{joint}: a position limit of {} rad is {} turns, and most joints of the robot have such: limits are in rad, \
@@ -137,6 +189,38 @@ impl Advice {
                  in rad/s, these look like degrees/s; divide them by 57.3",
                 Short(limit),
                 Short(limit * 30.0 / PI)
+            ),
+            _ => Ok(()),
+        }
+    }
+
+    fn write_scene(&self, out: &mut Formatter<'_>) -> Result {
+        match *self {
+            Self::DrivingFriction {
+                joint,
+                speed,
+                torque,
+            } => write!(
+                out,
+                "{joint}: at {} rad/s or m/s the friction of the scene is {} N·m or N: it drives the joint in place of braking it; no \
+                 coefficient of friction is negative",
+                Short(speed),
+                Short(torque)
+            ),
+            Self::NegativeArmature { joint, inertia } => write!(
+                out,
+                "{joint}: the scene adds an inertia of {} kg·m² or kg at it, and none is negative",
+                Short(inertia)
+            ),
+            Self::NegativePayload { body, mass } => write!(
+                out,
+                "body `{body}`: its payload has a mass of {} kg, and none is negative",
+                Short(mass)
+            ),
+            Self::NoRotorInertia { joint } => write!(
+                out,
+                "{joint}: the scene has the friction of its gear and no inertia of its rotor, which, times the square of the gear's \
+                 ratio, often exceeds that of the links: add `Armature`"
             ),
             _ => Ok(()),
         }

@@ -93,6 +93,7 @@ mod hook_args;
 mod implicit;
 mod joint;
 mod load;
+mod mean_velocity;
 pub(crate) mod once;
 mod query;
 mod rigid_body;
@@ -113,6 +114,7 @@ pub use hook::RegroupedInertia;
 pub use hook_args::{BodyState, BodyVelocity, JointState, LoadFactors, TorqueDerivatives};
 pub use implicit::Implicit;
 pub use joint::{Armature, Cogging, ConstantTorque, EndStops, GyroscopicRotors, Spring};
+pub(crate) use mean_velocity::AtMeanVelocity;
 pub use once::Once;
 pub use rigid_body::{
     Coriolis, Direction, Down, Elasticity, Gravity, GravityVector, Inertia, MovingBase, RIGID_BODY,

@@ -20,6 +20,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             lambda: self.lambda,
             kinds: self.kinds,
             chain: self.chain,
+            // Bodies are looked up while compiling, in f64: firmware carries no names of links.
         }
     }
 }

@@ -67,11 +67,11 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     /// mass) that are not negative and obey the triangle inequality, all within `relative`; and that the names of
     /// bodies differ.
     ///
-    /// Published models violate the inequality (PUMA 560) or satisfy it narrowly (Panda) and must be usable: it is
-    /// therefore a separate check, not a condition of the model. In f32 rounding alone violates it by some 10⁻⁶.
+    /// Published models violate the inequality (PUMA 560) or satisfy it narrowly (Panda) and must be usable: of a model only a
+    /// negative moment is an error ([`Body::inertia`](super::Body::inertia)). In f32 rounding alone violates it by some 10⁻⁶.
     ///
     /// # Errors
-    /// [`Problem::Asymmetric`] or [`Problem::Triangle`] with the body's name and the amount: by how much the
+    /// [`Problem::Asymmetric`], [`Problem::NegativeMoment`] or [`Problem::Triangle`] with the body's name and the amount: by how much the
     /// largest moment exceeds the sum of the others, relative to that moment; [`Problem::Massless`],
     /// [`Problem::Name`].
     pub fn check(&self, relative: f64) -> Result<(), ModelError> {
@@ -87,9 +87,8 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
             if skew > relative || skew.is_nan() {
                 return Err(wrong(Problem::Asymmetric(skew)));
             }
-            let excess = body::triangle_excess(&link.inertia);
-            if excess > relative || excess.is_nan() {
-                return Err(wrong(Problem::Triangle(excess)));
+            if let Some(found) = body::impossible(&link.inertia, relative) {
+                return Err(wrong(found.problem()));
             }
         }
         for (i, link) in self.links.iter().enumerate() {

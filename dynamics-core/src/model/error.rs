@@ -56,6 +56,10 @@ pub enum Problem {
     Massless,
     /// A body before it has the same name, by [`super::Model::check`].
     Name,
+    /// A principal moment of the inertia about the centre of mass, kg·m², is negative.
+    NegativeMoment(f64),
+    /// The same, kg·m², of six numbers that are possible in the order xx, yy, zz, xy, xz, yz.
+    InertiaOrder(f64),
     /// The principal moments violate the triangle inequality by this amount, relative to the largest.
     Triangle(f64),
     /// The inertia matrix is asymmetric by this amount, relative to its largest entry.
@@ -63,6 +67,19 @@ pub enum Problem {
 }
 
 impl Problem {
+    /// The number of an impossible inertia, with the words before and after it.
+    pub(crate) const fn amount(self) -> Option<(&'static str, f64, &'static str)> {
+        match self {
+            Self::NegativeMoment(moment) | Self::InertiaOrder(moment) => {
+                Some((": ", moment, " kg·m²"))
+            }
+            Self::Triangle(excess) | Self::Asymmetric(excess) => {
+                Some((" by ", excess, " of the largest"))
+            }
+            _ => None,
+        }
+    }
+
     pub(crate) const fn text(self) -> &'static str {
         match self {
             Self::Parent => "its parent is not listed before it",
@@ -83,6 +100,11 @@ impl Problem {
             Self::Bodies { .. } => "another number of its bodies moves",
             Self::Massless => "it has inertia but no mass",
             Self::Name => "a body before it has the same name",
+            Self::NegativeMoment(_) => "a principal moment of its inertia is negative",
+            Self::InertiaOrder(_) => {
+                "in the order xx, xy, xz, yy, yz, zz its inertia has a negative principal moment, in the order xx, yy, zz, xy, xz, yz \
+                 it has none"
+            }
             Self::Triangle(_) => "its moments of inertia break the triangle inequality",
             Self::Asymmetric(_) => "its inertia matrix is not symmetric",
         }
@@ -113,8 +135,8 @@ impl fmt::Display for ModelError {
         if let Problem::NoBody(number) = self.problem {
             write!(out, ": {number}")?;
         }
-        if let Problem::Triangle(excess) | Problem::Asymmetric(excess) = self.problem {
-            write!(out, " by {excess:.2e} of the largest")?;
+        if let Some((before, amount, unit)) = self.problem.amount() {
+            write!(out, "{before}{amount:.2e}{unit}")?;
         }
         Ok(())
     }
@@ -145,11 +167,14 @@ impl ModelError {
                 .number(expected)
                 .with(" of its bodies move, not M = ")
                 .number(given),
-            problem => Text::EMPTY
-                .with("body `")
-                .with(self.body)
-                .with("`: ")
-                .with(problem.text()),
+            problem => {
+                let text = Text::EMPTY.with("body `").with(self.body).with("`: ");
+                let text = text.with(problem.text());
+                match problem.amount() {
+                    Some((before, amount, unit)) => text.with(before).scientific(amount).with(unit),
+                    None => text,
+                }
+            }
         };
         text.panic()
     }
@@ -200,6 +225,28 @@ impl Text {
         let digits = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
         let text = if x > 9 { self.number(x / 10) } else { self };
         text.with(digits[x % 10])
+    }
+
+    /// A number with three digits, as `{:.2e}` writes it.
+    const fn scientific(self, x: f64) -> Self {
+        let (mut size, mut power) = (x.abs(), 0_usize);
+        if !size.is_finite() {
+            return self.with("infinite or no number");
+        }
+        let is_small = size > 0.0 && size < 1.0;
+        while size >= 10.0 || (size > 0.0 && size < 1.0) {
+            size *= if is_small { 10.0 } else { 0.1 };
+            power += 1;
+        }
+        let mut digits = (100.0 * size + 0.5) as usize;
+        if digits == 1000 {
+            digits = 100;
+            power = if is_small { power - 1 } else { power + 1 };
+        }
+        let text = self.with(if x < 0.0 { "-" } else { "" });
+        let text = text.number(digits / 100).with(".");
+        let text = text.number(digits / 10 % 10).number(digits % 10);
+        text.with(if is_small { "e-" } else { "e" }).number(power)
     }
 
     #[track_caller]

@@ -1,6 +1,6 @@
 //! The inertia of a body as it is described: about its centre of mass, in the frame of its description.
 
-use super::{Calibrated, ModelError, Problem, Robot, moments_excess};
+use super::{Calibrated, ImpossibleInertia, ModelError, Problem, Robot};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
 
@@ -32,14 +32,7 @@ impl<R: Real> BodyInertia<R> {
         if self.mass == R::ZERO && self.inertia.iter().any(|&x| x != R::ZERO) {
             return Some(Problem::Massless);
         }
-        let [xx, xy, xz, yy, yz, zz] = self.inertia.map(R::to_f64);
-        let excess = moments_excess([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
-        // Written so that a NaN is a problem too.
-        if excess <= relative {
-            None
-        } else {
-            Some(Problem::Triangle(excess))
-        }
+        ImpossibleInertia::of(self.inertia.map(R::to_f64), relative).map(|found| found.problem())
     }
 
     /// The same about the origin. RBDA (2.63).
@@ -134,8 +127,8 @@ where
     /// ```
     ///
     /// # Errors
-    /// [`ModelError`] names the body and what is not physical: [`Problem::Mass`] with the mass, [`Problem::Triangle`]
-    /// with the excess, [`Problem::Massless`] or [`Problem::NotFinite`]; for an index without a body it names the robot
+    /// [`ModelError`] names the body and what is not physical: [`Problem::Mass`] with the mass, [`Problem::NegativeMoment`]
+    /// with the moment, [`Problem::Triangle`] with the excess, [`Problem::Massless`] or [`Problem::NotFinite`]; for an index without a body it names the robot
     /// and the index ([`Problem::NoBody`]). The robot is then unchanged.
     pub fn set_inertia(
         &mut self,

@@ -3,7 +3,7 @@
 use super::StepIncrement;
 use super::step_increment::add_scaled;
 use crate::algorithms::{NotPositiveDefinite, aba, kinetic_energy, potential_energy};
-use crate::effects::{Effect, Implicit};
+use crate::effects::{AtMeanVelocity, Declared, Effect, Implicit};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{JointTrig, State};
@@ -16,7 +16,7 @@ pub trait Dynamics<R, const Q: usize, const V: usize> {
     /// As forward dynamics.
     fn acceleration(&self, at: &State<R, Q, V>) -> Result<[R; V], NotPositiveDefinite>;
 
-    /// q̈ of a linearly implicit step of h seconds: [`Implicit`].
+    /// q̈ of a linearly implicit step of h seconds: [`Implicit`]; `at.qdd` may be used as that of the step before.
     ///
     /// # Errors
     /// As forward dynamics.
@@ -85,7 +85,17 @@ where
         h: R,
     ) -> Result<[R; V], NotPositiveDefinite> {
         let effects = Implicit::under(self.robot, at, self.effects, &self.tau, h);
-        aba(self.robot, at, &self.tau, &effects)
+        // Friction that depends on the load knows no other velocity than that of the bodies.
+        if const { E::LOAD_DEPENDENT } {
+            return aba(self.robot, at, &self.tau, &effects);
+        }
+        let half = R::from_f64(0.5) * h;
+        let mean = State {
+            qd: add_scaled(at.qd, half, &at.qdd),
+            ..*at
+        };
+        let effects = AtMeanVelocity::new(&effects, at.qd);
+        aba(self.robot, &mean, &self.tau, &effects)
     }
 
     fn energies(&self, at: &State<R, Q, V>) -> (R, R) {

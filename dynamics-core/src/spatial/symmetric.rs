@@ -2,6 +2,7 @@
 
 use core::ops::{Add, AddAssign};
 
+use crate::math::const_eval::sqrt;
 use crate::scalar::{Matrix, Real, Vector};
 
 /// A symmetric matrix, by its upper triangle.
@@ -174,32 +175,53 @@ impl<R: Real> AddAssign for Symmetric<R> {
     }
 }
 
-/// The eigenvalues by cyclic Jacobi rotations, in no order.
-pub(crate) fn eigenvalues(mut a: [[f64; 3]; 3]) -> [f64; 3] {
-    for _ in 0..12 {
-        rotate::<0, 1>(&mut a);
-        rotate::<0, 2>(&mut a);
-        rotate::<1, 2>(&mut a);
+/// Eigenvalues and eigenvectors, in no order.
+#[derive(Clone, Copy)]
+pub(crate) struct Eigen {
+    pub(crate) values: [f64; 3],
+    pub(crate) vectors: [[f64; 3]; 3],
+}
+
+/// By cyclic Jacobi rotations, each quadratic in the entries that are left: eight sweeps are more than f64 needs.
+pub(crate) const fn eigen(mut a: [[f64; 3]; 3]) -> Eigen {
+    let mut vectors = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let mut sweep = 0;
+    while sweep < 8 {
+        rotate::<0, 1>(&mut a, &mut vectors);
+        rotate::<0, 2>(&mut a, &mut vectors);
+        rotate::<1, 2>(&mut a, &mut vectors);
+        sweep += 1;
     }
-    [a[0][0], a[1][1], a[2][2]]
+    Eigen {
+        values: [a[0][0], a[1][1], a[2][2]],
+        vectors,
+    }
 }
 
 /// The rotation in the plane of axes P and Q that makes the entry there zero; its indices are constants, so that no check of
 /// bounds is left.
-fn rotate<const P: usize, const Q: usize>(a: &mut [[f64; 3]; 3]) {
+const fn rotate<const P: usize, const Q: usize>(
+    a: &mut [[f64; 3]; 3],
+    vectors: &mut [[f64; 3]; 3],
+) {
     if a[P][Q] == 0.0 {
         return;
     }
     let theta = (a[Q][Q] - a[P][P]) / (2.0 * a[P][Q]);
-    let t = theta.signum() / (theta.abs() + libm::sqrt(theta * theta + 1.0));
-    let c = 1.0 / libm::sqrt(t * t + 1.0);
+    let t = theta.signum() / (theta.abs() + sqrt(theta * theta + 1.0));
+    let c = 1.0 / sqrt(t * t + 1.0);
     let s = t * c;
-    for row in a.iter_mut() {
-        (row[P], row[Q]) = (c * row[P] - s * row[Q], s * row[P] + c * row[Q]);
+    let mut i = 0;
+    while i < 3 {
+        (a[i][P], a[i][Q]) = (c * a[i][P] - s * a[i][Q], s * a[i][P] + c * a[i][Q]);
+        i += 1;
     }
     let ([px, py, pz], [qx, qy, qz]) = (a[P], a[Q]);
     a[P] = [c * px - s * qx, c * py - s * qy, c * pz - s * qz];
     a[Q] = [s * px + c * qx, s * py + c * qy, s * pz + c * qz];
+    let ([px, py, pz], [qx, qy, qz]) = (vectors[P], vectors[Q]);
+    vectors[P] = [c * px - s * qx, c * py - s * qy, c * pz - s * qz];
+    vectors[Q] = [s * px + c * qx, s * py + c * qy, s * pz + c * qz];
 }
 
 #[cfg(test)]
@@ -229,8 +251,26 @@ mod tests {
     }
 
     #[test]
+    fn eigenvectors_make_the_matrix_diagonal() {
+        for m in [
+            [2.0, 0.3, -0.4, 1.5, 0.7, 0.9],
+            [1.0, 1.5, 0.0, 1.0, 0.0, 1.0],
+        ] {
+            let [xx, xy, xz, yy, yz, zz] = m;
+            let found = super::eigen([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
+            let m = DMat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
+            for (value, axis) in found.values.into_iter().zip(found.vectors) {
+                let axis = DVec3::from_array(axis);
+                assert!((m * axis - axis * value).length() < 1e-14);
+                assert!((axis.length() - 1.0).abs() < 1e-14);
+            }
+        }
+    }
+
+    #[test]
     fn eigenvalues_of_a_known_matrix() {
-        let mut e = super::eigenvalues([[2.0, 1.0, 0.0], [1.0, 2.0, 1.0], [0.0, 1.0, 2.0]]);
+        let a = [[2.0, 1.0, 0.0], [1.0, 2.0, 1.0], [0.0, 1.0, 2.0]];
+        let mut e = super::eigen(a).values;
         e.sort_by(f64::total_cmp);
         for (got, want) in e
             .iter()

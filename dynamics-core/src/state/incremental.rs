@@ -8,16 +8,17 @@ use crate::state::JointTrig;
 
 /// The sines and cosines of N joints that move by small angles in each tick.
 ///
-/// In each tick each pair is rotated by Δ = q − q₋ with Taylor's polynomials of degree 3 and 2, and normalised by one step
-/// of Newton's iteration for sin² + cos² = 1. Rounding errors of the angle are not corrected: the angle drifts as a random
-/// walk, in f32 by some 10⁻⁵ rad in 10⁴ ticks. [`IncrementalTrig::at`] starts again without drift.
+/// In each tick each pair is rotated by Δ = q − q₋ with Taylor's polynomials of degree 3 and 2, but for the pair of one
+/// joint, which is computed from its angle: each joint in turn, so that an error lives for N ticks at most. Without that, increments
+/// below the rounding of a sine were all rounded in one direction, and the angle drifted without bound: at rest between two
+/// readings by 0.19 rad in 10⁷ ticks.
 ///
-/// Angles: |Δ| < 0.02 rad, an error of 10⁻⁸ a tick. If the angle of a joint jumps by 0.5 rad or more, or is NaN, the entry
-/// is not updated: its `q` remains the angle of its sine and cosine, and a single wrong reading has no effect. After a
-/// real jump, call [`IncrementalTrig::at`].
+/// Angles: |Δ| < 0.02 rad. Then sines and cosines are off by at most N · 1.5 · 10⁻⁷ in f32 and N · 7 · 10⁻⁹ in f64, after any number
+/// of ticks. If the angle of a joint jumps by 0.5 rad or more, or is NaN, the entry is not updated: its `q` remains the angle
+/// of its sine and cosine, and a single wrong reading has no effect. After a real jump, call [`IncrementalTrig::at`].
 ///
 /// # Cost
-/// 21 flops per joint, with the same instructions for all data.
+/// 15 flops per joint and one sine and cosine, with the same instructions for all data.
 ///
 /// ```
 /// use dynamics_core::state::IncrementalTrig;
@@ -28,6 +29,8 @@ use crate::state::JointTrig;
 #[derive(Clone, Copy, Debug)]
 pub struct IncrementalTrig<R, const N: usize> {
     trig: JointTrig<R, N>,
+    /// The joint whose sine and cosine are computed from its angle in the next tick.
+    next: usize,
 }
 
 impl<R: Real, const N: usize> IncrementalTrig<R, N> {
@@ -37,13 +40,14 @@ impl<R: Real, const N: usize> IncrementalTrig<R, N> {
             trig: JointTrig {
                 coordinates: q.map(JointCoordinate::revolute),
             },
+            next: 0,
         }
     }
 
     /// The same joints a tick later, at q.
     #[cfg_attr(optimised, inline(always))]
     pub fn follow(&mut self, q: &[R; N]) -> &JointTrig<R, N> {
-        let [quarter, half, sixth, three_halves] = [0.25, 0.5, 1.0 / 6.0, 1.5].map(R::from_f64);
+        let [quarter, half, sixth] = [0.25, 0.5, 1.0 / 6.0].map(R::from_f64);
         for (turn, &q) in self.trig.coordinates.iter_mut().zip(q) {
             let d = q - turn.q;
             // False of a NaN, too.
@@ -51,14 +55,17 @@ impl<R: Real, const N: usize> IncrementalTrig<R, N> {
             let (d, q) = select_unpredictable(near, (d, q), (R::ZERO, turn.q));
             let u = d * d;
             let (ds, dc) = (d - d * (u * sixth), R::ONE - u * half);
-            let (s, c) = (turn.sin * dc + turn.cos * ds, turn.cos * dc - turn.sin * ds);
-            let to_unit = three_halves - half * (s * s + c * c);
             *turn = JointCoordinate {
                 q,
-                sin: s * to_unit,
-                cos: c * to_unit,
+                sin: turn.sin * dc + turn.cos * ds,
+                cos: turn.cos * dc - turn.sin * ds,
             };
         }
+        if let Some(turn) = self.trig.coordinates.get_mut(self.next) {
+            *turn = JointCoordinate::revolute(turn.q);
+        }
+        let after = self.next + 1;
+        self.next = if after < N { after } else { 0 };
         &self.trig
     }
 }

@@ -206,7 +206,7 @@ where
             }
             put(q, at, &p.map(|x| x / length));
         } else if matches!(link.kind(), Continuous) {
-            let angle = within_half_a_turn(entry(q, at));
+            let angle = nearest_turn(entry(q, at), R::ZERO);
             put(q, at, &[angle]);
         }
     }
@@ -225,14 +225,27 @@ fn put<R: Real>(out: &mut [R], at: usize, values: &[R]) {
     }
 }
 
-/// The same angle within ±π (of a million turns at most), by less than a rounding of its turns off.
-fn within_half_a_turn<R: Real>(angle: R) -> R {
+/// The same angle, rad, moved by whole turns to within half a turn of `to`: of two points on a circle, the short way is
+/// `nearest_turn(angle, to) − to`.
+///
+/// An angle that is there already keeps its bits, and so does one that is not finite; 10⁸ turns at most. The subtraction of
+/// the turns is off by less than a rounding of them.
+///
+/// ```
+/// use core::f32::consts::TAU;
+/// use dynamics_core::state::manifold::nearest_turn;
+/// assert_eq!(nearest_turn(3.0_f32, 2.0), 3.0);
+/// assert!((nearest_turn(-3.1_f32, 3.1) - (TAU - 3.1)).abs() < 1e-6);
+/// assert!((nearest_turn(0.25_f32 + 100.0 * TAU, 0.0) - 0.25).abs() < 1e-4); // the f32 has no better digits
+/// ```
+pub fn nearest_turn<R: Real>(angle: R, to: R) -> R {
     use core::f64::consts::{PI, TAU};
-    if angle.abs() <= R::from_f64(PI) {
+    let apart = angle - to;
+    if apart.abs() <= R::from_f64(PI) || !apart.is_finite() {
         return angle;
     }
-    let half = R::from_f64(if angle > R::ZERO { 0.5 } else { -0.5 });
-    let turns = (angle * R::from_f64(1.0 / TAU) + half).trunc_saturating();
+    let half = R::from_f64(if apart > R::ZERO { 0.5 } else { -0.5 });
+    let turns = (apart * R::from_f64(1.0 / TAU) + half).trunc_saturating();
     // 2π in two parts, the first with as few digits as leave its product exact.
     let (whole, rest) = (201.0 / 32.0, TAU - 201.0 / 32.0);
     (angle - turns * R::from_f64(whole)) - turns * R::from_f64(rest)

@@ -4,12 +4,12 @@ use core::fmt;
 
 use heapless::spsc::Producer;
 use joint_drivers::as5047p::As5047p;
-use joint_drivers::h_bridge::{DriveError, LockedAntiphase};
+use joint_drivers::h_bridge::LockedAntiphase;
 use joint_drivers::{ControlLoop, Law, NoBrake, Telemetry};
 use motion_control::{Detect, Gains, MotionController, Reference, TrajectoryError};
 
 use super::firmware::control_loop;
-use super::{Devices, Noise, PlantModel, Run, Scene, SceneLoop, Start};
+use super::{Devices, Noise, PlantModel, Run, Scene, SceneLoop, SetupError, Start};
 use crate::plant::{Rig, Simulated};
 use crate::region::Marked;
 use crate::sim_io::{SimDrive, SimEncoder, Wires};
@@ -41,15 +41,15 @@ pub struct Record<const N: usize> {
 pub enum StartError {
     /// The arm's limits do not allow the trajectory.
     Trajectory(TrajectoryError),
-    /// A torque limit is no full scale of a drive.
-    Drive(DriveError),
+    /// The limits are impossible for the devices.
+    Setup(SetupError),
 }
 
 impl fmt::Display for StartError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Trajectory(error) => error.fmt(out),
-            Self::Drive(error) => error.fmt(out),
+            Self::Setup(error) => error.fmt(out),
         }
     }
 }
@@ -108,7 +108,7 @@ where
     ) -> Result<Self, StartError> {
         let reference = S::reference().map_err(StartError::Trajectory)?;
         let (rig, control) = start::<S, _, B, Q, V, N>(&reference, wires, PlantModel::Exact, ())
-            .map_err(StartError::Drive)?;
+            .map_err(StartError::Setup)?;
         Ok(Self {
             reference,
             wires,
@@ -184,7 +184,7 @@ pub fn simulated_loop<S, D, const B: usize, const Q: usize, const V: usize, cons
     reference: &S::Reference,
     wires: &'static Wires<N>,
     detectors: D,
-) -> Result<SimLoop<N, D>, DriveError>
+) -> Result<SimLoop<N, D>, SetupError>
 where
     S: Scene<B, Q, V, N>,
     D: Detect<f32, N>,
@@ -214,7 +214,7 @@ pub(crate) fn start<S, D, const B: usize, const Q: usize, const V: usize, const 
     wires: &'static Wires<N>,
     truth: PlantModel,
     detectors: D,
-) -> Result<(Rig<S::Plant, N>, SimLoop<N, D>), DriveError>
+) -> Result<(Rig<S::Plant, N>, SimLoop<N, D>), SetupError>
 where
     S: Scene<B, Q, V, N>,
     D: Detect<f32, N>,

@@ -1,11 +1,15 @@
 //! The control loop that follows from a scene's data sheet, whatever its devices are.
 
+use core::fmt;
+
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
 use joint_drivers::as5047p::As5047p;
 use joint_drivers::h_bridge::{DriveError, FullScale, LockedAntiphase};
-use joint_drivers::{ControlLoop, Direction, JointMapping};
+use joint_drivers::{
+    ControlLoop, Direction, EncoderMapping, JointError, JointMapping, JointRange, MappingError,
+};
 use motion_control::{
     Detect, Gains, MotionController, MotionControllerConfig, SafetyLimits, SupervisorConfig,
 };
@@ -39,6 +43,27 @@ pub enum Start {
     /// On its brake, until [`ControlLoop::reset`].
     OnBrake,
 }
+
+/// The reason why the devices of a scene are impossible.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SetupError {
+    /// A torque limit is no full scale of a drive.
+    Drive(DriveError),
+    /// A speed limit is no step of an encoder.
+    Encoder(JointError<MappingError>),
+}
+
+impl fmt::Display for SetupError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Drive(error) => error.fmt(out),
+            Self::Encoder(error) => error.fmt(out),
+        }
+    }
+}
+
+impl core::error::Error for SetupError {}
 
 /// The devices of a control loop.
 #[derive(Debug)]
@@ -81,7 +106,7 @@ pub(super) fn control_loop<
     detectors: D,
     start: Start,
     new: New<Spi, Pwm, Brake, N, D>,
-) -> Result<SceneLoop<Spi, Pwm, Brake, N, D>, DriveError>
+) -> Result<SceneLoop<Spi, Pwm, Brake, N, D>, SetupError>
 where
     S: Scene<B, Q, V, N>,
     Spi: SpiDevice,
@@ -95,7 +120,12 @@ where
         brake,
     } = devices;
     let limits = S::limits();
-    let scales = FullScale::of(limits.map(|limit| limit.torque))?;
+    let scales = FullScale::of(limits.map(|limit| limit.torque)).map_err(SetupError::Drive)?;
+    // The plants start within half a turn of zero.
+    let ranges = [JointRange::Near(0.0); N];
+    let steps = limits.map(|limit| limit.velocity * S::TICK);
+    let mappings = EncoderMapping::of([JointMapping::IDENTITY; N], ranges, steps);
+    let mappings = mappings.map_err(SetupError::Encoder)?;
     let mut joint = 0;
     let drives = drives.map(|pwm| {
         let drive = LockedAntiphase::new(pwm, scales[joint], Direction::Forward);
@@ -120,6 +150,11 @@ where
         Start::OnTrajectory => controller,
         Start::OnBrake => controller.on_brake(),
     };
-    let encoders = encoders.map(|spi| As5047p::new(spi, JointMapping::IDENTITY));
+    let mut joint = 0;
+    let encoders = encoders.map(|spi| {
+        let encoder = As5047p::new(spi, mappings[joint]);
+        joint += 1;
+        encoder
+    });
     Ok(new(encoders, drives, brake, gains, controller, detectors))
 }

@@ -7,7 +7,7 @@ use dynamics_core::state::State;
 use host_tests::controller::{Bench, TICK};
 use host_tests::hard::{Case, Row};
 use host_tests::measured::larger;
-use joint_drivers::MultiTurnEncoder;
+use joint_drivers::{JointMapping, JointRange, MultiTurnEncoder};
 use motion_control::{
     CurrentTick, Mode, MotionController, MotionControllerConfig, SafetyLimits, SupervisorConfig,
 };
@@ -47,7 +47,9 @@ pub const CASES: &[Case] = &[
 fn wrap() -> Vec<Row> {
     const COUNTS: f64 = 16_384.0;
     fn run<R: Real>(rows: &mut Vec<Row>, direction: f64) {
-        let (mut counter, of) = (MultiTurnEncoder::<14>::new(), R::from_f64);
+        let near = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 3.0 * TICK as f32);
+        let near = near.expect("a joint that is slower than its encoder");
+        let (mut counter, of) = (MultiTurnEncoder::<14>::new(near), R::from_f64);
         let limits = SafetyLimits {
             torque: [R::ONE],
             rate: [R::ONE],
@@ -73,7 +75,7 @@ fn wrap() -> Vec<Row> {
         for tick in 0..10_000 {
             let turns = f64::from(tick) * (2.0 / std::f64::consts::TAU * TICK) * direction;
             let raw = (turns * COUNTS).round() as i32 & 0x3fff;
-            counter.update(raw as u16);
+            full &= counter.update(raw as u16).is_ok();
             let q = [counter.angle()];
             let status = controller
                 .tick(Ok(&q), &State::at(q), |_, _| [R::ZERO])

@@ -7,7 +7,7 @@ use dynamics_core::algorithms::rnea;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use host_tests::hard::{Case, Row};
-use joint_drivers::MultiTurnEncoder;
+use joint_drivers::{JointMapping, JointRange, MultiTurnEncoder};
 use lab_target::hard::{N, counts, scene};
 use motion_control::{
     Fault, MotionController, MotionControllerConfig, SafetyLimits, SupervisorConfig,
@@ -49,13 +49,14 @@ fn million() -> Vec<Row> {
     let setup = arm(16, "remainder of 10⁶ rad");
     let mut rows = against_oracle(&setup, &REMAINDERS);
 
-    let far: [[f32; N]; 4] =
-        std::array::from_fn(|k| std::array::from_fn(|i| counter(counts(k, i)).angle()));
+    let counters: [[MultiTurnEncoder<12>; N]; 4] =
+        std::array::from_fn(|k| std::array::from_fn(|i| counter(counts(k, i))));
+    let far = counters.map(|counters| counters.map(|counter| counter.angle()));
     let same = setup.states.iter().enumerate().all(|(k, state)| {
         let joints = state.q.iter().enumerate();
         joints
             .into_iter()
-            .all(|(i, q)| counter(counts(k, i)).within_turn::<f32>() == *q)
+            .all(|(i, q)| counters[k][i].within_turn::<f32>() == *q)
     });
     rows.push(Row::claim(
         "encoder: the remainder, to the bit",
@@ -87,8 +88,12 @@ fn million() -> Vec<Row> {
 
 /// An encoder that has counted so far.
 fn counter(counts: i32) -> MultiTurnEncoder<12> {
-    let mut counter = MultiTurnEncoder::near(counts >> 12);
-    counter.update((counts & 0xfff) as u16);
+    let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 3e-3);
+    let mut counter = MultiTurnEncoder::new(mapping.expect("slower than its encoder"));
+    // Less than half a turn from one reading to the next.
+    for count in (0..counts.abs()).step_by(2047).chain([counts.abs()]) {
+        let _ = counter.update((count * counts.signum() & 0xfff) as u16);
+    }
     counter
 }
 

@@ -2,13 +2,14 @@
 
 use dynamics_core::Core;
 use dynamics_core::effects::{Effect, RIGID_BODY, Viscous};
-use dynamics_core::model::Static;
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot, RobotModel, Static};
 use dynamics_core::scalar::Real;
 use dynamics_core::sim::{
     EnergyProjected, Euler, Integrator, KahanState, LinearlyImplicit, ModelDynamics, RungeKutta,
-    SemiImplicit,
+    SemiImplicit, linearly_implicit,
 };
 use dynamics_core::state::State;
+use host_tests::everyday_or_full;
 use host_tests::measured::{largest, within};
 use host_tests::tolerances::check;
 use lab_target::accuracy::simulation::{DoublePendulum, PassiveMotion};
@@ -158,4 +159,90 @@ fn implicit_steps_stay_stable_under_strong_damping() {
     let off = (ended(implicit) - ended(truth)).abs();
     within("implicit steps under damping, rad", off, 5e-5);
     assert!(ended(explicit).is_nan() || ended(explicit).abs() > 100.0);
+}
+
+/// A double pendulum of two uneven links.
+const TWO: ArmModel<f64, 2> = Model::new(
+    "two",
+    [
+        Body::new("a", BASE, Joint::revolute([0.0, 1.0, 0.0]))
+            .mass(1.3)
+            .com([0.0, 0.0, -0.25])
+            .inertia([0.02, 0.0, 0.0, 0.02, 0.0, 0.001]),
+        Body::new("b", 0, Joint::revolute([0.0, 1.0, 0.0]))
+            .xyz([0.0, 0.0, -0.5])
+            .mass(0.9)
+            .com([0.0, 0.0, -0.2])
+            .inertia([0.015, 0.0, 0.0, 0.015, 0.0, 0.001]),
+    ],
+);
+
+struct Two;
+impl Robot<2, 2, 2> for Two {
+    const MODEL: ArmModel<f64, 2> = TWO;
+}
+
+/// The energy of the pendulum after some seconds by steps of h without friction, as a share of that at the start: the least and
+/// the greatest of the last hundred steps' in each second.
+fn energies<R: Real>(start: [f64; 2], seconds: u32, h: f64) -> [f64; 2]
+where
+    Static<Two>: RobotModel<R, 2, 2, 2>,
+{
+    let energy = |state: &State<R, 2, 2>| {
+        let [q, qd] = [state.q, state.qd].map(|x| x.map(R::to_f64));
+        let state = State {
+            q,
+            qd,
+            qdd: [0.0; 2],
+        };
+        let kinetic = Core::<Two>::kinetic_energy(&state, &RIGID_BODY);
+        kinetic + Core::<Two>::potential_energy(&q, &RIGID_BODY)
+    };
+    let mut state = State::at(start.map(R::from_f64));
+    let rest = energy(&State::at([R::ZERO; 2]));
+    let full = energy(&state) - rest;
+    let steps = (1.0 / h).round() as u32;
+    let (mut least, mut greatest) = (f64::INFINITY, 0.0_f64);
+    for _ in 0..seconds {
+        for step in 0..steps {
+            linearly_implicit(
+                &Static::<Two>::NEW,
+                &mut state,
+                &[R::ZERO; 2],
+                &mut { RIGID_BODY },
+                R::from_f64(h),
+            )
+            .expect("a pendulum has inertia");
+            if step >= steps - 100 {
+                let share = (energy(&state) - rest) / full;
+                (least, greatest) = (least.min(share), greatest.max(share));
+            }
+        }
+    }
+    [least, greatest]
+}
+
+// The doc comment of `linearly_implicit` states these.
+#[test]
+fn the_energy_of_a_pendulum_drifts_little_within_an_hour() {
+    for (start, least, greatest) in [
+        ([0.5, -0.3], 0.997, 1.003),
+        ([1.5, 0.5], 0.92, 1.02),
+        ([2.5, 1.0], 0.65, 1.02),
+    ] {
+        let found = energies::<f64>(start, 3600, 1e-3);
+        assert!(
+            found[0] > least && found[1] < greatest,
+            "{start:?}: {found:?}"
+        );
+    }
+}
+
+/// The step and the scalar of the scenes' plants.
+#[test]
+fn the_energy_of_a_plant_in_f32_drifts_little_within_minutes() {
+    for start in [[0.5, -0.3], [1.5, 0.5], [2.5, 1.0]] {
+        let found = energies::<f32>(start, everyday_or_full(300, 3600), 2.5e-4);
+        assert!(found[0] > 0.95 && found[1] < 1.05, "{start:?}: {found:?}");
+    }
 }

@@ -4,6 +4,7 @@ mod arm;
 #[path = "../../tests/common/mod.rs"]
 mod common;
 
+mod carried;
 mod contact_reaction;
 mod control_loop;
 mod fault_injection;

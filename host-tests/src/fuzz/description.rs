@@ -83,14 +83,15 @@ fn body(from: &mut Bytes<'_>, index: usize) -> Body {
         body.quarter_turns([turn[0] as i32, 1, -7])
     };
     let body = body.mass(if rare { mass } else { mass.abs() });
-    let body = body.inertia([
-        moments[0],
-        products[0],
-        products[1],
-        moments[1],
-        products[2],
-        moments[2],
-    ]);
+    let [xx, yy, zz] = moments;
+    let [xy, xz, yz] = products;
+    let inertia = [xx, xy, xz, yy, yz, zz];
+    // A body without them refuses most of these, and the rest of the description would not be read.
+    let body = if rare {
+        body.inertia(inertia)
+    } else {
+        body.inertia_as_published(inertia)
+    };
     if from.byte().is_multiple_of(4) {
         body.limits(limits)
     } else {

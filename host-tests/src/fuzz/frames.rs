@@ -1,22 +1,24 @@
 //! Frames of an encoder: what passes its checks is an angle, and no bit that falls over passes them.
 
 use super::bytes::Bytes;
-use joint_drivers::MultiTurnEncoder;
 use joint_drivers::as5047p::{COUNTS, decode, encode};
+use joint_drivers::{JointMapping, JointRange, MultiTurnEncoder};
 
 /// Frames of two bytes each.
 ///
 /// # Panics
 /// If one is taken for another angle than its own, a wrong bit passes, or a count goes further than half a turn.
 pub fn frames(bytes: &[u8]) {
-    let (from, mut counter) = (&mut Bytes(bytes), MultiTurnEncoder::<14>::new());
+    let near = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 3e-3);
+    let mut counter = MultiTurnEncoder::<14>::new(near.expect("slower than its encoder"));
+    let from = &mut Bytes(bytes);
     while from.any() {
         let frame = u16::from_le_bytes([from.byte(), from.byte()]);
         let before = counter.counts();
         match decode(frame) {
             Ok(raw) => {
                 assert!(raw < COUNTS && encode(raw) == frame, "{frame:#x}");
-                counter.update(raw);
+                assert!(counter.update(raw).is_ok(), "{raw}");
             }
             Err(_) => {
                 let even = frame.count_ones() % 2 == 0;

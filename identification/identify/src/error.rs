@@ -22,6 +22,9 @@ pub enum Error {
         path: PathBuf,
         source: std::io::Error,
     },
+    /// It would replace a file that is read, or another that is written.
+    #[error(transparent)]
+    Output(Box<ImportError>),
     /// A line of a recording.
     #[error("{}, line {line}: {problem}", path.display())]
     Line {

@@ -78,6 +78,20 @@ fn main() -> ExitCode {
 
 /// What is printed, and why nothing is offered to paste.
 fn run(args: &Args) -> Result<(String, Option<Error>)> {
+    let beside = || args.recording.with_extension("torques.svg");
+    let picture = args.picture.clone().unwrap_or_else(beside);
+    let inputs = [&args.recording, &args.robot]
+        .into_iter()
+        .chain(&args.validate);
+    let inputs: Vec<&Path> = inputs.map(PathBuf::as_path).collect();
+    let outputs: Vec<&Path> = args
+        .out
+        .iter()
+        .chain([&picture])
+        .map(PathBuf::as_path)
+        .collect();
+    robot_import::outputs::are_apart(&inputs, &outputs)
+        .map_err(|error| Error::Output(error.into()))?;
     let recorded = Recorded::read(&args.recording)?;
     let other = args.validate.as_deref().map(Recorded::read).transpose()?;
     let robot = Robot::read(&args.robot, args.name.as_deref(), &args.options)?;
@@ -89,8 +103,6 @@ fn run(args: &Args) -> Result<(String, Option<Error>)> {
     };
     let validate = args.validate.as_deref().zip(other.as_ref());
     let found = run::identify(&robot, (&args.recording, &recorded), validate, &options)?;
-    let beside = || args.recording.with_extension("torques.svg");
-    let picture = args.picture.clone().unwrap_or_else(beside);
     write(&picture, &picture::svg(&found.traces))?;
     let file = paste::file(&robot, &found);
     let text = match (args.json, &found.mistake) {

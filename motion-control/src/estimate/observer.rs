@@ -10,7 +10,7 @@
 //! Both poles lie at β = exp(−ω_o h): the critically damped g-h filter of Brookner, *Tracking and
 //! Kalman Filtering Made Easy* (1998), section 1.2.6. h is the nominal tick, never a measured one.
 
-use crate::limits::{ConfigError, ConfigParameter};
+use crate::limits::{Circles, ConfigError, ConfigParameter};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::all_finite;
 
@@ -247,6 +247,25 @@ impl<R: Real, const V: usize> Observer<R, V> {
         for ((out, &q), &qd) in self.estimate.q.iter_mut().zip(q).zip(rates) {
             *out = q + self.tick * qd;
         }
+    }
+
+    /// Moves the estimate by whole turns of the circles to within half a turn of `to`, rad: before an update with the
+    /// position of a joint that turns without end, of which the encoder measures the angle within a turn.
+    ///
+    /// The velocity is then as accurate after any number of turns as in the first. A
+    /// [`MotionController`](crate::MotionController) [`OnCircles`](crate::OnCircles) does this in each tick.
+    ///
+    /// ```
+    /// use motion_control::{Circles, Observer, ObserverConfig};
+    /// let mut observer = Observer::<f32, 1>::new(ObserverConfig { bandwidth: 200.0, tick: 1e-3 });
+    /// for measured in [3.138, 3.14, -3.141_185, -3.139_185] { // 2 mrad a tick, through π
+    ///     observer.turn_to(Circles::NONE.with(0), &[measured]);
+    ///     observer.update(&[measured], &[0.0]);
+    /// }
+    /// assert!((0.0..2.0).contains(&observer.estimate().qd[0]) && observer.estimate().q[0] < -3.13);
+    /// ```
+    pub fn turn_to(&mut self, circles: Circles, to: &[R; V]) {
+        self.estimate.q = circles.near(&self.estimate.q, to);
     }
 
     /// Whether a position was ever measured.

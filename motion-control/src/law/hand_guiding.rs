@@ -15,9 +15,10 @@
 
 use crate::entry;
 use crate::estimate::Estimate;
-use crate::limits::{ConfigError, Fault};
+use crate::limits::{Circles, ConfigError, Fault};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::all_finite;
+use dynamics_core::state::manifold::nearest_turn;
 
 mod config;
 #[cfg(test)]
@@ -33,6 +34,8 @@ pub use config::{HandGuidingConfig, LimitedSpring};
 ///   true sign that is wider than that of the model would not be.
 /// - **Walls** at bounds of the joints push back and never pull; their damping acts only on motion into them.
 /// - **Locked joints** are held where they were locked, and their friction is not compensated.
+///
+/// Joints that are circles ([`Self::on_circles`]) are held and pushed by the short way.
 ///
 /// Directions of the tip are locked by a [`CartesianImpedance`](crate::CartesianImpedance) of these directions alone.
 ///
@@ -68,7 +71,7 @@ pub use config::{HandGuidingConfig, LimitedSpring};
 #[doc(alias = "kinesthetic teaching")]
 #[doc(alias = "free drive")]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HandGuiding<R, const V: usize> {
+pub struct HandGuiding<R, const V: usize, const CIRCLES: u128 = 0> {
     config: HandGuidingConfig<R, V>,
     /// 1/v₀.
     rest_inv: [R; V],
@@ -90,6 +93,29 @@ impl<R: Real, const V: usize> HandGuiding<R, V> {
         })
     }
 
+    /// The same law for joints of which those of [`Circles::bits`] are points on a circle: walls within a turn push towards
+    /// the nearest end of their range, and a lock pulls the short way.
+    ///
+    /// # Errors
+    /// [`ConfigError::Limits`] if walls of a circle count turns.
+    pub fn on_circles<const CIRCLES: u128>(
+        self,
+    ) -> Result<HandGuiding<R, V, CIRCLES>, ConfigError> {
+        let Self {
+            config,
+            rest_inv,
+            held,
+        } = self;
+        Circles::from_bits(CIRCLES).check_ranges(&config.lower, &config.upper)?;
+        Ok(HandGuiding {
+            config,
+            rest_inv,
+            held,
+        })
+    }
+}
+
+impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
     /// Which joints are locked.
     pub fn locked(&self) -> [bool; V] {
         self.held.map(|held| held.is_some())
@@ -159,13 +185,30 @@ impl<R: Real, const V: usize> HandGuiding<R, V> {
             let q = entry(&estimate.q, i);
             let qd = finite(entry(&estimate.qd, i));
             let held = self.held.get(i).copied().flatten();
+            let [lower, upper] = [entry(lower, i), entry(upper, i)];
+            let q = if Circles::from_bits(CIRCLES).has(i) {
+                let middle = R::from_f64(0.5) * (lower + upper);
+                nearest_turn(q, middle)
+            } else {
+                q
+            };
             let free = self.compensation(i, qd, entry(friction, i), entry(errors, i));
-            let lock = self.config.lock.pull(i, held.unwrap_or(q) - q, qd);
+            let lock = self.config.lock.pull(i, self.off(i, held, q), qd);
             let wall = &self.config.wall;
-            let walls =
-                wall.push(i, entry(lower, i) - q, -qd) - wall.push(i, q - entry(upper, i), qd);
+            let walls = wall.push(i, lower - q, -qd) - wall.push(i, q - upper, qd);
             R::either(held.is_some(), lock, free) + walls
         })
+    }
+
+    /// q_l − q, of a circle the short way; zero where the joint is free.
+    #[inline(always)]
+    fn off(&self, i: usize, held: Option<R>, q: R) -> R {
+        let held = held.unwrap_or(q);
+        if Circles::from_bits(CIRCLES).has(i) {
+            nearest_turn(held, q) - q
+        } else {
+            held - q
+        }
     }
 
     /// σ F̂, less the errors, towards zero.

@@ -94,34 +94,74 @@ pub enum Fault {
     #[doc(alias = "e-stop")]
     #[doc(alias = "emergency stop")]
     External,
+    /// The encoder can have turned by half a turn since its last reading: its count does not say where the joint is. No
+    /// ride-through ends it: the driver has to be told where the joint is.
+    LostTurn {
+        /// The joint.
+        joint: usize,
+    },
+}
+
+impl Fault {
+    /// The text of the fault with the joint's name in place of its number, where `names` has one:
+    /// [`Model::coordinate_names`](dynamics_core::model::Model::coordinate_names), or the joints of an imported robot.
+    ///
+    /// ```
+    /// use motion_control::Fault;
+    /// let fault = Fault::Speed { joint: 1 };
+    /// assert_eq!(fault.to_string(), "joint 1: it exceeds its speed limit");
+    /// assert_eq!(fault.named(&["shoulder", "elbow"]).to_string(), "joint `elbow`: it exceeds its speed limit");
+    /// ```
+    pub const fn named<'a>(&self, names: &'a [&'a str]) -> impl fmt::Display + 'a {
+        Named {
+            fault: *self,
+            names,
+        }
+    }
+}
+
+/// A fault with the names of the joints.
+struct Named<'a> {
+    fault: Fault,
+    names: &'a [&'a str],
+}
+
+impl fmt::Display for Named<'_> {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (joint, text) = match self.fault {
+            Fault::Stale => return write!(out, "no measurement of this tick"),
+            Fault::Unfinished => return write!(out, "the tick before got no torque"),
+            Fault::Missed => return write!(out, "too many ticks were missed"),
+            Fault::Overrun => return write!(out, "a tick ended after its period"),
+            Fault::Model => return write!(out, "the model is invalid"),
+            Fault::Overflow => return write!(out, "a queue or a stack has overflowed"),
+            Fault::Restarted => return write!(out, "the processor restarted"),
+            Fault::Brake => return write!(out, "the brake did not respond"),
+            Fault::External => return write!(out, "a stop from outside"),
+            Fault::Encoder { joint } => (joint, "its encoder reports an error"),
+            Fault::LostTurn { joint } => (joint, "its encoder can have lost a turn"),
+            Fault::NotFinite { joint } => (joint, "its measured position is not finite"),
+            Fault::Position { joint } => (joint, "its position is outside its bounds"),
+            Fault::Jump { joint } => (joint, "its position jumped"),
+            Fault::Speed { joint } => (joint, "it exceeds its speed limit"),
+            Fault::Torque { joint } => (joint, "the torque of its law is not finite"),
+            Fault::Limits { joint } => (joint, "one of its limits is invalid"),
+            Fault::Frozen { joint } => (joint, "its encoder is frozen"),
+            Fault::Saturated { joint } => (joint, "its torque is at its limit for too long"),
+            Fault::Reference { joint } => (joint, "its reference jumped"),
+            Fault::NotReady { joint } => (joint, "its drive is not ready"),
+            Fault::Drive { joint } => (joint, "its drive rejected the torque command"),
+        };
+        match self.names.get(joint) {
+            Some(name) => write!(out, "joint `{name}`: {text}"),
+            None => write!(out, "joint {joint}: {text}"),
+        }
+    }
 }
 
 impl fmt::Display for Fault {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (joint, text) = match *self {
-            Self::Stale => return write!(out, "no measurement of this tick"),
-            Self::Unfinished => return write!(out, "the tick before got no torque"),
-            Self::Missed => return write!(out, "too many ticks were missed"),
-            Self::Overrun => return write!(out, "a tick ended after its period"),
-            Self::Model => return write!(out, "the model is invalid"),
-            Self::Overflow => return write!(out, "a queue or a stack has overflowed"),
-            Self::Restarted => return write!(out, "the processor restarted"),
-            Self::Brake => return write!(out, "the brake did not respond"),
-            Self::External => return write!(out, "a stop from outside"),
-            Self::Encoder { joint } => (joint, "its encoder reports an error"),
-            Self::NotFinite { joint } => (joint, "its measured position is not finite"),
-            Self::Position { joint } => (joint, "its position is outside its bounds"),
-            Self::Jump { joint } => (joint, "its position jumped"),
-            Self::Speed { joint } => (joint, "it exceeds its speed limit"),
-            Self::Torque { joint } => (joint, "the torque of its law is not finite"),
-            Self::Limits { joint } => (joint, "one of its limits is invalid"),
-            Self::Frozen { joint } => (joint, "its encoder is frozen"),
-            Self::Saturated { joint } => (joint, "its torque is at its limit for too long"),
-            Self::Reference { joint } => (joint, "its reference jumped"),
-            Self::NotReady { joint } => (joint, "its drive is not ready"),
-            Self::Drive { joint } => (joint, "its drive rejected the torque command"),
-        };
-        write!(out, "joint {joint}: {text}")
+        self.named(&[]).fmt(out)
     }
 }
 

@@ -1,5 +1,6 @@
 //! What a command may be: limits, faults and what follows from them, the command itself, errors of configurations.
 
+pub(crate) mod circles;
 pub(crate) mod command;
 pub(crate) mod config_error;
 pub(crate) mod fault;
@@ -7,6 +8,7 @@ pub(crate) mod motion_limits;
 pub(crate) mod reaction;
 pub(crate) mod safety_limits;
 
+pub use circles::Circles;
 pub use command::{Command, Mode, Status};
 pub use config_error::{ConfigError, ConfigParameter};
 pub use fault::Fault;

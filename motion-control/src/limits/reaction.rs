@@ -50,7 +50,9 @@ impl Fault {
             | Self::NotReady { .. }
             | Self::Missed
             | Self::Overrun => Reaction::RideThrough,
-            Self::Reference { .. } | Self::External => Reaction::ControlledStop,
+            Self::LostTurn { .. } | Self::Reference { .. } | Self::External => {
+                Reaction::ControlledStop
+            }
             Self::Saturated { .. }
             | Self::Drive { .. }
             | Self::Limits { .. }

@@ -230,6 +230,16 @@ pub enum SafetyLimitsError {
         /// The greatest position, rad or m.
         upper: f64,
     },
+    /// The range of a joint that is a circle counts turns: it is more than one, or has one end. See
+    /// [`Circles::counted`](crate::Circles::counted).
+    CountsTurns {
+        /// The joint.
+        joint: usize,
+        /// The least position, rad.
+        lower: f64,
+        /// The greatest position, rad.
+        upper: f64,
+    },
 }
 
 impl SafetyLimitsError {
@@ -239,7 +249,8 @@ impl SafetyLimitsError {
             Self::NotANumber { joint, .. }
             | Self::Infinite { joint, .. }
             | Self::Negative { joint, .. }
-            | Self::Empty { joint, .. } => joint,
+            | Self::Empty { joint, .. }
+            | Self::CountsTurns { joint, .. } => joint,
         }
     }
 
@@ -268,6 +279,13 @@ impl SafetyLimitsError {
                 write!(
                     out,
                     "its least position, {lower}, is above its greatest, {upper}"
+                )
+            }
+            Self::CountsTurns { lower, upper, .. } => {
+                let (lower, upper) = (lower as f32, upper as f32);
+                write!(
+                    out,
+                    "its range, {lower} to {upper}, counts turns, but its position is a point on a circle"
                 )
             }
         }

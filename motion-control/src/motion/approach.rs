@@ -3,12 +3,13 @@
 use core::fmt;
 
 use crate::limits::MotionLimits;
-use crate::limits::{LimitKind, Mode, SafetyLimits};
+use crate::limits::{Circles, LimitKind, Mode, SafetyLimits, SafetyLimitsError};
 use crate::motion::{MeasurementAge, MotionController, ResetError};
 use crate::real;
 use crate::reference::{Reference, Trajectory, TrajectoryError, WayPoint};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use dynamics_core::state::manifold::nearest_turn;
 
 #[cfg(test)]
 mod tests;
@@ -23,19 +24,30 @@ pub(crate) const ACCELERATION: f64 = 5.773_502_691_896_258;
 /// Each joint moves monotonically, so that the path stays within the bounds that its ends are in. It knows no obstacles:
 /// [`Self::first_point`] and [`Self::last_point`] name its ends, for a check of the path by the application.
 ///
+/// A joint that is a circle goes the short way, or within its bounds where it has some. The path then begins on the turn of
+/// the motion: its first point is the place of the arm, moved by whole turns. A joint whose turns count goes as far as the
+/// numbers say, which is how to ask for turns.
+///
 /// ```
-/// use motion_control::{Approach, MotionLimits, Reference, SafetyLimits, Trajectory, WayPoint};
+/// use motion_control::{Approach, Circles, MotionLimits, Reference, SafetyLimits, Trajectory, WayPoint};
 /// let limits = [MotionLimits { velocity: 1.0, acceleration: 4.0 }];
 /// let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-2.0], upper: [2.0] };
 /// let point = |q, ticks| WayPoint { q: [q], qd: [0.0], ticks };
 /// let motion = Trajectory::new(&[point(0.0, 0), point(0.5, 1000)], 1e-3, &limits)?;
 ///
-/// let approach = Approach::plan(&[-1.6], &motion, 1e-3, &limits, &bounds)?;
+/// let line = Circles::NONE;
+/// let approach = Approach::plan(&[-1.6], &motion, 1e-3, &limits, &bounds, line)?;
 /// assert_eq!(approach.path_ticks(), 3001); // 15/8 · 1.6 rad at 1 rad/s, and a tick for rounding
 /// assert_eq!((approach.at(0).q, approach.at(3001).q, approach.at(4001).q), ([-1.6], [0.0], [0.5]));
 ///
-/// let error = Approach::plan(&[2.5], &motion, 1e-3, &limits, &bounds).unwrap_err();
+/// let error = Approach::plan(&[2.5], &motion, 1e-3, &limits, &bounds, line).unwrap_err();
 /// assert_eq!(error.to_string(), "joint 0: its position 2.5000 is outside -2.0000 to 2.0000");
+///
+/// // A joint without end that stands a turn away, as its number says: it is there.
+/// let endless = SafetyLimits { lower: [f32::NEG_INFINITY], upper: [f32::INFINITY], ..bounds };
+/// let plan = |joint| Approach::plan(&[6.28], &motion, 1e-3, &limits, &endless, joint);
+/// assert!(plan(Circles::NONE.with(0))?.first_point()[0].abs() < 0.01);
+/// assert_eq!(plan(Circles::NONE)?.first_point(), &[6.28]); // it unwinds a cable
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[doc(alias = "start-up")]
@@ -70,6 +82,8 @@ pub enum ApproachError {
         /// Its greatest position.
         upper: f64,
     },
+    /// The bounds of a circle count turns.
+    Bounds(SafetyLimitsError),
     /// A limit allows no motion of a joint that has to move.
     NoMotion {
         /// The joint.
@@ -91,6 +105,7 @@ impl fmt::Display for ApproachError {
         match *self {
             Self::Reset(error) => error.fmt(out),
             Self::Path(error) => error.fmt(out),
+            Self::Bounds(error) => error.fmt(out),
             Self::NotFinite { joint } => write!(out, "joint {joint}: a position is not finite"),
             Self::Position {
                 joint,
@@ -124,7 +139,7 @@ impl core::error::Error for ApproachError {}
 
 impl<'a, R: Real, const V: usize, T: Reference<R, V>> Approach<'a, R, V, T> {
     /// The path from the positions `from` (rad, m) to the start of `motion`, in as few ticks of `tick` seconds as the
-    /// motion limits allow, and then the motion.
+    /// motion limits allow, and then the motion. The joints of `circles` go the short way.
     ///
     /// # Errors
     /// [`ApproachError`] names the joint and the limit.
@@ -134,7 +149,9 @@ impl<'a, R: Real, const V: usize, T: Reference<R, V>> Approach<'a, R, V, T> {
         tick: R,
         limits: &[MotionLimits<R>; V],
         bounds: &SafetyLimits<R, V>,
+        circles: Circles,
     ) -> Result<Self, ApproachError> {
+        circles.check(bounds).map_err(ApproachError::Bounds)?;
         let start = motion.at(0);
         if let Some(joint) = start
             .qd
@@ -144,13 +161,21 @@ impl<'a, R: Real, const V: usize, T: Reference<R, V>> Approach<'a, R, V, T> {
             return Err(ApproachError::Moving { joint });
         }
         let mut seconds = R::ZERO;
-        let ends = from.iter().zip(&start.q).zip(limits);
+        let mut first = *from;
+        let ends = first.iter_mut().zip(&start.q).zip(limits);
         let ranges = bounds.lower.iter().zip(&bounds.upper);
-        for (joint, (((&from, &to), limit), (&lower, &upper))) in ends.zip(ranges).enumerate() {
+        for (joint, (((first, &goal), limit), (&lower, &upper))) in ends.zip(ranges).enumerate() {
+            let (mut from, mut to) = (*first, goal);
             for q in [from, to] {
                 if !q.is_finite() {
                     return Err(ApproachError::NotFinite { joint });
                 }
+            }
+            if circles.has(joint) {
+                (from, to) = short_way(from, to, lower, upper);
+                *first = from + (goal - to);
+            }
+            for q in [from, to] {
                 if !(lower <= q && q <= upper) {
                     let [position, lower, upper] = [q, lower, upper].map(R::to_f64);
                     return Err(ApproachError::Position {
@@ -165,8 +190,8 @@ impl<'a, R: Real, const V: usize, T: Reference<R, V>> Approach<'a, R, V, T> {
             seconds = if least > seconds { least } else { seconds };
         }
         Ok(Self {
-            path: path(*from, start.q, seconds, tick, limits)?,
-            ends: [*from, start.q],
+            path: path(first, start.q, seconds, tick, limits)?,
+            ends: [first, start.q],
             motion,
         })
     }
@@ -176,7 +201,7 @@ impl<'a, R: Real, const V: usize, T: Reference<R, V>> Approach<'a, R, V, T> {
         self.path.ticks()
     }
 
-    /// The positions at which the path begins, rad or m.
+    /// The positions at which the path begins, rad or m; those of circles on the turn of the motion.
     pub fn first_point(&self) -> &[R; V] {
         &self.ends[0]
     }
@@ -251,9 +276,20 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
             return Err(ApproachError::Reset(ResetError::NoMeasurement));
         }
         let from = self.estimate().q;
-        let path = Approach::plan(&from, motion, self.observer.tick(), limits, bounds)?;
+        let tick = self.observer.tick();
+        let path = Approach::plan(&from, motion, tick, limits, bounds, A::CIRCLES)?;
         self.begin_anew();
         Ok(path)
+    }
+}
+
+/// Two places on a circle as the ends of the way between them, rad: the short one, or that within the bounds.
+fn short_way<R: Real>(from: R, to: R, lower: R, upper: R) -> (R, R) {
+    if lower.is_finite() {
+        let middle = R::from_f64(0.5) * (lower + upper);
+        (nearest_turn(from, middle), nearest_turn(to, middle))
+    } else {
+        (nearest_turn(from, to), to)
     }
 }
 

@@ -150,6 +150,15 @@ impl<R: Real, const V: usize> BackOff<R, V> {
         let clock = controller.clock;
         let before = controller.supervisor.replace_bounds(&self.bounds);
         let limit = *controller.supervisor.torque_limit();
+        let turned;
+        let measured = match measured {
+            Ok(q) if A::ON_CIRCLES => {
+                turned = controller.turn_to(q);
+                self.speeds.turn_to(A::CIRCLES, &turned);
+                Ok(&turned)
+            }
+            other => other,
+        };
         let observed = controller.observe(measured);
         let reference = self.reference(observed.estimate());
         let mut tick = observed.reference(&reference);

@@ -259,7 +259,13 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
                 match (phase, tick.mode()) {
                     // An arm on its brake, or one without a measurement yet, is not on its reference.
                     (_, Mode::Stopped) => self.path.clear(),
-                    (ContactPhase::Watching, _) => self.path.record(&tick.reference().q),
+                    (ContactPhase::Watching, _) => {
+                        let q = &tick.reference().q;
+                        if A::ON_CIRCLES {
+                            self.path.turn_to(A::CIRCLES, q);
+                        }
+                        self.path.record(q);
+                    }
                     _ => {}
                 }
                 tick
@@ -304,11 +310,18 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
         self.tick = 0;
         let (from, tick) = (controller.estimate().q, controller.observer.tick());
         match self.config.response {
-            ContactResponse::Retract { limits, .. } if self.path.plan(&from, tick, &limits) => {
-                self.phase = ContactPhase::Retracting;
+            ContactResponse::Retract { limits, .. } => {
+                if A::ON_CIRCLES {
+                    self.path.turn_to(A::CIRCLES, &from);
+                }
+                if self.path.plan(&from, tick, &limits) {
+                    self.phase = ContactPhase::Retracting;
+                } else {
+                    self.end(controller);
+                }
             }
             ContactResponse::Float { .. } => self.phase = ContactPhase::Floating,
-            _ => self.end(controller),
+            ContactResponse::Stop => self.end(controller),
         }
     }
 

@@ -17,7 +17,7 @@ use core::fmt;
 use core::marker::PhantomData;
 
 use crate::estimate::{Estimate, Observer};
-use crate::limits::{ConfigError, Fault, Mode};
+use crate::limits::{Circles, ConfigError, Fault, Mode};
 use crate::motion::hold;
 use crate::motion::resume::ResumeTrajectory;
 use crate::reference::Reference;
@@ -26,6 +26,7 @@ use crate::safety::supervisor::Supervisor;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::{State, all_finite};
 
+pub(crate) mod circles;
 pub(crate) mod config;
 #[cfg(test)]
 mod tests;
@@ -38,8 +39,16 @@ mod sealed {
 }
 
 /// The age of the measurements of a [`MotionController`], a property of the encoders, as a
-/// type.
+/// type; [`OnCircles`](crate::OnCircles) of it is that of a controller with joints that are circles.
 pub trait MeasurementAge: sealed::Sealed {
+    /// The joints whose positions are points on a circle.
+    #[doc(hidden)]
+    const CIRCLES: Circles = Circles::NONE;
+
+    /// Whether there are any: a constant, so that the branches of lines are not even compiled.
+    #[doc(hidden)]
+    const ON_CIRCLES: bool = Self::CIRCLES.any();
+
     /// Updates the estimate by positions that were accepted.
     #[doc(hidden)]
     fn correct<R: Real, const V: usize>(observer: &mut Observer<R, V>, q: &[R; V], qdd: &[R; V]);
@@ -192,21 +201,26 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// at a position that is not known yet, use [`Self::on_brake`].
     ///
     /// # Errors
-    /// [`ConfigError`], as [`MotionControllerConfig::check`].
+    /// [`ConfigError`], as [`MotionControllerConfig::check`], and as [`Circles::check`] for joints that are circles.
     pub fn try_new(config: MotionControllerConfig<R, V>) -> Result<Self, ConfigError> {
         config.check()?;
+        A::CIRCLES.check(&config.supervisor.limits)?;
         Ok(Self::new(config))
     }
 
     /// As [`Self::try_new`], without the check: for constant configurations.
     ///
-    /// If a limit allows no motion or torque ([`SafetyLimits::check`](crate::SafetyLimits::check)), the arm is stopped by
-    /// [`Fault::Limits`], and a reset does not restart it. If the tick is not a positive number, no step of the joints is
+    /// If a limit allows no motion or torque ([`SafetyLimits::check`](crate::SafetyLimits::check)), or counts the turns of a
+    /// circle ([`Circles::check`]), the arm is stopped by [`Fault::Limits`], and a reset does not restart it. If the tick is not a positive number, no step of the joints is
     /// plausible; a resolution that is not a positive number is treated as zero.
     pub fn new(config: MotionControllerConfig<R, V>) -> Self {
+        let mut supervisor = Supervisor::new(config.supervisor);
+        if let Err(error) = A::CIRCLES.check(&config.supervisor.limits) {
+            supervisor.refuse(error.joint());
+        }
         Self {
             observer: Observer::new(config.observer()),
-            supervisor: Supervisor::new(config.supervisor),
+            supervisor,
             resume: ResumeTrajectory::new(
                 config.supervisor.tick,
                 config.decay_rate,
@@ -277,6 +291,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
             self.observer.predict(&self.reference.qdd);
             if follows {
                 self.reference = trajectory.at(self.clock);
+                self.turn_reference();
                 self.clock = self.clock.saturating_add(1);
             }
         }
@@ -451,6 +466,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
             self.recovery_reference(trajectory, full);
         } else {
             self.reference = trajectory.at(self.clock);
+            self.turn_reference();
         }
     }
 
@@ -471,7 +487,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     fn recovery_reference<T: Reference<R, V>>(&mut self, trajectory: &T, full: bool) {
         let State { q, qd, qdd } = if full {
             let share = self.supervisor.authority();
-            self.resume.at(trajectory, share)
+            self.resume_reference(trajectory, share)
         } else {
             self.stop_reference()
         };
@@ -500,6 +516,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         self.reference.q = reference.q;
         self.reference.qd = reference.qd;
         self.reference.qdd = reference.qdd;
+        self.turn_reference();
     }
 
     /// The rate at which the speed of a held arm decays, 1/s.
@@ -555,7 +572,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         if !self.supervisor.knows_positions() {
             return Err(ResetError::NoMeasurement);
         }
-        let goal = trajectory.at(self.clock).q;
+        let goal = self.turned(trajectory.at(self.clock).q);
         let mut joints = goal.iter().zip(&self.observer.estimate().q);
         let near = |(goal, q): (&R, &R)| (*goal - *q).abs() <= self.restart_distance;
         if let Some(joint) = joints.position(|joint| !near(joint)) {

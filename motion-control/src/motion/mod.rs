@@ -10,6 +10,7 @@ pub(crate) mod resume;
 pub use approach::{Approach, ApproachError};
 pub use back_off::{BackOff, BackOffConfig};
 pub use contact_reaction::{ContactPhase, ContactReaction, ContactReactionConfig, ContactResponse};
+pub use controller::circles::OnCircles;
 pub use controller::config::MotionControllerConfig;
 pub use controller::tick::{ObservedTick, ReferencedTick};
 pub use controller::{CurrentTick, MeasurementAge, MotionController, PreviousTick, ResetError};

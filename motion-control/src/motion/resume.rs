@@ -11,6 +11,7 @@
 //! so that position, velocity and acceleration are those of a at the start and of q at the end.
 
 use crate::estimate::Estimate;
+use crate::limits::Circles;
 use crate::real;
 use crate::reference::Reference;
 use dynamics_core::scalar::Real;
@@ -84,6 +85,11 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
         self.advanced = 0;
         self.fraction = R::ZERO;
         self.active = true;
+    }
+
+    /// Moves the start by whole turns of the circles to within half a turn of `to`.
+    pub(crate) fn turn_to(&mut self, circles: Circles, to: &[R; V]) {
+        self.rest.q = circles.near(&self.rest.q, to);
     }
 
     /// Starts a return at the first point of the trajectory, for an arm that stands.

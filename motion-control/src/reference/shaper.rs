@@ -9,6 +9,7 @@ use core::fmt;
 use heapless::Vec;
 
 use crate::entry;
+use crate::limits::Circles;
 use crate::reference::Reference;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
@@ -50,7 +51,7 @@ pub struct Vibration<R> {
 /// # Source
 /// Singer & Seering, "Preshaping command inputs to reduce system vibration" (1990).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Shaper<R, const N: usize> {
+pub struct Shaper<R, const N: usize, const CIRCLES: u128 = 0> {
     impulses: Vec<Impulse<R>, N>,
 }
 
@@ -74,7 +75,28 @@ impl<R: Real, const N: usize> Default for Shaper<R, N> {
     }
 }
 
+impl<R: Real, const N: usize, const CIRCLES: u128> Shaper<R, N, CIRCLES> {
+    /// The ticks by which the end is delayed.
+    pub fn delay(&self) -> u32 {
+        self.impulses
+            .iter()
+            .map(|impulse| impulse.ticks)
+            .max()
+            .unwrap_or(0)
+    }
+}
+
 impl<R: Real, const N: usize> Shaper<R, N> {
+    /// The same shaper for a reference whose numbers leap by whole turns: those of the joints of [`Circles::bits`] are moved
+    /// to within half a turn of the present one before they are added. The numbers of a
+    /// [`Trajectory`](crate::Trajectory) do not leap, and need this not.
+    #[must_use]
+    pub fn on_circles<const CIRCLES: u128>(self) -> Shaper<R, N, CIRCLES> {
+        Shaper {
+            impulses: self.impulses,
+        }
+    }
+
     /// Zero vibration: two impulses for each vibration. The tick is in s.
     ///
     /// # Errors
@@ -90,15 +112,6 @@ impl<R: Real, const N: usize> Shaper<R, N> {
     /// As [`Shaper::zv`].
     pub fn zvd(vibrations: &[Vibration<R>], tick: R) -> Result<Self, ShaperError> {
         Self::of(vibrations, tick, |k| [R::ONE, k + k, k * k])
-    }
-
-    /// The ticks by which the end is delayed.
-    pub fn delay(&self) -> u32 {
-        self.impulses
-            .iter()
-            .map(|impulse| impulse.ticks)
-            .max()
-            .unwrap_or(0)
     }
 
     fn of(
@@ -197,21 +210,26 @@ fn add<R: Real, const N: usize>(
 /// # Cost
 /// A call of the reference and 6 V flops for each impulse.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Shaped<T, R, const N: usize> {
+pub struct Shaped<T, R, const N: usize, const CIRCLES: u128 = 0> {
     /// The reference.
     pub reference: T,
     /// Its shaper.
-    pub shaper: Shaper<R, N>,
+    pub shaper: Shaper<R, N, CIRCLES>,
 }
 
-impl<T, R: Real, const V: usize, const N: usize> Reference<R, V> for Shaped<T, R, N>
+impl<T, R: Real, const V: usize, const N: usize, const CIRCLES: u128> Reference<R, V>
+    for Shaped<T, R, N, CIRCLES>
 where
     T: Reference<R, V>,
 {
     fn at(&self, tick: u32) -> State<R, V, V> {
+        let circles = Circles::from_bits(CIRCLES);
         let mut sum = State::at([R::ZERO; V]);
         for impulse in &self.shaper.impulses {
-            let part = self.reference.at(tick.saturating_sub(impulse.ticks));
+            let mut part = self.reference.at(tick.saturating_sub(impulse.ticks));
+            if circles.any() {
+                part.q = circles.near(&part.q, &self.reference.at(tick).q);
+            }
             let add = |to: &mut [R; V], part: &[R; V]| {
                 for (k, to) in to.iter_mut().enumerate() {
                     *to += impulse.amplitude * entry(part, k);

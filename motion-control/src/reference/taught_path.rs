@@ -4,7 +4,7 @@
 //! the arm is at least at the distance 1 from the last one.
 
 use crate::entry;
-use crate::limits::{ConfigError, ConfigParameter};
+use crate::limits::{Circles, ConfigError, ConfigParameter};
 use crate::reference::{PathSpline, PathSplineError};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::all_finite;
@@ -36,7 +36,7 @@ mod tests;
 #[doc(alias = "teach-in")]
 #[doc(alias = "record and playback")]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TaughtPath<R, const V: usize, const N: usize> {
+pub struct TaughtPath<R, const V: usize, const N: usize, const CIRCLES: u128 = 0> {
     points: [[R; V]; N],
     count: usize,
     spacing: [R; V],
@@ -83,6 +83,28 @@ impl<R: Real, const V: usize, const N: usize> TaughtPath<R, V, N> {
         })
     }
 
+    /// The same for joints of which those of [`Circles::bits`] are circles: the way-points of these are on the turn of the one before, so that the
+    /// path is the way that the hand went, through a seam of the measurement, too.
+    #[must_use]
+    pub fn on_circles<const CIRCLES: u128>(self) -> TaughtPath<R, V, N, CIRCLES> {
+        let Self {
+            points,
+            count,
+            spacing,
+            spacing_inv,
+        } = self;
+        TaughtPath {
+            points,
+            count,
+            spacing,
+            spacing_inv,
+        }
+    }
+}
+
+impl<R: Real, const V: usize, const N: usize, const CIRCLES: u128> TaughtPath<R, V, N, CIRCLES> {
+    const CIRCLES: Circles = Circles::from_bits(CIRCLES);
+
     /// Records the positions q (rad, m) of a tick.
     ///
     /// # Cost
@@ -94,6 +116,14 @@ impl<R: Real, const V: usize, const N: usize> TaughtPath<R, V, N> {
         }
         match self.points().last() {
             Some(last) if self.square_distance(last, q) < R::ONE => Recorded::Near,
+            // A seam lies between the two, or the arm is further away.
+            Some(last) if Self::CIRCLES.any() => {
+                let q = Self::CIRCLES.near(q, last);
+                if self.square_distance(last, &q) < R::ONE {
+                    return Recorded::Near;
+                }
+                self.store(&q)
+            }
             _ => self.store(q),
         }
     }
@@ -106,6 +136,10 @@ impl<R: Real, const V: usize, const N: usize> TaughtPath<R, V, N> {
         if let Some(joint) = not_finite(q) {
             return Recorded::NotFinite { joint };
         }
+        let q = match self.points().last() {
+            Some(last) if Self::CIRCLES.any() => &Self::CIRCLES.near(q, last),
+            _ => q,
+        };
         let half = R::from_f64(0.5);
         let near = |last: &[R; V], square| -> bool { self.square_distance(last, q) < square };
         match self.points().last() {

@@ -3,9 +3,10 @@
 //! Each is optional and has its own memory. A detector's fault is the measurement of the tick
 //! ([`FrozenEncoder`]), or goes to [`MotionController::report`](crate::MotionController::report) or `stop_by`.
 
-use crate::limits::Fault;
+use crate::limits::{Circles, Fault};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use dynamics_core::state::manifold::nearest_turn;
 
 mod detect;
 #[cfg(test)]
@@ -32,7 +33,7 @@ pub use detect::{Detect, Detectors};
 /// assert_eq!(frozen.check(&[0.2001], &[0.22]), Ok(())); // it moves again
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrozenEncoder<R, const V: usize> {
+pub struct FrozenEncoder<R, const V: usize, const CIRCLES: u128 = 0> {
     encoders: [Encoder<R>; V],
     /// Comparisons without a change that precede the one which reports it.
     patience: u32,
@@ -70,6 +71,26 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
         }
     }
 
+    /// The same detector for joints of which those of [`Circles::bits`] are circles: a reference that moves by a whole turn
+    /// has not moved.
+    #[must_use]
+    pub const fn on_circles<const CIRCLES: u128>(self) -> FrozenEncoder<R, V, CIRCLES> {
+        let Self {
+            encoders,
+            patience,
+            joint,
+            frozen,
+        } = self;
+        FrozenEncoder {
+            encoders,
+            patience,
+            joint,
+            frozen,
+        }
+    }
+}
+
+impl<R: Real, const V: usize, const CIRCLES: u128> FrozenEncoder<R, V, CIRCLES> {
     /// Compares the measured position of a joint with the one when it was compared before; `reference` is the reference of
     /// the joints that acted in between, [`MotionController::reference`](crate::MotionController::reference).
     ///
@@ -89,7 +110,9 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
             (encoder.last, encoder.origin, encoder.left) = (q, reference, self.patience);
         } else if encoder.left > 0 {
             encoder.left -= 1;
-        } else if (reference - encoder.origin).abs() > encoder.distance {
+        } else if (reference - encoder.origin).abs() > encoder.distance
+            && !(Circles::from_bits(CIRCLES).has(joint) && encoder.near(reference))
+        {
             (self.joint, self.frozen) = (V, Some(joint));
             return Err(Fault::Frozen { joint });
         }
@@ -132,6 +155,13 @@ impl<R: Real> Encoder<R> {
         origin: R::ZERO,
         left: 0,
     };
+
+    /// Whether the reference of a circle is within the distance, on whichever turn.
+    #[cold]
+    #[inline(never)]
+    fn near(&self, reference: R) -> bool {
+        (nearest_turn(reference, self.origin) - self.origin).abs() <= self.distance
+    }
 }
 
 /// Detects torques that stay at their limits.
@@ -212,7 +242,7 @@ impl<R: Real, const V: usize> Saturation<R, V> {
 /// assert_eq!(faults, [None, None, Some(Fault::Reference { joint: 0 }), None]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ReferenceStep<R, const V: usize> {
+pub struct ReferenceStep<R, const V: usize, const CIRCLES: u128 = 0> {
     step: [R; V],
     last: [R; V],
     /// Whether there is a last one.
@@ -229,6 +259,30 @@ impl<R: Real, const V: usize> ReferenceStep<R, V> {
         }
     }
 
+    /// The same detector for joints of which those of [`Circles::bits`] are circles: a step of a whole turn is none.
+    ///
+    /// ```
+    /// use dynamics_core::state::State;
+    /// use motion_control::{Circles, ReferenceStep};
+    /// let mut steps = ReferenceStep::new([0.004_f32]).on_circles::<{ Circles::NONE.with(0).bits() }>();
+    /// assert!([3.14, -3.142, 3.14].iter().all(|&q| steps.check(&State::at([q])).is_ok()));
+    /// ```
+    #[must_use]
+    pub const fn on_circles<const CIRCLES: u128>(self) -> ReferenceStep<R, V, CIRCLES> {
+        let Self {
+            step,
+            last,
+            started,
+        } = self;
+        ReferenceStep {
+            step,
+            last,
+            started,
+        }
+    }
+}
+
+impl<R: Real, const V: usize, const CIRCLES: u128> ReferenceStep<R, V, CIRCLES> {
     /// Compares a reference with the one before, and keeps it.
     ///
     /// # Errors
@@ -263,7 +317,8 @@ impl<R: Real, const V: usize> ReferenceStep<R, V> {
     fn first_step(&mut self, reference: &State<R, V, V>) -> Result<(), Fault> {
         let State { q, qd, qdd } = reference;
         let rates = qd.iter().zip(qdd);
-        let joints = q.iter().zip(&self.last).zip(&self.step).zip(rates);
+        let near = Circles::from_bits(CIRCLES).near(q, &self.last);
+        let joints = near.iter().zip(&self.last).zip(&self.step).zip(rates);
         let mut fault = Ok(());
         for (joint, (((&q, &last), &step), (qd, qdd))) in joints.enumerate() {
             let is_near = (q - last).abs() <= step;

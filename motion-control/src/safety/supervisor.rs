@@ -25,7 +25,9 @@
 //!
 //! A reset leads from every state but `Unusable` to `Full`.
 
-use crate::limits::{Command, ConfigError, ConfigParameter, Fault, Mode, SafetyLimits, Status};
+use crate::limits::{
+    Circles, Command, ConfigError, ConfigParameter, Fault, Mode, Reaction, SafetyLimits, Status,
+};
 use crate::real;
 use crate::safety::stop_category::{Ending, Required, Stopping};
 use dynamics_core::scalar::Real;
@@ -39,9 +41,11 @@ mod tests;
 const JUMP: f64 = 2.0;
 /// Positions beyond this are as good as infinite, in f64 too.
 const FAR: f64 = f32::MAX as f64;
-/// Beyond this, rad, f32 has no sine accurate to 10⁻⁷: positions beyond it are rejected for all limits. For joints
-/// without limits the angle within a turn is measured, `MultiTurnEncoder::within_turn` of `joint-drivers`.
+/// Beyond this, rad, f32 has no sine accurate to 10⁻⁷: positions beyond it are rejected for all limits. Of a joint that
+/// is a circle the angle within a turn is measured, `MultiTurnEncoder::within_turn` of `joint-drivers`.
 const RANGE: f64 = 1e4;
+/// The same for the angle of a circle in f64, rad: its turns are subtracted.
+const FAR_ANGLE: f64 = 1e8;
 
 /// Value of `ramp` during a stop if the current tick has a fault: the increment at the begin of the next tick wraps it to
 /// zero, so that this tick does not count as a good one.
@@ -97,12 +101,12 @@ impl<R: Real, const V: usize> SupervisorConfig<R, V> {
 /// What the supervisor does with the arm, from tick to tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum State {
+    /// The torque of the law was not finite: the arm is held in the next tick, whatever is measured.
+    Torqueless,
     /// The full law; faults are ridden through.
     Full,
     /// A fault outlasted the ride-through: the arm is held until a tick has none.
     Held,
-    /// The torque of the law was not finite: the arm is held in the next tick, whatever is measured.
-    Torqueless,
     /// A controlled stop: the arm is decelerated for `ticks` more, whatever is measured.
     Stopping {
         required: Required,
@@ -263,6 +267,30 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self
     }
 
+    /// Refuses the range of a joint, for ever.
+    #[cold]
+    pub(crate) fn refuse(&mut self, joint: usize) {
+        let fault = Fault::Limits { joint };
+        (self.state, self.fault) = (State::Unusable(fault), Some(fault));
+    }
+
+    /// The measured positions, of circles within half a turn of the middles of their ranges; the last good ones of circles
+    /// without a range follow by whole turns. `None` if a number has lost the digits of its angle, or is none.
+    pub(crate) fn turn_to(&mut self, circles: Circles, q: &[R; V]) -> Option<[R; V]> {
+        let far = R::select(FAR_ANGLE, RANGE as f32);
+        if !q.iter().all(|q| q.abs() <= far) {
+            return None;
+        }
+        let q = circles.near(q, &self.middle);
+        self.last_good = circles.near(&self.last_good, &self.centres(&q));
+        Some(q)
+    }
+
+    /// [`Circles::centres`] in the ranges of the positions.
+    pub(crate) fn centres(&self, q: &[R; V]) -> [R; V] {
+        Circles::centres(&self.middle, &self.half, q)
+    }
+
     /// Whether any positions were accepted since the start or the last reset.
     #[inline(always)]
     pub(crate) fn knows_positions(&self) -> bool {
@@ -313,6 +341,10 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     pub(crate) fn accept_fault(&mut self, fault: Fault) {
         self.begin();
         self.no_measurement(fault);
+        // Measurements that come again do not end a fault that stops the arm.
+        if !matches!(fault.reaction(), Reaction::RideThrough) {
+            self.react(fault);
+        }
     }
 
     /// Compares the observer's velocities with their limits, before [`Self::gate`].

@@ -2,7 +2,7 @@
 
 use std::any::Any;
 
-use dynamics_core::loops::{LoopJoint, LoopModelError, Loops};
+use dynamics_core::loops::{LoopJoint, LoopModelError, LoopProblem, Loops};
 use dynamics_core::model::Model;
 
 use crate::model::{Counts, General, Models};
@@ -15,6 +15,14 @@ pub const MOST_ROWS: usize = 6 * MOST_LOOPS;
 
 /// Loops on a model of V velocity coordinates.
 pub type Filled<const V: usize> = Loops<MOST_LOOPS, MOST_ROWS, V>;
+
+/// An error without the coordinates that fill the model up.
+fn of_robot(mut error: LoopModelError, fill: usize) -> LoopModelError {
+    if let LoopProblem::TooFewActuated { needed, given } = &mut error.problem {
+        (*needed, *given) = (needed.saturating_sub(fill), given.saturating_sub(fill));
+    }
+    error
+}
 
 /// Loops on a model of any size.
 #[derive(Debug)]
@@ -53,7 +61,8 @@ impl AnyLoops {
     ) -> Result<Self, LoopModelError> {
         // What fills the model up has motors, so that it is free to move.
         let motors: Vec<usize> = actuated.iter().copied().chain(counts.v..V).collect();
-        let filled = Filled::<V>::try_filled(model, joints, &motors)?;
+        let filled = Filled::<V>::try_filled(model, joints, &motors);
+        let filled = filled.map_err(|error| of_robot(error, V - counts.v))?;
         let last = filled.rows(joints.len().saturating_sub(1));
         Ok(Self {
             filled: Box::new(filled.damped_below(damped_below)),

@@ -298,7 +298,7 @@ fn described(i: usize, body: &tree::Body) -> Described {
     let body = placed
         .mass(body.inertia.mass)
         .com(body.inertia.com)
-        .inertia(body.inertia.inertia)
+        .inertia_as_published(body.inertia.inertia)
         .limits(JointLimits {
             lower,
             upper,

@@ -17,6 +17,15 @@ pub enum BodyRef {
     Name(String),
 }
 
+impl std::fmt::Display for BodyRef {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Number(number) => write!(out, "of the number {number}"),
+            Self::Name(name) => write!(out, "of the name `{name}`"),
+        }
+    }
+}
+
 /// An effect.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Spec {

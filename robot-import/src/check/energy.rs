@@ -1,9 +1,11 @@
-//! Inverse dynamics by Lagrange's equations, from the energy of the file's links.
+//! Inverse dynamics by Lagrange's equations of the file's links.
 //!
 //! d/dt ∂L/∂u̇ − ∂L/∂u = τ with L = Σ ½ tr(Ȧ J Ȧᵀ) + Σ m gᵀ c over all links of the file, A a link's 4 × 4 pose and J
-//! its pseudo-inertia (Uicker 1965); poses, velocities and Lagrange's derivatives by dual numbers. It shares no code
-//! with the library, and nothing with the importer but the numbers of the file: no link is merged, no axis is aligned,
-//! and a ball joint or a free joint is a chain of joints of one coordinate each.
+//! its pseudo-inertia, is τᵢ = Σ tr(∂A/∂uᵢ J (Ä − G)ᵀ), G the acceleration of gravity as such a matrix (Uicker 1965). A link
+//! outward of coordinate i has ∂A/∂uᵢ = Qᵢ A with the same Qᵢ, so that the sum is one of A J (Ä − G)ᵀ over them, and the work
+//! grows with the number of links (Hollerbach 1980). Ä and Qᵢ are derivatives by dual numbers. It shares no code with the
+//! library, and nothing with the importer but the numbers of the file: no link is merged, no axis is aligned, and a ball joint
+//! or a free joint is a chain of joints of one coordinate each.
 
 use dynamics_core::glam::DVec3;
 
@@ -67,67 +69,43 @@ impl<'a> Energy<'a> {
     }
 
     /// The forces on the coordinates u of a motion.
-    pub fn torque(&self, u: &[f64], ud: &[f64], udd: &[f64]) -> Vec<f64> {
-        let along = |i: usize| {
-            // ∂L/∂u_i.
-            let unit = |k: usize| if k == i { 1.0 } else { 0.0 };
-            let dual = |values: &[f64], moves: bool| -> Vec<Dual<f64>> {
-                let rate = |k| if moves { unit(k) } else { 0.0 };
-                values
-                    .iter()
-                    .enumerate()
-                    .map(|(k, &x)| Dual::new(x, rate(k)))
-                    .collect()
-            };
-            let slope = self.lagrangian(&dual(u, true), &dual(ud, false)).rate;
-            // d/dt ∂L/∂u̇_i: the outer rate is that of u̇_i, the inner one that of time.
-            let still = Dual::new(0.0, 0.0);
-            let in_time = |x: &[f64], rates: &[f64], moves: bool| -> Vec<Dual<Dual<f64>>> {
-                let pairs = x.iter().zip(rates).enumerate();
-                let outer = |k| {
-                    if moves {
-                        Dual::new(unit(k), 0.0)
-                    } else {
-                        still
-                    }
-                };
-                pairs
-                    .map(|(k, (&x, &rate))| Dual::new(Dual::new(x, rate), outer(k)))
-                    .collect()
-            };
-            let momentum = self.lagrangian(&in_time(u, ud, false), &in_time(ud, udd, true));
-            momentum.rate.rate - slope
-        };
-        (0..self.coordinates).map(along).collect()
-    }
-
-    /// Kinetic minus potential energy.
-    fn lagrangian<T: Number>(&self, u: &[T], ud: &[T]) -> T {
-        let u: Vec<Dual<T>> = u.iter().zip(ud).map(|(&u, &ud)| Dual::new(u, ud)).collect();
-        let mut energy = T::constant(0.0);
-        for (pose, mass) in self.poses(&u).iter().zip(&self.masses) {
-            let (Some(pose), Some((moments, first, mass))) = (pose, mass) else {
-                continue;
-            };
-            for row in pose {
-                let rate = row.map(|entry| entry.rate);
-                for (a, &x) in rate.iter().enumerate() {
-                    for (b, &y) in rate.iter().enumerate() {
-                        let weight = match (a, b) {
-                            (3, 3) => *mass,
-                            (3, i) | (i, 3) => first[i],
-                            (i, k) => moments[i][k],
-                        };
-                        energy = energy + (x * y).scaled(0.5 * weight);
-                    }
-                }
-            }
-            let [_, _, z] = pose;
-            for (entry, &h) in z.iter().zip(first.iter().chain([mass])) {
-                energy = energy - entry.value.scaled(G * h);
+    pub fn torque<T: Number>(&self, u: &[T], ud: &[T], udd: &[T]) -> Vec<T> {
+        let in_time = |k: usize| Dual::new(Dual::new(u[k], ud[k]), Dual::new(ud[k], udd[k]));
+        let in_time: Vec<_> = (0..self.coordinates).map(in_time).collect();
+        let poses = self.poses(&in_time);
+        let mut sums = vec![[[T::constant(0.0); 3]; 4]; poses.len()];
+        for ((sum, pose), mass) in sums.iter_mut().zip(&poses).zip(&self.masses) {
+            if let (Some(pose), Some(mass)) = (pose, mass) {
+                *sum = work(pose, mass);
             }
         }
-        energy
+        let mut torque = vec![T::constant(0.0); self.coordinates];
+        for &j in self.selected.order.iter().rev() {
+            let joint = &self.robot.joints[j];
+            let (Some(parent), true) = (&poses[joint.parent], poses[joint.child].is_some()) else {
+                continue;
+            };
+            let sum = sums[joint.child];
+            if self.selected.roles[j] == Role::Moves {
+                let before = placed(&value(parent), &joint.origin);
+                let own = self.first[j]..self.first[j] + axes(joint.kind).len();
+                forces(
+                    before,
+                    &steps(joint),
+                    &u[own.clone()],
+                    &sum,
+                    &mut torque[own],
+                );
+            }
+            add(&mut sums[joint.parent], &sum);
+        }
+        if self.selected.free_base {
+            let own = 0..FREE.len();
+            let sum = &sums[self.selected.base];
+            let steps = FREE.map(step_along);
+            forces(identity(), &steps, &u[own.clone()], sum, &mut torque[own]);
+        }
+        torque
     }
 
     /// The poses of the links below the base.
@@ -145,15 +123,133 @@ impl<'a> Energy<'a> {
                 continue;
             };
             let placed = placed(&parent, &joint.origin);
-            let motion = match self.selected.roles[j] {
-                Role::Moves if joint.kind.has_axis() => along_axis(joint, u[self.first[j]]),
-                Role::Moves => moved(identity(), axes(joint.kind), &u[self.first[j]..]),
-                Role::Locked(position) => along_axis(joint, T::constant(position)),
-            };
-            poses[joint.child] = Some(product(&placed, &motion));
+            let all = steps(joint);
+            poses[joint.child] = Some(match (self.selected.roles[j], all.as_slice()) {
+                (Role::Moves, all) => {
+                    let pairs = all.iter().zip(&u[self.first[j]..]);
+                    pairs.fold(placed, |pose, (step, u)| product(&pose, &step.pose(*u)))
+                }
+                (Role::Locked(position), [step]) if position != 0.0 => {
+                    product(&placed, &step.pose(T::constant(position)))
+                }
+                (Role::Locked(_), _) => placed,
+            });
         }
         poses
     }
+}
+
+/// A turn about an axis, or a translation along it.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    is_turn: bool,
+    axis: DVec3,
+}
+
+impl Step {
+    fn pose<T: Number>(self, u: T) -> Rows<T> {
+        match self.is_turn {
+            true => turn(self.axis, u),
+            false => slide(self.axis, u),
+        }
+    }
+}
+
+/// One of [`BALL`], [`PLANE`] or [`FREE`].
+fn step_along(axis: usize) -> Step {
+    Step {
+        is_turn: axis < 3,
+        axis: DVec3::AXES[axis % 3],
+    }
+}
+
+/// The one-coordinate joints in place of a joint, with their axes.
+fn steps(joint: &Joint) -> Vec<Step> {
+    match joint.kind.has_axis() {
+        true => vec![Step {
+            is_turn: joint.kind != Kind::Prismatic,
+            axis: joint.axis.normalize_or_zero(),
+        }],
+        false => axes(joint.kind)
+            .iter()
+            .map(|&axis| step_along(axis))
+            .collect(),
+    }
+}
+
+/// A J (Ä − G)ᵀ of a link: ∫ r (r̈ − g)ᵀ dm, with 1 as fourth component of r.
+fn work<T: Number>(pose: &Rows<Dual<Dual<T>>>, (moments, first, mass): &Moments) -> [[T; 3]; 4] {
+    let of_link = |i: usize, k: usize| match (i, k) {
+        (3, 3) => *mass,
+        (3, i) | (i, 3) => first[i],
+        (i, k) => moments[i][k],
+    };
+    let mut out = [[T::constant(0.0); 3]; 4];
+    for (b, row) in pose.iter().enumerate() {
+        let mut second = row.map(|entry| entry.rate.rate);
+        if b == 2 {
+            second[3] = second[3] + T::constant(G);
+        }
+        // J (Ä − G)ᵀ, column b.
+        let mut column = [T::constant(0.0); 4];
+        for (i, entry) in column.iter_mut().enumerate() {
+            for (k, &x) in second.iter().enumerate() {
+                *entry = *entry + x.scaled(of_link(i, k));
+            }
+        }
+        for (a, row) in pose.iter().enumerate() {
+            let pairs = row.iter().zip(column);
+            let products = pairs.map(|(entry, x)| entry.value.value * x);
+            out[a][b] = products.fold(T::constant(0.0), |sum, x| sum + x);
+        }
+        out[3][b] = column[3];
+    }
+    out
+}
+
+fn add<T: Number>(sum: &mut [[T; 3]; 4], other: &[[T; 3]; 4]) {
+    for (row, other) in sum.iter_mut().zip(other) {
+        for (entry, &other) in row.iter_mut().zip(other) {
+            *entry = *entry + other;
+        }
+    }
+}
+
+/// The forces tr(Qᵢ S) on the coordinates of a joint, of which `before` is the pose at zero.
+fn forces<T: Number>(
+    before: Rows<T>,
+    steps: &[Step],
+    u: &[T],
+    sum: &[[T; 3]; 4],
+    torque: &mut [T],
+) {
+    let mut pose = before;
+    for ((step, &u), torque) in steps.iter().zip(u).zip(torque) {
+        // Qᵢ = ∂A/∂uᵢ A⁻¹ of the pose after the step.
+        let motion = step.pose(Dual::new(u, T::constant(1.0)));
+        let slope = product_of_parts(&pose, &motion.map(|row| row.map(|entry| entry.rate)), false);
+        pose = product(&pose, &value_of(&motion));
+        let mut force = T::constant(0.0);
+        for (slope, b) in slope.iter().zip(0..3) {
+            let mut rest = slope[3];
+            for a in 0..3 {
+                let q = slope[0] * pose[a][0] + slope[1] * pose[a][1] + slope[2] * pose[a][2];
+                force = force + q * sum[a][b];
+                rest = rest - q * pose[a][3];
+            }
+            force = force + rest * sum[3][b];
+        }
+        *torque = force;
+    }
+}
+
+/// A pose without its derivatives in time.
+fn value<T: Number>(pose: &Rows<Dual<Dual<T>>>) -> Rows<T> {
+    pose.map(|row| row.map(|entry| entry.value.value))
+}
+
+fn value_of<T: Number>(pose: &Rows<Dual<T>>) -> Rows<T> {
+    pose.map(|row| row.map(|entry| entry.value))
 }
 
 /// The one-coordinate joints in place of a joint.
@@ -188,12 +284,17 @@ pub fn identity<T: Number>() -> Rows<T> {
 
 /// The product of two poses.
 pub fn product<T: Number>(a: &Rows<T>, b: &Rows<T>) -> Rows<T> {
+    product_of_parts(a, b, true)
+}
+
+/// The product of a pose with another, or with the derivative of one, whose last row is zero.
+fn product_of_parts<T: Number>(a: &Rows<T>, b: &Rows<T>, is_pose: bool) -> Rows<T> {
     // Loops: closures that return arrays of arrays are copied more often than they are computed.
     let mut out = *a;
     for (out, a) in out.iter_mut().zip(a) {
         for (k, out) in out.iter_mut().enumerate() {
             let sum = a[0] * b[0][k] + a[1] * b[1][k] + a[2] * b[2][k];
-            *out = if k == 3 { sum + a[3] } else { sum };
+            *out = if k == 3 && is_pose { sum + a[3] } else { sum };
         }
     }
     out
@@ -223,21 +324,10 @@ fn placed<T: Number>(pose: &Rows<T>, origin: &Pose) -> Rows<T> {
     out
 }
 
-/// A turn about, or a translation along, a joint's axis: Rodrigues' formula.
-fn along_axis<T: Number>(joint: &Joint, u: T) -> Rows<T> {
-    let n = joint.axis.normalize_or_zero();
-    match joint.kind {
-        Kind::Revolute | Kind::Continuous => turn(n, u),
-        Kind::Prismatic => slide(n, u),
-        _ => identity(),
-    }
-}
-
 /// A pose followed by one-coordinate joints.
 pub fn moved<T: Number>(mut pose: Rows<T>, axes: &[usize], u: &[T]) -> Rows<T> {
     for (&axis, &u) in axes.iter().zip(u) {
-        let n = DVec3::AXES[axis % 3];
-        pose = product(&pose, &if axis < 3 { turn(n, u) } else { slide(n, u) });
+        pose = product(&pose, &step_along(axis).pose(u));
     }
     pose
 }
@@ -262,4 +352,175 @@ fn turn<T: Number>(n: DVec3, u: T) -> Rows<T> {
         }
     }
     pose
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+    use std::fmt::Write as _;
+    use std::ops::{Add, Mul, Neg, Sub};
+    use std::path::Path;
+
+    use super::*;
+    use crate::selection::Selection;
+    use crate::source::parse;
+
+    /// Kinetic minus potential energy.
+    fn lagrangian<T: Number>(energy: &Energy<'_>, u: &[T], ud: &[T]) -> T {
+        let u: Vec<Dual<T>> = u.iter().zip(ud).map(|(&u, &ud)| Dual::new(u, ud)).collect();
+        let mut sum = T::constant(0.0);
+        for (pose, mass) in energy.poses(&u).iter().zip(&energy.masses) {
+            let (Some(pose), Some((moments, first, mass))) = (pose, mass) else {
+                continue;
+            };
+            for row in pose {
+                let rate = row.map(|entry| entry.rate);
+                for (a, &x) in rate.iter().enumerate() {
+                    for (b, &y) in rate.iter().enumerate() {
+                        let weight = match (a, b) {
+                            (3, 3) => *mass,
+                            (3, i) | (i, 3) => first[i],
+                            (i, k) => moments[i][k],
+                        };
+                        sum = sum + (x * y).scaled(0.5 * weight);
+                    }
+                }
+            }
+            let [_, _, z] = pose;
+            for (entry, &h) in z.iter().zip(first.iter().chain([mass])) {
+                sum = sum - entry.value.scaled(G * h);
+            }
+        }
+        sum
+    }
+
+    /// d/dt ∂L/∂u̇ᵢ − ∂L/∂uᵢ by dual numbers, coordinate by coordinate.
+    fn by_derivatives(energy: &Energy<'_>, u: &[f64], ud: &[f64], udd: &[f64]) -> Vec<f64> {
+        let along = |i: usize| {
+            let unit = |k: usize| if k == i { 1.0 } else { 0.0 };
+            let moved: Vec<_> = (0..u.len()).map(|k| Dual::new(u[k], unit(k))).collect();
+            let still: Vec<_> = ud.iter().map(|&x| Dual::new(x, 0.0)).collect();
+            let slope = lagrangian(energy, &moved, &still).rate;
+            // The outer rate is that of u̇ᵢ, the inner one that of time.
+            let in_time = |x: f64, rate: f64, outer: f64| {
+                Dual::new(Dual::new(x, rate), Dual::new(outer, 0.0))
+            };
+            let u: Vec<_> = (0..u.len()).map(|k| in_time(u[k], ud[k], 0.0)).collect();
+            let ud: Vec<_> = (0..u.len())
+                .map(|k| in_time(ud[k], udd[k], unit(k)))
+                .collect();
+            lagrangian(energy, &u, &ud).rate.rate - slope
+        };
+        (0..u.len()).map(along).collect()
+    }
+
+    #[test]
+    fn the_sum_over_links_is_lagranges_derivative_of_the_energy() {
+        let text = include_str!("../../tests/urdf/zoo.urdf");
+        let robot = parse(text, Path::new(".")).expect("a robot");
+        for free_base in [false, true] {
+            let selection = Selection {
+                free_base,
+                lock: vec![("turn".to_owned(), -0.3)],
+                ..Selection::default()
+            };
+            let selected = selection.of(&robot).expect("a selection");
+            let energy = Energy::of(&robot, &selected);
+            let number = |size: f64, phase: f64| -> Vec<f64> {
+                let each = 0..energy.coordinates;
+                each.map(|i| size * (1.7 * i as f64 + phase).sin())
+                    .collect()
+            };
+            let (u, ud, udd) = (number(1.2, 0.3), number(2.0, 1.1), number(5.0, 2.3));
+            let expected = by_derivatives(&energy, &u, &ud, &udd);
+            let found = energy.torque(&u, &ud, &udd);
+            let scale = expected.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            assert!(scale > 1.0, "{expected:?}");
+            for (a, b) in found.iter().zip(&expected) {
+                assert!((a - b).abs() < 1e-13 * scale, "{a} {b}");
+            }
+        }
+    }
+
+    thread_local! {
+        static PRODUCTS: Cell<u64> = const { Cell::new(0) };
+    }
+
+    /// A number that counts its products.
+    #[derive(Clone, Copy, Debug)]
+    struct Counted(f64);
+
+    impl Number for Counted {
+        fn constant(x: f64) -> Self {
+            Self(x)
+        }
+        fn scaled(self, by: f64) -> Self {
+            self * Self(by)
+        }
+        fn sin_cos(self) -> (Self, Self) {
+            let (sin, cos) = self.0.sin_cos();
+            (Self(sin), Self(cos))
+        }
+    }
+
+    impl Add for Counted {
+        type Output = Self;
+        fn add(self, other: Self) -> Self {
+            Self(self.0 + other.0)
+        }
+    }
+
+    impl Sub for Counted {
+        type Output = Self;
+        fn sub(self, other: Self) -> Self {
+            Self(self.0 - other.0)
+        }
+    }
+
+    impl Mul for Counted {
+        type Output = Self;
+        fn mul(self, other: Self) -> Self {
+            PRODUCTS.set(PRODUCTS.get() + 1);
+            Self(self.0 * other.0)
+        }
+    }
+
+    impl Neg for Counted {
+        type Output = Self;
+        fn neg(self) -> Self {
+            Self(-self.0)
+        }
+    }
+
+    /// The products of a state of a chain of joints.
+    fn products(joints: usize) -> u64 {
+        let mut text = String::from("<robot name='r'><link name='l0'/>");
+        for i in 1..=joints {
+            let _ = write!(
+                text,
+                "<link name='l{i}'><inertial><origin xyz='0 0 0.1'/><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' \
+                 izz='1'/></inertial></link><joint name='j{i}' type='continuous'><origin xyz='0 0 0.2'/><parent link='l{}'/>\
+                 <child link='l{i}'/><axis xyz='0 1 0'/></joint>",
+                i - 1
+            );
+        }
+        let robot = parse(&(text + "</robot>"), Path::new(".")).expect("a robot");
+        let selected = Selection::default().of(&robot).expect("all joints");
+        let energy = Energy::of(&robot, &selected);
+        let [u, ud, udd] = [0.3, 0.7, 1.1].map(|x| vec![Counted(x); joints]);
+        PRODUCTS.set(0);
+        energy.torque(&u, &ud, &udd);
+        PRODUCTS.get()
+    }
+
+    #[test]
+    fn the_work_of_a_state_grows_with_the_number_of_joints() {
+        let [ten, sixty, most] = [10, 60, 136].map(products);
+        assert_eq!(
+            (sixty - ten) / 50,
+            (most - sixty) / 76,
+            "{ten}, {sixty}, {most}"
+        );
+        assert!(sixty < 60 * 1_200, "{sixty} products for 60 joints");
+    }
 }

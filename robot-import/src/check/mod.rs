@@ -13,6 +13,7 @@ pub use peer::{NoPeer, Peer, Python, compare};
 
 use crate::description::Description;
 use crate::error::Result;
+use crate::limits::{MOST_WORK, MOST_WORK_OF_INERTIA};
 use crate::model::{AnyModel, Motion};
 use crate::selection::Selected;
 use crate::tree::{Numbers, Tree};
@@ -21,8 +22,6 @@ use random::Random;
 
 /// The number of states.
 pub const STATES: usize = 100;
-/// The work of the energies: links times coordinates times states. A robot with more of it is checked at fewer states.
-const MOST_WORK: usize = 2_000_000;
 /// The largest random position, rad or m: attitudes within a quarter turn keep the chain of a ball joint away from its singularity.
 const SIZE: f64 = 1.2;
 /// The largest difference of torques, of full scale.
@@ -43,7 +42,7 @@ pub struct Checked {
     pub f32: f64,
     /// Of the frames of written loops from those on the file's links, m, if there are some.
     pub loops: Option<f64>,
-    /// The logarithm of the condition number of M, the largest of all states.
+    /// The logarithm of the condition number of M, the largest of the states, or of the first of them for a large robot.
     pub condition: f64,
     /// The motions and the torques, for peers.
     #[serde(skip)]
@@ -79,8 +78,7 @@ pub fn check_trees(
 ) -> Result<Checked> {
     let (library, snapped) = (AnyModel::of(given)?, AnyModel::of(exact)?);
     let energy = Energy::of(robot, selected);
-    let work = robot.links.len() * energy.coordinates.max(1);
-    let states = states.min(MOST_WORK / work).max(1);
+    let states = states.min(MOST_WORK / robot.links.len()).max(1);
     let mut random = Random::new(1);
     let mut checked = Checked {
         states,
@@ -92,7 +90,9 @@ pub fn check_trees(
         condition: 0.0,
         samples: Vec::new(),
     };
-    for _ in 0..states {
+    let v = given.coordinates()[1].max(1);
+    let of_inertia = (MOST_WORK_OF_INERTIA / (v * v)).max(1);
+    for state in 0..states {
         let mut draw = |size: f64| -> Vec<f64> {
             (0..energy.coordinates)
                 .map(|_| size * random.symmetric())
@@ -101,19 +101,19 @@ pub fn check_trees(
         let (u, ud, udd) = (draw(SIZE), draw(2.0), draw(5.0));
         let by_energy = energy.torque(&u, &ud, &udd);
         let (motion, columns) = in_library(given, &u, &ud, &udd);
-        let found = library.dynamics(&motion);
-        let moved = snapped.dynamics(&motion);
-        let in_chain = on_chain(&columns, &found.torque);
+        let found = library.torque(&motion);
+        let (moved, rounded) = (snapped.torque(&motion), snapped.torque_f32(&motion));
+        let in_chain = on_chain(&columns, &found);
         let size = |values: &[f64]| values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        checked.full_scale = checked
-            .full_scale
-            .max(size(&by_energy))
-            .max(size(&found.torque));
+        checked.full_scale = checked.full_scale.max(size(&by_energy)).max(size(&found));
         checked.energy = checked.energy.max(largest(&by_energy, &in_chain));
-        checked.snapping = checked.snapping.max(largest(&found.torque, &moved.torque));
-        checked.f32 = checked.f32.max(largest(&moved.torque, &moved.torque_f32));
-        checked.condition = checked.condition.max(condition(&moved.inertia));
-        checked.samples.push((motion, found.torque));
+        checked.snapping = checked.snapping.max(largest(&found, &moved));
+        checked.f32 = checked.f32.max(largest(&moved, &rounded));
+        if state < of_inertia {
+            let m = snapped.inertia(&motion.q, given.coordinates()[1]);
+            checked.condition = checked.condition.max(condition(&m));
+        }
+        checked.samples.push((motion, found));
     }
     // A robot without mass has no torque.
     let scale = if checked.full_scale > 0.0 {

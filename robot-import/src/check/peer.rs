@@ -13,12 +13,11 @@ use serde::{Deserialize, Serialize};
 use super::process::{Bounds, Ended, Failure, run};
 use super::{Checked, largest};
 use crate::description::{Description, Kind};
+use crate::limits::{MOST_ANSWER, MOST_COMPLAINTS};
 use crate::selection::{Role, Selected};
 use crate::tree::Tree;
 
 const SCRIPT: &str = include_str!("peer.py");
-/// The most bytes of an answer: 100 states of 136 coordinates are 300 kB.
-const MOST_BYTES: usize = 8 << 20;
 /// The exit status of the script where there is no package, or a kind of joint that it does not compare.
 const NO_PEER: i32 = 3;
 
@@ -43,6 +42,9 @@ pub struct Peer {
     /// The joint with the largest difference.
     #[serde(skip)]
     pub joint: String,
+    /// What it said of the description, such as a part that it leaves out; empty if nothing.
+    #[serde(skip)]
+    pub complaint: String,
 }
 
 /// Why there is no comparison, a sentence.
@@ -135,7 +137,9 @@ pub fn compare(
             "it answered for another number of states".to_owned(),
         ));
     }
-    Ok(difference(&answer, tree, checked))
+    let mut peer = difference(&answer, tree, checked);
+    peer.complaint = complaint(&ended.messages);
+    Ok(peer)
 }
 
 /// The comparison of an answer.
@@ -165,6 +169,7 @@ fn difference(answer: &Answer, tree: &Tree, checked: &Checked) -> Peer {
         name: printable(&answer.name),
         difference: most / scale,
         joint: joint.to_owned(),
+        complaint: String::new(),
     }
 }
 
@@ -233,7 +238,7 @@ fn started(python: &Python, request: Vec<u8>) -> Result<Ended, NoPeer> {
         .current_dir(folder.path());
     let bounds = Bounds {
         time: python.time,
-        bytes: MOST_BYTES,
+        bytes: MOST_ANSWER,
     };
     run(&mut command, request, bounds).map_err(|failure| match failure {
         Failure::System(error) if error.kind() == std::io::ErrorKind::NotFound => {
@@ -246,7 +251,7 @@ fn started(python: &Python, request: Vec<u8>) -> Result<Ended, NoPeer> {
         )),
         Failure::Bytes => failed(format!(
             "it wrote more than {} MB and was ended",
-            MOST_BYTES >> 20
+            MOST_ANSWER >> 20
         )),
     })
 }
@@ -265,6 +270,21 @@ fn last_line(messages: &[u8]) -> String {
     let text = String::from_utf8_lossy(messages);
     let last = text.lines().rev().find(|line| !line.trim().is_empty());
     printable(last.unwrap_or("no message"))
+}
+
+/// The first messages, without the places in the peer's own source.
+fn complaint(messages: &[u8]) -> String {
+    let text = String::from_utf8_lossy(messages);
+    let lines = text
+        .lines()
+        .filter(|line| !line.trim_start().starts_with("at line"));
+    let mut shown: Vec<String> = Vec::new();
+    for line in lines.map(printable).filter(|line| !line.is_empty()) {
+        if !shown.contains(&line) && shown.len() < MOST_COMPLAINTS {
+            shown.push(line);
+        }
+    }
+    shown.join("; ")
 }
 
 /// A text of another program for a message: short, and without what moves a terminal's cursor.

@@ -6,8 +6,8 @@ use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How much of the last messages of a process is kept, bytes.
-const KEPT: usize = 4_096;
+use crate::limits::MOST_MESSAGES;
+
 /// Between two looks whether a process has ended.
 const PAUSE: Duration = Duration::from_millis(2);
 /// How long messages may take to arrive after the end of a process.
@@ -120,10 +120,10 @@ fn beginning(pipe: impl Read, bytes: usize) -> Vec<u8> {
 
 /// The last bytes; all are read, so that the process is not blocked.
 fn ending(mut pipe: impl Read) -> Vec<u8> {
-    let (mut kept, mut block) = (Vec::new(), [0; KEPT]);
+    let (mut kept, mut block) = (Vec::new(), [0; MOST_MESSAGES]);
     while let Ok(n @ 1..) = pipe.read(&mut block) {
         kept.extend_from_slice(&block[..n]);
-        kept.drain(..kept.len().saturating_sub(KEPT));
+        kept.drain(..kept.len().saturating_sub(MOST_MESSAGES));
     }
     kept
 }

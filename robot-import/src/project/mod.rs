@@ -6,6 +6,7 @@
 
 mod board;
 mod error;
+mod feedback;
 mod libraries;
 mod names;
 mod templates;
@@ -16,10 +17,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use crate::limits::{MOST_JOINTS_FOLDED, MOST_JOINTS_OF_PROJECT};
 use crate::text::code_span;
 pub use board::{BOARDS, Board, Framework};
 use board::{JOINTS, of_joints};
 pub use error::ProjectError;
+pub use feedback::{Feedback, OMEGA_N};
 use names::{check_name, enumerators, snake_case, toml_string};
 use templates::{C, File, RUST, constants};
 
@@ -68,8 +71,10 @@ pub struct RobotFile {
     pub v: usize,
     /// Whether joints are coupled (mimic joints): the projects drive each joint by itself.
     pub coupled: bool,
-    /// Which of `VISCOUS`, `COULOMB`, `ARMATURE` have a number other than zero. The others are left out of the scene.
+    /// Which of `VISCOUS`, `COULOMB`, `ARMATURE`, `SPRING` have a number other than zero. The others are left out of the scene.
     pub effects: FileEffects,
+    /// How the projects' feedback holds it.
+    pub feedback: Feedback,
 }
 
 /// The effects to which a robot's file gives numbers.
@@ -81,6 +86,8 @@ pub struct FileEffects {
     pub coulomb: bool,
     /// `ARMATURE`.
     pub armature: bool,
+    /// `SPRING`.
+    pub spring: bool,
 }
 
 /// Where a project gets dynamics-core and the crates beside it from.
@@ -130,7 +137,7 @@ pub struct Created {
     /// Why it is only the robot's file, if it is.
     pub robot_only: Option<RobotOnly>,
     /// What the user has to know of the project.
-    pub note: Option<&'static str>,
+    pub notes: Vec<String>,
 }
 
 /// A robot for which there is no project; its file was written.
@@ -152,17 +159,10 @@ pub enum RobotOnly {
     },
     /// More joints than the engine takes.
     #[error(
-        "a project has at most {MOST_JOINTS} joints, this robot has {0}: only its file was written"
+        "a project has at most {MOST_JOINTS_OF_PROJECT} joints, this robot has {0}: only its file was written"
     )]
     Joints(usize),
 }
-
-/// The most joints that the engine takes.
-pub const MOST_JOINTS: usize = 32;
-
-/// The most joints for which the C library's inertia matrix and forward dynamics are the engine's: with 30 joints they
-/// compile for four minutes.
-const MOST_FOLDED: usize = 12;
 
 /// Said of coupled joints.
 const COUPLED: &str = "the joints coupled by `COUPLING` are driven each by itself in this project: use the \
@@ -197,12 +197,42 @@ pub fn create(folder: &Path, project: &Project) -> Result<Created, ProjectError>
     }
     format(&files, &folder.join(libraries::FOLDER));
     let robot_only = project.robot.robot_only();
-    let note = (project.robot.coupled && robot_only.is_none()).then_some(COUPLED);
+    let notes = match robot_only {
+        Some(_) => Vec::new(),
+        None => notes(project),
+    };
     Ok(Created {
         files,
         robot_only,
-        note,
+        notes,
     })
+}
+
+/// What the user has to know of a project.
+fn notes(project: &Project) -> Vec<String> {
+    let Feedback { omega_n, words } = &project.robot.feedback;
+    let mut notes: Vec<String> = project
+        .robot
+        .coupled
+        .then(|| COUPLED.to_owned())
+        .into_iter()
+        .collect();
+    let is_c = matches!(project.kind, Kind::C);
+    if *omega_n > OMEGA_N {
+        let taken = if is_c {
+            "give the controller as much"
+        } else {
+            "`OMEGA_N` in src/scene.rs is that"
+        };
+        notes.push(format!(
+            "the links of this file have little inertia for their weight, and a feedback of {OMEGA_N} rad/s does not hold them against \
+             gravity within the joints' limits; {omega_n:.1} rad/s does: {taken}, or state the rotors' inertia (armature) in the file"
+        ));
+    }
+    if !is_c {
+        notes.extend(words.iter().cloned());
+    }
+    notes
 }
 
 /// The path of each file of a project in its folder, and its text before it is formatted.
@@ -279,7 +309,7 @@ impl RobotFile {
         if b != v || q != v || self.joints.len() != v {
             return Some(RobotOnly::Coordinates { b, q, v });
         }
-        (v > MOST_JOINTS).then_some(RobotOnly::Joints(v))
+        (v > MOST_JOINTS_OF_PROJECT).then_some(RobotOnly::Joints(v))
     }
 }
 
@@ -291,7 +321,7 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
     let robot = &project.robot;
     let crate_name = snake_case(&project.name);
     let prefix = crate_name.to_ascii_uppercase();
-    let form = if robot.v > MOST_FOLDED {
+    let form = if robot.v > MOST_JOINTS_FOLDED {
         "Core"
     } else {
         "Engine"
@@ -307,6 +337,7 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         ),
         ("bodies", enumerators(&prefix, "BODY", &robot.bodies, taken)),
         ("n", robot.v.to_string()),
+        ("omega_n", format!("{:.1}", robot.feedback.omega_n)),
         ("form", form.into()),
         ("crate_name", crate_name),
         ("crate_name | upcase", prefix),
@@ -370,6 +401,7 @@ impl FileEffects {
             (self.viscous, "Viscous", "VISCOUS"),
             (self.coulomb, "Coulomb", "COULOMB"),
             (self.armature, "Armature", "ARMATURE"),
+            (self.spring, "Spring", "SPRING"),
         ];
         let of_file = of_file.into_iter().filter(|(given, ..)| *given);
         let value = |&effect: &&str| match effect {

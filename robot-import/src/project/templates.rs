@@ -92,6 +92,7 @@ pub(super) const COMMON: &[File] = &[
     file!("board/common" / "rust-toolchain.toml" ".liquid"),
     file!("board/common" / "src/lib.rs"),
     file!("board/common" / "src/board.rs"),
+    file!("board/common" / "src/log.rs"),
 ];
 
 /// Firmware for a board's chip under RTIC.

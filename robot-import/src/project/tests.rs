@@ -18,6 +18,7 @@ fn pendulum() -> RobotFile {
             viscous: true,
             ..FileEffects::default()
         },
+        feedback: Feedback::default(),
     }
 }
 

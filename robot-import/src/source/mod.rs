@@ -1,6 +1,11 @@
 //! Files of descriptions, each format in a module.
 
+mod encoding;
+mod extensions;
+mod limits;
 mod mjcf;
+mod plain;
+mod tolerant;
 mod urdf;
 mod xacro;
 pub mod xml;
@@ -9,15 +14,13 @@ use std::collections::HashMap;
 use std::io::Read as _;
 use std::path::Path;
 
-use crate::description::{Description, shortened};
-use crate::error::{ImportError, Problem, Result};
+use xml::Xml;
 
-/// The most links of a robot.
-pub const MOST_LINKS: usize = 2_000;
-/// The largest length (m), mass (kg), inertia and other number.
-const MOST: f64 = 1e9;
-/// The stack, bytes, for the deepest nesting that is read, by an unoptimised build.
-const STACK: usize = 32 << 20;
+use dynamics_core::glam::DVec3;
+
+use crate::description::{Description, Format, Kind, Pose, shortened};
+use crate::error::{ImportError, Problem, Result};
+use crate::limits::{LEAST, MOST, MOST_BYTES, MOST_LINKS, MOST_OF_JOINT, STACK};
 
 /// Runs what is recursive in the nesting of a file on a stack that is large enough, whichever thread calls.
 fn on_a_large_stack<T: Send>(work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
@@ -37,17 +40,43 @@ fn on_a_large_stack<T: Send>(work: impl FnOnce() -> Result<T> + Send) -> Result<
     })
 }
 
+/// Where the files are that a description may include.
+#[derive(Clone, Copy, Debug)]
+pub struct Folders<'p> {
+    /// The folder of the description; what is below it is read.
+    pub model: &'p Path,
+    /// A folder that its user names, below which files are read, too.
+    pub include_root: Option<&'p Path>,
+}
+
+impl<'p> Folders<'p> {
+    /// Of the file of a description.
+    pub fn of(path: &'p Path, include_root: Option<&'p Path>) -> Self {
+        let model = path.parent().unwrap_or(Path::new("."));
+        Self {
+            model,
+            include_root,
+        }
+    }
+}
+
 /// The robot that a file describes.
 ///
 /// # Errors
 /// [`ImportError`] with the line and the element.
 pub fn read(path: &Path) -> Result<Description> {
-    parse(&text(path)?, folder(path))
+    read_below(path, None)
 }
 
-/// The folder of a file.
-fn folder(path: &Path) -> &Path {
-    path.parent().unwrap_or(Path::new("."))
+/// The robot that a file describes, which may include files below a folder that its user names, besides those beside it.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_below(path: &Path, include_root: Option<&Path>) -> Result<Description> {
+    let (text, note) = text(path)?;
+    let mut robot = on_a_large_stack(|| described(&text, Folders::of(path, include_root)))?;
+    robot.notes.splice(0..0, note);
+    Ok(robot)
 }
 
 /// The description in a file as another reader is given it: a URDF as it is, an MJCF with its included files and without the
@@ -55,40 +84,55 @@ fn folder(path: &Path) -> &Path {
 ///
 /// # Errors
 /// As [`read`].
-pub fn for_peer(path: &Path) -> Result<String> {
-    let text = text(path)?;
-    let text = text.trim_start_matches('\u{feff}');
+pub fn for_peer(path: &Path, include_root: Option<&Path>) -> Result<String> {
+    let (text, _) = text(path)?;
     on_a_large_stack(|| {
-        let document = xml::parse(text)?;
-        match document.root_element().tag_name().name() {
-            "mujoco" => mjcf::text::of(document.root_element(), folder(path)),
-            _ => Ok(text.to_owned()),
+        let xml = Xml::of(&text)?;
+        let document = xml.document()?;
+        match xml::tag(document.root_element()) {
+            "mujoco" => mjcf::text::of(document.root_element(), Folders::of(path, include_root)),
+            _ => Ok(text.trim_start_matches('\u{feff}').to_owned()),
         }
     })
 }
 
-/// The text of a file that is not too large.
-fn text(path: &Path) -> Result<String> {
+/// A URDF with its numbers as every reader takes them, without blanks and line ends around them, which XML allows.
+///
+/// # Errors
+/// As [`read`].
+pub fn with_plain_numbers(path: &Path) -> Result<String> {
+    let (text, _) = text(path)?;
+    on_a_large_stack(|| {
+        let xml = Xml::of(&text)?;
+        let document = xml.document()?;
+        Ok(plain::of(document.root_element()))
+    })
+}
+
+/// The text of a file that is not too large, and a sentence if it is not of the encoding that it declares.
+fn text(path: &Path) -> Result<(String, Option<String>)> {
     let unreadable = |reason: std::io::Error| Problem::File {
         path: path.display().to_string(),
         reason: reason.to_string(),
     };
+    let too_large = |found: usize| Problem::TooLarge {
+        what: "bytes in the file",
+        found,
+        most: MOST_BYTES,
+    };
     let length = std::fs::metadata(path).map_err(unreadable)?.len();
-    if length > xml::MOST_BYTES as u64 {
-        return Err(Problem::TooLarge {
-            what: "bytes in the file",
-            found: length as usize,
-            most: xml::MOST_BYTES,
-        }
-        .into());
+    if length > MOST_BYTES as u64 {
+        return Err(too_large(length as usize).into());
     }
     // What is no file, such as a pipe, has no length.
     let file = std::fs::File::open(path).map_err(unreadable)?;
-    let mut text = String::new();
-    file.take(xml::MOST_BYTES as u64 + 1)
-        .read_to_string(&mut text)
-        .map_err(unreadable)?;
-    Ok(text)
+    let mut bytes = Vec::new();
+    let mut beginning = file.take(MOST_BYTES as u64 + 1);
+    beginning.read_to_end(&mut bytes).map_err(unreadable)?;
+    match bytes.len() {
+        0..=MOST_BYTES => encoding::decode(&bytes),
+        found => Err(too_large(found).into()),
+    }
 }
 
 /// The robot that a text describes; other files that it names are in `folder`.
@@ -96,21 +140,27 @@ fn text(path: &Path) -> Result<String> {
 /// # Errors
 /// [`ImportError`] with the line and the element.
 pub fn parse(text: &str, folder: &Path) -> Result<Description> {
-    on_a_large_stack(|| described(text, folder))
+    let folders = Folders {
+        model: folder,
+        include_root: None,
+    };
+    on_a_large_stack(|| described(text, folders))
 }
 
-fn described(text: &str, folder: &Path) -> Result<Description> {
-    let text = text.trim_start_matches('\u{feff}');
-    let document = xml::parse(text)?;
+fn described(text: &str, folders: Folders<'_>) -> Result<Description> {
+    let xml = Xml::of(text)?;
+    let document = xml.document()?;
     let root = document.root_element();
-    let mut robot = match root.tag_name().name() {
+    let mut robot = match xml::tag(root) {
         "robot" => urdf::read(root)?,
-        "mujoco" => mjcf::read(root, folder)?,
+        "mujoco" => mjcf::read(root, folders)?,
         _ => return Err(xml::error(root, Problem::Format)),
     };
     if robot.licence.is_none() {
         robot.licence = licence(text);
     }
+    robot.notes.splice(0..0, xml.notes());
+    limits::without(&mut robot);
     check(&robot)?;
     Ok(robot)
 }
@@ -173,15 +223,28 @@ fn unique<'a>(what: &'static str, names: impl Iterator<Item = (&'a String, u32)>
     Ok(())
 }
 
-/// The largest size of some numbers; infinite if one is not a number.
-fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
-    numbers.fold(0.0, |most: f64, x| {
-        if x.is_nan() {
-            f64::INFINITY
-        } else {
-            most.max(x.abs())
-        }
-    })
+/// A number by the name that its format has for it, and the largest size that it may have.
+type Bounded = (&'static str, f64, f64);
+
+/// The number that is beyond its bound, in words.
+fn beyond(numbers: impl IntoIterator<Item = Bounded>) -> Option<String> {
+    let mut all = numbers.into_iter();
+    let (name, x, most) = all.find(|(_, x, most)| x.is_nan() || x.abs() > *most)?;
+    Some(format!("`{name}` is {x:e}, at most {most:e} in size"))
+}
+
+/// The parts of a placement, by the names of a format.
+fn of_pose(format: Format, pose: &Pose) -> impl Iterator<Item = Bounded> {
+    let [position, turn] = match format {
+        Format::Urdf => ["xyz", "rpy"],
+        Format::Mjcf => ["pos", "quat"],
+    };
+    let turns = pose.rotation.to_cols_array().map(|x| (turn, x, MOST));
+    pose.position
+        .to_array()
+        .map(|x| (position, x, MOST))
+        .into_iter()
+        .chain(turns)
 }
 
 /// Numbers with which f64 does not overflow, and axes that are directions.
@@ -190,35 +253,60 @@ fn sizes(robot: &Description) -> Result<()> {
         let Some(inertial) = &link.inertial else {
             continue;
         };
-        let position = inertial.frame.position.to_array();
-        let all = [inertial.mass].into_iter().chain(position);
-        let turn = inertial.frame.rotation.to_cols_array();
-        let largest = largest(all.chain(inertial.inertia).chain(turn));
-        let problem = match () {
-            () if largest > MOST => format!("a number of its inertia is {largest:e}"),
-            () if inertial.mass < 0.0 => format!("its mass is {} kg", inertial.mass),
-            () => continue,
+        let names = match robot.format {
+            Format::Urdf => ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"],
+            Format::Mjcf => [
+                "inertia xx",
+                "inertia xy",
+                "inertia xz",
+                "inertia yy",
+                "inertia yz",
+                "inertia zz",
+            ],
+        };
+        let entries = names
+            .into_iter()
+            .zip(inertial.inertia)
+            .map(|(name, x)| (name, x, MOST));
+        let all = [("mass", inertial.mass, MOST)]
+            .into_iter()
+            .chain(of_pose(robot.format, &inertial.frame));
+        let problem = match beyond(all.chain(entries)) {
+            Some(problem) => problem,
+            None if inertial.mass < 0.0 => format!("its mass is {} kg", inertial.mass),
+            None if 0.0 < inertial.mass && inertial.mass < LEAST => {
+                format!(
+                    "its mass is {:e} kg, which f32 does not compute with: at least {LEAST:e} kg, or 0",
+                    inertial.mass
+                )
+            }
+            None => continue,
         };
         let element = format!("link `{}`", shortened(&link.name));
         return Err(ImportError::at(link.line, element, Problem::Value(problem)));
     }
     for joint in &robot.joints {
-        let all = joint.origin.position.to_array().into_iter();
-        let all = all.chain([joint.damping, joint.friction, joint.armature]);
-        let turn = joint.origin.rotation.to_cols_array();
-        let largest = largest(all.chain(turn));
+        let friction = match robot.format {
+            Format::Urdf => "friction",
+            Format::Mjcf => "frictionloss",
+        };
+        let of_joint = [
+            ("damping", joint.damping, MOST_OF_JOINT),
+            (friction, joint.friction, MOST_OF_JOINT),
+            ("armature", joint.armature, MOST_OF_JOINT),
+            ("stiffness of its spring", joint.spring[0], MOST_OF_JOINT),
+            ("reference of its spring", joint.spring[1], MOST),
+        ];
         let axis = joint.axis.length();
-        let problem = match () {
-            () if largest > MOST => format!("a number of it is {largest:e}"),
-            () if joint.kind.has_axis() && !(1e-6..1e6).contains(&axis) => {
+        let problem = match beyond(of_pose(robot.format, &joint.origin).chain(of_joint)) {
+            Some(problem) => problem,
+            None if joint.kind.has_axis() && !(1e-6..1e6).contains(&axis) => {
                 format!("its axis has the length {axis}")
             }
-            () if joint.kind == crate::description::Kind::Planar
-                && joint.axis.normalize_or_zero() != dynamics_core::glam::DVec3::Z =>
-            {
+            None if joint.kind == Kind::Planar && joint.axis.normalize_or_zero() != DVec3::Z => {
                 "the normal of a planar joint has to be z: turn its frame".to_owned()
             }
-            () => continue,
+            None => continue,
         };
         let element = format!("joint `{}`", shortened(&joint.name));
         return Err(ImportError::at(

@@ -2,8 +2,8 @@
 
 use roxmltree::Node;
 
-use super::xacro;
 use super::xml::{self, child, children, number, numbers, required};
+use super::{extensions, xacro};
 use crate::description::{
     Description, Format, Inertial, Joint, Kind, Limits, Link, Mimic, Pose, Snap, index_of,
     shortened,
@@ -35,8 +35,9 @@ pub fn read(root: Node<'_, '_>) -> Result<Description> {
     let links = links.collect::<Result<Vec<_>>>()?;
     // Transmissions have elements of the same tag; they are no children of the root.
     let joints = children(root, "joint").map(|node| joint(node, &links, quaternions));
-    let joints = joints.collect::<Result<Vec<_>>>()?;
+    let mut joints = joints.collect::<Result<Vec<_>>>()?;
     notes.extend(children(root, "joint").flat_map(not_read));
+    notes.extend(extensions::read(root, &mut joints)?);
     if !quaternions {
         notes.extend(root.descendants().filter_map(ignored_quaternion));
     }
@@ -48,6 +49,7 @@ pub fn read(root: Node<'_, '_>) -> Result<Description> {
         links,
         loops: Vec::new(),
         notes,
+        files: Vec::new(),
     };
     // So far offsets.
     let lines = xml::Lines::of(root.document().input_text());
@@ -215,18 +217,18 @@ fn ignored_quaternion(node: Node<'_, '_>) -> Option<String> {
     let part = node.ancestors().skip(1).find(|node| {
         ["inertial", "link", "joint"]
             .iter()
-            .any(|tag| node.has_tag_name(*tag))
+            .any(|tag| xml::tag(*node) == *tag)
     })?;
     let of = part.ancestors().find(|node| node.has_attribute("name"))?;
     // Looks and shapes have placements, too.
-    if part.has_tag_name("link") {
+    if xml::tag(part) == "link" {
         return None;
     }
     Some(format!(
         "The `quat_xyzw` of the <{}> of {} `{}` is left out, since URDF has it from version 1.1 on: state version=\"1.1\" in <robot>, \
          or `rpy`.",
-        node.tag_name().name(),
-        of.tag_name().name(),
+        xml::tag(node),
+        xml::tag(of),
         shortened(of.attribute("name").unwrap_or_default()),
     ))
 }
@@ -295,6 +297,7 @@ fn joint(node: Node<'_, '_>, links: &[Link], quaternions: bool) -> Result<Joint>
         Ok(stated.transpose()?.flatten().unwrap_or_default())
     };
     let limits = limits(node)?;
+    let (spring, armature) = extensions::dynamics(dynamics)?;
     Ok(Joint {
         line: xml::offset(node),
         parent: end("parent")?,
@@ -307,7 +310,8 @@ fn joint(node: Node<'_, '_>, links: &[Link], quaternions: bool) -> Result<Joint>
         driven: limits.effort.is_some_and(|effort| effort > 0.0),
         damping: of_dynamics("damping")?,
         friction: of_dynamics("friction")?,
-        armature: 0.0,
+        armature,
+        spring,
         mimic: child(node, "mimic").map(mimic).transpose()?,
         name,
         kind,
@@ -318,13 +322,13 @@ fn limits(node: Node<'_, '_>) -> Result<Limits> {
     let Some(limit) = child(node, "limit") else {
         return Ok(Limits::default());
     };
-    let [lower, upper] = [number(limit, "lower")?, number(limit, "upper")?];
+    let [lower, upper] = [xml::limit(limit, "lower")?, xml::limit(limit, "upper")?];
     let stated = lower.is_some() || upper.is_some();
     let position = [lower.unwrap_or_default(), upper.unwrap_or_default()];
     Ok(Limits {
         position: stated.then_some(position),
-        velocity: number(limit, "velocity")?,
-        effort: number(limit, "effort")?,
+        velocity: xml::limit(limit, "velocity")?,
+        effort: xml::limit(limit, "effort")?,
     })
 }
 

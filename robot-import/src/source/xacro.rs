@@ -47,18 +47,10 @@ fn error(node: Node<'_, '_>, what: &str) -> ImportError {
     xml::error(node, Problem::Value(problem))
 }
 
-/// The error of the prefix `xacro` without its declaration.
-pub fn undeclared(line: u32) -> ImportError {
-    let problem = format!("its prefix is of xacro: the file is not a URDF yet; {EXPAND}");
-    ImportError::at(line, "<xacro:…>", Problem::Value(problem))
-}
-
 /// Whether an element is one of xacro, by its prefix or its namespace.
 fn is_of_xacro(node: Node<'_, '_>) -> bool {
-    let text = node.document().input_text();
-    let start = text.get(node.range()).unwrap_or_default();
     let namespace = node.tag_name().namespace().unwrap_or_default();
-    start.starts_with("<xacro:") || namespace.contains("xacro")
+    xml::tag(node).starts_with("xacro:") || namespace.contains("xacro")
 }
 
 /// Fails at the first element or text that xacro would have expanded, other than in what is not read.
@@ -68,12 +60,12 @@ fn is_of_xacro(node: Node<'_, '_>) -> bool {
 pub fn refuse(root: Node<'_, '_>) -> Result<()> {
     for node in root.descendants().filter(Node::is_element) {
         if is_of_xacro(node) {
-            return Err(error(node, &format!("<xacro:{}>", node.tag_name().name())));
+            return Err(error(node, &format!("<{}>", shortened(xml::tag(node)))));
         }
         let text = node.attributes().find(|one| is_text(one.value()));
         let is_read = || {
             let mut around = node.ancestors();
-            !around.any(|node| LOOKS.contains(&node.tag_name().name()))
+            !around.any(|node| LOOKS.contains(&xml::tag(node)))
         };
         if let Some(one) = text.filter(|_| is_read()) {
             let what = format!("`{}=\"{}\"`", one.name(), shortened(one.value()));
@@ -95,10 +87,15 @@ pub fn left_out(root: Node<'_, '_>) -> Vec<String> {
     let line = |node| lines.line(xml::offset(node));
     let mut notes = Vec::new();
     for node in root.children().filter(Node::is_element) {
-        let tag = node.tag_name().name();
+        let tag = xml::tag(node);
         if !KNOWN.contains(&tag) {
+            // A prefix is that of an extension.
+            let macros = match tag.contains(':') {
+                true => String::new(),
+                false => format!("; if it is a macro of xacro, {EXPAND}"),
+            };
             notes.push(format!(
-                "The element <{}> on line {} is none of URDF and is left out with all that is in it; if it is a macro of xacro, {EXPAND}.",
+                "The element <{}> on line {} is none of URDF and is left out with all that is in it{macros}.",
                 shortened(tag),
                 line(node)
             ));
@@ -111,7 +108,7 @@ pub fn left_out(root: Node<'_, '_>) -> Vec<String> {
     if let Some(node) = looks {
         notes.push(format!(
             "The <{}> on line {} has a text of xacro, in a part that is not read: the file may not be expanded; if so, {EXPAND}.",
-            shortened(node.tag_name().name()),
+            shortened(xml::tag(node)),
             line(node)
         ));
     }
@@ -120,11 +117,11 @@ pub fn left_out(root: Node<'_, '_>) -> Vec<String> {
         let named = ["link", "joint"];
         for inner in link
             .children()
-            .filter(|node| named.iter().any(|tag| node.has_tag_name(*tag)))
+            .filter(|node| named.iter().any(|tag| xml::tag(*node) == *tag))
         {
             notes.push(format!(
                 "The <{}> on line {} is inside of `{name}`, where URDF has none, and is left out.",
-                inner.tag_name().name(),
+                xml::tag(inner),
                 line(inner)
             ));
         }

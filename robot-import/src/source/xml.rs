@@ -1,67 +1,70 @@
-//! XML with the limits of a robot's file: no document types, and errors that name line and element.
+//! XML with the limits of a robot's file: no document types that expand, and errors that name line and element.
 
 use roxmltree::{Document, Node, ParsingOptions};
 
+use super::tolerant::Tolerant;
 use crate::description::shortened;
 use crate::error::{ImportError, Problem, Result};
+use crate::limits::{MOST_BYTES, MOST_NODES};
 
-/// The largest file, bytes.
-pub const MOST_BYTES: usize = 16 << 20;
-/// The most elements and texts.
-const MOST_NODES: u32 = 1_000_000;
-/// The deepest nesting, which the parser and the drop of its tree are recursive in.
-const MOST_DEPTH: usize = 512;
+/// A text that is read as XML.
+#[derive(Debug)]
+pub struct Xml<'t>(Tolerant<'t>);
 
-/// A parsed file: entities other than the five of XML, and with them all expansion, are refused with the document type.
-pub fn parse(text: &str) -> Result<Document<'_>> {
-    if text.len() > MOST_BYTES {
-        return Err(Problem::TooLarge {
-            what: "bytes in the file",
-            found: text.len(),
-            most: MOST_BYTES,
+impl<'t> Xml<'t> {
+    /// A text with what its reader tolerates made well-formed.
+    ///
+    /// # Errors
+    /// A text that is too large, too deep or of too many attributes, or a part that has no end.
+    pub fn of(text: &'t str) -> Result<Self> {
+        if text.len() > MOST_BYTES {
+            return Err(Problem::TooLarge {
+                what: "bytes in the file",
+                found: text.len(),
+                most: MOST_BYTES,
+            }
+            .into());
         }
-        .into());
+        Ok(Self(Tolerant::of(text.trim_start_matches('\u{feff}'))?))
     }
-    let found = depth(text);
-    if found > MOST_DEPTH {
-        return Err(Problem::TooLarge {
-            what: "nested elements",
-            found,
-            most: MOST_DEPTH,
-        }
-        .into());
+
+    /// The parsed file: entities other than the five of XML, and with them all expansion, are refused with the document type.
+    ///
+    /// # Errors
+    /// What is not well-formed, with line and column.
+    pub fn document(&self) -> Result<Document<'_>> {
+        let options = ParsingOptions {
+            allow_dtd: false,
+            nodes_limit: MOST_NODES,
+            ..ParsingOptions::default()
+        };
+        Document::parse_with_options(self.0.text(), options).map_err(|error| {
+            let (place, message) = (error.pos(), error.to_string());
+            let column = self.0.column(place.row, place.col);
+            let message = message.replace(
+                &format!("at {place}"),
+                &format!("at {}:{column}", place.row),
+            );
+            ImportError::at(place.row, "", Problem::Xml(message))
+        })
     }
-    let options = ParsingOptions {
-        allow_dtd: false,
-        nodes_limit: MOST_NODES,
-        ..ParsingOptions::default()
-    };
-    Document::parse_with_options(text, options).map_err(|error| {
-        let line = error.pos().row;
-        if let roxmltree::Error::UnknownNamespace(prefix, _) = &error
-            && prefix == "xacro"
-        {
-            return super::xacro::undeclared(line);
-        }
-        ImportError::at(line, "", Problem::Xml(error.to_string()))
-    })
+
+    /// What is not well-formed and was read all the same, a sentence each.
+    pub fn notes(&self) -> Vec<String> {
+        self.0.notes()
+    }
 }
 
-/// A bound of the nesting: opening tags minus closing ones, where the text is well-formed.
-fn depth(text: &str) -> usize {
-    let bytes = text.as_bytes();
-    let (mut depth, mut most) = (0_usize, 0);
-    for (i, &byte) in bytes.iter().enumerate() {
-        match (byte, bytes.get(i + 1)) {
-            (b'<', Some(b'/')) => depth = depth.saturating_sub(1),
-            (b'/', Some(b'>')) => depth = depth.saturating_sub(1),
-            (b'<', Some(b'!' | b'?')) => {}
-            (b'<', _) => depth += 1,
-            _ => {}
-        }
-        most = most.max(depth);
+/// The name of an element as the file has it, with its prefix: readers of robots know no namespaces.
+pub fn tag<'a>(node: Node<'a, '_>) -> &'a str {
+    let name = node.tag_name().name();
+    if node.tag_name().namespace().is_none() {
+        return name;
     }
-    most
+    let text = &node.document().input_text()[node.range()];
+    let text = text.trim_start_matches('<');
+    let end = text.find(|c: char| c.is_whitespace() || matches!(c, '/' | '>'));
+    &text[..end.unwrap_or(text.len())]
 }
 
 /// Where an element starts, in bytes: a search for its line would take as long as the file is.
@@ -91,7 +94,7 @@ impl Lines {
 
 /// An error at an element.
 pub fn error(node: Node<'_, '_>, problem: Problem) -> ImportError {
-    let tag = node.tag_name().name();
+    let tag = tag(node);
     let element = match node.attribute("name") {
         Some(name) => format!("{tag} `{}`", shortened(name)),
         None => format!("<{tag}>"),
@@ -105,7 +108,8 @@ pub fn children<'a, 'i>(
     node: Node<'a, 'i>,
     tag: &'static str,
 ) -> impl Iterator<Item = Node<'a, 'i>> {
-    node.children().filter(move |child| child.has_tag_name(tag))
+    let is_of = move |child: &Node<'a, 'i>| child.is_element() && self::tag(*child) == tag;
+    node.children().filter(is_of)
 }
 
 /// The first element of this tag directly below.
@@ -122,6 +126,15 @@ pub fn required<'a>(node: Node<'a, '_>, attribute: &'static str) -> Result<&'a s
 /// A finite number, if the attribute is there.
 pub fn number(node: Node<'_, '_>, attribute: &'static str) -> Result<Option<f64>> {
     Ok(numbers::<1>(node, attribute)?.map(|[x]| x))
+}
+
+/// A number that limits something, if the attribute is there: infinite where there is no limit.
+pub fn limit(node: Node<'_, '_>, attribute: &'static str) -> Result<Option<f64>> {
+    let text = node.attribute(attribute).map(str::trim_ascii);
+    match text.and_then(|text| text.parse::<f64>().ok()) {
+        Some(x) if x.is_infinite() => Ok(Some(x)),
+        _ => number(node, attribute),
+    }
 }
 
 /// N finite numbers, if the attribute is there.

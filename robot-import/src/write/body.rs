@@ -2,8 +2,10 @@
 
 use std::fmt::Write as _;
 
+use crate::advice::TOLERANCE;
 use crate::description::Kind;
 use crate::number::{Attitude, angle, literal};
+use crate::physical::impossible;
 use crate::text::string_literal;
 use crate::tree::Body;
 
@@ -70,7 +72,11 @@ pub fn entry(body: &Body) -> String {
         let _ = write!(out, ".com({})", list(own.com));
     }
     if own.inertia != [0.0; 6] {
-        let _ = write!(out, ".inertia({})", list(own.inertia));
+        let call = match impossible(own.inertia, TOLERANCE) {
+            Some(found) if found.moment < 0.0 => "inertia_as_published",
+            _ => "inertia",
+        };
+        let _ = write!(out, ".{call}({})", list(own.inertia));
     }
     if let Some(limits) = limits(body) {
         let _ = write!(out, ".limits({limits})");

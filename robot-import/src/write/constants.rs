@@ -26,11 +26,16 @@ pub fn effects(tree: &Tree, type_name: &str) -> String {
         ("Inertia", "Inertia"),
         ("Coriolis", "Coriolis"),
     ];
+    let [stiffness, rest] = [
+        per_coordinate(tree, |body| body.spring[0]),
+        per_coordinate(tree, |body| body.spring[1]),
+    ];
     let is_some = |values: &[f64]| values.iter().any(|&x| x != 0.0);
     let each = [
         (&viscous, ("Viscous<f32, V>", "VISCOUS")),
         (&coulomb, ("Coulomb<f32, V>", "COULOMB")),
         (&armature, ("Armature<f32, V>", "ARMATURE")),
+        (&stiffness, ("Spring<f32, V>", "SPRING")),
     ];
     scene.extend(
         each.iter()
@@ -39,11 +44,20 @@ pub fn effects(tree: &Tree, type_name: &str) -> String {
     );
     let types: Vec<&str> = scene.iter().map(|(name, _)| *name).collect();
     let values: Vec<&str> = scene.iter().map(|(_, value)| *value).collect();
+    let spring = match tree.has_springs() {
+        true => format!(
+            "/// Springs at the joints, N·m/rad or N/m about rad or m.\n\
+             pub const SPRING: Spring<f32, V> = Spring {{ stiffness: {}, rest: {} }};\n",
+            text(&stiffness),
+            text(&rest),
+        ),
+        false => String::new(),
+    };
     format!(
         "\n/// Viscous friction, N·m·s/rad or N·s/m.\npub const VISCOUS: Viscous<f32, V> = Viscous({});\n\
          /// Coulomb friction, N·m or N, full beyond 0.02 rad/s or m/s.\n\
          pub const COULOMB: Coulomb<f32, V> = Coulomb {{ torque: {}, width: Width::f32(0.02) }};\n\
-         /// Inertia of the rotors at the joints, kg·m² or kg.\npub const ARMATURE: Armature<f32, V> = Armature({});\n\
+         /// Inertia of the rotors at the joints, kg·m² or kg.\npub const ARMATURE: Armature<f32, V> = Armature({});\n{spring}\
          \n/// The rigid body, and the effects that the description states.\n\
          pub const SCENE: ({}) = ::dynamics_core::Core::<{type_name}>::scene_f32(({}));\n",
         text(&viscous),

@@ -13,7 +13,7 @@ pub use names::{given_type_name, renamed, type_name, type_of};
 pub use rustfmt::formatted;
 
 use crate::advice::TOLERANCE;
-use crate::physical::impossible;
+use crate::physical::{impossible, sentence};
 use crate::text::{code_span, doc_name, doc_sentence, string_literal, visible};
 use crate::tree::{Body, Tree};
 
@@ -59,7 +59,11 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
         ""
     };
     let arm = if single { "ArmModel, " } else { "" };
-    out += "use ::dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};\n";
+    let spring = if tree.has_springs() { "Spring, " } else { "" };
+    let _ = writeln!(
+        out,
+        "use ::dynamics_core::effects::{{Armature, Coriolis, Coulomb, Gravity, Inertia, {spring}Viscous, Width}};"
+    );
     let _ = writeln!(
         out,
         "use ::dynamics_core::model::{{{arm}{base}Body, Joint{limited}, Model, Robot}};"
@@ -135,7 +139,7 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
 /// Which bodies have an inertia that no body has, each on a line of a comment: such a robot is computed with all the same.
 fn inertias(tree: &Tree) -> String {
     let each = tree.bodies.iter().filter_map(|body| {
-        let words = impossible(body.inertia.inertia, TOLERANCE)?;
+        let words = sentence(&impossible(body.inertia.inertia, TOLERANCE)?);
         Some(format!(
             "\n// Body `{}` has an impossible inertia, which compiles. {words}",
             visible(&body.name)

@@ -1,16 +1,14 @@
 //! The name of the robot's type: the only name in the Rust file that its description chooses.
 
+use crate::limits::MOST_TYPE_NAME;
 use crate::text::code_span;
-
-/// The most characters of it: rustdoc names a file after it.
-const MOST: usize = 60;
 
 /// What the type cannot be called: each constant of the file, each item of the library that it imports, the keyword,
 /// and what Rust has in scope everywhere, which `use robot::*` would hide.
 const TAKEN: &str = "
-    ARMATURE B BODIES COULOMB COUPLING JOINTS M N Q SCENE V VISCOUS
+    ARMATURE B BODIES COULOMB COUPLING JOINTS M N Q SCENE SPRING V VISCOUS
     ArmModel Armature BASE Body BodyFrame Coriolis Coulomb Gravity Inertia Joint JointLimits LoopJoint LoopRobot Loops
-    Model PI Robot Transmission Viscous Width
+    Model PI Robot Spring Transmission Viscous Width
     Self
     AsMut AsRef Box Clone Copy Debug Default DoubleEndedIterator Drop Eq Err ExactSizeIterator Extend Fn FnMut FnOnce
     From FromIterator Future Hash Into IntoFuture IntoIterator Iterator None Ok Option Ord PartialEq PartialOrd Result
@@ -40,7 +38,9 @@ fn chosen(name: &str) -> (String, Option<String>) {
         None => Some("the robot's name has no letter from A to Z".to_owned()),
         Some('0'..='9') => Some("no name of Rust begins with a digit".to_owned()),
         _ if is_taken(&camel) => Some(format!("the file or Rust itself uses `{camel}`")),
-        _ if camel.len() > MOST => Some(format!("a type's name is cut after {MOST} characters")),
+        _ if camel.len() > MOST_TYPE_NAME => Some(format!(
+            "a type's name is cut after {MOST_TYPE_NAME} characters"
+        )),
         _ if has_others => Some("other letters than A to Z are left out".to_owned()),
         _ => None,
     };
@@ -50,7 +50,7 @@ fn chosen(name: &str) -> (String, Option<String>) {
         _ if is_taken(&camel) => format!("My{camel}"),
         _ => camel,
     };
-    chosen.truncate(MOST);
+    chosen.truncate(MOST_TYPE_NAME);
     (chosen, reason)
 }
 
@@ -104,8 +104,8 @@ pub fn given_type_name(text: &str) -> Result<String, String> {
             "the file or Rust itself uses this name; `My{text}` is free"
         ));
     }
-    if text.len() > MOST {
-        return Err(format!("it is longer than {MOST} characters"));
+    if text.len() > MOST_TYPE_NAME {
+        return Err(format!("it is longer than {MOST_TYPE_NAME} characters"));
     }
     Ok(text.to_owned())
 }

@@ -42,7 +42,7 @@ fn a_file_of_xacro_is_refused_with_what_to_do() {
     let cases = [
         (
             robot(declared, "<xacro:arm prefix='left'/>", LIMIT, ""),
-            "line 5: <arm>: <xacro:arm> is of xacro",
+            "line 5: <xacro:arm>: <xacro:arm> is of xacro",
         ),
         (
             robot(
@@ -51,15 +51,15 @@ fn a_file_of_xacro_is_refused_with_what_to_do() {
                 LIMIT,
                 "",
             ),
-            "line 5: macro `m`: <xacro:macro> is of xacro",
+            "line 5: xacro:macro `m`: <xacro:macro> is of xacro",
         ),
         (
             robot(declared, "", &format!("{LIMIT}<xacro:damping/>"), ""),
-            "line 4: <damping>: <xacro:damping> is of xacro",
+            "line 4: <xacro:damping>: <xacro:damping> is of xacro",
         ),
         (
             robot("", "<xacro:arm/>", LIMIT, ""),
-            "line 5: <xacro:…>: its prefix is of xacro",
+            "line 5: <xacro:arm>: <xacro:arm> is of xacro",
         ),
         (
             robot("", "", LIMIT, "<origin xyz='${l} 0 0'/>"),

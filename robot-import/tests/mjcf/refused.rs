@@ -54,13 +54,13 @@ fn what_is_not_read_is_refused_with_its_line() {
             "<include file='/etc/passwd'/>",
             joint(""),
             2,
-            "not in the folder",
+            "not below the folder",
         ),
         (
             "<include file='../Cargo.toml'/>",
             joint(""),
             2,
-            "not in the folder",
+            "not below the folder",
         ),
         ("<include/>", joint(""), 2, "`file` is missing"),
         (

@@ -1,6 +1,6 @@
 //! Whatever a robot, a link, a joint or a project is called, what is written of it compiles, and nothing of a name is code.
 
-mod compiled;
+pub mod compiled;
 mod drawn;
 mod files;
 mod projects;
@@ -8,7 +8,7 @@ mod projects;
 use std::path::Path;
 
 use robot_import::loops::{self, Motors};
-use robot_import::project::{FileEffects, Kind, Library, Project, RobotFile};
+use robot_import::project::{Feedback, FileEffects, Kind, Library, Project, RobotFile};
 use robot_import::selection::Selection;
 use robot_import::source::parse;
 use robot_import::tree::{Numbers, Tree};
@@ -124,7 +124,9 @@ impl Names {
                 viscous: is_some(|body| body.damping),
                 coulomb: is_some(|body| body.friction),
                 armature: is_some(|body| body.armature),
+                spring: tree.has_springs(),
             },
+            feedback: Feedback::default(),
         })
     }
 }

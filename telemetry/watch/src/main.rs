@@ -1,7 +1,7 @@
 //! Shows and records the telemetry of a machine: what `cargo xtask watch` runs.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::Ordering::Relaxed;
 use std::time::{Duration, Instant};
@@ -57,9 +57,21 @@ fn main() -> ExitCode {
     }
 }
 
+/// Whether two paths lead to one file.
+fn is_one(a: &Path, b: &Path) -> bool {
+    std::fs::canonicalize(a).is_ok_and(|a| std::fs::canonicalize(b).is_ok_and(|b| a == b))
+}
+
 fn run(args: &Args) -> Result<()> {
     // Without a handler a signal ends the program, but not its children.
     let _ = ctrlc::set_handler(|| session::ENDED.store(true, Relaxed));
+    if let (Some(read), Some(written)) = (&args.file, &args.record)
+        && is_one(read, written)
+    {
+        let source = std::io::Error::other("it is the file that is read");
+        let path = written.clone();
+        return Err(Error::Record { path, source });
+    }
     let recorder = args.record.as_deref().map(Recorder::create).transpose()?;
     let place = match (&args.port, &args.file) {
         (Some(port), _) => Place::Port(port.clone(), args.baud),

@@ -63,3 +63,32 @@ fn a_silent_machine_is_an_error_in_its_time() {
     assert!(error.contains("no frame from bash in 5 s"), "{error}");
     assert!(start.elapsed() < session::PATIENCE + Duration::from_secs(2));
 }
+
+#[test]
+fn a_record_does_not_replace_the_file_that_is_read() {
+    let file = std::env::temp_dir().join(format!("watch-{}.csv", std::process::id()));
+    std::fs::write(&file, "received").expect("a file");
+    let same = file.with_file_name(format!(
+        "../{}/watch-{}.csv",
+        std::env::temp_dir()
+            .file_name()
+            .expect("a folder")
+            .display(),
+        std::process::id()
+    ));
+    let ended = std::process::Command::new(env!("CARGO_BIN_EXE_telemetry-watch"))
+        .arg("--file")
+        .arg(&file)
+        .arg("--record")
+        .arg(&same)
+        .output()
+        .expect("it starts");
+    let left = std::fs::read_to_string(&file).expect("a file");
+    std::fs::remove_file(&file).expect("a file");
+    assert_eq!(left, "received");
+    let error = String::from_utf8_lossy(&ended.stderr);
+    assert!(
+        !ended.status.success() && error.contains("it is the file that is read"),
+        "{error}"
+    );
+}

@@ -115,26 +115,11 @@ fn write_docs(
     for one in measured.iter().filter(|one| one.report.scene == shown) {
         let brackets = brackets(workspace, tools, plugin, one)?;
         docs::TICK.write(workspace, &one.report.markdown(&brackets))?;
-        for (page, text) in first_screen(workspace, &one.report)? {
-            page.write(workspace, &text)?;
-        }
+        first_screen::WORTH.write(workspace, &first_screen::worth(&one.report))?;
+        first_screen::write_why(workspace)?;
         plot::write(&one.recording, &workspace.report(PICTURE))?;
     }
     Ok(())
-}
-
-/// The parts of the README's first screen that this run has the figures of.
-pub fn first_screen(
-    workspace: &Workspace,
-    report: &Report,
-) -> Result<[(docs::Page<'static>, String); 2]> {
-    let read = |file| workspace::read(&workspace.root.join(file));
-    let (peers, readme) = (read(first_screen::PEERS)?, read(first_screen::WHY.file)?);
-    let why = first_screen::why(&peers, &readme, report)?;
-    Ok([
-        (first_screen::WHY, why),
-        (first_screen::WORTH, first_screen::worth(report)),
-    ])
 }
 
 /// Scenes and the meter, built.

@@ -29,6 +29,13 @@ fn folder() -> Option<PathBuf> {
     })
 }
 
+/// The folder in which a program of an unpacked package lies, if the user's own PATH has none of its name.
+pub fn unpacked(program: &str) -> Option<PathBuf> {
+    let folder = folder()?.join("usr/bin");
+    let found = shell::which(program)?;
+    found.starts_with(&folder).then_some(folder)
+}
+
 /// Puts the programs of unpacked packages on the PATH, behind the user's own.
 pub fn extend_path() {
     let Some(folder) = folder() else { return };

@@ -2,6 +2,7 @@
 
 #[cfg(test)]
 pub mod repository;
+pub mod seal;
 #[cfg(test)]
 mod tests;
 
@@ -44,7 +45,7 @@ impl Page<'_> {
     /// The page with a text between the markers.
     pub fn replaced(&self, page: &str, text: &str) -> Result<String> {
         if self.name.is_empty() {
-            return Ok(text.to_owned());
+            return Ok(seal::sealed(text));
         }
         let (before, _, after) = self.split(page)?;
         let (begin, end) = self.markers();
@@ -75,15 +76,15 @@ impl Page<'_> {
         (marker("begin"), marker("end"))
     }
 
-    /// The text between the markers, with the note that a command wrote it.
+    /// The text between the markers, with the note that a command wrote it and its sum.
     pub fn generated(&self, text: &str) -> String {
         if self.name.is_empty() {
             return text.to_owned();
         }
-        format!(
-            "<!-- written by `{}`: do not edit -->\n\n{text}\n",
+        seal::sealed(&format!(
+            "<!-- written by `{}`: do not edit -->\n\n{text}",
             self.command
-        )
+        ))
     }
 
     fn split<'a>(&self, page: &'a str) -> Result<(&'a str, &'a str, &'a str)> {
@@ -136,10 +137,12 @@ pub fn rustc_of(page: &str) -> Option<&str> {
     after.lines().next()?.trim_end().strip_suffix('.')
 }
 
-/// Fails unless what was written is what would be written now with the compiler `rustc`. Of what another one wrote, only the words
-/// are compared: how far its figures may differ is a matter of the budgets. An empty `rustc` allows nothing but the same.
+/// Fails unless what was written is what would be written now with the compiler `rustc`. If the text names another one, only the
+/// words are compared: how far its figures may differ is a matter of the budgets. If it names none, or `rustc` is empty, nothing
+/// but the same will do.
 pub fn compare(file: &str, command: &str, written: &str, fresh: &str, rustc: &str) -> Result<()> {
-    let same_figures = rustc.is_empty() || rustc_of(written) == Some(rustc);
+    let [written, fresh] = [written, fresh].map(seal::unsealed);
+    let same_figures = rustc.is_empty() || rustc_of(written).is_none_or(|by| by == rustc);
     let compared = [written, fresh].map(|text| match same_figures {
         true => text.trim().to_owned(),
         false => words(text.trim()),

@@ -18,7 +18,7 @@ use crate::kit::toolchain::release;
 use crate::kit::{processes, shell};
 use watch::{Decoder, Line, Watch, bytes_of, said};
 
-const PROGRAM: &str = "qemu-system-arm";
+pub const PROGRAM: &str = "qemu-system-arm";
 
 /// A board with a Cortex-M4F.
 pub const MACHINE: &str = "netduinoplus2";

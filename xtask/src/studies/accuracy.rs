@@ -23,6 +23,7 @@ use crate::kit::error::{Result, bail};
 use crate::kit::setup::{self, Options};
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, output, own_robot};
+use crate::studies::scenes::first_screen;
 use crate::studies::study::Bench;
 
 pub use choice::{Allowed, Budget};
@@ -231,5 +232,6 @@ fn write(
         files.push((workspace.report(page::README.file), readme));
     }
     files.push((workspace.report(page::FILE), text));
-    workspace::write_whole(&files)
+    workspace::write_whole(&files)?;
+    first_screen::write_why(workspace)
 }

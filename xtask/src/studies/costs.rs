@@ -66,7 +66,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let tools = setup::for_demo(options)?;
     let report = measure(&workspace, &tools)?;
     let page = report.markdown();
-    workspace::write(&workspace.report(PAGE), &page)?;
+    workspace::write(&workspace.report(PAGE), docs::seal::sealed(&page))?;
     drawn::write(&workspace, PAGE)?;
     if args.write_budgets {
         budgets::write_costs(&workspace, &report)?;

@@ -14,6 +14,7 @@ use crate::kit::setup::{self, Options, Tools};
 use crate::kit::table::plain;
 use crate::kit::workspace::{self, Workspace};
 use crate::studies::drawn;
+use crate::studies::scenes::first_screen;
 
 pub struct Study {
     /// The name of its command and of its step, and in the markers of its page.
@@ -198,6 +199,7 @@ impl Study {
         self.page(&self.words()).write(workspace, &found.text)?;
         if let Some(brief) = &found.brief {
             self.readme(&self.words()).write(workspace, brief)?;
+            first_screen::write_why(workspace)?;
         }
         drawn::write(workspace, self.files[0])?;
         for (file, picture) in self.files[1..].iter().zip(&found.picture) {

@@ -12,6 +12,9 @@ mod devices;
 #[path = "../../../../robot-import/template/board/rtic/src/firmware.rs"]
 mod firmware;
 #[cfg(target_arch = "arm")]
+#[path = "../../../silent.rs"]
+mod log;
+#[cfg(target_arch = "arm")]
 #[path = "../../../../robot-import/template/board/nucleo-f446re/src/pins.rs"]
 mod pins;
 

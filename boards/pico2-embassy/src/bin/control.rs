@@ -12,6 +12,9 @@ mod devices;
 #[path = "../../../../robot-import/template/board/pico2/src/firmware.rs"]
 mod firmware;
 #[cfg(target_arch = "arm")]
+#[path = "../../../silent.rs"]
+mod log;
+#[cfg(target_arch = "arm")]
 #[path = "../../../../robot-import/template/board/pico2/src/pins.rs"]
 mod pins;
 

@@ -5,7 +5,7 @@ use std::convert::Infallible;
 
 use embedded_io::{ErrorType, Read, ReadReady, Write};
 use joint_drivers::feetech::{FeetechError, PRESENT_POSITION, Packet, Servos};
-use joint_drivers::{Direction, JointMapping};
+use joint_drivers::{Direction, JointMapping, JointRange};
 
 /// The servos of an SO-101, from its base to its jaw.
 const IDS: [u8; 6] = [1, 2, 3, 4, 5, 6];
@@ -54,7 +54,9 @@ impl Write for Received<'_> {
 /// # Errors
 /// The driver's: a servo that did not answer, a wrong checksum, an error that a servo reports.
 pub fn positions(received: &[u8]) -> Result<[f32; 6], String> {
+    // Within half a turn of the middle: each reply is of a bus that is new.
     let middle = JointMapping::new(std::f32::consts::PI, Direction::Forward, 1.0)
+        .and_then(|middle| middle.with_range(JointRange::Near(0.0), 0.1))
         .map_err(|error| format!("{error:?}"))?;
     let words = |error: FeetechError| error.to_string();
     let mut servos = Servos::new(Received(received), IDS, [middle; 6]).map_err(words)?;

@@ -153,15 +153,16 @@ known_payload! {
 pub struct InvalidPayload {
     /// The number of the body to which it was to be attached.
     pub body: usize,
-    /// What is not physical: [`Problem::NotFinite`], [`Problem::Mass`], [`Problem::Massless`] or [`Problem::Triangle`].
+    /// What is not physical: [`Problem::NotFinite`], [`Problem::Mass`], [`Problem::Massless`],
+    /// [`Problem::NegativeMoment`] or [`Problem::Triangle`].
     pub problem: Problem,
 }
 
 impl fmt::Display for InvalidPayload {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "payload of body {}: {}", self.body, self.problem.text())?;
-        if let Problem::Triangle(excess) = self.problem {
-            write!(f, " by {excess:.2e} of the largest")?;
+        if let Some((before, amount, unit)) = self.problem.amount() {
+            write!(f, "{before}{amount:.2e}{unit}")?;
         }
         Ok(())
     }

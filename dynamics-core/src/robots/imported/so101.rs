@@ -26,7 +26,7 @@
 //! - Joint `gripper`: roll `1.5708` is π/2.
 //! - Joint `gripper`: pitch `-5.24284e-08` is 0.
 //! - Joint `gripper`: yaw `-1.41553e-15` is 0.
-//! - Link `gripper_frame_link` and all that it carries are left out.
+//! - Link `gripper_frame_link` and all that it carries are left out: 1e-9 kg.
 
 #![allow(
     dead_code,

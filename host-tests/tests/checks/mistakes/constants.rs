@@ -20,6 +20,8 @@ pub const ORPHAN: ArmModel<f64, 1> = Model::new( //~ body `rod`: its parent is n
     [Body::new("rod", 1, Joint::revolute([0.0, 1.0, 0.0]))],
 );
 pub const DEGREES: ArmModel<f64, 1> = Model::new("arm", [ROD.rpy([0.0, 90.0, 0.0])]); //~ its roll, pitch or yaw is beyond 2 pi: angles are in rad
+pub const NEGATIVE: ArmModel<f64, 1> = Model::new("arm", [ROD.inertia([0.03, 0.0, 0.0, -0.026, 0.0, 0.03])]); //~ body `rod`: a principal moment of its inertia is negative: -2.60e-2 kg·m²
+pub const ORDER: ArmModel<f64, 1> = Model::new("arm", [ROD.inertia([0.03, 0.04, 0.05, 0.001, -0.002, 0.003])]); //~ in the order xx, yy, zz, xy, xz, yz it has none: -5.06e-2 kg·m²
 const CROSSED: JointLimits<f64> = JointLimits { lower: 1.0, upper: -1.0, ..JointLimits::NONE };
 pub const LIMITS: ArmModel<f64, 1> = Model::new("arm", [ROD.limits(CROSSED)]); //~ lower exceeds upper
 pub const SIZES: Model<f64, 1, 2, 2> = Model::new("arm", [ROD]); //~ robot `arm`: its joints make Q = 1 and V = 1, not Q = 2 and V = 2

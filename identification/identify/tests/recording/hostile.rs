@@ -133,3 +133,34 @@ fn a_recording_of_another_robot_is_refused() {
     let error = outcome.expect_err("too short").to_string();
     assert!(error.contains("too few to identify"), "{error}");
 }
+
+#[test]
+fn no_output_replaces_the_recording_or_another() {
+    let folder = std::env::temp_dir().join(format!("identify-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let at = |name: &str| folder.join(name);
+    std::fs::write(at("r.csv"), "recorded").expect("a file");
+    std::fs::write(at("r.urdf"), "<robot name='r'/>").expect("a file");
+    for (out, picture, words) in [
+        ("r.csv", "p.svg", "which is read and would be lost"),
+        ("r.urdf", "p.svg", "which is read and would be lost"),
+        ("x.rs", "r.csv", "which is read and would be lost"),
+        ("x", "./x", "which is written, too"),
+    ] {
+        let ended = std::process::Command::new(env!("CARGO_BIN_EXE_identify"))
+            .arg(at("r.csv"))
+            .arg("--robot")
+            .arg(at("r.urdf"))
+            .arg("--out")
+            .arg(at(out))
+            .arg("--picture")
+            .arg(at(picture))
+            .output()
+            .expect("it starts");
+        let error = String::from_utf8_lossy(&ended.stderr);
+        assert!(!ended.status.success() && error.contains(words), "{error}");
+    }
+    let left = std::fs::read_to_string(at("r.csv")).expect("a file");
+    std::fs::remove_dir_all(&folder).expect("a folder");
+    assert_eq!(left, "recorded");
+}

@@ -159,6 +159,8 @@ fn what_a_description_does_not_limit_is_unlimited() {
     let limits = SafetyLimits::from([joint; 2]);
     assert_eq!(limits.check(), Ok(()));
     assert_eq!((limits.rate, limits.upper), ([f32::INFINITY; 2], [2.0; 2]));
+    assert_eq!((limits.lower, limits.speed), ([-1.0; 2], [3.0; 2]));
+    assert_eq!(limits.torque, [4.0; 2]);
     let limits = limits.with_speed_share(0.5).with_rate_share(0.25);
     assert_eq!((limits.speed, limits.rate), ([1.5; 2], [1.0; 2]));
     let motion = MotionLimits::from(joint);

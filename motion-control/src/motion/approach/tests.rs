@@ -36,7 +36,7 @@ impl Reference<f64, 2> for Rest {
 }
 
 fn plan(from: [f64; 2]) -> Result<Approach<'static, f64, 2, Rest>, ApproachError> {
-    Approach::plan(&from, &Rest, TICK, &LIMITS, &BOUNDS)
+    Approach::plan(&from, &Rest, TICK, &LIMITS, &BOUNDS, Circles::NONE)
 }
 
 #[test]
@@ -88,18 +88,20 @@ fn refusals_name_the_joint_and_the_limit() {
     ] {
         let mut limits = LIMITS;
         change(&mut limits[1]);
-        let refused = Approach::plan(&[1.0; 2], &Rest, TICK, &limits, &BOUNDS).unwrap_err();
+        let refused =
+            Approach::plan(&[1.0; 2], &Rest, TICK, &limits, &BOUNDS, Circles::NONE).unwrap_err();
         assert_eq!(refused, ApproachError::NoMotion { joint: 1, of });
     }
     // A joint that does not have to move needs no speed.
     let mut limits = LIMITS;
     limits[1].velocity = 0.0;
-    assert!(Approach::plan(&[1.0, 0.0], &Rest, TICK, &limits, &BOUNDS).is_ok());
+    assert!(Approach::plan(&[1.0, 0.0], &Rest, TICK, &limits, &BOUNDS, Circles::NONE).is_ok());
     let slow = [MotionLimits {
         velocity: 1e-7,
         acceleration: 1.0,
     }; 2];
-    let refused = Approach::plan(&[1.0; 2], &Rest, TICK, &slow, &BOUNDS).unwrap_err();
+    let refused =
+        Approach::plan(&[1.0; 2], &Rest, TICK, &slow, &BOUNDS, Circles::NONE).unwrap_err();
     assert!(matches!(refused, ApproachError::Path(_)), "{refused}");
 }
 
@@ -159,10 +161,18 @@ impl Reference<f64, 2> for Leave {
 fn a_way_ends_at_the_begin_of_its_motion() {
     let q = [1.0, -1.0];
     let motion = Leave { q, qd: [0.0; 2] };
-    let way = Approach::plan(&q, &motion, TICK, &LIMITS, &BOUNDS).expect("within the limits");
+    let way = Approach::plan(&q, &motion, TICK, &LIMITS, &BOUNDS, Circles::NONE)
+        .expect("within the limits");
     // It is there already.
     assert_eq!((way.last_point(), way.path_ticks()), (&q, 1));
-    let way = Approach::plan(&[-0.6, -1.0], &motion, TICK, &LIMITS, &BOUNDS);
+    let way = Approach::plan(
+        &[-0.6, -1.0],
+        &motion,
+        TICK,
+        &LIMITS,
+        &BOUNDS,
+        Circles::NONE,
+    );
     let way = way.expect("within the limits");
     // 15/8 · 1.6 rad at 1 rad/s, and a tick for rounding.
     assert_eq!((way.last_point(), way.path_ticks()), (&q, 3001));
@@ -177,7 +187,8 @@ fn a_motion_that_begins_in_motion_is_refused() {
             q: [0.0; 2],
             qd: [0.0, bad],
         };
-        let refused = Approach::plan(&[0.0; 2], &motion, TICK, &LIMITS, &BOUNDS).unwrap_err();
+        let refused =
+            Approach::plan(&[0.0; 2], &motion, TICK, &LIMITS, &BOUNDS, Circles::NONE).unwrap_err();
         assert_eq!(refused, ApproachError::Moving { joint: 1 });
     }
 }
@@ -192,7 +203,7 @@ fn both_ends_of_a_way_have_to_be_within_the_bounds() {
     };
     let way = |from: [f64; 2], q| {
         let motion = Leave { q, qd: [0.0; 2] };
-        Approach::plan(&from, &motion, TICK, &LIMITS, &BOUNDS).map(|way| way.ends)
+        Approach::plan(&from, &motion, TICK, &LIMITS, &BOUNDS, Circles::NONE).map(|way| way.ends)
     };
     // On the bounds themselves.
     for ends in [[[2.0; 2], [-2.0; 2]], [[-2.0; 2], [2.0; 2]]] {
@@ -238,7 +249,8 @@ fn the_slowest_joint_has_the_time_that_its_limits_need() {
             lower: [-4.0; 2],
             ..BOUNDS
         };
-        let way = Approach::plan(&from, &Rest, TICK, &LIMITS, &bounds).expect("limits");
+        let way =
+            Approach::plan(&from, &Rest, TICK, &LIMITS, &bounds, Circles::NONE).expect("limits");
         assert_eq!(way.path_ticks(), 3001);
     }
 }
@@ -279,4 +291,37 @@ fn a_stopped_arm_alone_gets_an_approach() {
     assert_eq!(asked(&mut controller), None, "it stands");
     // The motion begins at its begin.
     assert_eq!(controller.trajectory_tick(), 0);
+}
+
+#[test]
+fn a_circle_goes_the_short_way_and_a_line_as_far_as_its_number() {
+    let limits = [MotionLimits {
+        velocity: 1.0,
+        acceleration: 4.0,
+    }];
+    let bounds = |end: f32| SafetyLimits {
+        torque: [10.0],
+        rate: [8.0],
+        speed: [3.0],
+        lower: [-end],
+        upper: [end],
+    };
+    let travel = |from: f32, to: f32, end: f32, circles| {
+        let motion = State::at([to]);
+        let way = Approach::plan(&[from], &motion, 1e-3, &limits, &bounds(end), circles);
+        let way = way.expect("within the bounds");
+        assert_eq!(way.at(way.path_ticks()).q, [to]);
+        way.last_point()[0] - way.first_point()[0]
+    };
+    let (circle, line) = (Circles::NONE.with(0), Circles::NONE);
+    for (stands, begins) in [(-3.10, 3.18), (6.28, 0.01), (0.0, 25.13), (3.14, -3.14)] {
+        assert!(travel(stands, begins, f32::INFINITY, circle).abs() < 0.02);
+        let counted = travel(stands, begins, f32::INFINITY, line);
+        assert_eq!(counted, begins - stands);
+    }
+    // Bounds are stops: the way goes around.
+    assert_eq!(travel(2.9, -2.9, 3.0, circle), -5.8);
+    let rest = State::at([1.0]);
+    let refused = Approach::plan(&[0.0], &rest, 1e-3, &limits, &bounds(4.0), circle);
+    assert!(matches!(refused.unwrap_err(), ApproachError::Bounds(_)));
 }

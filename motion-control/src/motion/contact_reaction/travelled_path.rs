@@ -9,7 +9,7 @@
 //! ```
 
 use crate::entry;
-use crate::limits::MotionLimits;
+use crate::limits::{Circles, MotionLimits};
 use crate::motion::approach::{ACCELERATION, SPEED};
 use crate::real;
 use crate::reference::Reference;
@@ -57,6 +57,19 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
 
     pub(super) fn clear(&mut self) {
         self.count = 0;
+    }
+
+    /// Moves the path by whole turns of the circles, so that its newest point is within half a turn of `to`.
+    pub(super) fn turn_to(&mut self, circles: Circles, to: &[R; V]) {
+        let newest = self.point(0);
+        let turns = difference(&circles.near(&newest, to), &newest);
+        if largest(&turns) > R::ZERO {
+            for point in &mut self.points {
+                for (q, &turn) in point.iter_mut().zip(&turns) {
+                    *q += turn;
+                }
+            }
+        }
     }
 
     /// Keeps positions that are further than the spacing from the newest ones.

@@ -65,6 +65,7 @@ impl<R: Real, const V: usize> MotionControllerConfig<R, V> {
     /// | [`Advice::FarRestart`] | the restart distance is above 1 rad, and finite |
     /// | [`Advice::ZeroRate`] | the rate of a joint that has a torque is zero |
     /// | [`Advice::PositionsInDegrees`], [`Advice::SpeedsInDegrees`] | most limits are beyond four turns, or 60 rad/s |
+    /// | [`Advice::PositionInDegrees`], [`Advice::SpeedInDegrees`] | some limits are beyond four turns; one is above 60 rad/s and 20 times the next |
     /// | [`Advice::BeyondNyquist`] | the observer's bandwidth or the decay rate is above π / tick |
     /// | [`Advice::BeyondObserver`] | the decay rate, which is about ω_n, is not below the observer's bandwidth |
     /// | [`Advice::CoarseEncoder`] | a step of the encoder changes the estimated velocity by 0.2 of the joint's speed limit |

@@ -114,6 +114,9 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// accurate sine) and plausible: within twice the greatest speed times the ticks since the last good ones. Before
     /// the first accepted position there is no position to hold: a fault stops the arm at once.
     ///
+    /// Of a joint that is a circle ([`OnCircles`](crate::OnCircles)) any turn may be measured, that within ±π most
+    /// accurately; the estimate is within half a turn of the middle of the range, or of zero.
+    ///
     /// ```compile_fail
     /// # #![deny(unused_must_use)]
     /// # use motion_control::{MotionController, Reference};
@@ -132,6 +135,13 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
 
     #[inline(always)]
     fn observe_positions(&mut self, q: &[R; V]) {
+        let turned;
+        let q = if A::ON_CIRCLES {
+            turned = self.turn_to(q);
+            &turned
+        } else {
+            q
+        };
         self.supervisor.accept_positions(q);
         let stopped = matches!(self.supervisor.mode(), Mode::Stopped);
         if !self.supervisor.measurement_accepted() | self.dead_reckoning | stopped {

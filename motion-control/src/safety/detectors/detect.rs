@@ -77,16 +77,29 @@ impl<R, D: Detect<R, V>, const V: usize> Detect<R, V> for &mut D {
 /// assert_eq!(step, Err(Fault::Reference { joint: 0 }));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Detectors<R, const V: usize> {
+pub struct Detectors<R, const V: usize, const CIRCLES: u128 = 0> {
     /// Of the positions; it is restarted by each command that sets the brake.
-    pub frozen: FrozenEncoder<R, V>,
+    pub frozen: FrozenEncoder<R, V, CIRCLES>,
     /// Of the reference, while the arm follows its trajectory.
-    pub steps: ReferenceStep<R, V>,
+    pub steps: ReferenceStep<R, V, CIRCLES>,
     /// Of the torques.
     pub saturation: Saturation<R, V>,
 }
 
-impl<R: Real, const V: usize> Detect<R, V> for Detectors<R, V> {
+impl<R: Real, const V: usize> Detectors<R, V> {
+    /// The same detectors for joints of which those of [`Circles::bits`](crate::Circles::bits) are circles, as those of the
+    /// controller.
+    #[must_use]
+    pub fn on_circles<const CIRCLES: u128>(self) -> Detectors<R, V, CIRCLES> {
+        Detectors {
+            frozen: self.frozen.on_circles(),
+            steps: self.steps.on_circles(),
+            saturation: self.saturation,
+        }
+    }
+}
+
+impl<R: Real, const V: usize, const CIRCLES: u128> Detect<R, V> for Detectors<R, V, CIRCLES> {
     fn measured(&mut self, q: &[R; V], reference: &[R; V]) -> Result<(), Fault> {
         self.frozen.check(q, reference)
     }

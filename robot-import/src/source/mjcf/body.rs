@@ -11,7 +11,7 @@ use super::pose::Placement;
 use super::{inertia, joint};
 use crate::description::{Joint, Kind, Link, Pose};
 use crate::error::{Problem, Result};
-use crate::source::MOST_LINKS;
+use crate::limits::MOST_LINKS;
 
 const KNOWN: &str =
     "axisangle childclass euler fuse gravcomp mocap name pos quat simple sleep user xyaxes zaxis";

@@ -7,12 +7,10 @@ use super::defaults::{Classes, View};
 use super::element::Element;
 use super::pose::Placement;
 use crate::error::{Problem, Result};
+use crate::limits::MOST_FRAMES;
 
 /// Elements without an effect on the dynamics.
 const IGNORED: [&str; 2] = ["camera", "light"];
-
-/// The most frames in each other.
-const MOST_FRAMES: usize = 32;
 
 /// An element, the frame that it is in and its class if it names none.
 pub type Item<'e> = (&'e Element, Rc<Placement>, usize);

@@ -5,9 +5,8 @@ use std::collections::{HashMap, HashSet};
 use super::element::Element;
 use crate::description::shortened;
 use crate::error::{Problem, Result};
+use crate::limits::MOST_CLASSES;
 
-/// The deepest nesting of classes, each of which a search for an attribute passes.
-const MOST_DEPTH: usize = 16;
 /// The attributes that state an orientation; an element's own one replaces that of its class.
 pub const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
 
@@ -61,11 +60,11 @@ impl<'e> Classes<'e> {
     }
 
     fn nested(&mut self, section: &'e Element, parent: usize, depth: usize) -> Result<()> {
-        if depth > MOST_DEPTH {
+        if depth > MOST_CLASSES {
             return Err(section.error(Problem::TooLarge {
                 what: "nested default classes",
                 found: depth,
-                most: MOST_DEPTH,
+                most: MOST_CLASSES,
             }));
         }
         for inner in section.all("default") {
@@ -184,14 +183,20 @@ impl<'v> View<'v> {
     ///
     /// # Errors
     /// As for [`Self::list`].
-    pub fn parsed(
+    pub fn parsed(self, attribute: &str, text: &str, count: [usize; 2]) -> Result<Vec<f64>> {
+        self.words(attribute, text, count, |x| x.is_finite())
+    }
+
+    /// The numbers of a text that are ones of its attribute.
+    fn words(
         self,
         attribute: &str,
         text: &str,
         [least, most]: [usize; 2],
+        is_one: fn(&f64) -> bool,
     ) -> Result<Vec<f64>> {
         let numbers = text.split_ascii_whitespace().take(most + 1);
-        let numbers = numbers.map(|word| word.parse::<f64>().ok().filter(|x| x.is_finite()));
+        let numbers = numbers.map(|word| word.parse::<f64>().ok().filter(is_one));
         let numbers: Option<Vec<f64>> = numbers.collect();
         let right = |numbers: &Vec<f64>| (least..=most).contains(&numbers.len());
         numbers.filter(right).ok_or_else(|| {
@@ -246,7 +251,14 @@ impl<'v> View<'v> {
     /// # Errors
     /// A range whose flag is missing or whose numbers are not in order.
     pub fn range(self, range: &str, limited: &str, automatic: bool) -> Result<Option<[f64; 2]>> {
-        let numbers = self.numbers::<2>(range)?;
+        let numbers: Option<[f64; 2]> = match self.get(range) {
+            // An end without a limit is infinite.
+            Some(text) => self
+                .words(range, text, [2, 2], |x| !x.is_nan())?
+                .try_into()
+                .ok(),
+            None => None,
+        };
         let ordered = numbers.filter(|[low, high]| low < high);
         match self.flag(limited)? {
             Some(false) => Ok(None),

@@ -8,14 +8,10 @@ use roxmltree::Node;
 
 use crate::description::shortened;
 use crate::error::{ImportError, Problem, Result};
-use crate::source::xml;
+use crate::limits::{MOST_BYTES, MOST_DEPTH_WITH_FILES, MOST_ELEMENTS, MOST_INCLUDES};
+use crate::source::xml::{self, Xml};
+use crate::source::{Folders, encoding};
 
-/// The most elements that are kept.
-const MOST_ELEMENTS: usize = 100_000;
-/// The deepest nesting with the included files in place: reading is recursive.
-const MOST_DEPTH: usize = 500;
-/// The most files that include each other in turn.
-const MOST_INCLUDES: usize = 16;
 /// Sections without an effect on the dynamics; their contents are not kept.
 const SKIPPED: [&str; 9] = [
     "asset",
@@ -43,19 +39,24 @@ pub struct Element {
 }
 
 impl Element {
-    /// The model of a document; included files are in `folder`.
+    /// The model of a document with its included files, which are named, and what was tolerated in them.
     ///
     /// # Errors
-    /// A file that cannot be read, is outside of the folder or is included twice.
-    pub fn load(root: Node<'_, '_>, folder: &Path) -> Result<Self> {
+    /// A file that cannot be read, is outside of the folders or is included twice.
+    pub fn load(root: Node<'_, '_>, folders: Folders<'_>) -> Result<Loaded> {
         let mut loader = Loader {
-            folder,
+            folders,
             files: HashSet::new(),
+            notes: Vec::new(),
             elements: 0,
             bytes: root.document().input_text().len(),
         };
-        let source = Source::new(root, None, folder.to_owned(), 0);
-        loader.element(root, &source, 0)
+        let source = Source::new(root, None, folders.model.to_owned(), 0);
+        Ok(Loaded {
+            root: loader.element(root, &source, 0)?,
+            files: loader.files.into_iter().collect(),
+            notes: loader.notes,
+        })
     }
 
     /// An element on the line of another, with a placement of its own.
@@ -131,9 +132,20 @@ impl Element {
     }
 }
 
+/// A model with its included files in their places.
+pub struct Loaded {
+    /// Its root.
+    pub root: Element,
+    /// The included files.
+    pub files: Vec<PathBuf>,
+    /// What was tolerated in them, a sentence each.
+    pub notes: Vec<String>,
+}
+
 struct Loader<'p> {
-    folder: &'p Path,
+    folders: Folders<'p>,
     files: HashSet<PathBuf>,
+    notes: Vec<String>,
     elements: usize,
     bytes: usize,
 }
@@ -170,9 +182,14 @@ impl Source {
 impl Loader<'_> {
     fn element(&mut self, node: Node<'_, '_>, source: &Source, depth: usize) -> Result<Element> {
         let attributes = node.attributes();
-        let attributes = attributes.map(|one| (one.name().to_owned(), one.value().to_owned()));
+        let text = node.document().input_text();
+        // Names are taken with their prefixes, as MuJoCo does.
+        let attributes = attributes.map(|one| match one.namespace() {
+            None => (one.name().to_owned(), one.value().to_owned()),
+            Some(_) => (text[one.range_qname()].to_owned(), one.value().to_owned()),
+        });
         let mut element = Element {
-            tag: node.tag_name().name().to_owned(),
+            tag: xml::tag(node).to_owned(),
             line: source.line(node),
             file: source.file.clone(),
             attributes: attributes.collect(),
@@ -184,8 +201,8 @@ impl Loader<'_> {
             let problem = too_large("elements", self.elements, MOST_ELEMENTS);
             return Err(element.error(problem));
         }
-        if depth > MOST_DEPTH {
-            return Err(element.error(too_large("nested elements", depth, MOST_DEPTH)));
+        if depth > MOST_DEPTH_WITH_FILES {
+            return Err(element.error(too_large("nested elements", depth, MOST_DEPTH_WITH_FILES)));
         }
         if !(depth == 1 && SKIPPED.contains(&element.tag.as_str())) {
             self.children(node, source, depth, &mut element.children)?;
@@ -243,49 +260,72 @@ impl Loader<'_> {
         };
         let length = std::fs::metadata(&path).map_err(unreadable)?.len() as usize;
         self.bytes = self.bytes.saturating_add(length);
-        if self.bytes > xml::MOST_BYTES {
+        if self.bytes > MOST_BYTES {
             return Err(element.error(Problem::TooLarge {
                 what: "bytes in the files",
                 found: self.bytes,
-                most: xml::MOST_BYTES,
+                most: MOST_BYTES,
             }));
         }
-        let text = std::fs::read_to_string(&path).map_err(unreadable)?;
-        let document = xml::parse(text.trim_start_matches('\u{feff}')).map_err(|mut error| {
+        let in_file = |mut error: ImportError| {
             error.place.element = format!("file {}", shortened(file));
             error
-        })?;
+        };
+        let bytes = std::fs::read(&path).map_err(unreadable)?;
+        let (text, note) = encoding::decode(&bytes).map_err(in_file)?;
+        let xml = Xml::of(&text).map_err(in_file)?;
+        let document = xml.document().map_err(in_file)?;
+        let notes = note.into_iter().chain(xml.notes());
+        self.notes
+            .extend(notes.map(|note| format!("Included file {}: {note}", shortened(file))));
         let root = document.root_element();
-        let folder = path.parent().unwrap_or(self.folder).to_owned();
+        let folder = path.parent().unwrap_or(self.folders.model).to_owned();
         let source = Source::new(root, Some(file.into()), folder, includes);
         self.children(root, &source, depth, into)
     }
 
-    /// The path of an included file: relative to the model's folder or to that of the file with the element, and
-    /// inside of the model's folder.
+    /// The path of an included file: relative to the model's folder or to that of the file with the element, and below one of
+    /// the folders that may be read.
     fn find(&self, element: &Element, file: &str, source: &Source) -> Result<PathBuf> {
-        let outside = || {
-            let reason = "it is not in the folder of the model: copy it there";
-            element.unsupported("include", file, reason)
+        let named = match self.folders.include_root {
+            Some(root) => format!(" nor below `--include-root {}`", root.display()),
+            None => String::new(),
         };
+        let outside = || {
+            let reason = format!(
+                "it is not below the folder of the model{named}: `--include-root FOLDER` names a folder below which files are read"
+            );
+            element.unsupported("include", file, &reason)
+        };
+        // MuJoCo takes both separators.
+        let relative = file.replace('\\', "/");
         let plain = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
-        if !Path::new(file).components().all(plain) {
+        if self.folders.include_root.is_none() && !Path::new(&relative).components().all(plain) {
             return Err(outside());
         }
-        let candidates = [self.folder.join(file), source.folder.join(file)];
-        let Some(path) = candidates.iter().find(|path| path.is_file()) else {
-            return Err(element.error(Problem::File {
-                path: shortened(file),
-                reason: "there is no such file in the folder of the model".to_owned(),
-            }));
-        };
-        let folder = match self.folder.as_os_str().is_empty() {
-            true => Path::new("."),
-            false => self.folder,
-        };
-        // Links of the file system can lead out of the folder.
-        match (path.canonicalize(), folder.canonicalize()) {
-            (Ok(path), Ok(folder)) if path.starts_with(&folder) => Ok(path),
+        let roots = [Some(self.folders.model), self.folders.include_root]
+            .into_iter()
+            .flatten();
+        // Nothing is told of what is outside, not even whether it is there.
+        let mut allowed = roots.filter_map(|root| match root.as_os_str().is_empty() {
+            true => Path::new(".").canonicalize().ok(),
+            false => root.canonicalize().ok(),
+        });
+        let allowed: Vec<PathBuf> = allowed.by_ref().collect();
+        let candidates = [self.folders.model, &source.folder].map(|folder| folder.join(&relative));
+        // Links of the file system can lead out of a folder.
+        let found = candidates
+            .iter()
+            .filter_map(|path| path.canonicalize().ok());
+        let mut found = found.filter(|path| path.is_file());
+        match found.next() {
+            Some(path) if allowed.iter().any(|root| path.starts_with(root)) => Ok(path),
+            None if Path::new(&relative).components().all(plain) => {
+                Err(element.error(Problem::File {
+                    path: shortened(file),
+                    reason: "there is no such file in the folder of the model".to_owned(),
+                }))
+            }
             _ => Err(outside()),
         }
     }

@@ -27,6 +27,7 @@ pub struct Parsed {
     damping: f64,
     friction: f64,
     armature: f64,
+    spring: [f64; 2],
 }
 
 /// A joint in the frames around it.
@@ -59,11 +60,12 @@ pub fn read(
     parsed.damping = coefficient(view, "damping")?;
     parsed.friction = view.number("frictionloss")?;
     parsed.armature = view.number("armature")?;
-    springs(view, name, notes)?;
+    let spring = spring(view, kind, unit, name, notes)?;
     if kind == Kind::Free {
         return Ok(parsed);
     }
     parsed.kind = kind;
+    parsed.spring = spring;
     parsed.anchor = anchor(view, frame)?;
     parsed.axis = match kind.has_axis() {
         true => {
@@ -130,6 +132,7 @@ fn free(view: View<'_>, name: &str, notes: &mut Vec<String>) -> Parsed {
         damping: 0.0,
         friction: 0.0,
         armature: 0.0,
+        spring: [0.0; 2],
     }
 }
 
@@ -151,13 +154,24 @@ fn coefficient(view: View<'_>, attribute: &str) -> Result<f64> {
     Ok(all.first().copied().unwrap_or_default())
 }
 
-fn springs(view: View<'_>, name: &str, notes: &mut Vec<String>) -> Result<()> {
+/// Stiffness and rest position of a linear spring at a hinge or a slide; that of another is left out.
+fn spring(
+    view: View<'_>,
+    kind: Kind,
+    unit: f64,
+    name: &str,
+    notes: &mut Vec<String>,
+) -> Result<[f64; 2]> {
     let [time, ratio] = view.numbers("springdamper")?.unwrap_or_default();
     if time > 0.0 && ratio > 0.0 {
         let sentence = "`springdamper` sets the damping from inertias: state `stiffness` and `damping` instead";
         return Err(view.element.value(sentence));
     }
     let stiffness = view.list("stiffness", [1, 3])?.unwrap_or_default();
+    let is_linear = stiffness.iter().skip(1).all(|x| *x == 0.0);
+    if let (true, true, Some(stiffness)) = (kind.has_axis(), is_linear, stiffness.first()) {
+        return Ok([*stiffness, view.number("springref")? * unit]);
+    }
     if stiffness.iter().any(|x| *x != 0.0) {
         let text = view.get("stiffness").unwrap_or_default();
         let reference = view.get("springref").unwrap_or("0");
@@ -165,7 +179,7 @@ fn springs(view: View<'_>, name: &str, notes: &mut Vec<String>) -> Result<()> {
             "joint `{name}`: the spring of stiffness {text} about {reference} is left out"
         ));
     }
-    Ok(())
+    Ok([0.0; 2])
 }
 
 /// The greater end of a range of torques or forces.
@@ -201,6 +215,7 @@ impl Parsed {
             damping: self.damping,
             friction: self.friction,
             armature: self.armature,
+            spring: self.spring,
             driven: false,
             mimic: None,
         }
@@ -223,6 +238,7 @@ pub fn fixed(name: String, line: u32, [parent, child]: [usize; 2], origin: Place
         damping: 0.0,
         friction: 0.0,
         armature: 0.0,
+        spring: [0.0; 2],
         driven: false,
         mimic: None,
     }

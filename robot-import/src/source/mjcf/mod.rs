@@ -2,7 +2,7 @@
 //!
 //! | section | what is read |
 //! |---|---|
-//! | `include` | files in the model's folder, each once |
+//! | `include` | files below the model's folder, or one that the user names, each once |
 //! | `compiler` | `angle`, `eulerseq`, `autolimits`; for inertias six, below |
 //! | `default` | classes in classes, `class` and `childclass` |
 //! | `worldbody` | `body`, `frame`, `inertial`, `joint`, `freejoint`, `geom`, `site` |
@@ -13,7 +13,8 @@
 //! and `settotalmass`.
 //!
 //! Masses of meshes, `replicate`, `composite`, `flexcomp`, `attach`, plugins and polynomials of damping are refused.
-//! Springs, tendons, gravity, fluids and the gains of actuators are left out and named in the notes. Sections on looks,
+//! Linear springs of hinges and slides are read. Other springs, tendons, gravity, fluids and the gains of actuators are left out
+//! and named in the notes. Sections on looks,
 //! sensors, contacts and keyframes are skipped.
 //!
 //! The root is the link `world`. The joints of a body are links without mass, `body/joint`, with their frames at the
@@ -34,17 +35,16 @@ mod mimic;
 mod pose;
 pub mod text;
 
-use std::path::Path;
-
 use roxmltree::Node;
 
 use body::Tree;
 use compiler::Compiler;
 use defaults::Classes;
-use element::Element;
+use element::{Element, Loaded};
 
 use crate::description::{Description, Format};
 use crate::error::{ImportError, Problem, Result};
+use crate::source::Folders;
 
 const SECTIONS: [&str; 16] = [
     "asset",
@@ -65,9 +65,13 @@ const SECTIONS: [&str; 16] = [
     "tendon",
 ];
 
-/// The robot of a document whose root is `<mujoco>`; other files are in `folder`.
-pub fn read(root: Node<'_, '_>, folder: &Path) -> Result<Description> {
-    let root = Element::load(root, folder)?;
+/// The robot of a document whose root is `<mujoco>`; other files are in `folders`.
+pub fn read(root: Node<'_, '_>, folders: Folders<'_>) -> Result<Description> {
+    let Loaded {
+        root,
+        files,
+        mut notes,
+    } = Element::load(root, folders)?;
     for section in &root.children {
         if !SECTIONS.contains(&section.tag.as_str()) {
             let reason =
@@ -75,7 +79,6 @@ pub fn read(root: Node<'_, '_>, folder: &Path) -> Result<Description> {
             return Err(section.unsupported("section", &section.tag, reason));
         }
     }
-    let mut notes = Vec::new();
     let compiler = Compiler::read(&root, &mut notes)?;
     compiler::options(&root, &mut notes)?;
     let classes = Classes::read(&root)?;
@@ -102,5 +105,6 @@ pub fn read(root: Node<'_, '_>, folder: &Path) -> Result<Description> {
         joints: tree.joints,
         loops,
         notes,
+        files,
     })
 }

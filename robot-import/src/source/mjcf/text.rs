@@ -6,12 +6,13 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::path::Path;
 
 use roxmltree::Node;
 
 use super::element::Element;
 use crate::error::Result;
+use crate::source::Folders;
+use crate::source::plain::escaped;
 
 /// The sections of a model that its rigid bodies depend on.
 const SECTIONS: [&str; 3] = ["compiler", "default", "worldbody"];
@@ -36,12 +37,12 @@ const WITHOUT: [&str; 9] = [
 const TETRAHEDRON: &str = "vertex=\"0 0 0 1 0 0 0 1 0 0 0 1\"";
 const FIELD: &str = "nrow=\"2\" ncol=\"2\" size=\"1 1 1 1\" elevation=\"0 1 0 1\"";
 
-/// The text of a document whose root is `<mujoco>`; included files are in `folder`.
+/// The text of a document whose root is `<mujoco>`; included files are in `folders`.
 ///
 /// # Errors
 /// As [`super::read`] for the elements and the included files.
-pub fn of(root: Node<'_, '_>, folder: &Path) -> Result<String> {
-    let root = Element::load(root, folder)?;
+pub fn of(root: Node<'_, '_>, folders: Folders<'_>) -> Result<String> {
+    let root = Element::load(root, folders)?.root;
     let mut text = String::from("<mujoco>\n");
     let mut named = [BTreeSet::new(), BTreeSet::new()];
     let sections = root.children.iter();
@@ -86,22 +87,4 @@ fn write(element: &Element, text: &mut String, named: &mut [BTreeSet<String>; 2]
         }
     }
     let _ = writeln!(text, "</{tag}>");
-}
-
-/// A text within an attribute's quotes.
-fn escaped(text: &str) -> String {
-    let mut out = String::new();
-    for c in text.chars() {
-        match c {
-            '&' => out += "&amp;",
-            '<' => out += "&lt;",
-            '>' => out += "&gt;",
-            '"' => out += "&quot;",
-            c if c.is_control() => {
-                let _ = write!(out, "&#{};", u32::from(c));
-            }
-            c => out.push(c),
-        }
-    }
-    out
 }

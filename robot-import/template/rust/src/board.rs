@@ -6,8 +6,10 @@ use embedded_hal::pwm::{Error as _, SetDutyCycle};
 use embedded_hal::spi::{Error as _, SpiDevice};
 use joint_drivers::as5047p::FrameError;
 use joint_drivers::h_bridge::DriveError;
-use joint_drivers::{EncoderType, JointDrive, JointEncoder, MultiTurnEncoder};
-use motion_control::CurrentTick;
+use joint_drivers::{
+    EncoderMapping, EncoderType, JointDrive, JointEncoder, LostTurn, MultiTurnEncoder,
+};
+use motion_control::{CurrentTick, Fault};
 
 /// Bits of an encoder's angle.
 pub const BITS: u32 = 14;
@@ -19,22 +21,13 @@ pub const RESOLUTION: f32 = core::f32::consts::TAU / (1_u32 << BITS) as f32;
 pub struct Encoder<Spi> {
     spi: Spi,
     turns: MultiTurnEncoder<BITS>,
-    /// The joint's position where the encoder reads zero, rad or m.
-    zero: f32,
-    /// Radians of the joint per radian of the encoder, or metres; negative if they turn in opposite directions.
-    ratio: f32,
 }
 
 impl<Spi: SpiDevice> Encoder<Spi> {
-    /// An encoder whose first angle lies within half a turn of zero.
-    pub fn new(spi: Spi, zero: f32, ratio: f32) -> Self {
-        let turns = MultiTurnEncoder::new();
-        Self {
-            spi,
-            turns,
-            zero,
-            ratio,
-        }
+    /// An encoder that has not been read yet; the first angle is where the mapping says that the joint can be.
+    pub fn new(spi: Spi, mapping: EncoderMapping) -> Self {
+        let turns = MultiTurnEncoder::new(mapping);
+        Self { spi, turns }
     }
 }
 
@@ -42,20 +35,33 @@ impl<Spi> EncoderType for Encoder<Spi> {
     type Error = FrameError;
     /// Of the angle that it answers with: `PreviousTick` for one that was latched in the frame before.
     type Age = CurrentTick;
+
+    fn missed(&mut self, ticks: u32) {
+        self.turns.missed(ticks);
+    }
+
+    fn fault(error: &FrameError, joint: usize) -> Fault {
+        match error {
+            FrameError::LostTurn => Fault::LostTurn { joint },
+            _ => Fault::Encoder { joint },
+        }
+    }
 }
 
 impl<Spi: SpiDevice> JointEncoder for Encoder<Spi> {
     /// Here a frame is the angle in two bytes; your part has others, with a check.
     fn sample(&mut self) -> Result<(), FrameError> {
         let mut frame = [0; 2];
-        let read = self.spi.read(&mut frame);
-        read.map_err(|error| FrameError::Bus(error.kind()))?;
-        self.turns.update(u16::from_be_bytes(frame));
-        Ok(())
+        if let Err(error) = self.spi.read(&mut frame) {
+            self.turns.missed(1);
+            return Err(FrameError::Bus(error.kind()));
+        }
+        let update = self.turns.update(u16::from_be_bytes(frame));
+        update.map_err(|LostTurn| FrameError::LostTurn)
     }
 
     fn position(&self) -> f32 {
-        self.zero + self.ratio * self.turns.angle::<f32>()
+        self.turns.position()
     }
 }
 

@@ -1,25 +1,56 @@
 //! What the control loop of `joint-drivers` is made of: the law, its gains, the controller with its limits, and detectors.
 
+use core::f32::consts::TAU;
 use core::fmt;
 
+use dynamics_core::effects::Effect;
 use dynamics_core::state::State;
 use joint_drivers::h_bridge::DriveError;
-use joint_drivers::{Law, MappingError};
+use joint_drivers::{Direction, EncoderMapping, JointError, JointMapping, Law, MappingError};
 use motion_control::{
-    ConfigError, Detectors, FrozenEncoder, Gains, MeasurementAge, MotionController,
-    MotionControllerConfig, ReferenceStep, Saturation, SupervisorConfig, TrajectoryError,
+    ConfigError, Detectors, Estimate, FrozenEncoder, Gains, MeasurementAge, MotionController,
+    MotionControllerConfig, OnCircles, ReferenceStep, Saturation, SupervisorConfig,
+    TrajectoryError, feedback,
 };
 
 use crate::board::RESOLUTION;
-use crate::scene::{self, Motion, N, OMEGA_N, TICK};
+use crate::scene::{self, Effects, Motion, N, OMEGA_N, TICK};
 
-/// The model's torque, and feedback for what it does not know.
+/// Measurements of this age, on the circles of `scene.rs`.
+pub type Measured<Age> = OnCircles<{ scene::CIRCLES.bits() }, Age>;
+/// The detectors of faults, on these circles.
+pub type Found = Detectors<f32, N, { scene::CIRCLES.bits() }>;
+
+/// The model's torque for the acceleration of the reference and that of the feedback, τ = M (q̈_d + ω² e + 2 ω ė) + C + g: by M every
+/// motion of the robot has the natural frequency ω, also one of light joints together with heavy ones.
+///
+/// Luh, Walker & Paul, "Resolved-acceleration control of mechanical manipulators" (1980).
 #[derive(Clone, Copy, Debug)]
 pub struct FeedForward;
 
 impl Law<N> for FeedForward {
     fn feedforward(reference: &State<f32, N, N>, (): &()) -> [f32; N] {
         scene::inverse_dynamics(reference)
+    }
+
+    fn torque(
+        gains: &Gains<f32, N>,
+        reference: &State<f32, N, N>,
+        estimate: &Estimate<f32, N>,
+        (): &(),
+    ) -> [f32; N] {
+        // Without M there would be no feedback.
+        const {
+            assert!(
+                <Effects as Effect<f32, N, N>>::ACCELERATIONS,
+                "EFFECTS in scene.rs need Inertia"
+            )
+        };
+        let mut wanted = *reference;
+        for (qdd, feedback) in (wanted.qdd.iter_mut()).zip(feedback(gains, reference, estimate)) {
+            *qdd += feedback;
+        }
+        scene::inverse_dynamics(&wanted)
     }
 }
 
@@ -34,8 +65,8 @@ pub fn config(motion: &Motion) -> MotionControllerConfig<f32, N> {
             hold_ticks: 100,
             reentry_ticks: 200,
         },
-        observer_bandwidth: 10.0 * OMEGA_N,
-        decay_rate: OMEGA_N,
+        observer_bandwidth: 250.0,
+        decay_rate: 25.0,
         restart_distance: 0.15,
     }
 }
@@ -46,18 +77,43 @@ pub fn config(motion: &Motion) -> MotionControllerConfig<f32, N> {
 /// [`SetupError::Limits`].
 pub fn controller<A: MeasurementAge>(
     motion: &Motion,
-) -> Result<MotionController<f32, N, A>, SetupError> {
+) -> Result<MotionController<f32, N, Measured<A>>, SetupError> {
     MotionController::try_new(config(motion)).map_err(SetupError::Limits)
 }
 
-/// The gains of the feedback.
+/// How the encoders are mounted: what each reads where its joint is at zero, rad, and which way the joint turns while its angle
+/// increases.
+///
+/// # Errors
+/// [`SetupError::Encoder`] names the joint.
+pub fn encoder_mappings(
+    motion: &Motion,
+    zero: &[f32; N],
+    directions: &[Direction; N],
+) -> Result<[EncoderMapping; N], SetupError> {
+    let (speed, ratios) = (scene::limits(motion).speed, scene::encoder_ratios());
+    let mut mappings = [JointMapping::IDENTITY; N];
+    let mut steps = [0.0; N];
+    for joint in 0..N {
+        let ratio = ratios[joint];
+        let mapping = JointMapping::new(zero[joint], directions[joint], 1.0 / ratio);
+        mappings[joint] =
+            mapping.map_err(|error| SetupError::Encoder(JointError { joint, error }))?;
+        // A joint without a limit of speed is taken to turn its encoder by a quarter turn in a tick.
+        steps[joint] = (speed[joint] * TICK).min(0.25 * TAU * ratio);
+    }
+    let ranges = scene::encoder_ranges();
+    EncoderMapping::of(mappings, ranges, steps).map_err(SetupError::Encoder)
+}
+
+/// The gains of the feedback per inertia, 1/s² and 1/s.
 pub fn gains() -> Gains<f32, N> {
-    Gains::from_inertia(&scene::inertia(), OMEGA_N, 1.0)
+    Gains::from_inertia(&[1.0; N], OMEGA_N, 1.0)
 }
 
 /// What finds faults beside the controller: an encoder that does not change in ten steps of its reference, a reference
 /// that moves at twice the limit of speed, torques at their limits for 50 ticks.
-pub fn detectors(motion: &Motion) -> Detectors<f32, N> {
+pub fn detectors(motion: &Motion) -> Found {
     let limits = scene::limits(motion);
     Detectors {
         frozen: FrozenEncoder::new(
@@ -67,6 +123,7 @@ pub fn detectors(motion: &Motion) -> Detectors<f32, N> {
         steps: ReferenceStep::new(limits.speed.map(|speed| 2.0 * speed * TICK)),
         saturation: Saturation::new(limits.torque, 50),
     }
+    .on_circles()
 }
 
 /// The motion or the limits in `scene.rs`, or the devices in `board.rs`, are impossible.
@@ -78,7 +135,7 @@ pub enum SetupError {
     /// The limits.
     Limits(ConfigError),
     /// How an encoder is mounted.
-    Encoder(MappingError),
+    Encoder(JointError<MappingError>),
     /// The full scale of a drive.
     Drive(DriveError),
 }

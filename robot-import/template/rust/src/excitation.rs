@@ -54,18 +54,6 @@ impl Excitation {
         found
     }
 
-    /// The inertia of each joint for its gains: that at the start, but no more than three times the least on the way, where the
-    /// feedback is faster by as much.
-    pub fn inertia(&self) -> [f32; N] {
-        let mut found = scene::inertia();
-        for here in times().map(|tick| scene::inertia_at(&self.at(tick).q)) {
-            for (found, here) in found.iter_mut().zip(here) {
-                *found = found.min(3.0 * here);
-            }
-        }
-        found
-    }
-
     /// The nearest amplitudes without velocity and acceleration at the start: Σ h a = 0 and Σ h² b = 0.
     fn start_at_rest(&mut self) {
         for kind in 0..2 {

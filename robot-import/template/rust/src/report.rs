@@ -7,7 +7,7 @@ use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use joint_drivers::{ControlLoop, Law, Telemetry};
-use motion_control::Mode;
+use motion_control::{Fault, Mode, SafetyLimits};
 
 use crate::control::{FeedForward, SetupError, controller, detectors, gains};
 use crate::marker::measured;
@@ -29,6 +29,10 @@ pub struct Outcome {
     pub limited: u32,
     /// Ticks in another mode than the full one.
     pub faulted: u32,
+    /// The first fault and its tick.
+    pub fault: Option<(u32, Fault)>,
+    /// The first joint whose torque was at a limit then, and the tick.
+    pub cut: Option<(u32, usize)>,
     /// The least and the greatest cost of a tick, by the clock.
     pub cost: [u32; 2],
 }
@@ -50,7 +54,7 @@ impl fmt::Display for RunError {
                 let name = JOINTS.get(error.joint).unwrap_or(&"?");
                 write!(
                     out,
-                    "joint {name} moves no inertia: add an Armature in scene.rs"
+                    "joint `{name}` moves no inertia: add an Armature in scene.rs"
                 )
             }
         }
@@ -70,12 +74,15 @@ const START: u32 = 20;
 /// [`RunError`].
 pub fn run<L: Law<N>>(clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
     let motion = scene::motion().map_err(|error| RunError::Setup(SetupError::Motion(error)))?;
-    let (home, full_scale) = (scene::home(), scene::limits(&motion).torque);
+    let (home, limits) = (scene::home(), scene::limits(&motion));
+    let full_scale = limits.torque;
     let wires = Wires::new();
-    let (encoders, drives) = (wires.encoders(&home), wires.drives(&full_scale));
+    let encoders = wires.encoders(&motion, &home).map_err(RunError::Setup)?;
+    let drives = wires.drives(&full_scale);
     let controller = controller(&motion).map_err(RunError::Setup)?;
     let (brake, detectors) = (wires.brake(), detectors(&motion));
-    let mut control = ControlLoop::new(encoders, drives, brake, gains(), controller, detectors);
+    let mut control =
+        ControlLoop::on_circles(encoders, drives, brake, gains(), controller, detectors);
     let mut plant = Plant::new(home, full_scale);
     let mut outcome = Outcome {
         first: [0.0; N],
@@ -84,8 +91,11 @@ pub fn run<L: Law<N>>(clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
         ticks: motion.ticks(),
         limited: 0,
         faulted: 0,
+        fault: None,
+        cut: None,
         cost: [u32::MAX, 0],
     };
+    let mut last = [0.0; N];
     for tick in 0..outcome.ticks {
         let reference = motion.at(tick).q;
         for (error, (is, wanted)) in outcome
@@ -99,7 +109,8 @@ pub fn run<L: Law<N>>(clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
         let telemetry = measured::<0, _>(|| control.tick::<L, _, _>(&motion, &()));
         let cost = clock().wrapping_sub(start) & COUNTS;
         outcome.cost = [outcome.cost[0].min(cost), outcome.cost[1].max(cost)];
-        outcome.note(tick, &telemetry);
+        outcome.note(tick, &telemetry, &limits, &last);
+        last = telemetry.torque;
         plant.advance(&wires).map_err(RunError::Plant)?;
     }
     let per_tick = 1.0 / outcome.ticks.max(1) as f32;
@@ -108,20 +119,67 @@ pub fn run<L: Law<N>>(clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
 }
 
 impl Outcome {
-    fn note(&mut self, tick: u32, telemetry: &Telemetry<N>) {
+    fn note(
+        &mut self,
+        tick: u32,
+        telemetry: &Telemetry<N>,
+        limits: &SafetyLimits<f32, N>,
+        last: &[f32; N],
+    ) {
         if tick == 0 {
             self.first = telemetry.torque;
         }
         for (largest, torque) in self.largest.iter_mut().zip(telemetry.torque) {
             *largest = largest.max(torque.abs());
         }
-        self.limited += u32::from(telemetry.status.limited && tick > START);
+        if telemetry.status.limited && tick > START {
+            self.limited += 1;
+            let is_cut = |&joint: &usize| {
+                let (torque, rate) = (telemetry.torque[joint], limits.rate[joint]);
+                torque.abs() >= limits.torque[joint] || (torque - last[joint]).abs() > 0.99 * rate
+            };
+            let cut = (0..N).find(is_cut).map(|joint| (tick, joint));
+            self.cut = self.cut.or(cut);
+        }
+        let fault = telemetry.status.fault.map(|fault| (tick, fault));
+        self.fault = self.fault.or(fault);
         self.faulted += u32::from(telemetry.status.mode != Mode::Full);
     }
 
     /// Whether the robot followed its motion by its own torque.
     pub fn is_good(&self) -> bool {
         self.limited == 0 && self.faulted == 0
+    }
+
+    /// What kept the robot from following its motion: the joint, the number and what to do; nothing if it did.
+    ///
+    /// # Errors
+    /// The text cannot be written.
+    pub fn say(&self, out: &mut impl Write) -> fmt::Result {
+        let ticks = self.ticks;
+        if self.limited > 0 {
+            write!(out, "error: {} of {ticks} ticks at a limit", self.limited)?;
+            if let Some((tick, joint)) = self.cut {
+                let (name, torque) = (JOINTS[joint], self.largest[joint]);
+                write!(
+                    out,
+                    ", first joint `{name}` in tick {tick}, whose torque was up to {torque:.3}"
+                )?;
+            }
+            writeln!(out, ": see limits and away in scene.rs")?;
+        }
+        if self.faulted == 0 {
+            return Ok(());
+        }
+        write!(
+            out,
+            "error: {} of {ticks} ticks on hold or stopped",
+            self.faulted
+        )?;
+        if let Some((tick, fault)) = self.fault {
+            write!(out, ", first in tick {tick}: {}", fault.named(&JOINTS))?;
+        }
+        writeln!(out, ": see OMEGA_N, limits and away in scene.rs")
     }
 }
 
@@ -185,16 +243,10 @@ pub fn print(out: &mut impl Write, clock: Clock<impl Fn() -> u32>) -> Result<boo
         let (needed, limit) = (needed[joint], limits[joint]);
         writeln!(
             out,
-            "error: joint {name} needs {needed:.3} for this motion, its limit is {limit:.3}: see home, away and limits in scene.rs"
+            "error: joint `{name}` needs {needed:.3} for this motion, its limit is {limit:.3}: see home, away and limits in scene.rs"
         )?;
     }
-    if !outcome.is_good() {
-        let (limited, faulted) = (outcome.limited, outcome.faulted);
-        writeln!(
-            out,
-            "error: {limited} ticks at a limit, {faulted} ticks on hold or stopped"
-        )?;
-    }
+    outcome.say(out)?;
     cost(out, &outcome, clock)?;
     Ok(outcome.is_good())
 }

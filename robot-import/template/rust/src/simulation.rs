@@ -4,16 +4,19 @@ use core::cell::Cell;
 use core::convert::Infallible;
 use core::f32::consts::TAU;
 
-use dynamics_core::algorithms::NotPositiveDefinite;
+use dynamics_core::algorithms::{MassMatrix, NotPositiveDefinite, crba};
+use dynamics_core::effects::{Effect, JointState, TorqueDerivatives};
 use dynamics_core::model::Calibrated;
-use dynamics_core::sim::linearly_implicit;
+use dynamics_core::sim::{Integrator, LinearlyImplicit, ModelDynamics};
 use dynamics_core::state::State;
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
 use embedded_hal::spi::{self, Operation, SpiDevice};
+use joint_drivers::Direction;
 
 use crate::board::{BITS, Drive, Encoder};
-use crate::scene::{Arm, EFFECTS, Effects, N, TICK, encoder_ratios};
+use crate::control::{SetupError, encoder_mappings};
+use crate::scene::{Arm, EFFECTS, Effects, Motion, N, TICK, encoder_ratios};
 
 /// Steps of the simulation in a tick.
 const STEPS: u8 = 2;
@@ -39,11 +42,20 @@ impl Wires {
     }
 
     /// The encoders, which read zero at the positions `zero`, rad or m.
-    pub fn encoders(&self, zero: &[f32; N]) -> [Encoder<SimEncoder<'_>>; N] {
+    ///
+    /// # Errors
+    /// [`SetupError::Encoder`].
+    pub fn encoders(
+        &self,
+        motion: &Motion,
+        zero: &[f32; N],
+    ) -> Result<[Encoder<SimEncoder<'_>>; N], SetupError> {
         let ratio = encoder_ratios();
-        core::array::from_fn(|joint| {
-            Encoder::new(SimEncoder(&self.angles[joint]), zero[joint], ratio[joint])
-        })
+        let at_zero = core::array::from_fn(|joint| -zero[joint] / ratio[joint]);
+        let mappings = encoder_mappings(motion, &at_zero, &[Direction::Forward; N])?;
+        Ok(core::array::from_fn(|joint| {
+            Encoder::new(SimEncoder(&self.angles[joint]), mappings[joint])
+        }))
     }
 
     /// The drives, which deliver `full_scale` at full duty, N·m or N.
@@ -102,14 +114,7 @@ impl Plant {
             (f32::from(wires.duties[joint].get()) / half - 1.0) * self.full_scale[joint]
         });
         for _ in 0..STEPS {
-            let step = TICK / f32::from(STEPS);
-            linearly_implicit(
-                &self.robot,
-                &mut self.state,
-                &torque,
-                &mut self.effects,
-                step,
-            )?;
+            self.step(&torque, TICK / f32::from(STEPS))?;
         }
         for (joint, angle) in wires.angles.iter().enumerate() {
             let turned = (self.state.q[joint] - self.zero[joint]) / self.ratio[joint];
@@ -118,6 +123,127 @@ impl Plant {
             angle.set((nearest as i32 & ((1 << BITS) - 1)) as u16);
         }
         Ok(())
+    }
+
+    /// A step of `h` seconds.
+    fn step(&mut self, torque: &[f32; N], h: f32) -> Result<(), NotPositiveDefinite> {
+        let start = self.state;
+        let friction = Friction::new(&self.effects, &start);
+        let mechanics = ModelDynamics {
+            robot: &self.robot,
+            tau: *torque,
+            effects: &self.effects,
+        };
+        LinearlyImplicit.advance(&mechanics, &mut self.state, h)?;
+        let change = self.state.qdd.map(|qdd| h * qdd);
+        if !friction.is_linear(&change) {
+            let m = crba(&self.robot, &start.q, &self.effects);
+            let change = friction.implicit(&m, &change, h);
+            for (joint, change) in change.into_iter().enumerate() {
+                self.state.qd[joint] = start.qd[joint] + change;
+                self.state.q[joint] = start.q[joint] + h * self.state.qd[joint];
+                self.state.qdd[joint] = change / h;
+            }
+        }
+        for joint in 0..N {
+            let at = JointState::new(self.state.q[joint], self.state.qd[joint]);
+            Effect::<f32, N, N>::advance(&mut self.effects, joint, at, h);
+        }
+        Ok(())
+    }
+}
+
+/// The friction of the joints in a step, as a function of their velocities at its end.
+///
+/// A linearly implicit step extends friction by its slope. Dry friction on a light joint bends within the step: without its
+/// own curve the joint would be thrown from one direction into the other.
+struct Friction<'a> {
+    effects: &'a Effects,
+    start: &'a State<f32, N, N>,
+    /// At the start, N·m or N.
+    torque: [f32; N],
+    /// The slope that the linearly implicit step takes, N·m·s/rad or N·s/m.
+    slope: [f32; N],
+}
+
+/// Where the end's velocity is found to, rad/s or m/s.
+const FOUND: f32 = 1e-5;
+/// Rounds over the joints.
+const ROUNDS: u8 = 20;
+
+impl<'a> Friction<'a> {
+    fn new(effects: &'a Effects, start: &'a State<f32, N, N>) -> Self {
+        let mut friction = Self {
+            effects,
+            start,
+            torque: [0.0; N],
+            slope: [0.0; N],
+        };
+        for joint in 0..N {
+            let mut derivatives = TorqueDerivatives::default();
+            let at = JointState::new(start.q[joint], start.qd[joint]);
+            Effect::<f32, N, N>::derivatives(effects, joint, at, &mut derivatives);
+            friction.torque[joint] = friction.added(joint, 0.0);
+            friction.slope[joint] = derivatives.dqd;
+        }
+        friction
+    }
+
+    /// What is added to the torque at the start where a joint's velocity has changed.
+    fn added(&self, joint: usize, change: f32) -> f32 {
+        let at = JointState::new(self.start.q[joint], self.start.qd[joint] + change);
+        let mut torque = 0.0;
+        Effect::<f32, N, N>::torque(self.effects, joint, at, &mut torque);
+        torque - self.torque[joint]
+    }
+
+    /// Whether the slopes describe it, up to rounding.
+    fn is_linear(&self, change: &[f32; N]) -> bool {
+        (0..N).all(|joint| {
+            let (added, extended) = (
+                self.added(joint, change[joint]),
+                self.slope[joint] * change[joint],
+            );
+            (added - extended).abs() <= 1e-5 * (self.torque[joint].abs() + extended.abs())
+        })
+    }
+
+    /// The changes x of the velocities with the friction of the step's end: M x + h (f(q̇ + x) − f(q̇)) = b, joint by joint,
+    /// where b is that of the linearly implicit step, which changes them by `linear`.
+    fn implicit(&self, m: &MassMatrix<f32, N>, linear: &[f32; N], h: f32) -> [f32; N] {
+        let row = |joint: usize, x: &[f32; N]| (0..N).map(|k| m.get(joint, k) * x[k]).sum::<f32>();
+        let b: [f32; N] = core::array::from_fn(|joint| {
+            row(joint, linear) + h * self.slope[joint] * linear[joint]
+        });
+        let mut x = *linear;
+        for _ in 0..ROUNDS {
+            let mut most = 0.0_f32;
+            for joint in 0..N {
+                let before = x[joint];
+                let inertia = m.get(joint, joint);
+                let driving = b[joint] - row(joint, &x) + inertia * before;
+                let excess = |x: f32| inertia * x + h * self.added(joint, x) - driving;
+                // Friction grows with velocity, so that the solution lies between these two.
+                let (mut near, mut far) = (before, before - excess(before) / inertia);
+                let falls = far < near;
+                while (far - near).abs() > FOUND {
+                    let middle = 0.5 * (near + far);
+                    if middle == near || middle == far {
+                        break;
+                    }
+                    match (excess(middle) > 0.0) == falls {
+                        true => near = middle,
+                        false => far = middle,
+                    }
+                }
+                x[joint] = 0.5 * (near + far);
+                most = most.max((x[joint] - before).abs());
+            }
+            if most <= FOUND {
+                break;
+            }
+        }
+        x
     }
 }
 

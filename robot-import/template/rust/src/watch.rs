@@ -6,13 +6,13 @@
 use dynamics_core::model::{JointKind, model};
 use dynamics_core::state::State;
 use joint_drivers::ControlLoop;
-use motion_control::{Gains, Reference};
+use motion_control::Reference;
 use telemetry::{Axis, Machine, Message, Sample, capacity, encode};
 
-use crate::control::{FeedForward, SetupError, controller};
+use crate::control::{FeedForward, SetupError, controller, gains};
 use crate::excitation::Excitation;
 use crate::report::RunError;
-use crate::scene::{self, Arm, Motion, N, OMEGA_N, TICK};
+use crate::scene::{self, Arm, Motion, N, TICK};
 use crate::simulation::{Plant, Wires};
 
 /// Ticks from one repetition of the constants to the next.
@@ -62,40 +62,25 @@ impl Reference<f32, N> for Repeated<'_> {
 pub fn run(options: Options, send: impl FnMut(&[u8])) -> Result<(), RunError> {
     let motion = scene::motion().map_err(|error| RunError::Setup(SetupError::Motion(error)))?;
     match options.excite {
-        true => {
-            let excitation = Excitation::new(&motion);
-            along(
-                &excitation,
-                &excitation.inertia(),
-                &motion,
-                options.ticks,
-                send,
-            )
-        }
-        false => along(
-            &Repeated(&motion),
-            &scene::inertia(),
-            &motion,
-            options.ticks,
-            send,
-        ),
+        true => along(&Excitation::new(&motion), &motion, options.ticks, send),
+        false => along(&Repeated(&motion), &motion, options.ticks, send),
     }
 }
 
 fn along(
     reference: &impl Reference<f32, N>,
-    inertia: &[f32; N],
     motion: &Motion,
     ticks: u32,
     mut send: impl FnMut(&[u8]),
 ) -> Result<(), RunError> {
     let (home, full_scale) = (scene::home(), scene::limits(motion).torque);
     let wires = Wires::new();
-    let (encoders, drives) = (wires.encoders(&home), wires.drives(&full_scale));
+    let encoders = wires.encoders(motion, &home).map_err(RunError::Setup)?;
+    let drives = wires.drives(&full_scale);
     let controller = controller(motion).map_err(RunError::Setup)?;
-    let gains = Gains::from_inertia(inertia, OMEGA_N, 1.0);
     // Without detectors: a motion that reverses often looks like a frozen encoder where the drives' steps are coarse.
-    let mut control = ControlLoop::new(encoders, drives, wires.brake(), gains, controller, ());
+    let mut control =
+        ControlLoop::on_circles(encoders, drives, wires.brake(), gains(), controller, ());
     let mut plant = Plant::new(home, full_scale);
     let mut bytes = [0; capacity(N)];
     let mut number = 0_u32;

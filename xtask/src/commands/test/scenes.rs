@@ -7,7 +7,7 @@ use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::meter::CLOCK_MHZ;
 use crate::kit::protocol::FEEDFORWARD;
 use crate::kit::scene::Scene;
-use crate::studies::scenes::plot;
+use crate::studies::scenes::{first_screen, plot};
 use crate::studies::{budgets, scenes};
 
 /// The largest ratio of a scene's bound to the measured error.
@@ -134,9 +134,12 @@ pub fn readme(context: &Context) -> Result<String> {
             let brackets = demo::brackets(workspace, &context.tools, context.meter()?, measured)?;
             let (text, rustc) = (measured.report.markdown(&brackets), &measured.report.rustc);
             docs::TICK.check(workspace, &text, Some(rustc))?;
-            for (page, text) in demo::first_screen(workspace, &measured.report)? {
-                page.check(workspace, &text, Some(rustc))?;
-            }
+            first_screen::WORTH.check(
+                workspace,
+                &first_screen::worth(&measured.report),
+                Some(rustc),
+            )?;
+            first_screen::WHY.check(workspace, &first_screen::composed(workspace)?, None)?;
             // The scene's result is the same to the bit with every compiler.
             let (picture, command) = (plot::svg(&measured.recording)?, docs::TICK.command);
             docs::compare_picture(workspace, demo::PICTURE, command, &picture, true)?;

@@ -1,5 +1,7 @@
 use expect_test::expect;
 
+use super::repository::{read, root};
+use super::seal::{is_sealed, sealed, unsealed};
 use super::{Page, compare, compare_picture, rustc_of};
 use crate::kit::workspace::Workspace;
 
@@ -57,9 +59,11 @@ fn words_of_another_compiler_are_those_that_are_written() {
           there: | ur5e | 1,235 | 1.1e-5 |
           now:   | ur5e | 1,234 | 1.1e-5 |"#]]
     .assert_eq(&refused.expect_err("one digit").to_string());
-    // Without a compiler only the same is accepted.
-    assert!(is_current("| a | 1000 |", "| a | 1000 |", ""));
-    assert!(!is_current("| a | 1000 |", "| a | 1001 |", ""));
+    // Without a compiler only the same is accepted, and so it is of a text that names none.
+    for rustc in ["", NOW] {
+        assert!(is_current("| a | 1000 |", "| a | 1000 |", rustc));
+        assert!(!is_current("| a | 1000 |", "| a | 1001 |", rustc));
+    }
 }
 
 #[test]
@@ -110,4 +114,160 @@ fn a_part_is_written_between_its_markers() {
     PART.write(&workspace, "The text.").expect("written");
     assert!(check("The text.") && !check("The texts."));
     assert!(PART.split("no markers").is_err());
+}
+
+/// Blocks that are written by tests, which compare them whole with what they observe, and where; all others have their sum.
+const BY_TESTS: [(&str, &str, &str); 14] = [
+    (
+        "docs/guide/src/contact.md",
+        "contact",
+        "host-tests/simulations/tests/contact_reaction/mod.rs",
+    ),
+    (
+        "docs/guide/src/faults.md",
+        "faults",
+        "host-tests/simulations/tests/fault_injection.rs",
+    ),
+    (
+        "docs/guide/src/faults.md",
+        "transitions",
+        "motion-control/src/safety/supervisor/tests/transitions.rs",
+    ),
+    (
+        "docs/guide/src/guiding.md",
+        "drag",
+        "host-tests/simulations/tests/hand_guiding/mod.rs",
+    ),
+    (
+        "docs/guide/src/guiding.md",
+        "release",
+        "host-tests/simulations/tests/hand_guiding/mod.rs",
+    ),
+    (
+        "docs/guide/src/identification.md",
+        "conditions",
+        "identification/tests/ur5e/main.rs",
+    ),
+    (
+        "docs/guide/src/identification.md",
+        "results",
+        "identification/tests/ur5e/main.rs",
+    ),
+    (
+        "docs/guide/src/lerobot.md",
+        "release",
+        "python/lerobot_teleoperator_so101_floating/tests/page.py",
+    ),
+    (
+        "docs/guide/src/lerobot.md",
+        "torque",
+        "python/lerobot_teleoperator_so101_floating/tests/page.py",
+    ),
+    (
+        "docs/guide/src/porting.md",
+        "dependencies",
+        "docs/guide/tests/pages.rs",
+    ),
+    (
+        "docs/guide/src/taught-paths.md",
+        "noise",
+        "host-tests/simulations/tests/taught_path/mod.rs",
+    ),
+    (
+        "docs/guide/src/taught-paths.md",
+        "playback",
+        "host-tests/simulations/tests/taught_path/mod.rs",
+    ),
+    (
+        "docs/guide/src/taught-paths.md",
+        "toppra",
+        "host-tests/simulations/tests/taught_path/mod.rs",
+    ),
+    (
+        "host-tests/suite/README.md",
+        "suite",
+        "host-tests/suite/run.py",
+    ),
+];
+
+/// The pages of the repository that have parts which are written by commands or tests.
+fn pages() -> Vec<String> {
+    let mut pages = vec![
+        "README.md".to_owned(),
+        "host-tests/suite/README.md".to_owned(),
+    ];
+    for folder in ["docs", "docs/guide/src"] {
+        let entries = std::fs::read_dir(root().join(folder)).expect("a folder");
+        let names = entries.flatten().map(|entry| entry.file_name());
+        let names = names.map(|name| format!("{folder}/{}", name.to_string_lossy()));
+        pages.extend(names.filter(|name| name.ends_with(".md")));
+    }
+    pages.sort();
+    pages
+}
+
+/// The parts of a page between markers, by name; the whole page, without a name, if a command writes it.
+fn blocks(page: &str) -> Vec<(&str, &str)> {
+    let begins = page.match_indices(":begin -->").map(|(end, begin)| {
+        let start = page[..end].rfind("<!-- ").expect("a marker") + "<!-- ".len();
+        let (name, rest) = (&page[start..end], &page[end + begin.len()..]);
+        let (block, _) = rest
+            .split_once(&format!("<!-- {name}:end -->"))
+            .expect("its end");
+        (name, block)
+    });
+    let blocks: Vec<_> = begins.collect();
+    match page.contains("<!-- written by `") && blocks.is_empty() {
+        true => vec![("", page)],
+        false => blocks,
+    }
+}
+
+#[test]
+fn a_changed_digit_of_any_generated_block_is_seen() {
+    let mut by_tests = Vec::new();
+    for file in pages() {
+        let page = read(&file);
+        for (name, block) in blocks(&page) {
+            if let Some(row) = BY_TESTS.iter().find(|row| (row.0, row.1) == (&*file, name)) {
+                by_tests.push(*row);
+                continue;
+            }
+            assert!(is_sealed(block), "{file}, {name}: not what a command wrote");
+            // The first digit of each figure; of long blocks, of some figures.
+            let bytes = block.as_bytes();
+            let is_first = |i: &usize| bytes[*i].is_ascii_digit() && !bytes[i - 1].is_ascii_digit();
+            let figures: Vec<usize> = (1..bytes.len()).filter(is_first).collect();
+            for &i in figures.iter().step_by(figures.len().div_ceil(60)) {
+                let digit = if bytes[i] == b'7' { "8" } else { "7" };
+                let other = format!("{}{digit}{}", &block[..i], &block[i + 1..]);
+                assert!(!is_sealed(&other), "{file}, {name}: byte {i}");
+            }
+        }
+    }
+    by_tests.sort_unstable();
+    assert_eq!(by_tests, BY_TESTS);
+    for (file, name, test) in BY_TESTS {
+        let source = read(test);
+        let page = file.rsplit('/').next().unwrap_or_default();
+        assert!(
+            source.contains(page) || source.contains("BEGIN"),
+            "{test} does not name {page}, {name}"
+        );
+    }
+}
+
+#[test]
+fn a_sum_is_of_the_whole_text() {
+    let text = sealed("| 759 |\n\n| 538 |");
+    assert!(is_sealed(&text) && unsealed(&text) == "| 759 |\n\n| 538 |");
+    assert_eq!(sealed(unsealed(&text)), text);
+    for other in [
+        "| 758 |\n\n| 538 |",
+        "| 759 |\n\n| 538 |\n| 1 |",
+        "| 759 || 538 |",
+    ] {
+        assert!(!is_sealed(&text.replace(unsealed(&text), other)));
+    }
+    assert!(!is_sealed("| 759 |"));
 }

@@ -1,9 +1,10 @@
 //! The README's first lines: why one would use the library, and what each effect is worth.
 
-use crate::kit::docs::{Page, cells};
+use crate::kit::docs::{Page, TICK, cells};
 use crate::kit::error::{Result, check};
 use crate::kit::meter::CLOCK_MHZ;
 use crate::kit::table::{Column, Table, thousands};
+use crate::kit::workspace::{self, Workspace};
 use crate::studies::scenes::render::signed;
 use crate::studies::scenes::report::{Ablation, Report};
 
@@ -21,45 +22,72 @@ const fn part(name: &'static str) -> Page<'static> {
 pub const WHY: Page<'_> = part("why");
 pub const WORTH: Page<'_> = part("worth");
 
-/// From the bars of the peers' page, as it was recorded, and from the default scene.
-pub fn why(peers: &str, readme: &str, report: &Report) -> Result<String> {
-    let wishes = wishes(readme, report)?;
+/// Writes the first lines anew; after each command that writes a page from which they are composed.
+pub fn write_why(workspace: &Workspace) -> Result<()> {
+    WHY.write(workspace, &composed(workspace)?)
+}
+
+/// The first lines as these pages have them now, whichever compiler measured their figures.
+pub fn composed(workspace: &Workspace) -> Result<String> {
+    let read = |file| workspace::read(&workspace.root.join(file));
+    why(&read(PEERS)?, &read(WHY.file)?, &read(TICK.file)?)
+}
+
+/// From the bars of the peers' page, as it was recorded, from the README's other parts and from the default scene's page. A figure is
+/// copied, or has fewer digits than there.
+fn why(peers: &str, readme: &str, scenes: &str) -> Result<String> {
+    let wishes = wishes(readme)?;
     let range = |bar: &str| range(peers, bar);
     let inverse = range(" rnea, m4f, engine / casadi: cycles")?;
     let forward = range(" aba, m4f, engine / casadi: cycles")?;
     let host = range(", engine / pinocchio: ns")?;
     let free = range("g1_free rnea, m4f, engine / casadi: cycles")?;
-    let longest = report.tick["total"].cycles.max as f64 / CLOCK_MHZ;
-    let share = 100.0 * longest / f64::from(report.period_us);
-    let ratio = 100.0 * report.tracking.ratio();
+    let tick = TICK.written(scenes)?;
+    let total = cell(tick, "total", 12)?;
+    let [longest, share] = [(9, "longest tick"), (11, "share")].map(|(at, what)| {
+        let figure = total[at].trim_end_matches(" %").parse::<f64>();
+        figure.map_err(|_| check!("{} has no {what}", TICK.file))
+    });
+    let (longest, share) = (longest?, share?);
+    let exact = cell(tick, "feed-forward", 3)?[1];
+    let ratio = exact
+        .split_once('(')
+        .and_then(|(_, ratio)| ratio.strip_suffix(')'));
+    let ratio = ratio.ok_or_else(|| check!("{} has no share of PD's error", TICK.file))?;
     Ok(format!(
         "- Inverse dynamics takes **{inverse} of the cycles of the best C** that CasADi generates for the same robot (UR5e, Panda, iiwa 14,\n  \
          A1; f32, modelled Cortex-M4F), and {free} for the humanoid G1 with its base free. Forward dynamics of the first three takes\n  \
          {forward} ([peers]({PEERS})).\n\
          - On the host, inverse dynamics of the same four robots takes **{host} of the time of Pinocchio's C++**.\n\
          - A whole tick of a UR5e, from six encoders to six drives, takes {longest:.1} µs at {CLOCK_MHZ} MHz: **{share:.1} % of a millisecond**. The arm\n  \
-         then follows its reference with {ratio:.1} % of the error of PD control alone.\n\n\
+         then follows its reference with {ratio} of the error of PD control alone.\n\n\
          {wishes}"
     ))
 }
 
-/// The questions that the README's pictures answer, each with its figures: of accuracy and of hard cases as the README has them.
-fn wishes(readme: &str, report: &Report) -> Result<String> {
+/// The cells of the row of this name, which has so many.
+fn cell<'a>(page: &'a str, name: &str, count: usize) -> Result<Vec<&'a str>> {
+    let mut rows = page.lines().filter_map(cells);
+    let row = rows.find(|row| row[0] == name && row.len() == count);
+    row.ok_or_else(|| check!("no page has a row {name} of {count} cells"))
+}
+
+/// The questions that the README's pictures answer, each with its figures as the README's other parts have them.
+fn wishes(readme: &str) -> Result<String> {
     let lacks = |what: &str| check!("README.md has no {what}");
-    let row = |name: &str| {
-        let mut rows = readme.lines().filter_map(cells);
-        let row = rows.find(|row| row[0] == name && row.len() == 5);
-        row.ok_or_else(|| lacks(name))
-    };
-    let (all, pruned) = (row("default")?, row("pruned at 0.1 %")?);
-    let full = report.tracking.feedforward.rms_rad;
+    let (all, pruned) = (
+        cell(readme, "default", 5)?,
+        cell(readme, "pruned at 0.1 %", 5)?,
+    );
+    let effects = WORTH.written(readme)?;
     let worth = |name: &str| {
-        let one = report.effects.iter().find(|one| one.effect == name);
-        let one = one.ok_or_else(|| lacks(name))?;
-        let times = one.without.rms_rad / full;
+        let row = cell(effects, name, 3)?;
+        let (times, cycles) = (
+            row[1].trim_end_matches(" ×"),
+            row[2].trim_start_matches('−'),
+        );
         Ok(format!(
-            "{times:.0} times as large without {name}, which costs {} cycles",
-            one.cycles
+            "{times} times as large without {name}, which costs {cycles} cycles"
         ))
     };
     let [gravity, coriolis]: [Result<String>; 2] = ["Gravity", "Coriolis"].map(worth);
@@ -72,7 +100,7 @@ fn wishes(readme: &str, report: &Report) -> Result<String> {
          2. [What is each effect worth?](#what-each-effect-is-worth-and-what-it-costs) The tracking error of a UR5e is {},\n   \
          and {}.\n\
          3. [Do hard cases stay stable?](#hard-cases-stay-stable) {}\n   \
-         and naive methods are shown to fail.",
+         and naive methods are shown to fail. One figure of the suite of files is beyond its bound, with its reason below.",
         all[3], all[1], pruned[3], pruned[1], gravity?, coriolis?, hard
     ))
 }
@@ -107,12 +135,18 @@ pub fn worth(report: &Report) -> String {
     ];
     let longest = thousands(report.tick["total"].cycles.max);
     let table = Table::of(effects, &columns).markdown();
-    format!("{table}\nA UR5e's pick and place; its tick takes {longest} cycles with all of them.")
+    let rustc = &report.rustc;
+    format!(
+        "{table}\nA UR5e's pick and place; its tick takes {longest} cycles with all of them.\nMeasured with {rustc}."
+    )
 }
 
 #[cfg(test)]
 mod tests {
-    use super::range;
+    use super::{WHY, WORTH, composed, range, why};
+    use crate::kit::docs::repository::{read, root};
+    use crate::kit::docs::{TICK, seal::unsealed};
+    use crate::kit::workspace::Workspace;
 
     const PAGE: &str = "| ur5e rnea, engine / x: cycles | 0.470× | 0.448× | met |\n\
                         | a1 rnea, engine / x: cycles | 0.470× | 0.426× | met |\n\
@@ -127,5 +161,40 @@ mod tests {
         assert_eq!(words, "0.33");
         range(PAGE, " aba, engine / x: cycles").expect_err("no figure");
         range(PAGE, " crba,").expect_err("no bar");
+    }
+
+    #[test]
+    fn the_first_screen_has_the_figures_of_its_pages() {
+        let text = composed(&Workspace::at(&root())).expect("the pages");
+        WHY.check(&Workspace::at(&root()), &text, None)
+            .expect("`cargo xtask demo --write-docs` writes it");
+    }
+
+    /// The pages with the figure of a row's cell replaced.
+    fn changed(page: &str, row: &str, figure: &str) -> String {
+        let line = page
+            .lines()
+            .find(|line| line.starts_with(row))
+            .expect("the row");
+        page.replace(line, &line.replacen(figure, "9999", 1))
+    }
+
+    #[test]
+    fn a_figure_that_another_page_has_not_is_refused() {
+        let [peers, readme, scenes] = [super::PEERS, WHY.file, TICK.file].map(read);
+        let now = why(&peers, &readme, &scenes).expect("the pages");
+        let cycles = |name| super::cell(&readme, name, 5).expect("a row")[1].to_owned();
+        for row in ["default", "pruned at 0.1 %"] {
+            let other = changed(&readme, &format!("| {row} "), &cycles(row));
+            let other = why(&peers, &other, &scenes).expect("the pages");
+            assert_ne!(other, now, "{row}");
+        }
+        let gravity =
+            super::cell(WORTH.written(&readme).expect("a part"), "Gravity", 3).expect("a row")[1];
+        let other = changed(&readme, "| Gravity ", gravity.trim_end_matches(" ×"));
+        assert_ne!(why(&peers, &other, &scenes).expect("the pages"), now);
+        let other = scenes.replace("| total ", "| all ");
+        why(&peers, &readme, &other).expect_err("no total");
+        assert!(!unsealed(WHY.written(&readme).expect("a part")).contains("9999"));
     }
 }

@@ -7,7 +7,7 @@ mod program {
     use cortex_m_rt::entry;
     use guide_firmware::rod::{CONFIG, Rod, gains, path};
     use joint_drivers::h_bridge::{FullScale, SignMagnitude};
-    use joint_drivers::{ControlLoop, Direction, JointMapping, as5600::As5600};
+    use joint_drivers::{ControlLoop, Direction, JointMapping, JointRange, as5600::As5600};
     use motion_control::{Mode, MotionController};
     use panic_halt as _;
     use stm32f4xx_hal::{i2c::I2c, nb, pac, prelude::*, rcc::Config};
@@ -23,6 +23,14 @@ mod program {
 
         // The encoder reads 1.5 rad where the joint is at zero, and turns the other way round.
         let mapping = JointMapping::new(1.5, Direction::Reverse, 1.0).expect("within its range");
+        // It is between ±3 rad at power-up, and moves by 5 rad/s at most.
+        let range = JointRange::Within {
+            lower: -3.0,
+            upper: 3.0,
+        };
+        let mapping = mapping
+            .with_range(range, 5.0 * 1e-3)
+            .expect("less than a turn");
         let bus = I2c::new(chip.I2C1, (b.pb8, b.pb9), 400.kHz(), &mut rcc);
         let encoder = As5600::new(bus, mapping);
 

@@ -5,17 +5,17 @@
 use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle, spi::SpiDevice};
 use joint_drivers::as5047p::As5047p;
 use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
-use joint_drivers::{ControlLoop, Direction, JointMapping};
-use motion_control::{Detect, Gains, TrajectoryError};
+use joint_drivers::{ControlLoop, Direction, EncoderType};
+use motion_control::{Detect, Gains};
 
-use crate::control::{SetupError, controller};
-use crate::scene::{self, encoder_ratios};
+use crate::control::{Measured, controller, encoder_mappings};
+use crate::scene;
 
-pub use crate::control::{FeedForward as Law, detectors, gains};
+pub use crate::control::{FeedForward as Law, Found, SetupError, detectors, gains};
 pub use crate::scene::{Motion, N};
 pub use joint_drivers::as5047p::RESOLUTION;
 
-/// What the encoder of each joint reads where the joint is at zero, rad.
+/// What the encoder of each joint reads where the joint is at zero, rad. Where the joint can be is in `scene.rs`.
 pub const ZERO: [f32; N] = [0.0; N];
 /// Which way each joint turns while its encoder's angle increases.
 pub const ENCODERS: [Direction; N] = [Direction::Forward; N];
@@ -33,7 +33,10 @@ pub type Encoder<Spi> = As5047p<Spi>;
 /// A current-controlled drive: a duty of 50 % is zero torque.
 pub type Drive<Pwm> = LockedAntiphase<Pwm>;
 /// The control loop of the robot.
-pub type Control<Spi, Pwm, Brake, D> = ControlLoop<[Encoder<Spi>; N], [Drive<Pwm>; N], Brake, N, D>;
+pub type Control<Spi, Pwm, Brake, D> =
+    ControlLoop<[Encoder<Spi>; N], [Drive<Pwm>; N], Brake, N, D, Measured<Age<Spi>>>;
+/// The age of its positions.
+pub type Age<Spi> = <Encoder<Spi> as EncoderType>::Age;
 
 /// What the board connects: a part of the bus for each encoder, a PWM channel for each drive.
 #[derive(Debug)]
@@ -47,9 +50,9 @@ pub struct Devices<Spi, Pwm, Brake> {
 /// Plans the motion in its place.
 ///
 /// # Errors
-/// [`TrajectoryError`], of way-points of your own.
-pub fn plan(place: &mut Motion) -> Result<(), TrajectoryError> {
-    *place = scene::motion()?;
+/// [`SetupError::Motion`], of way-points of your own.
+pub fn plan(place: &mut Motion) -> Result<(), SetupError> {
+    *place = scene::motion().map_err(SetupError::Motion)?;
     Ok(())
 }
 
@@ -65,12 +68,7 @@ pub fn on_brake<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f
 ) -> Result<Control<Spi, Pwm, Brake, D>, SetupError> {
     let scales = FullScale::of(full_scale(motion)).map_err(SetupError::Drive)?;
     let controller = controller(motion)?.on_brake();
-    let mut mappings = [JointMapping::IDENTITY; N];
-    for (joint, mapping) in mappings.iter_mut().enumerate() {
-        let turns = 1.0 / encoder_ratios()[joint];
-        *mapping =
-            JointMapping::new(ZERO[joint], ENCODERS[joint], turns).map_err(SetupError::Encoder)?;
-    }
+    let mappings = encoder_mappings(motion, &ZERO, &ENCODERS)?;
     // Each device in its turn.
     let mut joint = 0..N;
     let encoders = devices.encoders.map(|spi| {
@@ -82,7 +80,7 @@ pub fn on_brake<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f
         let joint = joint.next().unwrap_or_default();
         Drive::new(pwm, scales[joint], DRIVES[joint])
     });
-    Ok(ControlLoop::new(
+    Ok(ControlLoop::on_circles(
         encoders,
         drives,
         devices.brake,

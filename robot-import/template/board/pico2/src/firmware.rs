@@ -21,10 +21,11 @@ use embassy_sync::signal::Signal;
 use embassy_time::Duration;
 use embedded_hal::digital::OutputPin;
 use embedded_hal_bus::spi::AtomicDevice;
-use motion_control::{self as control, CompletedTick, Detectors, Mode};
+use motion_control::{self as control, CompletedTick, Mode};
 
-use crate::board::{self, Devices, Law, Motion, N};
+use crate::board::{self, Devices, Law, Motion};
 use crate::devices::{Button, Channel, Line};
+use crate::log::{Log, impossible};
 use crate::periods::{Moment, PERIOD, Periods};
 use crate::pins::{Connected, Encoder, MHZ, Spin, connect};
 
@@ -46,12 +47,13 @@ impl control::Watchdog for Starved {
 }
 
 struct Arm<'a> {
-    control: board::Control<Encoder<'a>, Channel, Line, Detectors<f32, N>>,
+    control: board::Control<Encoder<'a>, Channel, Line, board::Found>,
     motion: Motion,
     periods: Periods,
     watchdog: Starved,
     button: Button,
     light: Line,
+    log: Log,
 }
 
 /// The end of a period, and whatever else wakes the executor's task.
@@ -98,7 +100,7 @@ async fn follow(chip: Peripherals) {
         encoder
     });
     let mut motion = Motion::REST;
-    let planned = board::plan(&mut motion);
+    let planned = board::plan(&mut motion).map_err(|error| impossible(&error));
     let (gains, detectors) = (board::gains(), board::detectors(&motion));
     let devices = Devices {
         encoders,
@@ -106,6 +108,7 @@ async fn follow(chip: Peripherals) {
         brake,
     };
     let control = board::on_brake(devices, gains, detectors, &motion);
+    let control = control.map_err(|error| impossible(&error));
     let (Ok(()), Ok(control)) = (planned, control) else {
         // The brake is set, the drives have no torque, and the light stays off.
         return;
@@ -124,6 +127,7 @@ async fn follow(chip: Peripherals) {
         watchdog: Starved(Watchdog::new(watchdog)),
         button,
         light,
+        log: Log::new(),
     };
     arm.watchdog.0.start(STARVED);
     loop {
@@ -144,8 +148,11 @@ fn tick(arm: &mut Arm<'_>) {
     let mode = telemetry.status.mode;
     if matches!(mode, Mode::Stopped) && arm.button.is_pressed() {
         // Too far from the motion's start, or without a measurement: the arm stays on its brake.
-        let _ = arm.control.reset(&arm.motion);
+        if let Err(reason) = arm.control.reset(&arm.motion) {
+            arm.log.refused(reason);
+        }
     }
+    arm.log.tick(&telemetry);
     let Ok(()) = arm.light.set_state(matches!(mode, Mode::Full).into());
 }
 

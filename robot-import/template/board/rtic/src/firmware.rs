@@ -6,7 +6,7 @@
 #[rtic::app(device = stm32f4xx_hal::pac, peripherals = true)]
 mod app {
     use embedded_hal_bus::util::AtomicCell;
-    use motion_control::{CompletedTick, Detectors, Gains, Mode, Watchdog};
+    use motion_control::{CompletedTick, Gains, Mode, Watchdog};
     use stm32f4xx_hal::pac::TIM2;
     use stm32f4xx_hal::prelude::*;
     use stm32f4xx_hal::timer::{CounterHz, Event, Flag};
@@ -14,6 +14,7 @@ mod app {
 
     use crate::board::{self, Devices, Law, Motion, N};
     use crate::devices::{Channel, Encoder};
+    use crate::log::{Log, impossible};
     use crate::pins::{Brake, Bus, Button, Connected, Light, connect, is_pressed};
 
     /// The watchdog of the board, which only a completed tick feeds.
@@ -28,7 +29,7 @@ mod app {
     #[shared]
     struct Shared {}
 
-    type Detect = &'static mut Detectors<f32, N>;
+    type Detect = &'static mut board::Found;
     type Control = board::Control<Encoder, Channel, Brake, Detect>;
 
     #[local]
@@ -40,11 +41,12 @@ mod app {
         watchdog: Starved,
         button: Button,
         light: Light,
+        log: Log,
     }
 
     // Not inlined, as all that follows: start-up then needs the stack of one of them.
     #[inline(never)]
-    fn place_detectors(place: &'static mut Option<Detectors<f32, N>>, motion: &Motion) -> Detect {
+    fn place_detectors(place: &'static mut Option<board::Found>, motion: &Motion) -> Detect {
         place.insert(board::detectors(motion))
     }
 
@@ -57,7 +59,8 @@ mod app {
         motion: &Motion,
     ) -> Option<&'static mut Control> {
         let control = board::on_brake(devices, gains, detectors, motion);
-        Some(place.insert(control.ok()?))
+        let control = control.map_err(|error| impossible(&error)).ok()?;
+        Some(place.insert(control))
     }
 
     #[inline(never)]
@@ -67,7 +70,7 @@ mod app {
 
     #[init(local = [
         bus: Option<AtomicCell<Bus>> = None,
-        memory: Option<Detectors<f32, N>> = None,
+        memory: Option<board::Found> = None,
         place: Option<Control> = None,
         path: Motion = Motion::REST,
     ])]
@@ -81,7 +84,7 @@ mod app {
             mut rcc,
         } = connect(cx.device, cx.local.bus);
         let motion = cx.local.path;
-        let planned = board::plan(motion);
+        let planned = board::plan(motion).map_err(|error| impossible(&error));
         let detectors = place_detectors(cx.local.memory, motion);
         let control = place_control(cx.local.place, devices, gains(), detectors, motion);
         let (Ok(()), Some(control)) = (planned, control) else {
@@ -106,13 +109,14 @@ mod app {
             watchdog: Starved(watchdog),
             button,
             light,
+            log: Log::new(),
         };
         (Shared {}, local)
     }
 
     #[task(
         binds = TIM2,
-        local = [control, motion, timer, watchdog, button, light, count: u32 = 0],
+        local = [control, motion, timer, watchdog, button, light, log, count: u32 = 0],
         priority = 2
     )]
     fn tick(cx: tick::Context) {
@@ -130,8 +134,11 @@ mod app {
         let mode = telemetry.status.mode;
         if matches!(mode, Mode::Stopped) && is_pressed(local.button) {
             // Too far from the motion's start, or without a measurement: the arm stays on its brake.
-            let _ = local.control.reset(motion);
+            if let Err(reason) = local.control.reset(motion) {
+                local.log.refused(reason);
+            }
         }
+        local.log.tick(&telemetry);
         local.light.set_state(matches!(mode, Mode::Full).into());
     }
 }

@@ -1,0 +1,94 @@
+//! Detectors at the seam.
+
+use super::*;
+
+#[test]
+fn a_jump_is_measured_along_the_circle() {
+    let rest = State::at([3.14, 0.0]);
+    for (next, fault) in [
+        (-3.14, None),
+        (3.136, None),
+        (-3.1, Some(Fault::Jump { joint: 0 })),
+        (0.0, Some(Fault::Jump { joint: 0 })),
+        (3.18 - 3.0 * TAU, Some(Fault::Jump { joint: 0 })),
+        (3.1402 - 3.0 * TAU, None),
+    ] {
+        let mut bench = on_brake(FREE, [3.14, 0.0]);
+        bench.controller.reset(&rest).expect("near");
+        bench.tick(&rest);
+        let command = bench
+            .controller
+            .tick(Ok(&[next, 0.0]), &rest, |_, _| [0.0; 2]);
+        assert_eq!(command.status.fault, fault, "{next}");
+    }
+}
+
+#[test]
+fn a_step_of_a_turn_of_a_circle_is_none() {
+    fn faults<const C: u128>(
+        mut steps: ReferenceStep<f32, 2, C>,
+        q: [[f32; 2]; 3],
+    ) -> [Option<Fault>; 3] {
+        q.map(|q| steps.check(&State::at(q)).err())
+    }
+    let turn = [[3.14, 0.0], [3.141 - TAU, 0.0], [3.14, 0.0]];
+    let steps = ReferenceStep::new([2e-3; 2]);
+    let step = |joint| Some(Fault::Reference { joint });
+    assert_eq!(faults(steps.on_circles::<WHEEL>(), turn), [None; 3]);
+    assert_eq!(faults(steps, turn), [None, step(0), step(0)]);
+    let slide = turn.map(|[q, _]| [0.0, q]);
+    assert_eq!(
+        faults(steps.on_circles::<WHEEL>(), slide),
+        [None, step(1), step(1)]
+    );
+    let real = [[3.14, 0.0], [-3.1, 0.0], [-3.1, 0.0]];
+    assert_eq!(
+        faults(steps.on_circles::<WHEEL>(), real),
+        [None, step(0), None]
+    );
+}
+
+#[test]
+fn a_joint_that_stops_on_the_seam_is_not_frozen() {
+    fn run<const C: u128>(mut frozen: FrozenEncoder<f32, 2, C>, reference: f32) -> Option<Fault> {
+        frozen.check(&[3.1, 0.0], &[3.1, 0.0]).ok();
+        // It crosses, while the reference is of the turn before, and stays.
+        let mut fault = None;
+        for tick in 0..20 {
+            let q = if tick < 2 { 3.14159 } else { reference };
+            fault = fault.or(frozen.check(&[-3.1415, 0.0], &[q, 0.0]).err());
+        }
+        fault
+    }
+    let frozen = FrozenEncoder::new([0.01; 2], 4);
+    assert_eq!(run(frozen.on_circles::<WHEEL>(), -3.1413), None);
+    let fault = Some(Fault::Frozen { joint: 0 });
+    assert_eq!(run(frozen, -3.1413), fault);
+    assert_eq!(run(frozen.on_circles::<WHEEL>(), -3.12), fault);
+}
+
+#[test]
+fn all_detectors_are_silent_along_a_motion_over_the_seam() {
+    for way in [1.0, -1.0] {
+        let start = [PI - 0.5 * way, 0.0];
+        let goal = point([start[0] + way, 0.0], 2000);
+        let motion = Trajectory::new(&[point(start, 0), goal], TICK, &LIMITS).expect("slow");
+        let controller = Controller::try_new(config(FREE[0], FREE[1])).expect("a circle");
+        let mut bench = Bench::new(controller, start.map(f64::from));
+        let mut detectors = Detectors {
+            frozen: FrozenEncoder::new([0.01; 2], 4),
+            steps: ReferenceStep::new([2e-3; 2]),
+            saturation: Saturation::new([40.0; 2], 20),
+        }
+        .on_circles::<WHEEL>();
+        for _ in 0..2500 {
+            let (q, acted) = (bench.measured(), bench.controller.reference().q);
+            assert_eq!(detectors.measured(&q, &acted), Ok(()));
+            bench.tick(&motion);
+            let mode = bench.controller.mode();
+            let reference = bench.controller.reference();
+            assert_eq!(detectors.referenced(reference, mode), Ok(()));
+            assert_eq!(detectors.commanded(&bench.command), Ok(()));
+        }
+    }
+}

@@ -45,7 +45,9 @@ impl JointRange {
                 if !(lower <= upper && lower.is_finite() && upper.is_finite()) {
                     return Err(MappingError::Range);
                 }
-                if !((upper - lower) * ratio <= TAU * (1.0 - FREE)) {
+                // False if the difference overflows, too.
+                let is_a_turn_at_most = (upper - lower) * ratio <= TAU * (1.0 - FREE);
+                if !is_a_turn_at_most {
                     return Err(MappingError::Turns);
                 }
                 0.5 * lower + 0.5 * upper
@@ -211,7 +213,7 @@ impl EncoderMapping {
     pub(crate) const fn in_counts(&self, turn: f32) -> (f32, f32) {
         let per_count = TAU / turn;
         let zero = within_turn(self.mapping.zero());
-        (zero / per_count, per_count / self.mapping.to_shaft())
+        (zero / per_count, per_count / self.mapping.shaft_per_joint())
     }
 
     /// The position from which the joint is half a turn away at most when it is placed.
@@ -232,7 +234,7 @@ impl EncoderMapping {
         turns: f32,
         whole: &mut Option<f32>,
     ) -> Result<f32, MappingError> {
-        let near = (self.near * self.mapping.to_shaft() + self.mapping.zero()) * (1.0 / TAU);
+        let near = (self.near * self.mapping.shaft_per_joint() + self.mapping.zero()) * (1.0 / TAU);
         let off = whole.unwrap_or(floor(near - turns + 0.5) as f32);
         let position = self.mapping.position((turns + off) * TAU)?;
         if !self.is_absolute() {

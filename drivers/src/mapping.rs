@@ -126,7 +126,7 @@ impl JointMapping {
     }
 
     /// The same, with the sign of the direction.
-    pub(crate) const fn to_shaft(&self) -> f32 {
+    pub(crate) const fn shaft_per_joint(&self) -> f32 {
         self.to_shaft
     }
 

@@ -412,13 +412,13 @@ fn a_range_that_an_encoder_does_not_resolve_is_refused() {
             Err(MappingError::Range)
         );
     }
-    assert_eq!(of(1.0, within(-3.14, 3.14), 1e-3), Ok(()));
+    assert_eq!(of(1.0, within(-3.140_6, 3.140_6), 1e-3), Ok(()));
     assert_eq!(
-        of(1.0, within(-3.1415, 3.1415), 1e-3),
+        of(1.0, within(-3.141_52, 3.141_52), 1e-3),
         Err(MappingError::Turns)
     );
     assert_eq!(of(2.0, within(-3.0, 3.0), 1e-3), Err(MappingError::Turns));
-    assert_eq!(of(0.5, within(-6.28, 6.28), 1e-3), Ok(()));
+    assert_eq!(of(0.5, within(-6.282, 6.282), 1e-3), Ok(()));
     assert_eq!(
         of(1.0, JointRange::Near(f32::NAN), 1e-3),
         Err(MappingError::Range)

@@ -166,61 +166,6 @@ impl Args {
     }
 }
 
-impl Args {
-    /// The name of the type in the file that is written anew: a program that uses it compiles on.
-    fn kept_type(&self) -> Option<String> {
-        let out = self.out.as_ref().filter(|_| self.name.is_none())?;
-        write::type_of(&std::fs::read_to_string(out).ok()?)
-    }
-
-    /// The words after `import` that write the file of this robot again, as a shell takes them.
-    fn again(&self, name: &str) -> String {
-        let Options {
-            base,
-            tip,
-            joints,
-            without,
-            lock,
-            free_base,
-            motors,
-            repair,
-            keep_roundings,
-            ..
-        } = &self.options;
-        let mut words = vec![file_name(&self.file), "--name".to_owned(), name.to_owned()];
-        let mut option = |option: &str, value: String| words.push(format!("{option}={value}"));
-        for (name, value) in [
-            ("--base", base),
-            ("--tip", tip),
-            ("--type", &self.type_name),
-        ] {
-            value.iter().for_each(|value| option(name, value.clone()));
-        }
-        for (name, values) in [("--joints", joints), ("--motors", motors)] {
-            (!values.is_empty()).then(|| option(name, values.join(",")));
-        }
-        without
-            .iter()
-            .for_each(|link| option("--without", link.clone()));
-        for (joint, position) in lock {
-            option("--lock", format!("{joint}={position}"));
-        }
-        let flags = [
-            ("--free-base", free_base),
-            ("--repair", repair),
-            ("--keep-roundings", keep_roundings),
-        ];
-        words.extend(
-            flags
-                .iter()
-                .filter(|flag| *flag.1)
-                .map(|flag| flag.0.to_owned()),
-        );
-        let quoted: Vec<String> = words.iter().map(|word| shell_word(word)).collect();
-        quoted.join(" ")
-    }
-}
-
 fn locked(text: &str) -> std::result::Result<(String, f64), String> {
     let (name, position) = text.rsplit_once('=').ok_or("expected JOINT=POSITION")?;
     let position: f64 = position

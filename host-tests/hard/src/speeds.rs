@@ -92,7 +92,7 @@ fn counter(counts: i32) -> MultiTurnEncoder<12> {
     let mut counter = MultiTurnEncoder::new(mapping.expect("slower than its encoder"));
     // Less than half a turn from one reading to the next.
     for count in (0..counts.abs()).step_by(2047).chain([counts.abs()]) {
-        let _ = counter.update((count * counts.signum() & 0xfff) as u16);
+        let _ = counter.update(((count * counts.signum()) & 0xfff) as u16);
     }
     counter
 }

@@ -1,6 +1,7 @@
 //! Integrators: their orders, what keeps energy, what damping cannot shake, and what compensated addition repairs.
 
 use dynamics_core::Core;
+use dynamics_core::algorithms::{kinetic_energy, potential_energy};
 use dynamics_core::effects::{Effect, RIGID_BODY, Viscous};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot, RobotModel, Static};
 use dynamics_core::scalar::Real;
@@ -193,10 +194,9 @@ where
         let state = State {
             q,
             qd,
-            qdd: [0.0; 2],
+            qdd: [0.0_f64; 2],
         };
-        let kinetic = Core::<Two>::kinetic_energy(&state, &RIGID_BODY);
-        kinetic + Core::<Two>::potential_energy(&q, &RIGID_BODY)
+        kinetic_energy(&TWO, &state, &RIGID_BODY) + potential_energy(&TWO, &state.q, &RIGID_BODY)
     };
     let mut state = State::at(start.map(R::from_f64));
     let rest = energy(&State::at([R::ZERO; 2]));

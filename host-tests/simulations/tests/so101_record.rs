@@ -146,7 +146,10 @@ fn identified(friction: impl Effect<f32, 6, 6> + Clone) -> [[f64; 2]; 6] {
     };
     let robot = described();
     let found = run::identify(&robot, (path, &recorded), None, &options).expect("parameters");
-    assert_eq!((found.delay, found.mistake.as_ref()), (0.5 * f64::from(TICK), None));
+    assert_eq!(
+        (found.delay, found.mistake.as_ref()),
+        (0.5 * f64::from(TICK), None)
+    );
     errors(&robot, &found)
 }
 

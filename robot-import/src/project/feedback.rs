@@ -219,15 +219,11 @@ fn factor(matrix: &[Vec<f64>]) -> std::result::Result<Vec<Vec<f64>>, usize> {
     let mut rows = matrix.to_vec();
     for k in 0..rows.len() {
         for j in 0..k {
-            let mut sum = rows[k][j];
-            for i in 0..j {
-                sum -= rows[k][i] * rows[j][i] * rows[i][i];
-            }
-            rows[k][j] = sum / rows[j][j];
+            let before: f64 = (0..j).map(|i| rows[k][i] * rows[j][i] * rows[i][i]).sum();
+            rows[k][j] = (rows[k][j] - before) / rows[j][j];
         }
-        for i in 0..k {
-            rows[k][k] -= rows[k][i] * rows[k][i] * rows[i][i];
-        }
+        let before: f64 = (0..k).map(|i| rows[k][i] * rows[k][i] * rows[i][i]).sum();
+        rows[k][k] -= before;
         let rounding = 1e-13 * matrix[k][k].abs();
         // False for a NaN, too.
         let is_positive = rows[k][k] > rounding;

@@ -112,7 +112,6 @@ fn engine_equals_core_on_every_kind_of_joint_under_every_effect() {
 
 #[cfg(feature = "full")]
 mod full {
-    use dynamics_core::model::OnBody;
 
     use dynamics_core::algorithms::Prescribed::{Acceleration, Torque};
     use dynamics_core::algorithms::{self, MassMatrix, frame::LocalWorldAligned};

@@ -117,7 +117,7 @@ fn on_brake([lower, upper]: [f32; 2], q: [f64; 2]) -> Bench {
 fn a_reset_at_the_same_place_on_another_turn_starts() {
     for (stands, begins) in [
         (-3.10, 3.18),
-        (6.28, 0.01),
+        (6.282, 0.01),
         (0.0, 25.13),
         (3.1, -3.1831855),
         (-25.13, 12.57),

@@ -4,16 +4,16 @@ use super::*;
 
 #[test]
 fn a_jump_is_measured_along_the_circle() {
-    let rest = State::at([3.14, 0.0]);
+    let rest = State::at([3.140_6, 0.0]);
     for (next, fault) in [
-        (-3.14, None),
+        (-3.140_6, None),
         (3.136, None),
         (-3.1, Some(Fault::Jump { joint: 0 })),
         (0.0, Some(Fault::Jump { joint: 0 })),
         (3.18 - 3.0 * TAU, Some(Fault::Jump { joint: 0 })),
         (3.1402 - 3.0 * TAU, None),
     ] {
-        let mut bench = on_brake(FREE, [3.14, 0.0]);
+        let mut bench = on_brake(FREE, [3.140_6, 0.0]);
         bench.controller.reset(&rest).expect("near");
         bench.tick(&rest);
         let command = bench
@@ -31,7 +31,7 @@ fn a_step_of_a_turn_of_a_circle_is_none() {
     ) -> [Option<Fault>; 3] {
         q.map(|q| steps.check(&State::at(q)).err())
     }
-    let turn = [[3.14, 0.0], [3.141 - TAU, 0.0], [3.14, 0.0]];
+    let turn = [[3.140_6, 0.0], [3.141_3 - TAU, 0.0], [3.140_6, 0.0]];
     let steps = ReferenceStep::new([2e-3; 2]);
     let step = |joint| Some(Fault::Reference { joint });
     assert_eq!(faults(steps.on_circles::<WHEEL>(), turn), [None; 3]);
@@ -41,7 +41,7 @@ fn a_step_of_a_turn_of_a_circle_is_none() {
         faults(steps.on_circles::<WHEEL>(), slide),
         [None, step(1), step(1)]
     );
-    let real = [[3.14, 0.0], [-3.1, 0.0], [-3.1, 0.0]];
+    let real = [[3.140_6, 0.0], [-3.1, 0.0], [-3.1, 0.0]];
     assert_eq!(
         faults(steps.on_circles::<WHEEL>(), real),
         [None, step(0), None]
@@ -55,8 +55,8 @@ fn a_joint_that_stops_on_the_seam_is_not_frozen() {
         // It crosses, while the reference is of the turn before, and stays.
         let mut fault = None;
         for tick in 0..20 {
-            let q = if tick < 2 { 3.14159 } else { reference };
-            fault = fault.or(frozen.check(&[-3.1415, 0.0], &[q, 0.0]).err());
+            let q = if tick < 2 { 3.141_58 } else { reference };
+            fault = fault.or(frozen.check(&[-3.141_52, 0.0], &[q, 0.0]).err());
         }
         fault
     }

@@ -57,6 +57,8 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     };
 
     /// A counter without a reading, at the place where its joint is taken to be.
+    // Once for all joints of a robot: it is called at the start only.
+    #[inline(never)]
     pub const fn new(mapping: EncoderMapping) -> Self {
         let (zero, per_half) = mapping.in_counts((2_u32 << BITS) as f32);
         let near = place(mapping.near(), zero, per_half);

@@ -133,7 +133,6 @@ def text(found: dict) -> str:
     lines = [
         BEGIN,
         "<!-- written by `python/bench.py --write`: do not edit -->",
-        "",
         f"A call for one state of a UR5e (`rnea`), µs, Python {found['python']}, numpy {found['numpy']}:",
         "",
         "| dtype | a call | the library's own time | beyond it | bar |",
@@ -162,7 +161,7 @@ def text(found: dict) -> str:
     lines += ["", f"Bar: 5 for `rnea` of f32. Measured sources: `{found['sources']}`."]
     # As xtask/src/kit/docs/seal.rs reads it, so that a changed digit is seen.
     total = hashlib.sha256("\n".join(lines[1:]).encode()).hexdigest()[:16]
-    return "\n".join([*lines, "", f"<!-- sum of the above: {total} -->", END])
+    return "\n".join([*lines, f"<!-- sum of the above: {total} -->", END])
 
 
 # Colour and, in a dark scheme, another, as in the other pictures of docs/.

@@ -38,7 +38,7 @@ pub fn page(written: &str, part: Part, text: &str) -> Result<String> {
     let (before, rest) = written.split_once(&begin).ok_or_else(missing)?;
     let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
     let block =
-        format!("<!-- written by `cargo xtask certify --write-docs`: do not edit -->\n\n{text}");
+        format!("<!-- written by `cargo xtask certify --write-docs`: do not edit -->\n{text}");
     Ok(format!("{before}{begin}{}{end}{after}", sealed(&block)))
 }
 
@@ -54,7 +54,7 @@ fn markers(part: Part) -> (String, String, String) {
 fn sealed(block: &str) -> String {
     let block = block.trim();
     let sum = &hexadecimal(Sha256::new_with_prefix(block))[..16];
-    format!("{block}\n\n{BEFORE_SUM}{sum} -->\n")
+    format!("{block}\n{BEFORE_SUM}{sum} -->\n")
 }
 
 /// A block without its sum.

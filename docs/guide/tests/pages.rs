@@ -108,6 +108,7 @@ fn dependencies(manifest: &str) -> Vec<[String; 3]> {
         .split_once("[dependencies]\n")
         .expect("dependencies");
     let lines = rest.lines().take_while(|line| !line.is_empty());
+    let lines = lines.filter(|line| !line.starts_with('#'));
     let registry = lines.filter(|line| !line.contains("{{library}}") && !line.contains(" = {{"));
     let parts = registry.map(|line| {
         let strings: Vec<&str> = line.split('"').skip(1).step_by(2).collect();

@@ -143,7 +143,7 @@ impl Circles {
     ///
     /// ```
     /// use motion_control::Circles;
-    /// let [wheel, slide] = Circles::NONE.with(0).near(&[-3.1, -3.1], &[3.1, 3.1]);
+    /// let [wheel, slide] = Circles::NONE.with(0).near(&[-3.1_f32, -3.1], &[3.1, 3.1]);
     /// assert!((wheel - 3.183).abs() < 1e-3 && slide == -3.1);
     /// ```
     #[inline]

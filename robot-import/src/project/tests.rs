@@ -265,7 +265,7 @@ fn the_boards_use_the_versions_of_the_lock_file() {
         let registry = dependencies
             .lines()
             .take_while(|line| !line.is_empty())
-            .filter(|line| !line.contains("path = "));
+            .filter(|line| !line.contains("path = ") && !line.starts_with('#'));
         let mut count = 0;
         for line in registry {
             let name = line.split(' ').next().unwrap_or_default();

@@ -13,7 +13,8 @@ fn it_stays_at_its_reference() {
     let along = Excitation::new(&motion);
     let (home, full_scale) = (home(), limits(&motion).torque);
     let wires = Wires::new();
-    let (encoders, drives) = (wires.encoders(&home), wires.drives(&full_scale));
+    let encoders = wires.encoders(&motion, &home).unwrap_or_else(|error| panic!("{error}"));
+    let drives = wires.drives(&full_scale);
     let controller = controller(&motion).unwrap_or_else(|error| panic!("{error}"));
     let mut control = ControlLoop::new(encoders, drives, wires.brake(), gains(), controller, ());
     let mut plant = Plant::new(home, full_scale);

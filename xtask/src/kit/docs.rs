@@ -82,7 +82,7 @@ impl Page<'_> {
             return text.to_owned();
         }
         seal::sealed(&format!(
-            "<!-- written by `{}`: do not edit -->\n\n{text}",
+            "<!-- written by `{}`: do not edit -->\n{text}",
             self.command
         ))
     }

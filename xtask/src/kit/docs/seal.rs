@@ -8,7 +8,7 @@ const BEFORE: &str = "<!-- sum of the above: ";
 /// A text with its sum as its last line.
 pub fn sealed(text: &str) -> String {
     let text = text.trim();
-    format!("{text}\n\n{BEFORE}{} -->\n", sum(text))
+    format!("{text}\n{BEFORE}{} -->\n", sum(text))
 }
 
 /// A text without its sum.

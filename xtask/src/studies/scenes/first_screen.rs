@@ -137,7 +137,7 @@ pub fn worth(report: &Report) -> String {
     let table = Table::of(effects, &columns).markdown();
     let rustc = &report.rustc;
     format!(
-        "{table}\nA UR5e's pick and place; its tick takes {longest} cycles with all of them.\nMeasured with {rustc}."
+        "{table}\nA UR5e's pick and place; its tick takes {longest} cycles with all of them. Measured with {rustc}."
     )
 }
 

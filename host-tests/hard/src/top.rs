@@ -38,7 +38,7 @@ fn top() -> Vec<Row> {
     let weight = mass * g * l;
     let mut rows = accelerations::<f32>(&model, &start, weight);
     rows.extend(accelerations::<f64>(&model, &start, weight));
-    for (how, bounds) in INTEGRATORS.iter().zip([[5e-2; 2], [5e-2; 2], [1e-5, 1e-6]]) {
+    for (how, bounds) in INTEGRATORS.iter().zip([[5e-2; 2], [5e-3; 2], [1e-5, 1e-6]]) {
         let h = if how.order == 1 { 1e-4 } else { 1e-3 };
         let axis = |h| precession::<f64>(&model, &start, how, h, LEAN, TURN);
         let (single, double) = (

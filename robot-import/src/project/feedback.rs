@@ -26,6 +26,10 @@ const NARROW: f64 = 32.0;
 /// As in the template's `scene.rs`, rad/s².
 const MOST_ACCELERATION: f64 = 1e5;
 
+/// The dry friction of a joint relative to its inertia up to which feedback by that inertia holds it, rad/s²; at twice this it
+/// does not.
+const MOST_STOPPING: f64 = 5e5;
+
 /// The numbers of a project that depend on the robot's inertia, and what its user has to know of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feedback {
@@ -124,6 +128,13 @@ impl Feedback {
                 continue;
             };
             let light = MOST_ACCELERATION * ratio(body.kind) * inertia[joint];
+            if body.friction > MOST_STOPPING * ratio(body.kind) * inertia[joint] {
+                self.words.push(format!(
+                    "joint `{name}` has a dry friction of {} on an inertia of {:.1e} alone: no feedback holds it, and `cargo test` may \
+                     fail; the file has no rotor inertia (armature), which a joint with such friction has: state it",
+                    body.friction, inertia[joint]
+                ));
+            }
             if needed > effort {
                 self.words.push(format!(
                     "joint `{name}` needs {needed:.3} for the motion of the project, its limit of torque is {effort}: `cargo test` \

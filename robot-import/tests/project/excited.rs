@@ -16,7 +16,7 @@ fn it_stays_at_its_reference() {
     let encoders = wires.encoders(&motion, &home).unwrap_or_else(|error| panic!("{error}"));
     let drives = wires.drives(&full_scale);
     let controller = controller(&motion).unwrap_or_else(|error| panic!("{error}"));
-    let mut control = ControlLoop::new(encoders, drives, wires.brake(), gains(), controller, ());
+    let mut control = ControlLoop::on_circles(encoders, drives, wires.brake(), gains(), controller, ());
     let mut plant = Plant::new(home, full_scale);
     let mut most = [0.0_f32; N];
     for tick in 0..10_000 {

@@ -68,7 +68,7 @@ const ROUNDING: f64 = 1e-3;
 
 /// What is impossible about the inertia of a body, in the frame of its description.
 fn impossible_body<R: Real>(link: &Link<R>) -> Option<Advice> {
-    let found = impossible(&link.inertia, ROUNDING)?;
+    let found = impossible::<R, true>(&link.inertia, ROUNDING)?;
     let [x, y, z] = found.axis.map(R::from_f64);
     let axis = link.to_joint_frame.transpose() * R::Vec3::new(x, y, z);
     Some(Advice::ImpossibleInertia {

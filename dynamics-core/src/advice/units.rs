@@ -281,7 +281,7 @@ impl AboutJoint {
         };
         Some(Self {
             share: shift / largest,
-            is_possible: ImpossibleInertia::beyond(about_com, 1e-6, 0.0).is_none(),
+            is_possible: ImpossibleInertia::beyond::<false>(about_com, 1e-6, 0.0).is_none(),
             is_wide,
             largest,
             shift,

@@ -247,8 +247,8 @@ pub(super) fn is_massless<R: Real>(inertia: &SpatialInertia<R>) -> bool {
         && (some(&inertia.first_moment) || inertia.rotational.cols().iter().any(some))
 }
 
-/// Why no body has an inertia, if it is by more than `relative` of the largest moment.
-pub(crate) fn impossible<R: Real>(
+/// Why no body has an inertia, if it is by more than `relative` of the largest moment; its axis if AXIS is true.
+pub(crate) fn impossible<R: Real, const AXIS: bool>(
     inertia: &SpatialInertia<R>,
     relative: f64,
 ) -> Option<ImpossibleInertia> {
@@ -272,5 +272,5 @@ pub(crate) fn impossible<R: Real>(
             }
         }
     }
-    ImpossibleInertia::beyond(a, relative, noise)
+    ImpossibleInertia::beyond::<AXIS>(a, relative, noise)
 }

@@ -87,7 +87,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
             if skew > relative || skew.is_nan() {
                 return Err(wrong(Problem::Asymmetric(skew)));
             }
-            if let Some(found) = body::impossible(&link.inertia, relative) {
+            if let Some(found) = body::impossible::<R, false>(&link.inertia, relative) {
                 return Err(wrong(found.problem()));
             }
         }

@@ -32,7 +32,9 @@ impl<R: Real> BodyInertia<R> {
         if self.mass == R::ZERO && self.inertia.iter().any(|&x| x != R::ZERO) {
             return Some(Problem::Massless);
         }
-        ImpossibleInertia::of(self.inertia.map(R::to_f64), relative).map(|found| found.problem())
+        let [xx, xy, xz, yy, yz, zz] = self.inertia.map(R::to_f64);
+        let moments = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+        ImpossibleInertia::beyond::<false>(moments, relative, 0.0).map(|found| found.problem())
     }
 
     /// The same about the origin. RBDA (2.63).

@@ -36,7 +36,7 @@ pub struct ImpossibleInertia {
 impl ImpossibleInertia {
     /// What is impossible about xx, xy, xz, yy, yz, zz, kg·m², if it is by more than `relative` of the largest moment.
     pub const fn of([xx, xy, xz, yy, yz, zz]: [f64; 6], relative: f64) -> Option<Self> {
-        Self::beyond([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], relative, 0.0)
+        Self::beyond::<true>([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], relative, 0.0)
     }
 
     /// The nearest inertia that a body may have, in the Frobenius norm: that of the second moments without their negative
@@ -48,7 +48,7 @@ impl ImpossibleInertia {
     /// assert_eq!([xx, yy, zz], [1.25, 1.25, 2.5]);
     /// ```
     pub fn nearest([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> [f64; 6] {
-        let Eigen { values, vectors } = eigen([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
+        let Eigen { values, vectors } = eigen::<true>([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
         let half = 0.5 * (xx + yy + zz);
         let second = values.map(|moment| if moment < half { half - moment } else { 0.0 });
         let sum: f64 = second.iter().sum();
@@ -62,12 +62,13 @@ impl ImpossibleInertia {
     }
 
     /// As [`ImpossibleInertia::of`], but nothing for what does not exceed `noise`, kg·m²: a point mass has no moments but that.
-    pub(crate) const fn beyond(
+    /// Without AXIS the axis is not computed, which is code that a firmware with checks alone does not have.
+    pub(crate) const fn beyond<const AXIS: bool>(
         about_com: [[f64; 3]; 3],
         relative: f64,
         noise: f64,
     ) -> Option<Self> {
-        let Eigen { values, vectors } = eigen(about_com);
+        let Eigen { values, vectors } = eigen::<AXIS>(about_com);
         let (mut least, mut most, mut i) = (0, 0, 1);
         while i < 3 {
             if values[i] < values[least] {

@@ -182,14 +182,15 @@ pub(crate) struct Eigen {
     pub(crate) vectors: [[f64; 3]; 3],
 }
 
-/// By cyclic Jacobi rotations, each quadratic in the entries that are left: eight sweeps are more than f64 needs.
-pub(crate) const fn eigen(mut a: [[f64; 3]; 3]) -> Eigen {
+/// By cyclic Jacobi rotations, each quadratic in the entries that are left: eight sweeps are more than f64 needs. The
+/// vectors are those of the unit matrix unless they are asked for.
+pub(crate) const fn eigen<const VECTORS: bool>(mut a: [[f64; 3]; 3]) -> Eigen {
     let mut vectors = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let mut sweep = 0;
     while sweep < 8 {
-        rotate::<0, 1>(&mut a, &mut vectors);
-        rotate::<0, 2>(&mut a, &mut vectors);
-        rotate::<1, 2>(&mut a, &mut vectors);
+        rotate::<0, 1, VECTORS>(&mut a, &mut vectors);
+        rotate::<0, 2, VECTORS>(&mut a, &mut vectors);
+        rotate::<1, 2, VECTORS>(&mut a, &mut vectors);
         sweep += 1;
     }
     Eigen {
@@ -200,7 +201,7 @@ pub(crate) const fn eigen(mut a: [[f64; 3]; 3]) -> Eigen {
 
 /// The rotation in the plane of axes P and Q that makes the entry there zero; its indices are constants, so that no check of
 /// bounds is left.
-const fn rotate<const P: usize, const Q: usize>(
+const fn rotate<const P: usize, const Q: usize, const VECTORS: bool>(
     a: &mut [[f64; 3]; 3],
     vectors: &mut [[f64; 3]; 3],
 ) {
@@ -219,9 +220,11 @@ const fn rotate<const P: usize, const Q: usize>(
     let ([px, py, pz], [qx, qy, qz]) = (a[P], a[Q]);
     a[P] = [c * px - s * qx, c * py - s * qy, c * pz - s * qz];
     a[Q] = [s * px + c * qx, s * py + c * qy, s * pz + c * qz];
-    let ([px, py, pz], [qx, qy, qz]) = (vectors[P], vectors[Q]);
-    vectors[P] = [c * px - s * qx, c * py - s * qy, c * pz - s * qz];
-    vectors[Q] = [s * px + c * qx, s * py + c * qy, s * pz + c * qz];
+    if VECTORS {
+        let ([px, py, pz], [qx, qy, qz]) = (vectors[P], vectors[Q]);
+        vectors[P] = [c * px - s * qx, c * py - s * qy, c * pz - s * qz];
+        vectors[Q] = [s * px + c * qx, s * py + c * qy, s * pz + c * qz];
+    }
 }
 
 #[cfg(test)]
@@ -257,7 +260,7 @@ mod tests {
             [1.0, 1.5, 0.0, 1.0, 0.0, 1.0],
         ] {
             let [xx, xy, xz, yy, yz, zz] = m;
-            let found = super::eigen([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
+            let found = super::eigen::<true>([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
             let m = DMat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
             for (value, axis) in found.values.into_iter().zip(found.vectors) {
                 let axis = DVec3::from_array(axis);
@@ -270,7 +273,7 @@ mod tests {
     #[test]
     fn eigenvalues_of_a_known_matrix() {
         let a = [[2.0, 1.0, 0.0], [1.0, 2.0, 1.0], [0.0, 1.0, 2.0]];
-        let mut e = super::eigen(a).values;
+        let mut e = super::eigen::<false>(a).values;
         e.sort_by(f64::total_cmp);
         for (got, want) in e
             .iter()

@@ -146,10 +146,8 @@ fn identified(friction: impl Effect<f32, 6, 6> + Clone) -> [[f64; 2]; 6] {
     };
     let robot = described();
     let found = run::identify(&robot, (path, &recorded), None, &options).expect("parameters");
-    assert_eq!(
-        (found.delay, found.mistake.as_ref()),
-        (0.5 * f64::from(TICK), None)
-    );
+    // The half tick of a torque that is held for a tick: no delay beside it, and no mistake.
+    assert_eq!((found.delay, found.mistake.as_ref()), (1e-3, None));
     errors(&robot, &found)
 }
 

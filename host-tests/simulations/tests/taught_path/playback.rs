@@ -183,7 +183,8 @@ fn a_taught_path_is_played_within_motor_torques() {
             1e3 * played.error
         );
         println!("{tolerance}: planned {planned}, {played:?}, {off} rad");
-        let most = if tolerance > 0.0 { 1.01 } else { 1.06 };
+        // Between the points of the grid, a path through every noisy way-point bends more.
+        let most = if tolerance > 0.0 { 1.01 } else { 1.1 };
         assert!(planned < SHARE * most, "{tolerance}: {planned}");
         assert!(played.limited == 0 && played.torque < 0.95, "{played:?}");
         assert!(seconds < last, "a path that may be smoother is faster");

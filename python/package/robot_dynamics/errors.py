@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 __all__ = [
+    "AngleError",
+    "ArgumentError",
     "DescriptionError",
     "DtypeError",
     "EffectError",
@@ -103,6 +105,13 @@ class ShapeError(RobotDynamicsError, ValueError):
     """What is expected."""
 
 
+class ArgumentError(RobotDynamicsError, TypeError, ValueError):
+    """An argument that is not of its type, such as a list of two numbers for a direction."""
+
+    given: Any
+    """What was given."""
+
+
 class DtypeError(RobotDynamicsError, TypeError):
     """An array that is neither all float32 nor all float64, or no array of numbers."""
 
@@ -133,6 +142,21 @@ class MultiDofJoint(RobotDynamicsError, ValueError):
 
     joint: str
     """The joint's name."""
+    state: int
+    """The state's index in the batch; 0 of a single state."""
+
+
+class AngleError(RobotDynamicsError, ValueError):
+    """An angle beyond the range in which sines are computed, where its whole turns matter."""
+
+    joint: str
+    """The joint's name; that of the linkage, where it is an angle of a linkage."""
+    coordinate: int | None
+    """The velocity coordinate; none of a linkage."""
+    angle: float
+    """The angle, rad."""
+    limit: float
+    """The largest angle, rad."""
     state: int
     """The state's index in the batch; 0 of a single state."""
 

@@ -1,5 +1,5 @@
-//! Angles beyond the range in which the library computes sines: whole turns are subtracted before the call, in f64, and where
-//! turns matter the angle is refused.
+//! Angles beyond the range in which the library computes sines: whole turns are subtracted before
+//! the call, in f64, and where turns matter the angle is refused.
 
 use dynamics_core::model::JointKind;
 use pyo3::prelude::*;
@@ -9,7 +9,8 @@ use crate::compute::Numbers;
 use crate::error::Exception;
 use crate::robot::Robot;
 
-/// The range of the engine in f32 for joints whose limits are within two turns, rad: `Link::angle_range`.
+/// The range of the engine in f32 for joints whose limits are within two turns, rad:
+/// `Link::angle_range`.
 const NEAR: f64 = 100.0;
 
 /// A position coordinate whose derivative is a velocity coordinate.
@@ -104,9 +105,19 @@ impl Positions<'_> {
         engine: bool,
         effects: &[Spec],
     ) -> PyResult<Option<Vec<R>>> {
+        let narrow = engine && size_of::<R>() == 4;
+        let cogs = effects
+            .iter()
+            .any(|effect| matches!(effect, Spec::Cogging { .. }));
+        // Almost always none is large, which one pass over all numbers finds.
+        let least = R::from_f64(if narrow { NEAR } else { R::MOST_ANGLE });
+        let fits = |part: &[R]| part.iter().fold(true, |all, x| all & (x.abs() <= least));
+        if !cogs && data.chunks(1024).all(fits) {
+            return Ok(None);
+        }
         let mut changed: Option<Vec<R>> = None;
         for position in self.at {
-            let most = match engine && position.near && size_of::<R>() == 4 {
+            let most = match narrow && position.near {
                 true => NEAR,
                 false => R::MOST_ANGLE,
             };
@@ -164,7 +175,8 @@ fn within_half_a_turn(angle: f64) -> f64 {
     sin.atan2(cos)
 }
 
-/// Where the positions of a robot's joints are, of kinds and limits; and the velocities that are rates of attitudes.
+/// Where the positions of a robot's joints are, of kinds and limits; and the velocities that are
+/// rates of attitudes.
 pub fn of_joints(
     joints: impl Iterator<Item = (JointKind, [f64; 4])>,
 ) -> (Vec<Position>, Vec<Position>) {

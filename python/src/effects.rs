@@ -384,8 +384,8 @@ fn end_stops(
     finite(py, scene, &[&lower, &upper, &[stiffness, damping]])
 }
 
-/// Cogging: periods per turn of each joint, and per joint the torques of up to 8 harmonics, N·m. Periods times angle may be up
-/// to 10⁴ rad in float32 and 10⁵ rad in float64.
+/// Cogging: periods per turn of each joint, and per joint the torques of up to 8 harmonics, N·m.
+/// Periods times angle may be up to 10⁴ rad in float32 and 10⁵ rad in float64.
 #[pyfunction(name = "Cogging")]
 fn cogging(
     py: Python<'_>,
@@ -406,8 +406,8 @@ fn cogging(
     finite(py, scene, &lists)
 }
 
-/// A constant torque that the motor of each joint supplies in any state, N·m or N: the offset of a sensor, or the mean of a
-/// friction that differs with direction.
+/// A constant torque that the motor of each joint supplies in any state, N·m or N: the offset of a
+/// sensor, or the mean of a friction that differs with direction.
 #[pyfunction(name = "ConstantTorque")]
 fn constant_torque(
     py: Python<'_>,
@@ -498,8 +498,9 @@ fn world_wrench(
     )
 }
 
-/// Points of bodies that touch a plane n·x = height (m), n being ``normal``, a vector of length 1: stiffness N/m, damping N·s/m from ``damping_depth`` m on,
-/// coefficient of friction, and the speed below which friction sticks, m/s.
+/// Points of bodies that touch a plane n·x = height (m), n being ``normal``, a vector of length 1:
+/// stiffness N/m, damping N·s/m from ``damping_depth`` m on, coefficient of friction, and the speed
+/// below which friction sticks, m/s.
 #[pyfunction(name = "Contact")]
 #[pyo3(signature = (points, normal, height, stiffness, damping, damping_depth, friction, slip_tolerance))]
 #[allow(

@@ -48,12 +48,14 @@ use said::Said;
 /// (x, y, z, w), of a free joint that and then the position; q̇ of a free joint has the angular velocity first, both in
 /// the body's axes.
 ///
-/// Angles may have any size. Sines are computed to ±10⁴ rad in float32 and to ±10⁵ rad in float64 (``form="engine"``: ±100
-/// rad in float32 for joints whose limits are within ±4π); of an angle beyond, whole turns are subtracted in float64 before
-/// the call. Where turns matter, AngleError names joint and state: at joints with a spring, end stops or cogging, in
+/// Angles may have any size. Sines are computed to ±10⁴ rad in float32 and to ±10⁵ rad in float64
+/// (``form="engine"``: ±100 rad in float32 for joints whose limits are within ±4π); of an angle
+/// beyond, whole turns are subtracted in float64 before the call. Where turns matter, AngleError
+/// names joint and state: at joints with a spring, end stops or cogging, in
 /// `elastic_inverse_dynamics` and `Loops.assemble`, which return positions, and in linkages.
 ///
-/// A state with a NaN or an infinite number has NaN in its own row of the results; the others of its batch are computed.
+/// A state with a NaN or an infinite number has NaN in its own row of the results; the others of
+/// its batch are computed.
 #[pyclass(frozen, module = "robot_dynamics", name = "Robot")]
 pub struct Robot {
     pub single: Models<f32>,

@@ -99,3 +99,11 @@ def test_a_singular_row_that_is_finite_is_an_error():
     assert error.value.state == 1
     m[1, 0, 0] = np.nan
     assert np.isnan(robot.ltdl(m)[0][1]).all() and np.isfinite(robot.ltdl(m)[0][[0, 2]]).all()
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_the_engine_marks_its_rows(dtype):
+    arm = rd.Robot("ur5e")
+    q, v, a = arguments(arm, "q v a", 24, dtype)
+    marks_its_row(lambda *given: arm.rnea(*given, form="engine"), [q, v, a], range(3))
+    marks_its_row(lambda *given: arm.bias(*given, form="engine"), [q, v], range(2))

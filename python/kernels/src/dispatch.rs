@@ -69,7 +69,8 @@ pub struct Call<'a, D, P, R: Real, const V: usize> {
     pub rows: &'a mut P,
 }
 
-/// Computes the rows one after the other. One that has no result because an argument is not finite marks itself.
+/// Computes the rows one after the other. One that has no result because an argument is not finite
+/// marks itself.
 fn go<
     O: Algorithm,
     R: Real,

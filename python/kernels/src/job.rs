@@ -114,8 +114,8 @@ pub trait Row<R> {
     fn get(&self, input: usize, column: usize) -> R;
     /// Writes number `column` of result `output`.
     fn put(&mut self, output: usize, column: usize, value: R);
-    /// Makes all results NaN if an argument is not finite, and says whether it is so. Several states at once are never marked: a
-    /// block without a result is computed again state by state.
+    /// Makes all results NaN if an argument is not finite, and says whether it is so. Several
+    /// states at once are never marked: a block without a result is computed again state by state.
     fn mark(&mut self) -> bool {
         false
     }
@@ -150,7 +150,7 @@ impl<R: Real> Row<R> for One<'_, '_, R> {
             return false;
         }
         for output in &mut self.job.outputs {
-            output.data[own(output.width)].fill(R::ZERO / R::ZERO);
+            output.data[own(output.width)].fill(R::from_f64(f64::NAN));
         }
         true
     }

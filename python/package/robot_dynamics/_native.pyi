@@ -57,12 +57,16 @@ __all__ = [
     "Stribeck",
     "Viscous",
     "WorldWrench",
+    "_robot",
+    "_scene",
     "robots",
     "threads",
 ]
 
 RIGID_BODY: Scene
 
+def _robot(numbers: str) -> Robot: ...
+def _scene(effects: str) -> Scene: ...
 def robots() -> list[str]: ...
 def threads() -> int: ...
 @final

@@ -127,7 +127,7 @@ class EffectError(RobotDynamicsError, ValueError):
 
 
 class NotPositiveDefinite(RobotDynamicsError, ArithmeticError):
-    """M is not positive definite: a joint moves no inertia, or a number of the state is not finite."""
+    """M is not positive definite: a joint moves no inertia, or a number overflows."""
 
     joint: str
     """The joint's name."""
@@ -162,7 +162,7 @@ class AngleError(RobotDynamicsError, ValueError):
 
 
 class NoAttitude(RobotDynamicsError, ValueError):
-    """A quaternion of length zero, or one that is not finite."""
+    """A quaternion of length zero, or so small that its square is."""
 
     joint: str
     """The joint's name."""
@@ -207,7 +207,7 @@ class UnderActuated(RobotDynamicsError, ArithmeticError):
 
 
 class NotFinite(RobotDynamicsError, ArithmeticError):
-    """A number that is infinite or NaN reaches a loop."""
+    """A number of a loop overflows: one that is given as NaN or infinite marks its row instead."""
 
     loop: str
     """The loop's name."""

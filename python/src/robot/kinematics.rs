@@ -43,9 +43,10 @@ impl Robot {
         )
     }
 
-    /// J̇ q̇ of a body, (…, 6), rad/s² and m/s²: what `jacobian` leaves of the derivative of v = J q̇ without q̈; q (…, nq),
-    /// q̇ (…, nv). In the frames "local" and "world" it is the spatial acceleration, as that of `kinematics` at q̈ = 0; in
-    /// "local_world_aligned" its linear part is the acceleration of the body's origin, and that of `kinematics` is less by ω × v.
+    /// J̇ q̇ of a body, (…, 6), rad/s² and m/s²: what `jacobian` leaves of the derivative of v = J
+    /// q̇ without q̈; q (…, nq), q̇ (…, nv). In the frames "local" and "world" it is the spatial
+    /// acceleration, as that of `kinematics` at q̈ = 0; in "local_world_aligned" its linear part is
+    /// the acceleration of the body's origin, and that of `kinematics` is less by ω × v.
     #[pyo3(signature = (q, qd, body, frame = "local"))]
     fn bias_acceleration<'py>(
         &self,

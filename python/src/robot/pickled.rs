@@ -1,5 +1,5 @@
-//! Robots that are pickled and copied. A robot of the library is its name; one of a file is the numbers that were read, so that
-//! it is the same where the file is not.
+//! Robots that are pickled and copied. A robot of the library is its name; one of a file is the
+//! numbers that were read, so that it is the same where the file is not.
 
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;

@@ -35,7 +35,8 @@ impl PyAdvice {
     }
 }
 
-/// A joint that follows another: its position is ``ratio`` times the position of ``leader``, and ``offset``, rad or m.
+/// A joint that follows another: its position is ``ratio`` times the position of ``leader``, and
+/// ``offset``, rad or m.
 ///
 /// A robot has a coordinate for each of both; a motor drives them together.
 #[pyclass(frozen, get_all, module = "robot_dynamics", name = "Coupling")]
@@ -125,14 +126,17 @@ impl Robot {
 
 #[pymethods]
 impl Robot {
-    /// What to look at in the file, as ``cargo xtask import`` prints it, but for what that finds at random states: impossible
-    /// inertias, numbers in other units, limits of torque below gravity's, and what is left out. Empty for a robot of the library.
+    /// What to look at in the file, as ``cargo xtask import`` prints it, but for what that finds at
+    /// random states: impossible inertias, numbers in other units, limits of torque below gravity's,
+    /// and what is left out. Options in it are those of the command: ``--motors`` is ``actuated`` of
+    /// `Loops`. Empty for a robot of the library.
     #[getter]
     fn advice(&self) -> Vec<PyAdvice> {
         self.said().map_or(Vec::new(), |said| said.advice.clone())
     }
 
-    /// What the file states and the robot has not, a sentence each: the advice of the topic "left-out".
+    /// What the file states and the robot has not, a sentence each: the advice of the topic
+    /// "left-out".
     #[getter]
     fn notes(&self) -> Vec<String> {
         let advice = self.said().into_iter().flat_map(|said| &said.advice);
@@ -140,8 +144,9 @@ impl Robot {
         left_out.map(|advice| advice.text.clone()).collect()
     }
 
-    /// The joints of the file that follow others (``<mimic>``, ``<equality>``). Their coordinates are those of a tree: set q of
-    /// both, and the torque at the leader is τ of the leader plus the sum of ratio times τ of the followers.
+    /// The joints of the file that follow others (``<mimic>``, ``<equality>``). Their coordinates
+    /// are those of a tree: set q of both, and the torque at the leader is τ of the leader plus the
+    /// sum of ratio times τ of the followers.
     #[getter]
     fn couplings(&self) -> Vec<PyCoupling> {
         self.said()

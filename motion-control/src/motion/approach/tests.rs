@@ -314,12 +314,7 @@ fn a_circle_goes_the_short_way_and_a_line_as_far_as_its_number() {
         way.last_point()[0] - way.first_point()[0]
     };
     let (circle, line) = (Circles::NONE.with(0), Circles::NONE);
-    for (stands, begins) in [
-        (-3.10, 3.18),
-        (6.282, 0.01),
-        (0.0, 25.13),
-        (3.140_6, -3.140_6),
-    ] {
+    for (stands, begins) in [(-3.10, 3.18), (6.282, 0.01), (0.0, 25.13), (3.140_6, -3.140_6)] {
         assert!(travel(stands, begins, f32::INFINITY, circle).abs() < 0.02);
         let counted = travel(stands, begins, f32::INFINITY, line);
         assert_eq!(counted, begins - stands);

@@ -358,7 +358,7 @@ algorithm! {
         let given = std::array::from_fn(|i| match kinds[i] == R::ZERO {
             true => Prescribed::Torque(values[i]),
             false if kinds[i].is_finite() => Prescribed::Acceleration(values[i]),
-            false => Prescribed::Acceleration(R::ZERO / R::ZERO),
+            false => Prescribed::Acceleration(R::from_f64(f64::NAN)),
         });
         let found = algorithms::hybrid_dynamics(robot, &state, &given, scene);
         let found = found?;

@@ -104,6 +104,8 @@ def test_impossible_effects_are_refused():
     assert error.value.effect == "Viscous"
     with pytest.raises(rd.EffectError, match="no body"):
         robot.rnea(q, v, a, rd.RIGID_BODY + rd.BodyWrench("hand", ONES))
+    with pytest.raises(rd.EffectError, match="no body of the number 9"):
+        robot.rnea(q, v, a, rd.RIGID_BODY + rd.BodyWrench(9, ONES))
     with pytest.raises(rd.EffectError, match="mass"):
         robot.rnea(q, v, a, rd.RIGID_BODY + rd.Payload(0, -1.0))
     for effect in (rd.Gravity() + rd.Coriolis(), ()):

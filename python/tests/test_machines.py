@@ -189,6 +189,9 @@ def test_loops_of_a_file_are_its_equality_constraints():
     near(tau, map.T @ robot.gravity(q))
     with pytest.raises(rd.LoopModelError, match="0 loops"):
         rd.Loops(rd.Robot("ur5e"))
+    # Without the coordinates that fill the model up.
+    with pytest.raises(rd.LoopModelError, match="2 of at least 3"):
+        rd.Loops(rd.Robot("ur5e"), [rd.LoopJoint("table", "planar", (None, "wrist_3"))], [0, 1])
 
 
 def test_what_loops_cannot_be_is_named():

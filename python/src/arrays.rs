@@ -6,6 +6,7 @@ use numpy::{
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::angles::{Positions, Use};
 use crate::error::Exception;
 
 /// An argument of a call: its name, the array, and its last axes: of a vector one, of a matrix two.
@@ -14,9 +15,18 @@ pub struct Argument<'a, 'py> {
     pub given: &'a Bound<'py, PyAny>,
     pub axes: [usize; 2],
     pub matrix: bool,
+    /// The positions in it.
+    pub positions: Option<Positions<'a>>,
 }
 
 impl Argument<'_, '_> {
+    /// The same for a function that does something else with positions.
+    pub fn by(mut self, by: Use) -> Self {
+        if let Some(positions) = &mut self.positions {
+            positions.by = by;
+        }
+        self
+    }
     /// The shape of a state's numbers.
     fn own(&self) -> &[usize] {
         &self.axes[usize::from(!self.matrix)..]
@@ -82,6 +92,8 @@ pub fn array<'py, R: Element>(
     if let Ok(array) = argument.given.cast::<PyArrayDyn<R>>()
         && array.is_c_contiguous()
         && let Ok(array) = array.try_readonly()
+        // An array that is not aligned has no slice.
+        && array.as_slice().is_ok()
     {
         return Ok(array);
     }

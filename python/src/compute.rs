@@ -94,9 +94,20 @@ impl Robot {
             .iter()
             .map(array::<R>)
             .collect::<PyResult<_>>()?;
+        let engine = matches!(by, By::Engine(_));
         let shapes = arrays.iter().map(|array| array.shape());
         let leading = leading(request.arguments, shapes)?;
         let rows = leading.iter().product();
+        let in_range = arrays.iter().zip(request.arguments);
+        let in_range: Vec<Option<Vec<R>>> = in_range
+            .map(|(array, argument)| match &argument.positions {
+                Some(positions) => {
+                    let data = (array.as_slice()?, argument.width());
+                    positions.in_range(py, self, data, engine, request.effects)
+                }
+                None => Ok(None),
+            })
+            .collect::<PyResult<_>>()?;
         let results: Vec<_> = request
             .results
             .iter()
@@ -107,10 +118,14 @@ impl Robot {
             .collect();
         let done = {
             let mut guards: Vec<_> = results.iter().map(|result| result.readwrite()).collect();
-            let inputs = arrays.iter().zip(request.arguments);
+            let inputs = arrays.iter().zip(&in_range).zip(request.arguments);
             let inputs: PyResult<Vec<_>> = inputs
-                .map(|(array, argument)| {
-                    let (data, width) = (array.as_slice()?, argument.width());
+                .map(|((array, in_range), argument)| {
+                    let data = match in_range {
+                        Some(changed) => changed.as_slice(),
+                        None => array.as_slice()?,
+                    };
+                    let width = argument.width();
                     Ok(Input { data, width })
                 })
                 .collect();
@@ -152,7 +167,7 @@ impl Robot {
                 py.detach(work)
             }
         };
-        done.map_err(|failure| of_failure(py, self, request.names, &failure))?;
+        done.map_err(|failure| of_failure(py, self, request.names, &failure, R::MOST_ANGLE))?;
         Ok(results.into_iter().map(Bound::into_any).collect())
     }
 }

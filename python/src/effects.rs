@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 
-use crate::error::Exception;
+use crate::error::{Exception, wanted};
 use robot_dynamics_kernels::spec::{BodyRef, Spec};
 
 /// Effects that act together on a robot.
@@ -118,11 +118,39 @@ impl PyScene {
         format!("Scene({})", names.join(" + "))
     }
 
+    fn __copy__(scene: Py<Self>) -> Py<Self> {
+        scene
+    }
+
+    // A scene does not change.
+    fn __deepcopy__(scene: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        scene
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let text = serde_json::to_string(&*self.specs).map_err(|error| of_pickle(py, &error))?;
+        let maker = py.import("robot_dynamics._native")?.getattr("_scene")?;
+        (maker, (text,)).into_pyobject(py)
+    }
+
     /// The names of its effects, in their order.
     #[getter]
     fn names(&self) -> Vec<&'static str> {
         self.specs.iter().map(Spec::name).collect()
     }
+}
+
+/// The scene of effects that were pickled.
+#[pyfunction(name = "_scene")]
+fn scene(py: Python<'_>, effects: &str) -> PyResult<PyScene> {
+    let specs = serde_json::from_str(effects).map_err(|error| of_pickle(py, &error))?;
+    PyScene::checked(py, specs)
+}
+
+fn of_pickle(py: Python<'_>, error: &serde_json::Error) -> PyErr {
+    Exception::new(py, "EffectError", format!("pickle: {error}"))
+        .with("effect", "")
+        .build()
 }
 
 fn body(py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<BodyRef> {
@@ -163,17 +191,29 @@ pub fn wide(py: Python<'_>, effect: &'static str, widths: &[f64]) -> PyResult<()
         .build())
 }
 
+/// Refuses a direction that has not the length 1.
+fn unit(py: Python<'_>, effect: &'static str, what: &str, direction: [f64; 3]) -> PyResult<()> {
+    let squared: f64 = direction.iter().map(|x| x * x).sum();
+    // NaN is in no range.
+    if (1.0 - 1e-9..=1.0 + 1e-9).contains(&squared) {
+        return Ok(());
+    }
+    let length = squared.sqrt();
+    let text = format!("{effect}: a {what} is a vector of length 1, not {length}");
+    Err(Exception::new(py, "EffectError", text)
+        .with("effect", effect)
+        .build())
+}
+
 /// Gravity: ``g`` in m/s² along ``direction`` in the base's axes, a vector of length 1.
 #[pyfunction(name = "Gravity")]
 #[pyo3(signature = (g = 9.81, direction = [0.0, 0.0, -1.0]))]
-fn gravity(py: Python<'_>, g: f64, direction: [f64; 3]) -> PyResult<PyScene> {
-    let squared: f64 = direction.iter().map(|x| x * x).sum();
-    // NaN is in no range.
-    if !(1.0 - 1e-9..=1.0 + 1e-9).contains(&squared) {
-        let text = "Gravity: a direction is a vector of length 1";
-        let error = Exception::new(py, "EffectError", text).with("effect", "Gravity");
-        return Err(error.build());
-    }
+fn gravity(
+    py: Python<'_>,
+    #[pyo3(from_py_with = wanted)] g: f64,
+    #[pyo3(from_py_with = wanted)] direction: [f64; 3],
+) -> PyResult<PyScene> {
+    unit(py, "Gravity", "direction", direction)?;
     let vector = direction.map(|x| x * g);
     finite(py, PyScene::of(Spec::Gravity(vector)), &[&vector])
 }
@@ -194,7 +234,11 @@ fn coriolis() -> PyScene {
 /// and in its axes.
 #[pyfunction(name = "MovingBase")]
 #[pyo3(signature = (velocity, acceleration))]
-fn moving_base(py: Python<'_>, velocity: [f64; 6], acceleration: [f64; 6]) -> PyResult<PyScene> {
+fn moving_base(
+    py: Python<'_>,
+    #[pyo3(from_py_with = wanted)] velocity: [f64; 6],
+    #[pyo3(from_py_with = wanted)] acceleration: [f64; 6],
+) -> PyResult<PyScene> {
     let spec = Spec::MovingBase {
         velocity,
         acceleration,
@@ -204,14 +248,21 @@ fn moving_base(py: Python<'_>, velocity: [f64; 6], acceleration: [f64; 6]) -> Py
 
 /// Viscous friction b q̇: b of each velocity coordinate, N·m·s/rad or N·s/m.
 #[pyfunction(name = "Viscous")]
-fn viscous(py: Python<'_>, coefficients: Vec<f64>) -> PyResult<PyScene> {
+fn viscous(
+    py: Python<'_>,
+    #[pyo3(from_py_with = wanted)] coefficients: Vec<f64>,
+) -> PyResult<PyScene> {
     let scene = PyScene::of(Spec::Viscous(coefficients.clone()));
     finite(py, scene, &[&coefficients])
 }
 
 /// Dry friction: the torque of each velocity coordinate, N·m or N, which is full beyond the speed ``width``, rad/s or m/s.
 #[pyfunction(name = "Coulomb")]
-fn coulomb(py: Python<'_>, torque: Vec<f64>, width: f64) -> PyResult<PyScene> {
+fn coulomb(
+    py: Python<'_>,
+    #[pyo3(from_py_with = wanted)] torque: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] width: f64,
+) -> PyResult<PyScene> {
     wide(py, "Coulomb", &[width])?;
     let scene = PyScene::of(Spec::Coulomb {
         torque: torque.clone(),
@@ -224,9 +275,9 @@ fn coulomb(py: Python<'_>, torque: Vec<f64>, width: f64) -> PyResult<PyScene> {
 #[pyfunction(name = "AsymmetricCoulomb")]
 fn asymmetric_coulomb(
     py: Python<'_>,
-    forward: Vec<f64>,
-    backward: Vec<f64>,
-    width: f64,
+    #[pyo3(from_py_with = wanted)] forward: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] backward: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] width: f64,
 ) -> PyResult<PyScene> {
     wide(py, "AsymmetricCoulomb", &[width])?;
     let scene = PyScene::of(Spec::AsymmetricCoulomb {
@@ -241,9 +292,9 @@ fn asymmetric_coulomb(
 #[pyfunction(name = "Stribeck")]
 fn stribeck(
     py: Python<'_>,
-    excess: Vec<f64>,
-    stribeck_speed: f64,
-    width: f64,
+    #[pyo3(from_py_with = wanted)] excess: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] stribeck_speed: f64,
+    #[pyo3(from_py_with = wanted)] width: f64,
 ) -> PyResult<PyScene> {
     wide(py, "Stribeck", &[stribeck_speed, width])?;
     let scene = PyScene::of(Spec::Stribeck {
@@ -263,13 +314,13 @@ fn stribeck(
 )]
 fn lugre(
     py: Python<'_>,
-    stiffness: Vec<f64>,
-    damping: Vec<f64>,
-    viscous: Vec<f64>,
-    sliding: Vec<f64>,
-    excess: Vec<f64>,
-    stribeck_speed: f64,
-    bristle: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] stiffness: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] damping: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] viscous: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] sliding: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] excess: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] stribeck_speed: f64,
+    #[pyo3(from_py_with = wanted)] bristle: Vec<f64>,
 ) -> PyResult<PyScene> {
     wide(py, "Lugre", &[stribeck_speed])?;
     let values = [stiffness, damping, viscous, sliding, excess, bristle];
@@ -284,9 +335,9 @@ fn lugre(
 #[pyfunction(name = "LoadFriction")]
 fn load_friction(
     py: Python<'_>,
-    driving: Vec<f64>,
-    backdriving: Vec<f64>,
-    width: f64,
+    #[pyo3(from_py_with = wanted)] driving: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] backdriving: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] width: f64,
 ) -> PyResult<PyScene> {
     wide(py, "LoadFriction", &[width])?;
     let scene = PyScene::of(Spec::LoadFriction {
@@ -299,7 +350,11 @@ fn load_friction(
 
 /// A spring at each joint: stiffness N·m/rad or N/m, rest position rad or m.
 #[pyfunction(name = "Spring")]
-fn spring(py: Python<'_>, stiffness: Vec<f64>, rest: Vec<f64>) -> PyResult<PyScene> {
+fn spring(
+    py: Python<'_>,
+    #[pyo3(from_py_with = wanted)] stiffness: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] rest: Vec<f64>,
+) -> PyResult<PyScene> {
     let scene = PyScene::of(Spec::Spring {
         stiffness: stiffness.clone(),
         rest: rest.clone(),
@@ -312,11 +367,11 @@ fn spring(py: Python<'_>, stiffness: Vec<f64>, rest: Vec<f64>) -> PyResult<PySce
 #[pyfunction(name = "EndStops")]
 fn end_stops(
     py: Python<'_>,
-    lower: Vec<f64>,
-    upper: Vec<f64>,
-    stiffness: f64,
-    damping: f64,
-    damping_depth: f64,
+    #[pyo3(from_py_with = wanted)] lower: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] upper: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] stiffness: f64,
+    #[pyo3(from_py_with = wanted)] damping: f64,
+    #[pyo3(from_py_with = wanted)] damping_depth: f64,
 ) -> PyResult<PyScene> {
     wide(py, "EndStops", &[damping_depth])?;
     let scene = PyScene::of(Spec::EndStops {
@@ -330,12 +385,13 @@ fn end_stops(
 }
 
 /// Cogging: periods per turn of each joint, and per joint the torques of up to 8 harmonics, N·m.
+/// Periods times angle may be up to 10⁴ rad in float32 and 10⁵ rad in float64.
 #[pyfunction(name = "Cogging")]
 fn cogging(
     py: Python<'_>,
-    per_turn: Vec<f64>,
-    cos: Vec<Vec<f64>>,
-    sin: Vec<Vec<f64>>,
+    #[pyo3(from_py_with = wanted)] per_turn: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] cos: Vec<Vec<f64>>,
+    #[pyo3(from_py_with = wanted)] sin: Vec<Vec<f64>>,
 ) -> PyResult<PyScene> {
     let lists: Vec<&[f64]> = std::iter::once(&per_turn)
         .chain(&cos)
@@ -350,9 +406,20 @@ fn cogging(
     finite(py, scene, &lists)
 }
 
+/// A constant torque that the motor of each joint supplies in any state, N·m or N: the offset of a
+/// sensor, or the mean of a friction that differs with direction.
+#[pyfunction(name = "ConstantTorque")]
+fn constant_torque(
+    py: Python<'_>,
+    #[pyo3(from_py_with = wanted)] torque: Vec<f64>,
+) -> PyResult<PyScene> {
+    let scene = PyScene::of(Spec::ConstantTorque(torque.clone()));
+    finite(py, scene, &[&torque])
+}
+
 /// The inertia of each motor at its joint, kg·m² or kg.
 #[pyfunction(name = "Armature")]
-fn armature(py: Python<'_>, inertia: Vec<f64>) -> PyResult<PyScene> {
+fn armature(py: Python<'_>, #[pyo3(from_py_with = wanted)] inertia: Vec<f64>) -> PyResult<PyScene> {
     finite(
         py,
         PyScene::of(Spec::Armature(inertia.clone())),
@@ -365,7 +432,11 @@ fn armature(py: Python<'_>, inertia: Vec<f64>) -> PyResult<PyScene> {
 ///
 /// `Armature` of I ρ² has their inertia at the joints alone. `centroidal_matrix` and `osim_inverse` do not take them.
 #[pyfunction(name = "GyroscopicRotors")]
-fn gyroscopic_rotors(py: Python<'_>, inertia: Vec<f64>, ratio: Vec<f64>) -> PyResult<PyScene> {
+fn gyroscopic_rotors(
+    py: Python<'_>,
+    #[pyo3(from_py_with = wanted)] inertia: Vec<f64>,
+    #[pyo3(from_py_with = wanted)] ratio: Vec<f64>,
+) -> PyResult<PyScene> {
     let scene = PyScene::of(Spec::GyroscopicRotors {
         inertia: inertia.clone(),
         ratio: ratio.clone(),
@@ -379,9 +450,9 @@ fn gyroscopic_rotors(py: Python<'_>, inertia: Vec<f64>, ratio: Vec<f64>) -> PyRe
 fn payload(
     py: Python<'_>,
     #[pyo3(from_py_with = self::any)] body: Py<PyAny>,
-    mass: f64,
-    com: [f64; 3],
-    inertia: [f64; 6],
+    #[pyo3(from_py_with = wanted)] mass: f64,
+    #[pyo3(from_py_with = wanted)] com: [f64; 3],
+    #[pyo3(from_py_with = wanted)] inertia: [f64; 6],
 ) -> PyResult<PyScene> {
     let body = self::body(py, body.bind(py))?;
     let spec = Spec::Payload {
@@ -402,7 +473,7 @@ fn any(given: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
 fn body_wrench(
     py: Python<'_>,
     #[pyo3(from_py_with = self::any)] body: Py<PyAny>,
-    wrench: [f64; 6],
+    #[pyo3(from_py_with = wanted)] wrench: [f64; 6],
 ) -> PyResult<PyScene> {
     let body = self::body(py, body.bind(py))?;
     finite(
@@ -417,7 +488,7 @@ fn body_wrench(
 fn world_wrench(
     py: Python<'_>,
     #[pyo3(from_py_with = self::any)] body: Py<PyAny>,
-    wrench: [f64; 6],
+    #[pyo3(from_py_with = wanted)] wrench: [f64; 6],
 ) -> PyResult<PyScene> {
     let body = self::body(py, body.bind(py))?;
     finite(
@@ -427,8 +498,9 @@ fn world_wrench(
     )
 }
 
-/// Points of bodies that touch a plane n·x = height (m): stiffness N/m, damping N·s/m from ``damping_depth`` m on,
-/// coefficient of friction, and the speed below which friction sticks, m/s.
+/// Points of bodies that touch a plane n·x = height (m), n being ``normal``, a vector of length 1:
+/// stiffness N/m, damping N·s/m from ``damping_depth`` m on, coefficient of friction, and the speed
+/// below which friction sticks, m/s.
 #[pyfunction(name = "Contact")]
 #[pyo3(signature = (points, normal, height, stiffness, damping, damping_depth, friction, slip_tolerance))]
 #[allow(
@@ -437,16 +509,17 @@ fn world_wrench(
 )]
 fn contact(
     py: Python<'_>,
-    points: Vec<(Bound<'_, PyAny>, [f64; 3])>,
-    normal: [f64; 3],
-    height: f64,
-    stiffness: f64,
-    damping: f64,
-    damping_depth: f64,
-    friction: f64,
-    slip_tolerance: f64,
+    #[pyo3(from_py_with = wanted)] points: Vec<(Bound<'_, PyAny>, [f64; 3])>,
+    #[pyo3(from_py_with = wanted)] normal: [f64; 3],
+    #[pyo3(from_py_with = wanted)] height: f64,
+    #[pyo3(from_py_with = wanted)] stiffness: f64,
+    #[pyo3(from_py_with = wanted)] damping: f64,
+    #[pyo3(from_py_with = wanted)] damping_depth: f64,
+    #[pyo3(from_py_with = wanted)] friction: f64,
+    #[pyo3(from_py_with = wanted)] slip_tolerance: f64,
 ) -> PyResult<PyScene> {
     wide(py, "Contact", &[damping_depth, slip_tolerance])?;
+    unit(py, "Contact", "normal", normal)?;
     let points: PyResult<Vec<_>> = points
         .iter()
         .map(|(on, point)| Ok((body(py, on)?, *point)))
@@ -474,6 +547,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
         ($($name:ident),*) => { $(module.add_function(wrap_pyfunction!($name, module)?)?;)* };
     }
     functions!(
+        scene,
         gravity,
         inertia,
         coriolis,
@@ -487,6 +561,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
         spring,
         end_stops,
         cogging,
+        constant_torque,
         armature,
         gyroscopic_rotors,
         payload,

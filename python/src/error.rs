@@ -51,6 +51,21 @@ impl<'py> Exception<'py> {
     }
 }
 
+/// An argument as the type that it has to have.
+pub fn wanted<'py, T>(given: &Bound<'py, PyAny>) -> PyResult<T>
+where
+    T: for<'a> FromPyObject<'a, 'py>,
+{
+    given.extract().map_err(|error| {
+        let (py, error): (_, PyErr) = (given.py(), Into::into(error));
+        let kind = given.get_type();
+        let text = format!("an argument cannot be this {kind}: {}", error.value(py));
+        Exception::new(py, "ArgumentError", text)
+            .with("given", given)
+            .build()
+    })
+}
+
 /// A description that cannot be read.
 pub fn of_import(py: Python<'_>, error: &ImportError) -> PyErr {
     let class = match error.problem {
@@ -91,7 +106,15 @@ pub fn of_model(py: Python<'_>, error: &NoModel, names: &[String]) -> PyErr {
 }
 
 /// A state without a result.
-pub fn of_failure(py: Python<'_>, robot: &Robot, names: &[String], failure: &Failure) -> PyErr {
+///
+/// `most`: the largest angle of which sines are computed.
+pub fn of_failure(
+    py: Python<'_>,
+    robot: &Robot,
+    names: &[String],
+    failure: &Failure,
+    most: f64,
+) -> PyErr {
     let state = failure.row;
     let of_joint = |class, joint: &str, text: &str| {
         let text = format!("joint `{joint}` {text} (state {state})");
@@ -140,6 +163,19 @@ pub fn of_failure(py: Python<'_>, robot: &Robot, names: &[String], failure: &Fai
             let text = format!("linkage `{name}`: {why} (state {state})");
             Exception::new(py, "LinkageError", text)
                 .with("linkage", name)
+                .with("state", state)
+                .build()
+        }
+        StateProblem::Angle(at, angle) => {
+            let name = names.get(at).map_or(robot.label(), String::as_str);
+            let text = format!(
+                "linkage `{name}` has an angle of {angle} rad, and sines are computed to {most} rad (state {state})"
+            );
+            Exception::new(py, "AngleError", text)
+                .with("joint", name)
+                .with("coordinate", py.None())
+                .with("angle", angle)
+                .with("limit", most)
                 .with("state", state)
                 .build()
         }

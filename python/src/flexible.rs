@@ -9,7 +9,7 @@ use robot_dynamics_kernels::spec::Spec;
 
 use crate::arrays::Argument;
 use crate::effects::given as effects_of;
-use crate::error::{Exception, of_model};
+use crate::error::{Exception, of_model, wanted};
 use crate::loops::whole;
 use crate::robot::{Array, Robot, argument};
 
@@ -35,7 +35,12 @@ pub struct PyMode(Mode);
 #[pymethods]
 impl PyMode {
     #[new]
-    fn new(momentum: [f64; 3], moments: [[f64; 3]; 3], shift: [f64; 3], turn: [f64; 3]) -> Self {
+    fn new(
+        #[pyo3(from_py_with = wanted)] momentum: [f64; 3],
+        #[pyo3(from_py_with = wanted)] moments: [[f64; 3]; 3],
+        #[pyo3(from_py_with = wanted)] shift: [f64; 3],
+        #[pyo3(from_py_with = wanted)] turn: [f64; 3],
+    ) -> Self {
         Self(Mode {
             momentum,
             moments,
@@ -60,11 +65,11 @@ impl PyFlexibleLink {
     fn new(
         py: Python<'_>,
         body: Py<PyAny>,
-        end: [f64; 3],
-        modes: Vec<Py<PyMode>>,
-        products: Vec<Vec<[[f64; 3]; 3]>>,
-        stiffness: Vec<Vec<f64>>,
-        damping: Vec<Vec<f64>>,
+        #[pyo3(from_py_with = wanted)] end: [f64; 3],
+        #[pyo3(from_py_with = wanted)] modes: Vec<Py<PyMode>>,
+        #[pyo3(from_py_with = wanted)] products: Vec<Vec<[[f64; 3]; 3]>>,
+        #[pyo3(from_py_with = wanted)] stiffness: Vec<Vec<f64>>,
+        #[pyo3(from_py_with = wanted)] damping: Vec<Vec<f64>>,
     ) -> PyResult<Self> {
         let n = modes.len();
         let square =
@@ -98,13 +103,13 @@ impl PyBeam {
     #[new]
     #[pyo3(signature = (length, mass_per_length, bending = [0.0; 2], torsion = 0.0, sections = [0.0; 2], tip = [0.0; 2], damping_ratio = 0.0))]
     fn new(
-        length: f64,
-        mass_per_length: f64,
-        bending: [f64; 2],
-        torsion: f64,
-        sections: [f64; 2],
-        tip: [f64; 2],
-        damping_ratio: f64,
+        #[pyo3(from_py_with = wanted)] length: f64,
+        #[pyo3(from_py_with = wanted)] mass_per_length: f64,
+        #[pyo3(from_py_with = wanted)] bending: [f64; 2],
+        #[pyo3(from_py_with = wanted)] torsion: f64,
+        #[pyo3(from_py_with = wanted)] sections: [f64; 2],
+        #[pyo3(from_py_with = wanted)] tip: [f64; 2],
+        #[pyo3(from_py_with = wanted)] damping_ratio: f64,
     ) -> Self {
         let beam = Beam::new(length, mass_per_length)
             .bending(bending)
@@ -137,7 +142,7 @@ impl PyBeam {
         &self,
         py: Python<'_>,
         body: Py<PyAny>,
-        shapes: Vec<(String, usize)>,
+        #[pyo3(from_py_with = wanted)] shapes: Vec<(String, usize)>,
     ) -> PyResult<PyFlexibleLink> {
         let label = body.bind(py).to_string();
         let mut all = Vec::new();
@@ -188,7 +193,11 @@ impl PyFlexibleRobot {
 #[pymethods]
 impl PyFlexibleRobot {
     #[new]
-    fn new(py: Python<'_>, robot: Py<Robot>, links: Vec<Py<PyFlexibleLink>>) -> PyResult<Self> {
+    fn new(
+        py: Python<'_>,
+        #[pyo3(from_py_with = wanted)] robot: Py<Robot>,
+        #[pyo3(from_py_with = wanted)] links: Vec<Py<PyFlexibleLink>>,
+    ) -> PyResult<Self> {
         let (of, mut all) = (robot.get(), Vec::new());
         for link in &links {
             let link = link.get();
@@ -375,7 +384,7 @@ impl PyFlexibleRobot {
         eta: &Array<'py>,
         etad: &Array<'py>,
         etadd: &Array<'py>,
-        h: f64,
+        #[pyo3(from_py_with = wanted)] h: f64,
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyTuple>> {
         let (of, modes) = (self.robot.get(), &self.modes);

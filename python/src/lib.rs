@@ -1,5 +1,6 @@
 //! The extension module `robot_dynamics._native`: the algorithms of `dynamics-core` over numpy's arrays.
 
+mod angles;
 mod arrays;
 mod compute;
 mod costs;
@@ -28,6 +29,9 @@ fn threads() -> usize {
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<robot::Robot>()?;
+    module.add_class::<robot::said::PyAdvice>()?;
+    module.add_class::<robot::said::PyCoupling>()?;
+    module.add_function(wrap_pyfunction!(robot::pickled::robot, module)?)?;
     module.add_class::<costs::Cost>()?;
     module.add_class::<loops::PyLoopJoint>()?;
     module.add_class::<loops::PyLoops>()?;

@@ -11,10 +11,11 @@ use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::linkages::{self, Linkage, MOST_COEFFICIENTS};
 use robot_dynamics_kernels::spec::Spec;
 
+use crate::angles::{Position, Positions, Use};
 use crate::arrays::Argument;
 use crate::compute::Request;
 use crate::effects::given as effects_of;
-use crate::error::Exception;
+use crate::error::{Exception, wanted};
 use crate::loops::whole;
 use crate::robot::{Array, Robot, argument};
 
@@ -84,12 +85,12 @@ fn branch(positive: bool) -> Branch {
 #[pyo3(signature = (ground, crank, coupler, rocker, positive = true, zeros = [0.0; 3]))]
 fn four_bar(
     py: Python<'_>,
-    ground: f64,
-    crank: f64,
-    coupler: f64,
-    rocker: f64,
-    positive: bool,
-    zeros: [f64; 3],
+    #[pyo3(from_py_with = wanted)] ground: f64,
+    #[pyo3(from_py_with = wanted)] crank: f64,
+    #[pyo3(from_py_with = wanted)] coupler: f64,
+    #[pyo3(from_py_with = wanted)] rocker: f64,
+    #[pyo3(from_py_with = wanted)] positive: bool,
+    #[pyo3(from_py_with = wanted)] zeros: [f64; 3],
 ) -> PyResult<PyLinkage> {
     let numbers: &[&[f64]] = &[&[ground, crank, coupler, rocker], &zeros];
     linkage(py, "FourBar", numbers, || {
@@ -104,11 +105,11 @@ fn four_bar(
 #[pyo3(signature = (ground, first, second, positive = true, zeros = [0.0; 4]))]
 fn five_bar(
     py: Python<'_>,
-    ground: f64,
-    first: [f64; 2],
-    second: [f64; 2],
-    positive: bool,
-    zeros: [f64; 4],
+    #[pyo3(from_py_with = wanted)] ground: f64,
+    #[pyo3(from_py_with = wanted)] first: [f64; 2],
+    #[pyo3(from_py_with = wanted)] second: [f64; 2],
+    #[pyo3(from_py_with = wanted)] positive: bool,
+    #[pyo3(from_py_with = wanted)] zeros: [f64; 4],
 ) -> PyResult<PyLinkage> {
     let numbers: &[&[f64]] = &[&[ground], &first, &second, &zeros];
     linkage(py, "FiveBar", numbers, || {
@@ -119,7 +120,10 @@ fn five_bar(
 
 /// A differential of two motors: half the sum and half the difference of their angles, over the two ratios.
 #[pyfunction(name = "Differential")]
-fn differential(py: Python<'_>, ratios: [f64; 2]) -> PyResult<PyLinkage> {
+fn differential(
+    py: Python<'_>,
+    #[pyo3(from_py_with = wanted)] ratios: [f64; 2],
+) -> PyResult<PyLinkage> {
     linkage(py, "Differential", &[&ratios], || {
         Linkage::Differential(Differential::new(ratios))
     })
@@ -127,7 +131,10 @@ fn differential(py: Python<'_>, ratios: [f64; 2]) -> PyResult<PyLinkage> {
 
 /// A belt or gear: the driven angle as a polynomial of the driving one, up to 8 coefficients from the constant on.
 #[pyfunction(name = "Belt")]
-fn belt(py: Python<'_>, coefficients: Vec<f64>) -> PyResult<PyLinkage> {
+fn belt(
+    py: Python<'_>,
+    #[pyo3(from_py_with = wanted)] coefficients: Vec<f64>,
+) -> PyResult<PyLinkage> {
     if coefficients.len() > MOST_COEFFICIENTS {
         return Err(refused(py, "Belt", "it has more than 8 coefficients"));
     }
@@ -142,7 +149,10 @@ type RodNumbers = ([f64; 3], [f64; 3], [f64; 3], f64, bool);
 /// An ankle of pitch and roll that two cranks drive by rods. Of each rod: the joint of its crank, the crank's end and
 /// the rod's end on the foot, m, its length, m, and whether its root is positive.
 #[pyfunction(name = "ParallelAnkle")]
-fn parallel_ankle(py: Python<'_>, rods: [RodNumbers; 2]) -> PyResult<PyLinkage> {
+fn parallel_ankle(
+    py: Python<'_>,
+    #[pyo3(from_py_with = wanted)] rods: [RodNumbers; 2],
+) -> PyResult<PyLinkage> {
     linkage(py, "ParallelAnkle", &[], || {
         let rods = rods.map(|(joint, crank, foot, length, positive)| Rod {
             joint,
@@ -157,7 +167,13 @@ fn parallel_ankle(py: Python<'_>, rods: [RodNumbers; 2]) -> PyResult<PyLinkage> 
 
 /// A Delta robot: the radii of base and platform, and the lengths of cranks and rods, m.
 #[pyfunction(name = "Delta")]
-fn delta(py: Python<'_>, base: f64, crank: f64, rod: f64, platform: f64) -> PyResult<PyLinkage> {
+fn delta(
+    py: Python<'_>,
+    #[pyo3(from_py_with = wanted)] base: f64,
+    #[pyo3(from_py_with = wanted)] crank: f64,
+    #[pyo3(from_py_with = wanted)] rod: f64,
+    #[pyo3(from_py_with = wanted)] platform: f64,
+) -> PyResult<PyLinkage> {
     linkage(py, "Delta", &[&[base, crank, rod, platform]], || {
         Linkage::Delta(Delta::new(base, crank, rod, platform))
     })
@@ -165,7 +181,10 @@ fn delta(py: Python<'_>, base: f64, crank: f64, rod: f64, platform: f64) -> PyRe
 
 /// A Stewart platform: of each leg its joints on base and platform, and its length at q = 0, m.
 #[pyfunction(name = "Stewart")]
-fn stewart(py: Python<'_>, legs: [([f64; 3], [f64; 3], f64); 6]) -> PyResult<PyLinkage> {
+fn stewart(
+    py: Python<'_>,
+    #[pyo3(from_py_with = wanted)] legs: [([f64; 3], [f64; 3], f64); 6],
+) -> PyResult<PyLinkage> {
     linkage(py, "Stewart", &[], || {
         let legs = legs.map(|(base, platform, length)| Leg {
             base,
@@ -186,16 +205,25 @@ pub struct PyLinkages {
     robot: Py<Robot>,
     linkages: linkages::Linkages,
     names: Vec<String>,
+    /// The positions of y that are in no linkage.
+    outside: Vec<Position>,
 }
 
 impl PyLinkages {
-    fn of_y<'a, 'py>(
-        &self,
-        name: &'static str,
-        given: &'a Array<'py>,
-        velocity: bool,
-    ) -> Argument<'a, 'py> {
-        argument(name, given, self.linkages.sizes[usize::from(velocity)])
+    /// Rates at y, or torques.
+    fn of_y<'a, 'py>(&self, name: &'static str, given: &'a Array<'py>) -> Argument<'a, 'py> {
+        argument(name, given, self.linkages.sizes[1])
+    }
+
+    /// y, of which sines and cosines alone matter. The kernels look at the angles of linkages.
+    fn y<'a, 'py>(&'a self, given: &'a Array<'py>) -> Argument<'a, 'py> {
+        Argument {
+            positions: Some(Positions {
+                by: Use::Sines,
+                at: &self.outside,
+            }),
+            ..argument("y", given, self.linkages.sizes[0])
+        }
     }
 
     fn all<'py>(
@@ -222,8 +250,12 @@ impl PyLinkages {
     #[new]
     fn new(
         py: Python<'_>,
-        robot: Py<Robot>,
-        linkages: Vec<(String, Py<PyLinkage>, Vec<Bound<'_, PyAny>>)>,
+        #[pyo3(from_py_with = wanted)] robot: Py<Robot>,
+        #[pyo3(from_py_with = wanted)] linkages: Vec<(
+            String,
+            Py<PyLinkage>,
+            Vec<Bound<'_, PyAny>>,
+        )>,
     ) -> PyResult<Self> {
         let of = robot.get();
         let (mut names, mut all) = (Vec::new(), Vec::new());
@@ -237,10 +269,17 @@ impl PyLinkages {
         }
         let found = linkages::Linkages::of(&of.described, all);
         let linkages = found.map_err(|(at, text)| refused(py, &names[at], &text))?;
+        let position = |&[of_tree, column]: &[usize; 2]| {
+            let mut all = of.positions.iter();
+            let found = all.find(|position| position.column == of_tree)?;
+            Some(Position { column, ..*found })
+        };
+        let outside = linkages.outside().iter().filter_map(position).collect();
         Ok(Self {
             robot,
             linkages,
             names,
+            outside,
         })
     }
 
@@ -274,9 +313,9 @@ impl PyLinkages {
         let (linkages, counts) = (&self.linkages, self.robot.get().counts);
         let which = Which::LinkageMotion { linkages };
         let given = [
-            self.of_y("y", y, false),
-            self.of_y("yd", yd, true),
-            self.of_y("ydd", ydd, true),
+            argument("y", y, linkages.sizes[0]),
+            self.of_y("yd", yd),
+            self.of_y("ydd", ydd),
         ];
         let g = [counts.v, linkages.sizes[1]];
         let results: &[&[usize]] = &[&[counts.q], &[counts.v], &[counts.v], &g, &[]];
@@ -298,11 +337,7 @@ impl PyLinkages {
         let effects = effects_of(effects)?;
         whole(py, &effects)?;
         let linkages = &self.linkages;
-        let given = [
-            self.of_y("y", y, false),
-            self.of_y("yd", yd, true),
-            self.of_y("ydd", ydd, true),
-        ];
+        let given = [self.y(y), self.of_y("yd", yd), self.of_y("ydd", ydd)];
         let which = Which::LinkageRnea { linkages };
         let mut found = self.all(py, which, &effects, &given, &[&[linkages.sizes[1]]])?;
         Ok(found.swap_remove(0))
@@ -324,11 +359,7 @@ impl PyLinkages {
         let effects = effects_of(effects)?;
         whole(py, &effects)?;
         let linkages = &self.linkages;
-        let given = [
-            self.of_y("y", y, false),
-            self.of_y("yd", yd, true),
-            self.of_y("tau", tau, true),
-        ];
+        let given = [self.y(y), self.of_y("yd", yd), self.of_y("tau", tau)];
         let which = Which::LinkageForward { linkages };
         let mut found = self.all(py, which, &effects, &given, &[&[linkages.sizes[1]]])?;
         Ok(found.swap_remove(0))

@@ -10,10 +10,11 @@ use robot_dynamics_kernels::model::number;
 use robot_dynamics_kernels::spec::Spec;
 use robot_import::number::Attitude;
 
+use crate::angles::Use;
 use crate::arrays::Argument;
 use crate::compute::Request;
 use crate::effects::given as effects_of;
-use crate::error::Exception;
+use crate::error::{Exception, wanted};
 use crate::robot::{Array, Robot, argument};
 
 /// A joint that closes a loop: its name, its kind, the two bodies by name or number, None being the base, the frames on
@@ -35,14 +36,14 @@ impl PyLoopJoint {
     #[pyo3(signature = (name, kind, bodies, xyz = [[0.0; 3]; 2], rpy = [[0.0; 3]; 2], axis = [0.0, 0.0, 1.0]))]
     fn new(
         py: Python<'_>,
-        name: String,
-        kind: &str,
-        bodies: [Option<Py<PyAny>>; 2],
-        xyz: [[f64; 3]; 2],
-        rpy: [[f64; 3]; 2],
-        axis: [f64; 3],
+        #[pyo3(from_py_with = wanted)] name: String,
+        #[pyo3(from_py_with = wanted)] kind: String,
+        #[pyo3(from_py_with = wanted)] bodies: [Option<Py<PyAny>>; 2],
+        #[pyo3(from_py_with = wanted)] xyz: [[f64; 3]; 2],
+        #[pyo3(from_py_with = wanted)] rpy: [[f64; 3]; 2],
+        #[pyo3(from_py_with = wanted)] axis: [f64; 3],
     ) -> PyResult<Self> {
-        let joint = match kind {
+        let joint = match kind.as_str() {
             "revolute" => Joint::revolute(axis),
             "prismatic" => Joint::prismatic(axis),
             "cylindrical" => Joint::cylindrical(axis),
@@ -121,10 +122,10 @@ impl PyLoops {
     #[pyo3(signature = (robot, joints = None, actuated = None, damped_below = SINGULAR))]
     fn new(
         py: Python<'_>,
-        robot: Py<Robot>,
-        joints: Option<Vec<Py<PyLoopJoint>>>,
-        actuated: Option<Vec<Bound<'_, PyAny>>>,
-        damped_below: f64,
+        #[pyo3(from_py_with = wanted)] robot: Py<Robot>,
+        #[pyo3(from_py_with = wanted)] joints: Option<Vec<Py<PyLoopJoint>>>,
+        #[pyo3(from_py_with = wanted)] actuated: Option<Vec<Bound<'_, PyAny>>>,
+        #[pyo3(from_py_with = wanted)] damped_below: f64,
     ) -> PyResult<Self> {
         let of = robot.get();
         let (mut names, mut all) = (Vec::new(), Vec::new());
@@ -144,7 +145,7 @@ impl PyLoops {
             all.push(LoopJoint::new(number(all.len()), given.joint, ends));
             names.push(given.name.clone());
         }
-        for closed in of.closed.iter().filter(|_| of_file) {
+        for closed in of.loops().0.iter().filter(|_| of_file) {
             let joint = match closed.kind {
                 robot_import::description::Kind::Fixed => Joint::fixed(),
                 _ => Joint::spherical(),
@@ -175,7 +176,7 @@ impl PyLoops {
                 }
                 all
             }
-            None if of_file => of.actuated.clone(),
+            None if of_file => of.loops().1.to_vec(),
             None => (0..of.counts.v).collect(),
         };
         let loops = AnyLoops::of(&of.double, of.counts, &all, &actuated, damped_below);
@@ -227,7 +228,13 @@ impl PyLoops {
         };
         let (loops, of) = (&self.loops, self.robot.get());
         let which = Which::Assemble { loops, moving };
-        let mut found = self.all(py, which, &[], &[of.q(q)], &[&[of.counts.q]])?;
+        let mut found = self.all(
+            py,
+            which,
+            &[],
+            &[of.q(q).by(Use::Numbers)],
+            &[&[of.counts.q]],
+        )?;
         Ok(found.swap_remove(0))
     }
 
@@ -310,7 +317,7 @@ impl PyLoops {
         qd: &Array<'py>,
         tau: &Array<'py>,
         effects: Option<&Bound<'py, PyAny>>,
-        stabilisation: [f64; 2],
+        #[pyo3(from_py_with = wanted)] stabilisation: [f64; 2],
     ) -> PyResult<Bound<'py, PyTuple>> {
         let effects = effects_of(effects)?;
         whole(py, &effects)?;

@@ -6,7 +6,9 @@ mod factors;
 mod given;
 mod kinematics;
 mod momentum;
+pub mod pickled;
 mod regressors;
+pub mod said;
 
 use std::path::PathBuf;
 
@@ -18,10 +20,11 @@ use robot_import::selection::Selection;
 use robot_import::source;
 use robot_import::tree::{Numbers, Tree};
 
+use crate::angles::{self, Position, Positions, Use};
 use crate::arrays::Argument;
 use crate::compute::{By, Request};
 use crate::costs::{self, Cost};
-use crate::error::{Exception, of_import, of_model};
+use crate::error::{Exception, of_import, of_model, wanted};
 use crate::library;
 use robot_dynamics_engines::{InEngine, Scene as EngineScene};
 use robot_dynamics_kernels::Which;
@@ -29,6 +32,7 @@ use robot_dynamics_kernels::model::{Bodies, Counts, Models};
 use robot_dynamics_kernels::spec::{BodyRef, Spec};
 
 use given::{frame_of, with_inertia, without_rotors};
+use said::Said;
 
 /// A robot: a tree of bodies on joints.
 ///
@@ -43,6 +47,15 @@ use given::{frame_of, with_inertia, without_rotors};
 /// q has the coordinates of each joint in the order of the bodies: an angle or a length; of a ball joint a quaternion
 /// (x, y, z, w), of a free joint that and then the position; q̇ of a free joint has the angular velocity first, both in
 /// the body's axes.
+///
+/// Angles may have any size. Sines are computed to ±10⁴ rad in float32 and to ±10⁵ rad in float64
+/// (``form="engine"``: ±100 rad in float32 for joints whose limits are within ±4π); of an angle
+/// beyond, whole turns are subtracted in float64 before the call. Where turns matter, AngleError
+/// names joint and state: at joints with a spring, end stops or cogging, in
+/// `elastic_inverse_dynamics` and `Loops.assemble`, which return positions, and in linkages.
+///
+/// A state with a NaN or an infinite number has NaN in its own row of the results; the others of
+/// its batch are computed.
 #[pyclass(frozen, module = "robot_dynamics", name = "Robot")]
 pub struct Robot {
     pub single: Models<f32>,
@@ -51,12 +64,25 @@ pub struct Robot {
     name: String,
     library: Option<&'static str>,
     bodies: Vec<BodyInfo>,
+    /// Where its joints' positions are in q.
+    pub positions: Vec<Position>,
+    /// The velocity coordinates that are rates of attitudes.
+    rates: Vec<Position>,
     /// The bodies as the library describes them.
     pub described: Bodies,
-    /// The loops of the file.
-    pub closed: Vec<Closed>,
+    /// Of a file, what was read.
+    read: Option<Read>,
+}
+
+/// What was read of a file.
+pub struct Read {
+    tree: Tree,
+    /// Its loops.
+    closed: Vec<Closed>,
     /// The coordinates that its motors drive, of a robot with loops.
-    pub actuated: Vec<usize>,
+    actuated: Vec<usize>,
+    /// What the importer says.
+    said: Said,
 }
 
 /// The properties of a body, its joint's among them.
@@ -69,6 +95,7 @@ struct BodyInfo {
     damping: f64,
     friction: f64,
     armature: f64,
+    spring: [f64; 2],
 }
 
 impl Robot {
@@ -88,7 +115,11 @@ impl Robot {
         {
             (body.kind, body.parent) = (kind, parent);
         }
+        let joints = bodies.iter().map(|body| (body.kind, body.limits));
+        let (positions, rates) = angles::of_joints(joints);
         Ok(Self {
+            positions,
+            rates,
             single: described.models().map_err(refused)?,
             double: described.models().map_err(refused)?,
             counts: described.counts(),
@@ -96,8 +127,7 @@ impl Robot {
             library,
             bodies,
             described,
-            closed: Vec::new(),
-            actuated: Vec::new(),
+            read: None,
         })
     }
 
@@ -108,12 +138,24 @@ impl Robot {
         numbers: Numbers,
     ) -> PyResult<Self> {
         let read = described.and_then(|robot| {
-            let tree = Tree::of(&robot, &selection.of(&robot)?, numbers)?;
-            let (closed, _) = loops::closed(&robot, &tree);
+            let selected = selection.of(&robot)?;
+            let tree = Tree::of(&robot, &selected, numbers)?;
+            let (closed, mut notes) = loops::closed(&robot, &tree);
             let motors = Motors::of(&tree, &closed, &[])?;
-            Ok((tree, closed, motors.actuated))
+            notes.extend(motors.advice);
+            let said = Said::of(&robot, (selection, &selected), &tree, notes);
+            Ok(Read {
+                tree,
+                closed,
+                actuated: motors.actuated,
+                said,
+            })
         });
-        let (tree, closed, actuated) = read.map_err(|error| of_import(py, &error))?;
+        Self::of_file(py, read.map_err(|error| of_import(py, &error))?)
+    }
+
+    fn of_file(py: Python<'_>, read: Read) -> PyResult<Self> {
+        let tree = &read.tree;
         let bodies = tree.bodies.iter().map(|body| {
             let [lower, upper] = body
                 .limits
@@ -130,15 +172,21 @@ impl Robot {
                 damping: body.damping,
                 friction: body.friction,
                 armature: body.armature,
+                spring: body.spring,
             }
         });
         let bodies = bodies.collect();
-        let robot = Self::of(py, tree.name.clone(), None, Bodies::of(&tree), bodies)?;
+        let robot = Self::of(py, tree.name.clone(), None, Bodies::of(tree), bodies)?;
         Ok(Self {
-            closed,
-            actuated,
+            read: Some(read),
             ..robot
         })
+    }
+
+    /// The loops of the file, and the coordinates that its motors drive.
+    pub fn loops(&self) -> (&[Closed], &[usize]) {
+        let read = self.read.as_ref();
+        read.map_or((&[], &[]), |read| (&read.closed, &read.actuated))
     }
 
     /// Its name, for errors.
@@ -294,14 +342,41 @@ pub fn argument<'a, 'py>(
         given,
         axes: [1, width],
         matrix: false,
+        positions: None,
     }
 }
 
 /// The methods of the files below: an algorithm, effects, arguments, and the shape of a row of each result.
 impl Robot {
     /// The configuration, an argument.
-    pub fn q<'a, 'py>(&self, given: &'a Array<'py>) -> Argument<'a, 'py> {
-        argument("q", given, self.counts.q)
+    pub fn q<'a, 'py>(&'a self, given: &'a Array<'py>) -> Argument<'a, 'py> {
+        self.configuration("q", given)
+    }
+
+    /// A configuration, of which sines and cosines alone matter.
+    fn configuration<'a, 'py>(
+        &'a self,
+        name: &'static str,
+        given: &'a Array<'py>,
+    ) -> Argument<'a, 'py> {
+        Argument {
+            positions: Some(Positions {
+                by: Use::Sines,
+                at: &self.positions,
+            }),
+            ..argument(name, given, self.counts.q)
+        }
+    }
+
+    /// A step from a configuration.
+    fn step<'a, 'py>(&'a self, name: &'static str, given: &'a Array<'py>) -> Argument<'a, 'py> {
+        Argument {
+            positions: Some(Positions {
+                by: Use::Step,
+                at: &self.rates,
+            }),
+            ..self.v(name, given)
+        }
     }
 
     /// An argument of one number for each velocity coordinate.
@@ -316,6 +391,7 @@ impl Robot {
             given,
             axes: [self.counts.v; 2],
             matrix: true,
+            positions: None,
         }
     }
 
@@ -362,8 +438,8 @@ pub type Array<'py> = Bound<'py, PyAny>;
 impl Robot {
     /// A robot of the library by its name.
     #[new]
-    fn new(py: Python<'_>, name: &str) -> PyResult<Self> {
-        let Some((found, known)) = library::find(name) else {
+    fn new(py: Python<'_>, #[pyo3(from_py_with = wanted)] name: String) -> PyResult<Self> {
+        let Some((found, known)) = library::find(&name) else {
             let names = library::ROBOTS.map(|(name, _)| name).join(", ");
             let text = format!("there is no robot `{name}`: {names}");
             return Err(Exception::new(py, "UnknownRobot", text)
@@ -383,6 +459,7 @@ impl Robot {
                 damping: 0.0,
                 friction: 0.0,
                 armature: 0.0,
+                spring: [0.0; 2],
             });
         let bodies = bodies.collect();
         Self::of(py, found.to_owned(), Some(found), known.bodies, bodies)
@@ -398,14 +475,14 @@ impl Robot {
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn from_file(
         py: Python<'_>,
-        path: PathBuf,
-        base: Option<String>,
-        tip: Option<String>,
-        joints: Vec<String>,
-        without: Vec<String>,
-        lock: Option<std::collections::BTreeMap<String, f64>>,
-        free_base: bool,
-        exact: bool,
+        #[pyo3(from_py_with = wanted)] path: PathBuf,
+        #[pyo3(from_py_with = wanted)] base: Option<String>,
+        #[pyo3(from_py_with = wanted)] tip: Option<String>,
+        #[pyo3(from_py_with = wanted)] joints: Vec<String>,
+        #[pyo3(from_py_with = wanted)] without: Vec<String>,
+        #[pyo3(from_py_with = wanted)] lock: Option<std::collections::BTreeMap<String, f64>>,
+        #[pyo3(from_py_with = wanted)] free_base: bool,
+        #[pyo3(from_py_with = wanted)] exact: bool,
     ) -> PyResult<Self> {
         let lock = lock.unwrap_or_default().into_iter().collect();
         let selection = Selection {
@@ -431,15 +508,15 @@ impl Robot {
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn from_text(
         py: Python<'_>,
-        text: &str,
-        folder: PathBuf,
-        base: Option<String>,
-        tip: Option<String>,
-        joints: Vec<String>,
-        without: Vec<String>,
-        lock: Option<std::collections::BTreeMap<String, f64>>,
-        free_base: bool,
-        exact: bool,
+        #[pyo3(from_py_with = wanted)] text: String,
+        #[pyo3(from_py_with = wanted)] folder: PathBuf,
+        #[pyo3(from_py_with = wanted)] base: Option<String>,
+        #[pyo3(from_py_with = wanted)] tip: Option<String>,
+        #[pyo3(from_py_with = wanted)] joints: Vec<String>,
+        #[pyo3(from_py_with = wanted)] without: Vec<String>,
+        #[pyo3(from_py_with = wanted)] lock: Option<std::collections::BTreeMap<String, f64>>,
+        #[pyo3(from_py_with = wanted)] free_base: bool,
+        #[pyo3(from_py_with = wanted)] exact: bool,
     ) -> PyResult<Self> {
         let lock = lock.unwrap_or_default().into_iter().collect();
         let selection = Selection {
@@ -457,7 +534,7 @@ impl Robot {
         };
         Self::read(
             py,
-            py.detach(|| source::parse(text, &folder)),
+            py.detach(|| source::parse(&text, &folder)),
             &selection,
             numbers,
         )
@@ -548,6 +625,16 @@ impl Robot {
     #[getter]
     fn armature(&self) -> Vec<f64> {
         self.per_coordinate(|body| body.armature)
+    }
+    /// Stiffness of the springs of the file, N·m/rad or N/m, for `Spring`.
+    #[getter]
+    fn spring_stiffness(&self) -> Vec<f64> {
+        self.per_coordinate(|body| body.spring[0])
+    }
+    /// Positions at which the springs of the file are at rest, rad or m, for `Spring`.
+    #[getter]
+    fn spring_rest(&self) -> Vec<f64> {
+        self.per_coordinate(|body| body.spring[1])
     }
     /// The number of a body of that name.
     fn body_index(&self, name: &Bound<'_, PyAny>) -> PyResult<usize> {

@@ -89,6 +89,21 @@ def test_any_leading_axes_and_any_strides():
     assert robot.rnea(q, q, q).shape == (24, 7)
 
 
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_arrays_that_are_not_aligned(dtype):
+    robot = rd.Robot("panda")
+    q, v, a, _ = (x.astype(dtype) for x in states(robot, 5))
+
+    def moved(x):
+        raw = np.zeros(x.nbytes + 1, np.uint8)
+        raw[1:] = np.frombuffer(x.tobytes(), np.uint8)
+        return raw[1:].view(dtype).reshape(x.shape)
+
+    given = [moved(x) for x in (q, v, a)]
+    assert not given[0].flags.aligned and given[0].flags.c_contiguous
+    assert robot.rnea(*given).tobytes() == robot.rnea(q, v, a).tobytes()
+
+
 def test_batches_release_the_lock():
     robot = rd.Robot("g1_free")
     q, v, _, tau = states(robot, 4000)
@@ -180,6 +195,32 @@ def test_all_errors_have_one_base_and_their_text():
     assert pickle.loads(pickle.dumps(rd.ShapeError("why"))).args == ("why",)
 
 
+def test_arguments_of_other_types_have_the_base_too():
+    robot, zeros = rd.Robot("ur5e"), np.zeros(6)
+    for call in (
+        lambda: rd.Gravity(direction=[0.0, -1.0]), lambda: rd.Gravity("9.81"), lambda: rd.Viscous(1.0), lambda: rd.Viscous("abc"),
+        lambda: rd.Coulomb([1.0] * 6, None), lambda: rd.BodyWrench(0, [1.0] * 5), lambda: rd.Payload(0, "heavy"),
+        lambda: rd.Contact([("wrist_3", [0.0])], [0.0, 0.0, 1.0], 0.0, 1.0, 1.0, 0.1, 0.5, 0.1), lambda: rd.FourBar(1, 2, 3, []),
+        lambda: rd.Stewart([]), lambda: rd.Beam("long", 1.0), lambda: rd.LoopJoint("l", "fixed", [0]), lambda: rd.LoopJoint("l", 3, [0, 1]),
+        lambda: rd.Loops(robot, [3]), lambda: rd.Linkages(robot, [("l", 3, [1])]), lambda: rd.Robot(5), lambda: rd.Robot.from_text(b"<a/>"),
+        lambda: rd.Robot.from_file(5), lambda: rd.Robot.from_text("<a/>", joints=3), lambda: robot.friction_regressor(zeros, "w"),
+        lambda: robot.operational_space(zeros, 0, damping="small"), lambda: robot.elastic_inverse_dynamics(*[zeros] * 5, "a", [1.0], [1.0]),
+    ):  # fmt: skip
+        with pytest.raises(rd.ArgumentError) as error:
+            call()
+        assert isinstance(error.value, TypeError) and hasattr(error.value, "given") and "cannot be" in str(error.value)
+
+
+def test_the_acceleration_without_qdd_is_said_right():
+    robot = rd.Robot("ur5e")
+    q, v, _, _ = (x[0] for x in states(robot, 1))
+    for frame in ("local", "world", "local_world_aligned"):
+        bias = robot.bias_acceleration(q, v, 5, frame)
+        velocity, acceleration = (x[5] for x in robot.kinematics(q, v, 0 * v, frame))
+        more = np.cross(velocity[:3], velocity[3:]) if frame == "local_world_aligned" else np.zeros(3)
+        assert np.allclose(bias[:3], acceleration[:3]) and np.allclose(bias[3:] - acceleration[3:], more)
+
+
 def test_singular_inertia_names_joint_and_state():
     text = (
         '<robot name="r"><link name="a"/><link name="b"><inertial><mass value="1"/><origin xyz="0 0 -0.5"/>'
@@ -200,28 +241,24 @@ def test_singular_inertia_names_joint_and_state():
             method(m)
     good = rd.Robot("ur5e")
     q, v, _, tau = states(good, 3000)
+    whole = good.aba(q, v, tau)
     q[2071, 3] = np.nan
-    with pytest.raises(rd.NotPositiveDefinite) as error:
-        good.aba(q, v, tau)
-    assert error.value.state == 2071
+    found = good.aba(q, v, tau)
+    assert np.isnan(found[2071]).all() and np.delete(found, 2071, 0).tobytes() == np.delete(whole, 2071, 0).tobytes()
 
 
 @pytest.mark.parametrize("lane", range(8))
-@pytest.mark.parametrize("pivot", ["nan", "negative"])
-def test_a_singular_state_among_eight_is_named(pivot, lane):
+def test_a_singular_state_among_eight_is_named(lane):
     """float32 computes eight states at once, and those of a block with a singular one again one by one."""
     robot, state, scene = rd.Robot("ur5e"), 16 + lane, rd.RIGID_BODY
     q, v, _, tau = (x.astype(np.float32) for x in states(robot, 40))
-    if pivot == "nan":
-        q[state, 3] = np.nan
-    else:
-        # All but one stretch out, and have more inertia about the vertical axis than the upright one.
-        q[:, 1:3] = 0.0
-        q[state, 1] = -np.pi / 2
-        inertia = 1.0 / robot.spatial_operator_ltdl(q)[1][:, 0]
-        least = np.delete(inertia, state).min()
-        assert inertia[state] < 0.5 * least
-        scene += rd.Armature([-0.75 * float(least)] + [0.0] * 5)
+    # All but one stretch out, and have more inertia about the vertical axis than the upright one.
+    q[:, 1:3] = 0.0
+    q[state, 1] = -np.pi / 2
+    inertia = 1.0 / robot.spatial_operator_ltdl(q)[1][:, 0]
+    least = np.delete(inertia, state).min()
+    assert inertia[state] < 0.5 * least
+    scene += rd.Armature([-0.75 * float(least)] + [0.0] * 5)
     with pytest.raises(rd.NotPositiveDefinite) as alone:
         robot.aba(q[state], v[state], tau[state], scene)
     with pytest.raises(rd.NotPositiveDefinite) as among:

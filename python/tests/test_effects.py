@@ -36,6 +36,10 @@ def test_friction_and_springs_have_their_closed_forms():
     assert np.allclose(alone(rd.Stribeck(k, 0.5, 1e-3)), k * np.exp(-((v[0] / 0.5) ** 2)) * np.sign(v[0]))
     assert np.allclose(alone(rd.Spring(k, [0.1] * 6)), k * (q[0] - 0.1))
     assert np.allclose(alone(rd.Cogging([3.0] * 6, [[1.0]] * 6, [[2.0]] * 6)), np.cos(3 * q[0]) + 2 * np.sin(3 * q[0]))
+    assert np.array_equal(alone(rd.ConstantTorque(k)), k)
+    twice = rd.RIGID_BODY + rd.ConstantTorque(k) + rd.ConstantTorque(-3.0 * k)
+    assert np.allclose(robot.rnea(q, v, a, twice), robot.rnea(q, v, a) - 2.0 * k)
+    assert np.allclose(robot.aba(q, v, robot.rnea(q, v, a, twice), twice), a, atol=1e-9)
     bristles = rd.Lugre(100 * k, k, k, 2 * k, k, 0.1, [0.001] * 6)
     g = (2 * k + k * np.exp(-((v[0] / 0.1) ** 2))) / (100 * k)
     rate = v[0] - np.abs(v[0]) / g * 0.001
@@ -100,6 +104,8 @@ def test_impossible_effects_are_refused():
     assert error.value.effect == "Viscous"
     with pytest.raises(rd.EffectError, match="no body"):
         robot.rnea(q, v, a, rd.RIGID_BODY + rd.BodyWrench("hand", ONES))
+    with pytest.raises(rd.EffectError, match="no body of the number 9"):
+        robot.rnea(q, v, a, rd.RIGID_BODY + rd.BodyWrench(9, ONES))
     with pytest.raises(rd.EffectError, match="mass"):
         robot.rnea(q, v, a, rd.RIGID_BODY + rd.Payload(0, -1.0))
     for effect in (rd.Gravity() + rd.Coriolis(), ()):
@@ -118,8 +124,17 @@ def test_impossible_effects_are_refused():
         robot.friction_regressor(v, 0.0)
     with pytest.raises(rd.EffectError, match="length 1"):
         rd.Gravity(direction=[0.0, 0.0, -2.0])
+    for normal in ([0.0, 0.0, 2.0], [0.0, 0.0, 0.0], [0.0, 0.0, 1.0 + 1e-6], [float("nan"), 0.0, 1.0]):
+        with pytest.raises(rd.EffectError, match="normal.*length 1") as error:
+            rd.Contact([("wrist_3", [0.0] * 3)], normal, 0.0, 100.0, 1.0, 0.01, 0.5, 0.01)
+        assert error.value.effect == "Contact"
+    rd.Contact([("wrist_3", [0.0] * 3)], [0.6, 0.0, 0.8], 0.0, 100.0, 1.0, 0.01, 0.5, 0.01)
     with pytest.raises(rd.EffectError, match="not finite"):
         rd.Viscous([float("nan")])
+    with pytest.raises(rd.EffectError, match="ConstantTorque: a number is not finite"):
+        rd.ConstantTorque([float("inf")])
+    with pytest.raises(rd.EffectError, match="5 numbers for 6"):
+        robot.rnea(q, v, a, rd.ConstantTorque([1.0] * 5))
     with pytest.raises(rd.EffectError, match="width"):
         rd.Coulomb([1.0], 0.0)
     with pytest.raises(rd.UnknownBody):

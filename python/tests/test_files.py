@@ -1,5 +1,7 @@
 """Robots from files, and files that are hostile."""
 
+import pathlib
+
 import numpy as np
 import pytest
 
@@ -121,3 +123,37 @@ def test_a_file_that_is_no_text_or_a_folder_raises(tmp_path):
     path.write_bytes(b"<robot>" + b" " * (40 << 20))
     with pytest.raises(rd.DescriptionError, match="bytes in the file"):
         rd.Robot.from_file(path)
+
+
+HERE = pathlib.Path(__file__).parent / "files"
+
+
+def test_joints_that_follow_others_are_told():
+    claw = rd.Robot.from_file(HERE / "claw.urdf")
+    found = {(c.joint, c.leader): (c.ratio, c.offset) for c in claw.couplings}
+    assert found == {
+        ("f1", "lead"): (-1.5, 0.25),
+        ("slide", "lead"): (0.02, 0.01),
+        # It follows f1, which follows: 2 (−1.5 lead + 0.25) is not what the file says; it says lead.
+        ("f2", "lead"): (2.0, 0.0),
+    }
+    assert rd.Robot.from_text(PENDULUM).couplings == [] and rd.Robot("ur5e").couplings == []
+
+
+def test_advice_of_the_importer_is_there():
+    arm = rd.Robot.from_file(HERE / "grams_and_millimetres.urdf")
+    units = [one for one in arm.advice if one.topic == "units" or one.topic == "placeholder"]
+    assert {one.name for one in units} == {"upper", "fore"}
+    assert all(("kg·mm²" in one.text or "other units" in one.text) and one.line in (2, 3, 4) for one in units), arm.advice
+    assert rd.Robot("ur5e").advice == [] == rd.Robot("ur5e").notes
+
+
+def test_what_a_file_states_and_the_robot_has_not_is_noted():
+    ball = rd.Robot.from_file(HERE / "spring.xml")
+    (note,) = [note for note in ball.notes if "spring" in note.lower() or "stiffness" in note]
+    assert [one.text for one in ball.advice if one.topic == "left-out"] == ball.notes and note
+    text = MJCF.replace('armature="0.02"', 'armature="0.02" stiffness="3" springref="20"')
+    hinge = rd.Robot.from_text(text)
+    assert hinge.spring_stiffness == [3.0] and np.allclose(hinge.spring_rest, [np.radians(20.0)])
+    without = rd.Robot.from_text(urdf(seed=11, joints=8, chain=True, kinds=("revolute",)), without=["link6"])
+    assert any("link6" in note and "kg" in note for note in without.notes), without.notes

@@ -61,6 +61,7 @@ WITHOUT = {
     "clusters.to_motors": "numpy.linalg.solve(G[motors].T, τ), of the G of `motion`",
     "clusters.from_motors": "G[motors].T @ τ, of the G of `motion`",
     "drivetrain.elastic_step": "a step of a simulated plant",
+    "manifold.nearest_turn": "`normalise`; `difference` takes the short way",
     "flexible.step": "a step of a simulated plant, of models of joints of one coordinate",
 }
 

@@ -19,7 +19,7 @@
 pub mod advice;
 pub mod check;
 pub mod description;
-mod dropped;
+pub mod dropped;
 pub mod error;
 pub mod estimate;
 pub mod import;

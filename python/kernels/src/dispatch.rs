@@ -20,7 +20,7 @@ pub trait Rows<R> {
     fn at(&mut self, row: usize) -> impl Row<R>;
 }
 
-impl<R: Copy> Rows<R> for Job<'_, R> {
+impl<R: Real> Rows<R> for Job<'_, R> {
     fn count(&self) -> usize {
         self.rows
     }
@@ -69,7 +69,8 @@ pub struct Call<'a, D, P, R: Real, const V: usize> {
     pub rows: &'a mut P,
 }
 
-/// Computes the rows one after the other.
+/// Computes the rows one after the other. One that has no result because an argument is not finite
+/// marks itself.
 fn go<
     O: Algorithm,
     R: Real,
@@ -86,14 +87,14 @@ fn go<
     call: Call<'_, D, P, R, V>,
 ) -> Done {
     for row in 0..call.rows.count() {
-        algorithm
-            .row::<R, D, B, Q, V, A, C, X>(
-                call.robot,
-                call.counts,
-                call.parts,
-                &mut call.rows.at(row),
-            )
-            .map_err(|problem| Failure { row, problem })?;
+        let mut one = call.rows.at(row);
+        let done =
+            algorithm.row::<R, D, B, Q, V, A, C, X>(call.robot, call.counts, call.parts, &mut one);
+        if let Err(problem) = done
+            && !one.mark()
+        {
+            return Err(Failure { row, problem });
+        }
     }
     Ok(())
 }

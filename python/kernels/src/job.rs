@@ -9,6 +9,8 @@ use dynamics_core::clusters::ClusterProblem;
 use dynamics_core::drivetrain::MultiDofJoint;
 use dynamics_core::flexible::FlexibleError;
 use dynamics_core::loops::LoopError;
+use dynamics_core::scalar::Real;
+use dynamics_core::state::all_finite;
 use dynamics_core::state::manifold::NoAttitude;
 
 /// A row-major array.
@@ -51,6 +53,8 @@ pub enum Problem {
     Loop(LoopError),
     /// A linkage by its number, or none.
     Linkage(usize, ClusterProblem),
+    /// A linkage by its number, with an angle of which sines are not computed.
+    Angle(usize, f64),
     /// A robot with links that bend.
     Flexible(FlexibleError),
 }
@@ -110,6 +114,11 @@ pub trait Row<R> {
     fn get(&self, input: usize, column: usize) -> R;
     /// Writes number `column` of result `output`.
     fn put(&mut self, output: usize, column: usize, value: R);
+    /// Makes all results NaN if an argument is not finite, and says whether it is so. Several
+    /// states at once are never marked: a block without a result is computed again state by state.
+    fn mark(&mut self) -> bool {
+        false
+    }
 }
 
 /// One row of a job.
@@ -120,7 +129,7 @@ pub struct One<'j, 'a, R> {
     pub row: usize,
 }
 
-impl<R: Copy> Row<R> for One<'_, '_, R> {
+impl<R: Real> Row<R> for One<'_, '_, R> {
     #[inline(always)]
     fn get(&self, input: usize, column: usize) -> R {
         let Input { data, width } = self.job.inputs[input];
@@ -131,6 +140,19 @@ impl<R: Copy> Row<R> for One<'_, '_, R> {
     fn put(&mut self, output: usize, column: usize, value: R) {
         let Output { data, width } = &mut self.job.outputs[output];
         data[self.row * *width + column] = value;
+    }
+
+    fn mark(&mut self) -> bool {
+        let row = self.row;
+        let own = |width: usize| row * width..(row + 1) * width;
+        let mut inputs = self.job.inputs.iter();
+        if inputs.all(|input| all_finite(&input.data[own(input.width)])) {
+            return false;
+        }
+        for output in &mut self.job.outputs {
+            output.data[own(output.width)].fill(R::from_f64(f64::NAN));
+        }
+        true
     }
 }
 

@@ -41,8 +41,19 @@ pub struct Setting<'a> {
     pub body: &'a (dyn Fn(&BodyRef) -> usize + Sync),
 }
 
+/// The ranges of `dynamics_core::trig::sin_cos` and `sin_cos_f64`, rad.
+pub(crate) const fn most_angle<R>() -> f64 {
+    if size_of::<R>() == size_of::<f64>() {
+        1e5
+    } else {
+        1e4
+    }
+}
+
 /// A scalar of arrays.
 pub trait Scalar: Real {
+    /// The largest angle, rad, of which sines are computed to their last digits.
+    const MOST_ANGLE: f64;
     /// Computes the rows of a job by an algorithm, one after the other.
     ///
     /// # Errors
@@ -67,6 +78,8 @@ macro_rules! which {
         macro_rules! scalar {
             ($r:ty) => {
                 impl Scalar for $r {
+                    const MOST_ANGLE: f64 = most_angle::<$r>();
+
                     fn compute(
                         which: &Which<'_>,
                         models: &Models<Self>,

@@ -7,6 +7,7 @@ use dynamics_core::clusters::{
 use dynamics_core::model::{JointCoordinate, JointKind};
 use dynamics_core::scalar::{Native, Real};
 
+use crate::job::Problem;
 use crate::model::{Bodies, Counts};
 
 /// The most coefficients of a belt.
@@ -219,6 +220,19 @@ pub struct TreeMotion<'a, R: Real, const Q: usize, const V: usize> {
     pub qdd: [R; V],
 }
 
+/// Nothing if no number of a linkage is larger.
+fn all_within(
+    most: f64,
+    each: impl Iterator<Item = impl Iterator<Item = f64>>,
+) -> Result<(), Problem> {
+    for (c, mut numbers) in each.enumerate() {
+        if let Some(angle) = numbers.find(|x| x.abs() > most) {
+            return Err(Problem::Angle(c, angle));
+        }
+    }
+    Ok(())
+}
+
 /// aᵀ b without an addition to zero.
 fn dot<R: Real>(a: &[R], b: &[R]) -> R {
     let mut products = a.iter().zip(b).map(|(&a, &b)| a * b);
@@ -278,6 +292,25 @@ impl Linkages {
 }
 
 impl Linkages {
+    /// Where each position that is in no linkage is: in q of the tree, and in y.
+    pub fn outside(&self) -> &[[usize; 2]] {
+        &self.free_q
+    }
+
+    /// Nothing if no linkage has an own coordinate beyond an angle; lengths are never so large.
+    ///
+    /// # Errors
+    /// [`Problem::Angle`] with the first that has.
+    pub fn within<R: Real>(&self, y: &[R], most: f64) -> Result<(), Problem> {
+        all_within(
+            most,
+            self.all.iter().map(|placed| {
+                let ([p, _], [_, n]) = (placed.first, placed.linkage.sizes());
+                y[p..p + n].iter().map(|y| y.to_f64())
+            }),
+        )
+    }
+
     /// The linkage of an independent coordinate that moves no inertia; none if it is of none.
     pub fn without_inertia(&self, coordinate: usize) -> (usize, ClusterProblem) {
         let found = self.all.iter().position(|placed| {
@@ -289,6 +322,21 @@ impl Linkages {
 }
 
 impl<R: Real, const Q: usize, const V: usize> TreeMotion<'_, R, Q, V> {
+    /// Nothing if no linkage drives a joint beyond an angle.
+    ///
+    /// # Errors
+    /// [`Problem::Angle`] with the first that does.
+    pub fn within(&self, most: f64) -> Result<(), Problem> {
+        let each = self.linkages.all.iter().zip(&self.motions);
+        all_within(
+            most,
+            each.map(|(placed, motion)| {
+                let [m, _] = placed.linkage.sizes();
+                motion.q[..m].iter().map(|q| q.q.to_f64())
+            }),
+        )
+    }
+
     /// Gᵀ τ: the torques at y that do the work of the tree's.
     pub fn torque(&self, tau: &[R; V]) -> [R; V] {
         let mut out = [R::ZERO; V];

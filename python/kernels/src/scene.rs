@@ -4,8 +4,8 @@
 //! is not named costs nothing; the other effects are lists, in the order in which the user named them.
 
 use dynamics_core::effects::{
-    AsymmetricCoulomb, BodyState, BodyWrench, Cogging, Contact, Coulomb, Effect, EndStops,
-    GyroscopicRotors, JointState, LoadFactors, LoadFriction, Lugre, Spring, Stribeck,
+    AsymmetricCoulomb, BodyState, BodyWrench, Cogging, ConstantTorque, Contact, Coulomb, Effect,
+    EndStops, GyroscopicRotors, JointState, LoadFactors, LoadFriction, Lugre, Spring, Stribeck,
     TorqueDerivatives, Viscous, WorldWrench, hook,
 };
 use dynamics_core::scalar::Real;
@@ -23,6 +23,7 @@ pub enum AtJoint<R: Real, const V: usize> {
     Lugre(Lugre<R, V>),
     Spring(Spring<R, V>),
     EndStops(EndStops<R, V>),
+    Constant(ConstantTorque<R, V>),
     Cogging(Box<Cogging<R, HARMONICS, V>>),
 }
 
@@ -218,6 +219,7 @@ macro_rules! each {
             AtJoint::Lugre($effect) => $call,
             AtJoint::Spring($effect) => $call,
             AtJoint::EndStops($effect) => $call,
+            AtJoint::Constant($effect) => $call,
             AtJoint::Cogging(boxed) => {
                 let $effect = &**boxed;
                 $call

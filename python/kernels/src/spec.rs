@@ -1,17 +1,18 @@
 //! The effects that a user composes, in numbers of f64, before a robot and a scalar are known.
 
 use dynamics_core::effects::{
-    AsymmetricCoulomb, BodyWrench, Cogging, Contact, ContactPoint, Coulomb, EndStops,
-    GyroscopicRotors, LoadFriction, Lugre, Spring, Stribeck, Viscous, Width, WorldWrench,
+    AsymmetricCoulomb, BodyWrench, Cogging, ConstantTorque, Contact, ContactPoint, Coulomb,
+    EndStops, GyroscopicRotors, LoadFriction, Lugre, Spring, Stribeck, Viscous, Width, WorldWrench,
 };
 use dynamics_core::model::BodyInertia;
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
+use serde::{Deserialize, Serialize};
 
 use crate::scene::{AtBody, AtJoint, HARMONICS, Parts};
 
 /// A body by its number or its name.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum BodyRef {
     Number(usize),
     Name(String),
@@ -27,7 +28,7 @@ impl std::fmt::Display for BodyRef {
 }
 
 /// An effect.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Spec {
     Gravity([f64; 3]),
     Inertia,
@@ -77,6 +78,7 @@ pub enum Spec {
         cos: Vec<Vec<f64>>,
         sin: Vec<Vec<f64>>,
     },
+    ConstantTorque(Vec<f64>),
     Armature(Vec<f64>),
     GyroscopicRotors {
         inertia: Vec<f64>,
@@ -131,6 +133,7 @@ impl Spec {
             Self::Spring { .. } => "Spring",
             Self::EndStops { .. } => "EndStops",
             Self::Cogging { .. } => "Cogging",
+            Self::ConstantTorque(_) => "ConstantTorque",
             Self::Armature(_) => "Armature",
             Self::GyroscopicRotors { .. } => "GyroscopicRotors",
             Self::Payload { .. } => "Payload",
@@ -147,6 +150,7 @@ impl Spec {
             Self::Spring { .. }
                 | Self::EndStops { .. }
                 | Self::Cogging { .. }
+                | Self::ConstantTorque(_)
                 | Self::Payload { .. }
                 | Self::BodyWrench { .. }
                 | Self::WorldWrench { .. }
@@ -157,7 +161,7 @@ impl Spec {
     /// Its lists, one number for each velocity coordinate.
     fn lists(&self) -> Vec<&Vec<f64>> {
         match self {
-            Self::Viscous(a) | Self::Armature(a) => vec![a],
+            Self::Viscous(a) | Self::ConstantTorque(a) | Self::Armature(a) => vec![a],
             Self::Coulomb { torque: a, .. } | Self::Stribeck { excess: a, .. } => vec![a],
             Self::AsymmetricCoulomb {
                 forward: a,
@@ -445,6 +449,7 @@ fn of_joints<R: Real, const V: usize>(spec: &Spec) -> Option<AtJoint<R, V>> {
             damping: R::from_f64(*damping),
             damping_depth: width(*damping_depth),
         }),
+        Spec::ConstantTorque(values) => AtJoint::Constant(ConstantTorque(array(values))),
         Spec::Cogging { per_turn, cos, sin } => {
             let rows = |given: &[Vec<f64>]| {
                 std::array::from_fn(|i| array(given.get(i).map_or(&[], Vec::as_slice)))

@@ -9,16 +9,19 @@
 
 from ._native import (
     RIGID_BODY,
+    Advice,
     Armature,
     AsymmetricCoulomb,
     Beam,
     Belt,
     BodyWrench,
     Cogging,
+    ConstantTorque,
     Contact,
     Coriolis,
     Cost,
     Coulomb,
+    Coupling,
     Delta,
     Differential,
     EndStops,
@@ -50,6 +53,8 @@ from ._native import (
     threads,
 )
 from .errors import (
+    AngleError,
+    ArgumentError,
     DescriptionError,
     DtypeError,
     EffectError,
@@ -75,16 +80,21 @@ from .errors import (
 )
 
 __all__ = [
+    "Advice",
+    "AngleError",
+    "ArgumentError",
     "Armature",
     "AsymmetricCoulomb",
     "Beam",
     "Belt",
     "BodyWrench",
     "Cogging",
+    "ConstantTorque",
     "Contact",
     "Coriolis",
     "Cost",
     "Coulomb",
+    "Coupling",
     "Delta",
     "DescriptionError",
     "Differential",

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 __all__ = [
+    "AngleError",
+    "ArgumentError",
     "DescriptionError",
     "DtypeError",
     "EffectError",
@@ -103,6 +105,13 @@ class ShapeError(RobotDynamicsError, ValueError):
     """What is expected."""
 
 
+class ArgumentError(RobotDynamicsError, TypeError, ValueError):
+    """An argument that is not of its type, such as a list of two numbers for a direction."""
+
+    given: Any
+    """What was given."""
+
+
 class DtypeError(RobotDynamicsError, TypeError):
     """An array that is neither all float32 nor all float64, or no array of numbers."""
 
@@ -118,7 +127,7 @@ class EffectError(RobotDynamicsError, ValueError):
 
 
 class NotPositiveDefinite(RobotDynamicsError, ArithmeticError):
-    """M is not positive definite: a joint moves no inertia, or a number of the state is not finite."""
+    """M is not positive definite: a joint moves no inertia, or a number overflows."""
 
     joint: str
     """The joint's name."""
@@ -137,8 +146,23 @@ class MultiDofJoint(RobotDynamicsError, ValueError):
     """The state's index in the batch; 0 of a single state."""
 
 
+class AngleError(RobotDynamicsError, ValueError):
+    """An angle beyond the range in which sines are computed, where its whole turns matter."""
+
+    joint: str
+    """The joint's name; that of the linkage, where it is an angle of a linkage."""
+    coordinate: int | None
+    """The velocity coordinate; none of a linkage."""
+    angle: float
+    """The angle, rad."""
+    limit: float
+    """The largest angle, rad."""
+    state: int
+    """The state's index in the batch; 0 of a single state."""
+
+
 class NoAttitude(RobotDynamicsError, ValueError):
-    """A quaternion of length zero, or one that is not finite."""
+    """A quaternion of length zero, or so small that its square is."""
 
     joint: str
     """The joint's name."""
@@ -183,7 +207,7 @@ class UnderActuated(RobotDynamicsError, ArithmeticError):
 
 
 class NotFinite(RobotDynamicsError, ArithmeticError):
-    """A number that is infinite or NaN reaches a loop."""
+    """A number of a loop overflows: one that is given as NaN or infinite marks its row instead."""
 
     loop: str
     """The loop's name."""

@@ -5,8 +5,9 @@ use pyo3::types::PyTuple;
 use robot_dynamics_kernels::Which;
 
 use super::{Array, Robot, with_inertia};
+use crate::angles::Use;
 use crate::effects::given as effects_of;
-use crate::error::Exception;
+use crate::error::{Exception, wanted};
 use robot_dynamics_kernels::spec::Spec;
 
 #[pymethods]
@@ -33,9 +34,9 @@ impl Robot {
         qdd: &Array<'py>,
         jerk: &Array<'py>,
         snap: &Array<'py>,
-        stiffness: Vec<f64>,
-        rotor: Vec<f64>,
-        friction: Vec<f64>,
+        #[pyo3(from_py_with = wanted)] stiffness: Vec<f64>,
+        #[pyo3(from_py_with = wanted)] rotor: Vec<f64>,
+        #[pyo3(from_py_with = wanted)] friction: Vec<f64>,
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyTuple>> {
         let effects = effects_of(effects)?;
@@ -71,7 +72,7 @@ impl Robot {
             Which::ElasticInverseDynamics { joints },
             &effects,
             &[
-                self.q(q),
+                self.q(q).by(Use::Numbers),
                 self.v("qd", qd),
                 self.v("qdd", qdd),
                 self.v("jerk", jerk),

@@ -8,6 +8,7 @@ use robot_dynamics_kernels::spec::Spec;
 
 use super::{Array, Robot, frame_of, with_inertia, without_rotors};
 use crate::effects::given as effects_of;
+use crate::error::wanted;
 
 #[pymethods]
 impl Robot {
@@ -307,7 +308,7 @@ impl Robot {
         body: &Bound<'py, PyAny>,
         frame: &str,
         effects: Option<&Bound<'py, PyAny>>,
-        damping: f64,
+        #[pyo3(from_py_with = wanted)] damping: f64,
     ) -> PyResult<Bound<'py, PyTuple>> {
         let body = self.body(body)?;
         let frame = frame_of(py, frame)?;

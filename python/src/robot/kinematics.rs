@@ -5,6 +5,7 @@ use pyo3::types::PyTuple;
 use robot_dynamics_kernels::Which;
 
 use super::{Array, Robot, argument, frame_of};
+use crate::angles::Use;
 use crate::effects::given as effects_of;
 
 #[pymethods]
@@ -42,7 +43,10 @@ impl Robot {
         )
     }
 
-    /// J̇ q̇ of a body, (…, 6), rad/s² and m/s², the spatial acceleration without q̈; q (…, nq), q̇ (…, nv).
+    /// J̇ q̇ of a body, (…, 6), rad/s² and m/s²: what `jacobian` leaves of the derivative of v = J
+    /// q̇ without q̈; q (…, nq), q̇ (…, nv). In the frames "local" and "world" it is the spatial
+    /// acceleration, as that of `kinematics` at q̈ = 0; in "local_world_aligned" its linear part is
+    /// the acceleration of the body's origin, and that of `kinematics` is less by ω × v.
     #[pyo3(signature = (q, qd, body, frame = "local"))]
     fn bias_acceleration<'py>(
         &self,
@@ -130,7 +134,7 @@ impl Robot {
             py,
             Which::Integrate,
             &[],
-            &[self.q(q), self.v("delta", delta)],
+            &[self.q(q).by(Use::Integrate), self.step("delta", delta)],
             &[self.counts.q],
         )
     }
@@ -139,7 +143,13 @@ impl Robot {
     ///
     /// Raises NoAttitude for a quaternion of length zero.
     fn normalise<'py>(&self, py: Python<'py>, q: &Array<'py>) -> PyResult<Array<'py>> {
-        self.one(py, Which::Normalise, &[], &[self.q(q)], &[self.counts.q])
+        self.one(
+            py,
+            Which::Normalise,
+            &[],
+            &[self.q(q).by(Use::Normalise)],
+            &[self.counts.q],
+        )
     }
 
     /// q₁ ⊖ q₀ (…, nv): the velocity that leads from q₀ to q₁ (…, nq) in a unit of time.
@@ -155,8 +165,8 @@ impl Robot {
             Which::Difference,
             &[],
             &[
-                argument("q0", q0, self.counts.q),
-                argument("q1", q1, self.counts.q),
+                self.configuration("q0", q0).by(Use::Difference),
+                self.configuration("q1", q1).by(Use::Difference),
             ],
             &[self.counts.v],
         )

@@ -5,6 +5,7 @@ use robot_dynamics_kernels::Which;
 
 use super::{Array, Robot, argument};
 use crate::effects::{given as effects_of, wide};
+use crate::error::wanted;
 
 #[pymethods]
 impl Robot {
@@ -105,7 +106,7 @@ impl Robot {
         &self,
         py: Python<'py>,
         qd: &Array<'py>,
-        width: f64,
+        #[pyo3(from_py_with = wanted)] width: f64,
     ) -> PyResult<Array<'py>> {
         wide(py, "Coulomb", &[width])?;
         self.one(

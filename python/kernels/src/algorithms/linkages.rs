@@ -7,6 +7,7 @@ use dynamics_core::state::{JointTrig, all_finite};
 
 use super::*;
 use crate::linkages::{Linkages, TreeMotion};
+use crate::most_angle;
 
 /// The tree's motion at the y, ẏ and ÿ of a row, of which so many are given, with its sines and cosines.
 #[allow(clippy::type_complexity, reason = "a pair")]
@@ -24,7 +25,10 @@ where
         true => filled(row, input, y),
         false => [R::ZERO; V],
     };
-    let tree = linkages.motion(&filled(row, 0, p), &part(1), &part(2))?;
+    let y = filled(row, 0, p);
+    linkages.within(&y, most_angle::<R>())?;
+    let tree = linkages.motion(&y, &part(1), &part(2))?;
+    tree.within(most_angle::<R>())?;
     let mut trig = JointTrig::new(robot, &tree.q);
     for &(at, turn) in &tree.turns {
         trig.coordinates[at] = turn;

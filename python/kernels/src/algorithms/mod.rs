@@ -357,7 +357,8 @@ algorithm! {
         let (values, kinds) = (filled::<R, V>(row, 2, counts.v), filled::<R, V>(row, 3, counts.v));
         let given = std::array::from_fn(|i| match kinds[i] == R::ZERO {
             true => Prescribed::Torque(values[i]),
-            false => Prescribed::Acceleration(values[i]),
+            false if kinds[i].is_finite() => Prescribed::Acceleration(values[i]),
+            false => Prescribed::Acceleration(R::from_f64(f64::NAN)),
         });
         let found = algorithms::hybrid_dynamics(robot, &state, &given, scene);
         let found = found?;

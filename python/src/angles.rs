@@ -1,0 +1,210 @@
+//! Angles beyond the range in which the library computes sines: whole turns are subtracted before
+//! the call, in f64, and where turns matter the angle is refused.
+
+use dynamics_core::model::JointKind;
+use pyo3::prelude::*;
+use robot_dynamics_kernels::spec::Spec;
+
+use crate::compute::Numbers;
+use crate::error::Exception;
+use crate::robot::Robot;
+
+/// The range of the engine in f32 for joints whose limits are within two turns, rad:
+/// `Link::angle_range`.
+const NEAR: f64 = 100.0;
+
+/// A position coordinate whose derivative is a velocity coordinate.
+#[derive(Clone, Copy, Debug)]
+pub struct Position {
+    /// Its column in q, or in y of linkages.
+    pub column: usize,
+    /// Its velocity coordinate.
+    pub coordinate: usize,
+    /// The kind of its joint.
+    pub kind: JointKind,
+    /// Whether it is an angle.
+    pub angle: bool,
+    /// Whether the limits of its joint are within two turns.
+    pub near: bool,
+}
+
+/// What a function does with positions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Use {
+    /// Of angles only sines and cosines matter to it.
+    Sines,
+    /// It returns them, or what depends on them.
+    Numbers,
+    /// It takes their difference.
+    Difference,
+    /// It brings them to within half a turn.
+    Normalise,
+    /// It adds a step to them.
+    Integrate,
+    /// They are the steps.
+    Step,
+}
+
+/// Positions in an argument.
+#[derive(Clone, Copy)]
+pub struct Positions<'a> {
+    /// What is done with them.
+    pub by: Use,
+    /// Where they are.
+    pub at: &'a [Position],
+}
+
+/// What becomes of an angle beyond the range.
+enum Beyond {
+    /// It may stay.
+    Stays,
+    /// It loses whole turns.
+    Turns,
+    /// It is refused, for this reason.
+    Refused(&'static str),
+}
+
+impl Positions<'_> {
+    fn beyond(&self, position: &Position, effects: &[Spec]) -> Beyond {
+        let at = position.coordinate;
+        let turns_matter = || {
+            let effect = effects.iter().find(|effect| match effect {
+                Spec::Spring { stiffness, .. } => stiffness.get(at).is_none_or(|x| *x != 0.0),
+                Spec::Cogging { per_turn, .. } => per_turn.get(at).is_none_or(|x| *x != 0.0),
+                Spec::EndStops { .. } => true,
+                _ => false,
+            });
+            match (effect, position.kind) {
+                (Some(Spec::Spring { .. }), _) => Some("Spring depends on whole turns"),
+                (Some(Spec::Cogging { .. }), _) => Some("Cogging depends on whole turns"),
+                (Some(_), _) => Some("EndStops depend on whole turns"),
+                (None, JointKind::Helical) => Some("its turns are a way"),
+                (None, _) => None,
+            }
+        };
+        match (self.by, position.kind) {
+            (Use::Sines, _) => turns_matter().map_or(Beyond::Turns, Beyond::Refused),
+            (Use::Numbers, _) => Beyond::Refused("the result depends on whole turns"),
+            (Use::Difference, JointKind::Continuous | JointKind::Planar) => Beyond::Turns,
+            (Use::Normalise, JointKind::Continuous) => Beyond::Turns,
+            (Use::Difference | Use::Normalise, _) => Beyond::Stays,
+            (Use::Integrate, JointKind::Planar) => {
+                Beyond::Refused("the result depends on whole turns")
+            }
+            (Use::Integrate, _) => Beyond::Stays,
+            (Use::Step, _) => Beyond::Refused("a step is no more"),
+        }
+    }
+
+    /// The rows of an argument with all angles in the range, if that changes one.
+    pub fn in_range<R: Numbers>(
+        &self,
+        py: Python<'_>,
+        robot: &Robot,
+        (data, width): (&[R], usize),
+        engine: bool,
+        effects: &[Spec],
+    ) -> PyResult<Option<Vec<R>>> {
+        let narrow = engine && size_of::<R>() == 4;
+        let cogs = effects
+            .iter()
+            .any(|effect| matches!(effect, Spec::Cogging { .. }));
+        // Almost always none is large, which one pass over all numbers finds.
+        let least = R::from_f64(if narrow { NEAR } else { R::MOST_ANGLE });
+        let fits = |part: &[R]| part.iter().fold(true, |all, x| all & (x.abs() <= least));
+        if !cogs && data.chunks(1024).all(fits) {
+            return Ok(None);
+        }
+        let mut changed: Option<Vec<R>> = None;
+        for position in self.at {
+            let most = match narrow && position.near {
+                true => NEAR,
+                false => R::MOST_ANGLE,
+            };
+            let column = || data.iter().skip(position.column).step_by(width).enumerate();
+            let refused = |row: usize, angle: R, reason: String| {
+                let (joint, angle) = (robot.joint_of(position.coordinate), angle.to_f64());
+                let text = format!(
+                    "joint `{joint}` is at {angle} rad, and sines are computed to {most} rad: {reason} (state {row})"
+                );
+                let error = Exception::new(py, "AngleError", text).with("joint", joint);
+                let error = error.with("coordinate", position.coordinate);
+                let error = error.with("angle", angle).with("limit", most);
+                Err(error.with("state", row).build())
+            };
+            for effect in effects {
+                let Spec::Cogging { per_turn, .. } = effect else {
+                    continue;
+                };
+                let n = per_turn.get(position.coordinate).copied().unwrap_or(0.0);
+                let fits = |x: R| (n * x.to_f64()).abs() <= R::MOST_ANGLE || !x.is_finite();
+                if let Some((row, &x)) = column().find(|&(_, &x)| !fits(x)) {
+                    return refused(
+                        row,
+                        x,
+                        format!("Cogging takes sines of {n} times the angle"),
+                    );
+                }
+            }
+            if !position.angle {
+                continue;
+            }
+            let outside = |x: R| x.to_f64().abs() > most && x.is_finite();
+            let Some((first, &angle)) = column().find(|&(_, &x)| outside(x)) else {
+                continue;
+            };
+            match self.beyond(position, effects) {
+                Beyond::Stays => {}
+                Beyond::Refused(reason) => return refused(first, angle, reason.to_owned()),
+                Beyond::Turns => {
+                    let all = changed.get_or_insert_with(|| data.to_vec());
+                    let own = all.iter_mut().skip(position.column).step_by(width);
+                    for x in own.skip(first).filter(|x| outside(**x)) {
+                        *x = R::from_f64(within_half_a_turn(x.to_f64()));
+                    }
+                }
+            }
+        }
+        Ok(changed)
+    }
+}
+
+/// The same angle within ±π. The sines of the standard library are right for numbers of any size.
+fn within_half_a_turn(angle: f64) -> f64 {
+    let (sin, cos) = angle.sin_cos();
+    sin.atan2(cos)
+}
+
+/// Where the positions of a robot's joints are, of kinds and limits; and the velocities that are
+/// rates of attitudes.
+pub fn of_joints(
+    joints: impl Iterator<Item = (JointKind, [f64; 4])>,
+) -> (Vec<Position>, Vec<Position>) {
+    let (mut positions, mut rates, mut first) = (Vec::new(), Vec::new(), [0, 0]);
+    for (kind, [lower, upper, ..]) in joints {
+        let [q, v] = first;
+        let (nq, nv) = kind.coordinates();
+        first = [q + nq, v + nv];
+        let two_turns = 2.0 * std::f64::consts::TAU;
+        let near = -two_turns <= lower && upper <= two_turns;
+        let of = |k: usize, column: usize, angle| Position {
+            column,
+            coordinate: v + k,
+            kind,
+            angle,
+            near,
+        };
+        let (angles, turning) = match kind {
+            JointKind::Prismatic | JointKind::Fixed => (0, 0),
+            JointKind::Spherical | JointKind::Free => (0, 3),
+            JointKind::Universal => (2, 0),
+            JointKind::Planar => (1, 1),
+            _ => (1, 0),
+        };
+        if nq == nv {
+            positions.extend((0..nq).map(|k| of(k, q + k, k < angles)));
+        }
+        rates.extend((0..turning).map(|k| of(k, v + k, true)));
+    }
+    (positions, rates)
+}

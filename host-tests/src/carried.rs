@@ -54,7 +54,8 @@ pub fn motions() -> Vec<(String, f32, Motion)> {
             Box::new(flicker),
         ));
     }
-    for (rate, period) in [(1e-7, 10_000), (1e-6, 10_000), (1e-6, 100_000)] {
+    // The way back is within the domain of a tick.
+    for (rate, period) in [(1e-7, 10_000), (1e-6, 10_000), (1e-7, 100_000)] {
         let saw = move |k: u64, _| (0.6 + rate * (k % period) as f64) as f32;
         all.push((
             format!("creeps by {rate} rad a tick for {period} ticks and returns"),

@@ -26,7 +26,7 @@ enum Model {
         links: Links,
         bodies: Vec<Body>,
     },
-    /// That of `four_bar_leg`, the one robot with a kinematic loop.
+    /// The value of `four_bar_leg`, the one robot with a kinematic loop.
     FourBar,
 }
 
@@ -34,7 +34,7 @@ enum Model {
 const N: usize = 3;
 
 impl Exact {
-    /// Of a function of a robot of these bodies; a robot with a kinematic loop has none.
+    /// The value of a function of a robot of these bodies; a robot with a kinematic loop has none.
     ///
     /// # Errors
     /// [`Error::Robot`](crate::error::Error::Robot) of bodies that are not taken.
@@ -71,7 +71,7 @@ impl Exact {
             }
         };
         let still = vec![0.0; n];
-        // Of forward dynamics the results are the biases, then the matrix.
+        // The results of forward dynamics are the biases, then the matrix.
         let (first, [qd, qdd]) = match self.function {
             one if one.is_matrix() => (0, [&*still; 2]),
             one if one.matrix().is_some() => (n, [part(1), &still]),

@@ -1,4 +1,4 @@
-//! Where a joint can be, so that an encoder whose count wraps knows in which turn it is.
+//! The places where a joint can be, so that an encoder whose count wraps knows in which turn it is.
 
 use core::f32::consts::{PI, TAU};
 use core::fmt;
@@ -13,7 +13,7 @@ pub(crate) const MOST_TURNS: f32 = 16_000.0;
 /// The part of half a turn that is taken for it: below it a count more does not matter.
 const HALF: f32 = 0.999;
 
-/// Where a joint can be, which says in which of its turns an encoder is.
+/// The places where a joint can be, which say in which of its turns an encoder is.
 ///
 /// An absolute encoder knows its angle within a turn. Its first reading after power-up, and each after a gap, is one of
 /// the angles x + 2πk: this choice tells which.
@@ -134,7 +134,7 @@ impl EncoderMapping {
     /// Those of the encoders of a robot: [`JointMapping::with_range`] for each joint.
     ///
     /// # Errors
-    /// That of the first joint that has one, with its number.
+    /// The error of the first joint that has one, with its number.
     ///
     /// ```
     /// use joint_drivers::{EncoderMapping, JointError, JointMapping, JointRange, MappingError};
@@ -169,7 +169,7 @@ impl EncoderMapping {
         &self.mapping
     }
 
-    /// Where the joint can be.
+    /// The places where the joint can be.
     pub const fn range(&self) -> JointRange {
         self.range
     }

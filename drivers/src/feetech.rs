@@ -94,7 +94,7 @@ pub struct Servos<Port, const N: usize> {
     ids: [u8; N],
     mappings: [EncoderMapping; N],
     counters: [MultiTurnEncoder<BITS>; N],
-    /// What each servo's own count lacks to that of its counter, since it replied.
+    /// The counts that each servo's own count lacks to that of its counter, since it replied.
     offsets: [Option<i32>; N],
 }
 
@@ -209,7 +209,7 @@ impl<Port, const N: usize> Servos<Port, N> {
         self.goals(GOAL_POSITION, goals)
     }
 
-    /// What the servo's own count lacks to that of its counter for a goal: since its last reply, or before it if the whole
+    /// The counts that the servo's own count lacks to that of its counter for a goal: since its last reply, or before it if the whole
     /// range of the joint is within one turn of the servo.
     fn offset(&self, joint: usize, goal: f32) -> Option<i32> {
         let counter = &self.counters[joint];

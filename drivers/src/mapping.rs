@@ -38,7 +38,7 @@ pub enum MappingError {
     Counts,
     /// The quantity to convert, or its result, is not finite.
     NotFinite,
-    /// Where the joint can be is not a number, has its ends in the wrong order, or is too many turns of the encoder away.
+    /// The range of the joint is not a number, has its ends in the wrong order, or is too many turns of the encoder away.
     Range,
     /// The range of the joint is longer than a turn of the encoder, which then does not say where the joint is.
     Turns,

@@ -12,7 +12,7 @@ const LOST: u32 = u32::MAX;
 /// The same: each reading is placed anew.
 const CIRCLE: u32 = LOST - 1;
 
-/// What a counter had before a reading.
+/// The count before a reading.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Before(i32);
 

@@ -200,7 +200,7 @@ impl ODrive {
         self.remote(GET_TORQUES)
     }
 
-    /// What a frame says, mapped to the joint. In the first estimate the joint is where the mapping says that it can be.
+    /// The estimate of a frame, mapped to the joint. In the first estimate the joint is where the mapping says that it can be.
     ///
     /// # Errors
     /// [`CanError::Identifier`] for another node or message, [`CanError::Remote`], [`CanError::Short`],

@@ -48,7 +48,7 @@ struct Start {
     direction: Direction,
     ratio: f32,
     range: JointRange,
-    /// Where the joint is, rad.
+    /// The position of the joint, rad.
     truth: f64,
 }
 

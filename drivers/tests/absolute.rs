@@ -171,7 +171,7 @@ fn the_as5600_counts_turns_and_ignores_upper_bits() {
 fn a_first_reading_lies_in_the_joints_range() {
     let joints = [
         (2.4, Direction::Forward, 1.0, 1.2),
-        // Of the guide's page on a board.
+        // The example is that of the guide's page on a board.
         (1.5, Direction::Reverse, 1.0, 3.0),
         (2.4, Direction::Reverse, 3.0, 0.5),
         (-2.9, Direction::Forward, 1.0, 0.6),

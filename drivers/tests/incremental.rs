@@ -50,7 +50,7 @@ fn angle(count: i32) -> f32 {
 #[test]
 fn the_position_is_known_once_the_index_is_passed() {
     for start in [-30, 10] {
-        // Where the joint is at the first reading says in which turn the index is passed.
+        // The position at the first reading says in which turn the index is passed.
         let mut encoder = joint(at(JointRange::Near(angle(start))));
         *encoder.counter() = QuadratureDecoder::at(levels(start).0, levels(start).1, false);
         assert_eq!(encoder.read(), Err(IncrementalError::NotReferenced));

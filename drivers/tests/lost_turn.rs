@@ -18,7 +18,7 @@ use motion_control::{
 
 const RATIO: f32 = 100.0;
 const TICK: f32 = 1e-3;
-/// Where the motion ends.
+/// The end of the motion.
 const END: f64 = 1.8;
 
 const CONFIG: MotionControllerConfig<f32, 1> = MotionControllerConfig {
@@ -144,7 +144,7 @@ const LOST: [(u32, bool); 8] = [
     (40, true),
 ];
 
-/// How far the joint is from where it is measured at the end, the modes of all ticks, and the last fault.
+/// The distance of the joint from its measured position at the end, the modes of all ticks, and the last fault.
 fn alone(lost: u32, category: StopCategory<f32, 1>) -> (f64, [u32; 3], Option<Fault>) {
     let joint = Joint::default();
     joint.qd.set(2.0);

@@ -28,10 +28,10 @@ pub struct Position {
     pub near: bool,
 }
 
-/// What a function does with positions.
+/// The use that a function makes of positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Use {
-    /// Of angles only sines and cosines matter to it.
+    /// Only sines and cosines of angles matter to it.
     Sines,
     /// It returns them, or what depends on them.
     Numbers,
@@ -48,13 +48,13 @@ pub enum Use {
 /// Positions in an argument.
 #[derive(Clone, Copy)]
 pub struct Positions<'a> {
-    /// What is done with them.
+    /// The use that is made of them.
     pub by: Use,
-    /// Where they are.
+    /// Their places.
     pub at: &'a [Position],
 }
 
-/// What becomes of an angle beyond the range.
+/// The treatment of an angle beyond the range.
 enum Beyond {
     /// It may stay.
     Stays,
@@ -175,7 +175,7 @@ fn within_half_a_turn(angle: f64) -> f64 {
     sin.atan2(cos)
 }
 
-/// Where the positions of a robot's joints are, of kinds and limits; and the velocities that are
+/// The places of the positions of a robot's joints, of kinds and limits; and the velocities that are
 /// rates of attitudes.
 pub fn of_joints(
     joints: impl Iterator<Item = (JointKind, [f64; 4])>,

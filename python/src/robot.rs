@@ -64,24 +64,24 @@ pub struct Robot {
     name: String,
     library: Option<&'static str>,
     bodies: Vec<BodyInfo>,
-    /// Where its joints' positions are in q.
+    /// The places of its joints' positions in q.
     pub positions: Vec<Position>,
     /// The velocity coordinates that are rates of attitudes.
     rates: Vec<Position>,
     /// The bodies as the library describes them.
     pub described: Bodies,
-    /// Of a file, what was read.
+    /// The numbers that were read, of a file.
     read: Option<Read>,
 }
 
-/// What was read of a file.
+/// The numbers that were read of a file.
 pub struct Read {
     tree: Tree,
     /// Its loops.
     closed: Vec<Closed>,
     /// The coordinates that its motors drive, of a robot with loops.
     actuated: Vec<usize>,
-    /// What the importer says.
+    /// The importer's words.
     said: Said,
 }
 

@@ -29,7 +29,7 @@ pub struct Description {
     pub joints: Vec<Joint>,
     /// Joints that close loops.
     pub loops: Vec<Loop>,
-    /// What the file states and the import leaves out, and what it takes other than XML does, a sentence each.
+    /// Notes on what the import leaves out, and on what it takes other than XML does, a sentence each.
     pub notes: Vec<String>,
     /// The files that it includes.
     pub files: Vec<std::path::PathBuf>,

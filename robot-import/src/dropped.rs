@@ -1,4 +1,4 @@
-//! What of a description is no part of a selection: each part with its mass.
+//! The parts of a description that a selection leaves out: each part with its mass.
 
 use std::collections::BTreeMap;
 
@@ -86,7 +86,7 @@ fn sentence(
     )
 }
 
-/// Where gravity is in the frame of a base that stands turned on an upright root.
+/// The direction of gravity in the frame of a base that stands turned on an upright root.
 fn gravity(robot: &Description, selected: &Selected, joint_of: &[Option<usize>]) -> Option<String> {
     let (mut turn, mut link) = (DMat3::IDENTITY, selected.base);
     while let Some(j) = joint_of[link] {

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 /// The largest file, bytes: with its included files, a hundred times the largest public description.
 pub const MOST_BYTES: usize = 16 << 20;
-/// Where the declaration of an encoding is looked for, bytes.
+/// The bytes among which the declaration of an encoding is looked for.
 pub const MOST_DECLARATION: usize = 1_024;
 /// The most elements and texts of a file, each of which takes about a hundred bytes of memory.
 pub const MOST_NODES: u32 = 1_000_000;
@@ -48,11 +48,11 @@ pub const MOST_WORK: usize = 20_000;
 pub const MOST_WORK_OF_INERTIA: usize = 25_600;
 /// The most bytes of a peer's answer: 100 states of 136 coordinates are 300 kB.
 pub const MOST_ANSWER: usize = 8 << 20;
-/// How much of the last messages of a peer is kept, bytes.
+/// The bytes of a peer's last messages that are kept.
 pub const MOST_MESSAGES: usize = 4_096;
-/// How many of them are shown, lines.
+/// The lines of them that are shown.
 pub const MOST_COMPLAINTS: usize = 4;
-/// How long a comparison with a peer may take: the first start of a Python with large packages takes ten seconds.
+/// The time that a comparison with a peer may take: the first start of a Python with large packages takes ten seconds.
 pub const PEER_TIME: Duration = Duration::from_secs(60);
 /// The longest name in a line of a report or of an error, characters.
 pub const MOST_SHOWN: usize = 60;

@@ -4,7 +4,7 @@
 
 use dynamics_core::model::ImpossibleInertia;
 
-/// What is impossible about an inertia about the centre of mass, if it is by more than `tolerance` of its largest moment.
+/// The defect of an inertia about the centre of mass, if it exceeds `tolerance` of its largest moment.
 pub fn impossible(inertia: [f64; 6], tolerance: f64) -> Option<ImpossibleInertia> {
     ImpossibleInertia::of(inertia, tolerance)
 }
@@ -40,7 +40,7 @@ mod tests {
         ] {
             let repaired = ImpossibleInertia::nearest(inertia);
             assert_eq!(impossible(repaired, 1e-12), None);
-            // What it moves to it leaves: a projection.
+            // The nearest inertia has no nearer one: a projection.
             let again = ImpossibleInertia::nearest(repaired);
             for (a, b) in repaired.into_iter().zip(again) {
                 assert!((a - b).abs() < 1e-15);

@@ -176,7 +176,7 @@ impl Report {
             ]);
         }
         let condition = match check.condition.is_finite() {
-            true => format!("1e{:.1}", check.condition),
+            true => format!("{:.1e}", 10.0_f64.powf(check.condition)),
             false => "singular".to_owned(),
         };
         rows.push(vec![

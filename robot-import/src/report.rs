@@ -24,7 +24,7 @@ pub struct Report {
     pub bodies: Vec<Row>,
     /// The names of the joints that close loops.
     pub loops: Vec<String>,
-    /// How many motors drive the joints through `COUPLING`, if some follow others.
+    /// The number of motors that drive the joints through `COUPLING`, if some follow others.
     pub coupled_motors: Option<usize>,
     /// The numbers of bodies, position and velocity coordinates.
     pub sizes: [usize; 3],

@@ -153,7 +153,7 @@ impl Tree {
         self.bodies.iter().any(|body| body.follows.is_some())
     }
 
-    /// How many joints follow none.
+    /// The number of joints that follow none.
     pub fn motors(&self) -> usize {
         self.bodies
             .iter()

@@ -39,7 +39,7 @@ fn is_whole(robot: &Description) {
     assert_eq!(masses.map(|own| own.mass).sum::<f64>(), 1.5);
 }
 
-/// What TinyXML-2 takes, by trying urdfdom in Pinocchio 4.1.0 and MuJoCo 4.0.0: a text, and what the note says of it.
+/// Texts that TinyXML-2 takes, by trying urdfdom in Pinocchio 4.1.0 and MuJoCo 4.0.0: a text, and what the note says of it.
 fn tolerated(text: &str) -> Vec<(String, &'static str)> {
     let inside = |what: &str| text.replacen('\n', &format!("\n{what}"), 1);
     vec![
@@ -520,7 +520,7 @@ fn includes_are_read_below_a_folder_that_the_user_names() {
             "{file}: {error}"
         );
     }
-    // What an included file has of its own is said with its name.
+    // A note on an included file has its name.
     write("lab/robot/part.xml", &format!("{defaults}</x>"));
     let robot = read(&model("lab/robot/arm.xml", "part.xml")).expect("a part");
     assert!(

@@ -113,7 +113,7 @@ fn a_changed_number_of_a_page_of_certificates_is_refused() {
     let page = include_str!("../../../docs/certificates.md");
     let said = |page: &str| check::numbers(page).err().map(|error| error.to_string());
     assert_eq!(said(page), None);
-    // Of each table the first row: its bound, to below what was observed, and by one digit.
+    // The first row of each table: its bound, to below what was observed, and by one digit.
     let mut rows: Vec<&str> = Vec::new();
     for (head, row) in page.lines().zip(page.lines().skip(2)) {
         if head.contains("| worst observed |") || head.contains("| found |") {

@@ -12,7 +12,7 @@ use super::*;
 const STEP: f32 = 3e-3;
 const ALLOWED: u32 = 9;
 
-/// What a test does with an encoder.
+/// The calls that a test makes of an encoder.
 #[derive(Clone, Copy)]
 enum Do {
     Read,

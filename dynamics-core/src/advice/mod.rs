@@ -1,4 +1,4 @@
-//! What a robot's description, a scene or a controller's configuration looks like, in words: advice, never a refusal.
+//! Words on a robot's description, a scene or a controller's configuration: advice, never a refusal.
 //!
 //! A description in grams, millimetres or degrees is a correct one of another machine: it compiles and runs, and its
 //! torques are wrong by a factor of thousands. [`Model::advice`](crate::model::Model::advice),
@@ -103,7 +103,7 @@ pub enum Advice {
     ImpossibleInertia {
         /// The body.
         body: &'static str,
-        /// What is impossible, in the frame of the description.
+        /// The impossible inertia, in the frame of the description.
         found: ImpossibleInertia,
     },
     /// The inertias look like those about the joints in place of the centres of mass.

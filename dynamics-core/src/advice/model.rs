@@ -5,7 +5,7 @@ use crate::model::{ImpossibleInertia, Link, Model, impossible};
 use crate::scalar::{Matrix, Real, Vector};
 
 impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> {
-    /// What of the description looks like another unit, is impossible, or asks more of the motors than they have: a list of words
+    /// Advice on a description that looks like another unit, is impossible, or asks more of the motors than they have: a list of words
     /// with numbers, empty for most robots. Never a refusal.
     ///
     /// | advice | given where |
@@ -66,7 +66,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
 /// By how much of its largest moment an inertia may be impossible without a word: the rounding of a description's digits.
 const ROUNDING: f64 = 1e-3;
 
-/// What is impossible about the inertia of a body, in the frame of its description.
+/// The impossible inertia of a body, in the frame of its description.
 fn impossible_body<R: Real>(link: &Link<R>) -> Option<Advice> {
     let found = impossible::<R, true>(&link.inertia, ROUNDING)?;
     let [x, y, z] = found.axis.map(R::from_f64);

@@ -12,7 +12,7 @@ const SPEEDS: [f64; 4] = [1.0, 10.0, 0.05, 1e-3];
 const LOAD: f64 = 1.0;
 
 impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> {
-    /// What of a scene no machine has: a list of words with numbers, empty for most scenes. Never a refusal.
+    /// Advice on a scene that no machine has: a list of words with numbers, empty for most scenes. Never a refusal.
     ///
     /// | advice | given where |
     /// |---|---|
@@ -57,7 +57,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     }
 }
 
-/// What is remarkable about a scene at one joint.
+/// Advice on a scene at one joint.
 fn of_joint<R: Real, E, const B: usize, const V: usize>(
     scene: &E,
     joint: AdvisedJoint,
@@ -85,7 +85,7 @@ where
     [first, negative, missing].into_iter().flatten()
 }
 
-/// What a scene adds to a joint's torque for a speed, N·m or N, where that is more than rounding: of the torques without load, and
+/// The torque that a scene adds at a joint for a speed, N·m or N, where that is more than rounding: of the torques without load, and
 /// of a gear that transmits one.
 fn friction<R: Real, E, const B: usize, const V: usize>(
     scene: &E,

@@ -221,7 +221,7 @@ impl<R: Real, const B: usize> Levers<R, B> {
         sign: R,
     ) {
         let axis = R::Vec3::new(R::ZERO, R::ZERO, R::ONE);
-        // Of a body from the joint to the base up, of one further out ẑ × n, in its frame; none of the others.
+        // The row of a body from the joint to the base up, for one further out ẑ × n, in its frame; none of the others.
         let mut known: [Option<R::Vec3>; B] = [None; B];
         for (i, link) in model.links.iter().enumerate() {
             let (on_way, mass, moment) =
@@ -253,7 +253,7 @@ impl<R: Real, const B: usize> Levers<R, B> {
             if let Some(own) = known.get_mut(i) {
                 *own = match (is_joint, link.joint.kind) {
                     (false, _) => Some(after),
-                    // What moves further out does not change the force at a slide.
+                    // A motion further out does not change the force at a slide.
                     (true, JointKind::Prismatic) => None,
                     (true, _) => Some(after.cross(axis)),
                 };
@@ -401,7 +401,7 @@ mod tests {
         )
     }
 
-    // What a coordinate does not change, each finds by its own rounding; from there they can climb to different maxima.
+    // Directions without influence are found by its own rounding; from there they can climb to different maxima.
     #[test]
     fn one_pass_climbs_as_high_as_inverse_dynamics() {
         fn all<const N: usize>(model: &ArmModel<f64, N>) {

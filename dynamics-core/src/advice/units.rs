@@ -242,7 +242,7 @@ struct AboutJoint {
 }
 
 impl AboutJoint {
-    /// Of a body with a centre of mass beside its joint; `next` is the distance of the farthest joint on it, m; none of a
+    /// The size of a body with a centre of mass beside its joint; `next` is the distance of the farthest joint on it, m; none of a
     /// tip.
     fn of<R: Real>(link: &Link<R>, next: Option<f64>) -> Option<Self> {
         let size = Massive::of(link);

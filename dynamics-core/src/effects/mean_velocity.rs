@@ -13,7 +13,7 @@ pub(crate) struct AtMeanVelocity<'a, E, R, const V: usize> {
 }
 
 impl<'a, E, R, const V: usize> AtMeanVelocity<'a, E, R, V> {
-    /// Of a step that starts at these velocities.
+    /// The effects of a step that starts at these velocities.
     pub(crate) fn new(effects: &'a E, start: [R; V]) -> Self {
         Self {
             bodies: Bodies(effects),

@@ -34,7 +34,7 @@ pub struct ImpossibleInertia {
 }
 
 impl ImpossibleInertia {
-    /// What is impossible about xx, xy, xz, yy, yz, zz, kg·m², if it is by more than `relative` of the largest moment.
+    /// The defect of xx, xy, xz, yy, yz, zz, kg·m², if it exceeds the bound by more than `relative` of the largest moment.
     pub const fn of([xx, xy, xz, yy, yz, zz]: [f64; 6], relative: f64) -> Option<Self> {
         Self::beyond::<true>([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], relative, 0.0)
     }
@@ -112,7 +112,7 @@ impl ImpossibleInertia {
 
 impl fmt::Display for ImpossibleInertia {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Of the two directions of an axis, the one with more positive components, and without −0.
+        // The direction of the axis with more positive components, and without −0.
         let sign = if self.axis.iter().sum::<f64>() < 0.0 {
             -1.0
         } else {

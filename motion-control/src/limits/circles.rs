@@ -209,7 +209,7 @@ impl Circles {
         Ok(())
     }
 
-    /// Where the turns of each circle are counted from: the middle of its range, or `q` where it has none. A line is not
+    /// The point from which the turns of each circle are counted: the middle of its range, or `q` where it has none. A line is not
     /// moved, wherever this is.
     #[inline]
     pub(crate) fn centres<R: Real, const V: usize>(

@@ -292,7 +292,7 @@ impl Linkages {
 }
 
 impl Linkages {
-    /// Where each position that is in no linkage is: in q of the tree, and in y.
+    /// The place of each position that is in no linkage: in q of the tree, and in y.
     pub fn outside(&self) -> &[[usize; 2]] {
         &self.free_q
     }

@@ -126,7 +126,7 @@ impl Numbers {
         }
     }
 
-    /// What was read; none if these are numbers of no robot.
+    /// The numbers that were read; none if these are numbers of no robot.
     fn read(self) -> Option<Read> {
         let body = |body: BodyNumbers| {
             let [name, joint] = body.names;

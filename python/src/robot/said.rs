@@ -1,4 +1,4 @@
-//! What the importer says of a file: advice, notes, and joints that follow others.
+//! The importer's words on a file: advice, notes, and joints that follow others.
 
 use pyo3::prelude::*;
 use robot_import::advice::{self, Topic, advice};
@@ -46,7 +46,7 @@ pub struct PyCoupling {
     joint: String,
     /// The joint that it follows.
     leader: String,
-    /// How far it moves for each rad or m of the leader.
+    /// The travel for each rad or m of the leader.
     ratio: f64,
     /// Its position where the leader is at zero, rad or m.
     offset: f64,
@@ -65,7 +65,7 @@ impl PyCoupling {
     }
 }
 
-/// What the importer says of a robot.
+/// The importer's words on a robot.
 #[derive(Clone, Default, Serialize, Deserialize)]
 pub struct Said {
     pub advice: Vec<PyAdvice>,
@@ -73,7 +73,7 @@ pub struct Said {
 }
 
 impl Said {
-    /// Of a tree; `notes` are what else is left out, a sentence each.
+    /// The words on a tree; `notes` name what else is left out, a sentence each.
     pub fn of(
         robot: &Description,
         (selection, selected): (&Selection, &Selected),
@@ -126,7 +126,7 @@ impl Robot {
 
 #[pymethods]
 impl Robot {
-    /// What to look at in the file, as ``cargo xtask import`` prints it, but for what that finds at
+    /// Advice on the file, as ``cargo xtask import`` prints it, but for what that finds at
     /// random states: impossible inertias, numbers in other units, limits of torque below gravity's,
     /// and what is left out. Options in it are those of the command: ``--motors`` is ``actuated`` of
     /// `Loops`. Empty for a robot of the library.
@@ -135,7 +135,7 @@ impl Robot {
         self.said().map_or(Vec::new(), |said| said.advice.clone())
     }
 
-    /// What the file states and the robot has not, a sentence each: the advice of the topic
+    /// Statements of the file that the robot lacks, a sentence each: the advice of the topic
     /// "left-out".
     #[getter]
     fn notes(&self) -> Vec<String> {

@@ -42,7 +42,7 @@ pub struct Peer {
     /// The joint with the largest difference.
     #[serde(skip)]
     pub joint: String,
-    /// What it said of the description, such as a part that it leaves out; empty if nothing.
+    /// Its words on the description, such as a part that it leaves out; empty if nothing.
     #[serde(skip)]
     pub complaint: String,
 }

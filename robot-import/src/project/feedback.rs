@@ -1,4 +1,4 @@
-//! What a project's feedback, motion and drives are to be for a robot, from its inertia and the stiffness of gravity, and what
+//! The feedback, motion and drives of a project for a robot, from its inertia and the stiffness of gravity, and what
 //! no feedback holds, in words.
 //!
 //! The template's law takes gravity at the reference and has the stiffness ω² M, so that ω² M + ∂g/∂q has to be positive definite
@@ -35,7 +35,7 @@ const MOST_STOPPING: f64 = 5e5;
 pub struct Feedback {
     /// The natural frequency, rad/s.
     pub omega_n: f64,
-    /// What the project cannot do with a joint, or does otherwise than the file says: a sentence each.
+    /// The limits of the project at a joint, where it does otherwise than the file says: a sentence each.
     pub words: Vec<String>,
 }
 
@@ -49,7 +49,7 @@ impl Default for Feedback {
 }
 
 impl Feedback {
-    /// Of a tree of joints of one degree of freedom each; 25 rad/s and no words for others.
+    /// The feedback of a tree of joints of one degree of freedom each; 25 rad/s and no words for others.
     ///
     /// # Errors
     /// As of [`AnyModel::of`].
@@ -268,7 +268,7 @@ fn home(tree: &Tree) -> Vec<f64> {
         .collect()
 }
 
-/// Where the motion turns back, as in the template's `scene.rs`.
+/// The place where the motion turns back, as in the template's `scene.rs`.
 fn away(tree: &Tree, home: &[f64]) -> Vec<f64> {
     let of = |(body, home): (&crate::tree::Body, &f64)| {
         let [lower, upper] = body

@@ -73,7 +73,7 @@ pub struct RobotFile {
     pub coupled: bool,
     /// Which of `VISCOUS`, `COULOMB`, `ARMATURE`, `SPRING` have a number other than zero. The others are left out of the scene.
     pub effects: FileEffects,
-    /// How the projects' feedback holds it.
+    /// The feedback of its project.
     pub feedback: Feedback,
 }
 
@@ -208,7 +208,7 @@ pub fn create(folder: &Path, project: &Project) -> Result<Created, ProjectError>
     })
 }
 
-/// What the user has to know of a project.
+/// Notes for the user of a project.
 fn notes(project: &Project) -> Vec<String> {
     let Feedback { omega_n, words } = &project.robot.feedback;
     let mut notes: Vec<String> = project

@@ -1,4 +1,4 @@
-//! What readers of URDF in use know beyond its core: read where its meaning is documented, and named where it is left out.
+//! Extensions of URDF that readers in use know: read where its meaning is documented, and named where it is left out.
 //!
 //! | read | meaning, and by whom |
 //! |---|---|
@@ -82,7 +82,7 @@ const NOT_DYNAMICS: [&str; 30] = [
     "verbose",
 ];
 
-/// What is left out, one entry for all parts that have the same.
+/// The parts that are left out, one entry for all parts that have the same.
 #[derive(Default)]
 struct Found {
     /// Unknown names, and the links or joints with them.
@@ -152,7 +152,7 @@ pub fn read(root: Node<'_, '_>, joints: &mut [Joint]) -> Result<Vec<String>> {
 /// The spring and the armature that `<dynamics>` states.
 ///
 /// # Errors
-/// What are no numbers, and an armature or a stiffness below zero.
+/// Values that are no numbers, and an armature or a stiffness below zero.
 pub fn dynamics(node: Option<Node<'_, '_>>) -> Result<([f64; 2], f64)> {
     let Some(node) = node else {
         return Ok(([0.0; 2], 0.0));
@@ -251,7 +251,7 @@ fn text_number(node: Node<'_, '_>) -> Result<f64> {
     })
 }
 
-/// Of each actuator the rotor's inertia at the joint, or its gear without one.
+/// The rotor's inertia of each actuator at the joint, or its gear without one.
 fn transmission(
     node: Node<'_, '_>,
     joints: &mut [Joint],

@@ -40,7 +40,7 @@ fn on_a_large_stack<T: Send>(work: impl FnOnce() -> Result<T> + Send) -> Result<
     })
 }
 
-/// Where the files are that a description may include.
+/// The folders of files that a description may include.
 #[derive(Clone, Copy, Debug)]
 pub struct Folders<'p> {
     /// The folder of the description; what is below it is read.
@@ -50,7 +50,7 @@ pub struct Folders<'p> {
 }
 
 impl<'p> Folders<'p> {
-    /// Of the file of a description.
+    /// The folders for the file of a description.
     pub fn of(path: &'p Path, include_root: Option<&'p Path>) -> Self {
         let model = path.parent().unwrap_or(Path::new("."));
         Self {

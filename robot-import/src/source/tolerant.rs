@@ -12,7 +12,7 @@ use super::xml::Lines;
 use crate::error::{ImportError, Problem, Result};
 use crate::limits::{MOST_ATTRIBUTES, MOST_DEPTH, MOST_PREFIXES, MOST_TOLERATED};
 
-/// What XML forbids and TinyXML-2 takes.
+/// The forms that XML forbids and TinyXML-2 takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     BeforeDeclaration,
@@ -50,9 +50,9 @@ impl Kind {
 #[derive(Debug)]
 pub struct Tolerant<'t> {
     text: Cow<'t, str>,
-    /// Where in `text` something is longer than in the file, and by how many bytes.
+    /// The places in `text` that are longer than in the file, and by how many bytes.
     inserted: Vec<(usize, usize)>,
-    /// What was tolerated, on which line, and its name.
+    /// The form that was tolerated, its line, and its name.
     found: Vec<(Kind, u32, String)>,
 }
 
@@ -63,7 +63,7 @@ struct Pass<'t> {
     text: &'t str,
     edits: Vec<Edit>,
     found: Vec<(Kind, usize, String)>,
-    /// How many elements are around the position.
+    /// The number of elements around the position.
     depth: usize,
     /// The end of the root's name.
     root: Option<usize>,
@@ -74,10 +74,10 @@ struct Pass<'t> {
     used: BTreeSet<&'t str>,
 }
 
-/// What comes after a token.
+/// The text after a token.
 enum Next {
     At(usize),
-    /// What the reader of XML refuses at this position.
+    /// The form that the reader of XML refuses at this position.
     Refused,
     /// The end of the root, and what follows.
     AfterRoot(usize),
@@ -169,7 +169,7 @@ impl<'t> Tolerant<'t> {
         column.saturating_sub(shift as u32).max(1)
     }
 
-    /// What was tolerated and where, a sentence for each kind.
+    /// Notes on what was tolerated and where, a sentence for each kind.
     pub fn notes(&self) -> Vec<String> {
         let each = self
             .found
@@ -288,7 +288,7 @@ impl<'t> Pass<'t> {
         Ok(())
     }
 
-    /// What begins with `<`.
+    /// A token that begins with `<`.
     fn markup(&mut self, at: usize) -> Result<Next> {
         let rest = &self.text[at..];
         let is_done = self.root.is_some() && self.depth == 0;

@@ -31,7 +31,7 @@ impl<'t> Xml<'t> {
     /// The parsed file: entities other than the five of XML, and with them all expansion, are refused with the document type.
     ///
     /// # Errors
-    /// What is not well-formed, with line and column.
+    /// The defect of the form, with line and column.
     pub fn document(&self) -> Result<Document<'_>> {
         let options = ParsingOptions {
             allow_dtd: false,
@@ -49,7 +49,7 @@ impl<'t> Xml<'t> {
         })
     }
 
-    /// What is not well-formed and was read all the same, a sentence each.
+    /// Notes on what is not well-formed and was read all the same, a sentence each.
     pub fn notes(&self) -> Vec<String> {
         self.0.notes()
     }

@@ -1,4 +1,4 @@
-//! What readers of URDF know beyond its core, and what a selection leaves out.
+//! Extensions of URDF's core, and parts that a selection leaves out.
 
 use std::fs;
 
@@ -195,7 +195,7 @@ fn a_gear_without_a_rotor_and_undocumented_numbers_are_named() {
             assert!(notes.contains(words), "{words}:\n{notes}");
         }
     }
-    // What changes no motion is not named.
+    // Parts that change no motion are not named.
     let looks = "<gazebo reference='lever'><mu1>0.2</mu1><kp>1e6</kp><material>Gazebo/Red</material></gazebo><gazebo><plugin><a>3</a></plugin></gazebo>\
         <transmission name='t'><joint name='pivot'/><actuator name='m'><mechanicalReduction>1</mechanicalReduction></actuator></transmission>";
     assert_eq!(left_out(&lever("<calibration rising='0'/>", looks)), "");

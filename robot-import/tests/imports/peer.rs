@@ -215,7 +215,7 @@ fn a_disagreement_without_a_reason_is_refused_at_its_joint() {
     assert_eq!(advice(&imported), "", "nobody expects a peer");
 }
 
-/// What urdfdom says where a number has a line end, which XML allows.
+/// The words of urdfdom where a number has a line end, which XML allows.
 #[cfg(unix)]
 const DROPPED: &str = "printf 'Error:   Inertial: inertia element ixz is not a valid double\\n         at line 415 in link.cpp\\n\
     Error:   Could not parse inertial element for Link [b]\\n' >&2";

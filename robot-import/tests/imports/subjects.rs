@@ -22,7 +22,7 @@ fn imported(text: &str, name: &str) -> Imported {
     tried(text, name, Options::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
-/// What is said of a robot: the advice on each joint or part, and the comments of the written file.
+/// The words on a robot: the advice on each joint or part, and the comments of the written file.
 fn said(of: &Imported) -> String {
     let advice = of.report.advice.iter();
     let lines: Vec<String> = advice
@@ -159,7 +159,7 @@ fn a_tendon_over_three_joints_says_what_to_write() {
         error.contains("write the `Transmission` between motors and joints yourself"),
         "{error}"
     );
-    // What it says is possible.
+    // Its advice can be followed.
     let without = text.replace("<equality><tendon tendon1='belt'/></equality>", "");
     assert_eq!(imported(&without, "r.xml").report.sizes, [3, 3, 3]);
 }

@@ -83,7 +83,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         docs::print_json(&report)?;
         return Ok(ExitCode::SUCCESS);
     }
-    // What is measured is not estimated.
+    // A measured figure is not estimated.
     let is_measured = matches!(&measured, Some(Ok(rows)) if !rows.is_empty());
     output::print(if is_measured {
         without_estimate(&text)

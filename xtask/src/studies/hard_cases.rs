@@ -129,7 +129,7 @@ fn summary(suite: &Suite) -> String {
 const DECISION: &str = "docs/decisions/0002-bars.md";
 const KNOWN: &str = "`aba` in f32, case 87 of the [suite]";
 
-/// What a figure of the suite is that the page to try shows beyond its bound.
+/// The reason of the figure of the suite that the page to try shows beyond its bound.
 fn known(workspace: &Workspace) -> Result<String> {
     let page = workspace::read(&workspace.root.join(DECISION))?;
     let mut rows = page.lines().filter_map(cells);

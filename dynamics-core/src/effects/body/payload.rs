@@ -153,7 +153,7 @@ known_payload! {
 pub struct InvalidPayload {
     /// The number of the body to which it was to be attached.
     pub body: usize,
-    /// What is not physical: [`Problem::NotFinite`], [`Problem::Mass`], [`Problem::Massless`],
+    /// The defect: [`Problem::NotFinite`], [`Problem::Mass`], [`Problem::Massless`],
     /// [`Problem::NegativeMoment`] or [`Problem::Triangle`].
     pub problem: Problem,
 }

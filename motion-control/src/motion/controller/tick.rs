@@ -114,7 +114,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// accurate sine) and plausible: within twice the greatest speed times the ticks since the last good ones. Before
     /// the first accepted position there is no position to hold: a fault stops the arm at once.
     ///
-    /// Of a joint that is a circle ([`OnCircles`](crate::OnCircles)) any turn may be measured, that within ±π most
+    /// A joint that is a circle ([`OnCircles`](crate::OnCircles)) may be measured in any turn, within ±π most
     /// accurately; the estimate is within half a turn of the middle of the range, or of zero.
     ///
     /// ```compile_fail

@@ -138,7 +138,7 @@ pub struct Loaded {
     pub root: Element,
     /// The included files.
     pub files: Vec<PathBuf>,
-    /// What was tolerated in them, a sentence each.
+    /// Notes on what was tolerated in them, a sentence each.
     pub notes: Vec<String>,
 }
 

@@ -81,7 +81,7 @@ pub fn controller<A: MeasurementAge>(
     MotionController::try_new(config(motion)).map_err(SetupError::Limits)
 }
 
-/// How the encoders are mounted: what each reads where its joint is at zero, rad, and which way the joint turns while its angle
+/// The mounting of the encoders: the angle of each at its joint's zero, rad, and which way the joint turns while its angle
 /// increases.
 ///
 /// # Errors

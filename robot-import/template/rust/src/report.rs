@@ -151,7 +151,7 @@ impl Outcome {
         self.limited == 0 && self.faulted == 0
     }
 
-    /// What kept the robot from following its motion: the joint, the number and what to do; nothing if it did.
+    /// The reason why the robot did not follow its motion: the joint, the number and what to do; nothing if it did.
     ///
     /// # Errors
     /// The text cannot be written.

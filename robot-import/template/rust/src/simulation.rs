@@ -166,7 +166,7 @@ struct Friction<'a> {
     slope: [f32; N],
 }
 
-/// Where the end's velocity is found to, rad/s or m/s.
+/// The accuracy of the velocity at a step's end, rad/s or m/s.
 const FOUND: f32 = 1e-5;
 /// Rounds over the joints.
 const ROUNDS: u8 = 20;
@@ -189,7 +189,7 @@ impl<'a> Friction<'a> {
         friction
     }
 
-    /// What is added to the torque at the start where a joint's velocity has changed.
+    /// The addition to the torque at the start where a joint's velocity has changed.
     fn added(&self, joint: usize, change: f32) -> f32 {
         let at = JointState::new(self.start.q[joint], self.start.qd[joint] + change);
         let mut torque = 0.0;

@@ -15,7 +15,7 @@ pub use crate::control::{FeedForward as Law, Found, SetupError, detectors, gains
 pub use crate::scene::{Motion, N};
 pub use joint_drivers::as5047p::RESOLUTION;
 
-/// What the encoder of each joint reads where the joint is at zero, rad. Where the joint can be is in `scene.rs`.
+/// The angle that the encoder of each joint reads at the joint's zero, rad. Its range is in `scene.rs`.
 pub const ZERO: [f32; N] = [0.0; N];
 /// Which way each joint turns while its encoder's angle increases.
 pub const ENCODERS: [Direction; N] = [Direction::Forward; N];

@@ -1,4 +1,4 @@
-//! What the firmware says over RTT, which `cargo run` shows: each change of its state with the reason, where
+//! Messages of the firmware over RTT, which `cargo run` shows: each change of its state with the reason, where
 //! its joints are while it stands on its brake, and why it does not start.
 
 use defmt::{error, info, warn};
@@ -11,7 +11,7 @@ use crate::board::{N, SetupError};
 /// Ticks on the brake from one list of positions to the next.
 const POSITIONS: u32 = 500;
 
-/// What was said last.
+/// The last message.
 pub struct Log {
     mode: Option<Mode>,
     fault: Option<Fault>,

@@ -1,4 +1,4 @@
-//! What an arm does by itself, near the seam.
+//! Reactions of an arm near the seam.
 
 use super::*;
 

@@ -149,3 +149,62 @@ fn listed(core: &BTreeMap<String, BTreeSet<String>>) -> String {
     });
     items.collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::kit::docs::repository::{read, rows_of};
+
+    /// The cycles of a cell of the table.
+    fn cycles(cell: &str) -> f64 {
+        let (_, cycles) = cell.split_once(" / ").expect("two figures");
+        let (cycles, _) = cycles.split_once(" (").expect("a multiple");
+        cycles.replace(',', "").parse().expect("a figure")
+    }
+
+    /// By how much the cycles of one column exceed those of another, in the rows that are chosen: `9 to 11 %`.
+    fn excess(rows: &[Vec<&str>], of: usize, over: usize, chosen: fn(&str) -> bool) -> String {
+        let rows = rows.iter().filter(|row| chosen(row[0]));
+        let excess = rows.map(|row| 100.0 * (cycles(row[of]) / cycles(row[over]) - 1.0));
+        let excess: Vec<f64> = excess.collect();
+        let least = excess.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = excess.iter().copied().fold(0.0, f64::max);
+        format!("{least:.0} to {most:.0} %")
+    }
+
+    #[test]
+    fn pages_and_templates_have_the_prices_of_the_table() {
+        const QUIET: usize = 2;
+        let page = read("docs/flags.md");
+        let rows = rows_of(&page);
+        let full = excess(&rows, 4, QUIET, |row| row.ends_with("rnea engine full"));
+        let gravity = excess(&rows, 4, QUIET, |row| row.ends_with("engine gravity"));
+        let quiet = excess(&rows, QUIET, 1, |row| {
+            row.contains(" full") || row.contains(" gravity")
+        });
+        let without = format!("inverse dynamics takes {full} more cycles");
+        for (file, said) in [
+            ("README.md", vec![without.clone()]),
+            (
+                "robot-import/template/rust/.cargo/config.toml",
+                vec![without.clone()],
+            ),
+            (
+                "robot-import/template/c/.cargo/config.toml",
+                vec![without.clone()],
+            ),
+            (
+                "docs/guide/src/firmware.md",
+                vec![
+                    without,
+                    format!("of gravity alone {gravity}"),
+                    format!("a call takes {quiet} more cycles"),
+                ],
+            ),
+        ] {
+            let text = read(file).split_whitespace().collect::<Vec<_>>().join(" ");
+            for said in said {
+                assert!(text.contains(&said), "{file} does not say: {said}");
+            }
+        }
+    }
+}

@@ -95,18 +95,24 @@ impl Trial {
         Self { folder, built }
     }
 
-    /// What a command prints; it has to succeed.
-    fn run(&self, command: &str, arguments: &[&str]) -> String {
-        let start = Instant::now();
-        let output = Command::new(command)
+    /// A command in the project.
+    fn command(&self, command: &str, arguments: &[&str]) -> Command {
+        let mut command = Command::new(command);
+        command
             .args(arguments)
             .current_dir(&self.folder)
             .env("CARGO_TARGET_DIR", &self.built)
             .env("SAMPLES", SAMPLES)
             .env_remove("RUSTFLAGS")
-            .env_remove("CARGO_ENCODED_RUSTFLAGS")
-            .output()
-            .unwrap_or_else(|error| panic!("{command}: {error}"));
+            .env_remove("CARGO_ENCODED_RUSTFLAGS");
+        command
+    }
+
+    /// What a command prints; it has to succeed.
+    fn run(&self, command: &str, arguments: &[&str]) -> String {
+        let start = Instant::now();
+        let output = self.command(command, arguments).output();
+        let output = output.unwrap_or_else(|error| panic!("{command}: {error}"));
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
         let errors = String::from_utf8_lossy(&output.stderr);
         assert!(
@@ -204,14 +210,25 @@ impl Drop for Trial {
 const SAMPLES: &str = "1000000";
 const PROBE: &str = "inverse dynamics of the probe";
 const FIRST: &str = "torques of the first tick";
+/// Runs the project by its dev profile in QEMU.
+const DEV: [&str; 3] = ["run", "--target", "thumbv7em-none-eabihf"];
 
-fn rust_project(name: &str, robot: RobotFile, expected: &str) {
+/// The share of its period that the longest tick takes, %.
+fn share_of_period(printed: &str) -> f32 {
+    let tick = printed.lines().find(|line| line.starts_with("tick: "));
+    let tick = tick.unwrap_or_else(|| panic!("no tick in\n{printed}"));
+    eprintln!("{tick}");
+    let (_, share) = tick.split_once("the longest takes ").expect("a share");
+    let (share, _) = share.split_once(" % of its period").expect("a share");
+    share.parse().expect("a number")
+}
+
+fn rust_project(name: &str, robot: RobotFile, expected: &str) -> Trial {
     let trial = Trial::new(name, robot, Kind::Simulation);
     let device = trial.run("cargo", &["qemu"]);
     assert_eq!(Trial::after(&device, PROBE), expected);
     assert!(!device.contains("error:"), "{device}");
-    let tick = device.lines().find(|line| line.starts_with("tick: "));
-    eprintln!("{}", tick.unwrap_or_else(|| panic!("no tick in\n{device}")));
+    assert!(share_of_period(&device) < 100.0, "{device}");
     // The tracking error, too, is the same on the host, but for the line of the clock.
     let host = trial.run("cargo", &["run"]);
     assert_eq!(Trial::after(&host, FIRST), Trial::after(&device, FIRST));
@@ -221,12 +238,17 @@ fn rust_project(name: &str, robot: RobotFile, expected: &str) {
             .collect::<String>()
     };
     assert_eq!(without_clock(&host), without_clock(&device));
+    // Without `--release` the dev profile, as it is written, computes the same in time.
+    let dev = trial.run("cargo", &DEV);
+    assert_eq!(without_clock(&dev), without_clock(&device));
+    assert!(share_of_period(&dev) < 100.0, "{dev}");
     // The program that sends the ticks, with the motion that shows the parameters.
     let watch = "run --release --features telemetry --bin watch -- excite ticks=2000";
     let frames = trial.run("cargo", &watch.split(' ').collect::<Vec<_>>());
     assert!(frames.len() > 50_000, "{} bytes", frames.len());
     trial.run("cargo", &["test"]);
     trial.run("cargo", &["fmt", "--check"]);
+    trial
 }
 
 fn c_project(name: &str, robot: RobotFile, expected: &str) {
@@ -283,7 +305,22 @@ fn an_arm() {
         FileEffects::default(),
     );
     let expected = expected::<so101::So101, _, 6>(&so101::SCENE);
-    rust_project("an-arm", robot.clone(), &expected);
+    let trial = rust_project("an-arm", robot.clone(), &expected);
+    // At opt-level 0 the build warns and the run fails: no tick of six joints ends within its period.
+    let mut slow = trial.command("cargo", &DEV);
+    let slow = slow.env("CARGO_PROFILE_DEV_OPT_LEVEL", "0").output();
+    let slow = slow.expect("cargo runs");
+    let [printed, errors] = [&slow.stdout, &slow.stderr].map(|text| String::from_utf8_lossy(text));
+    assert!(!slow.status.success(), "{printed}");
+    assert!(share_of_period(&printed) > 100.0, "{printed}");
+    assert!(
+        printed.contains("error: the longest tick takes"),
+        "{printed}"
+    );
+    assert!(
+        errors.contains("at opt-level 0 of this package"),
+        "{errors}"
+    );
     c_project("an-arm-for-c", robot, &expected);
 }
 

@@ -1,4 +1,7 @@
-//! `cargo xtask flags`: what other flags of the compiler cost, and which functions of Rust's own crates a tick contains.
+//! `cargo xtask flags`: what other flags of the compiler and other profiles cost, and which functions of Rust's own crates a tick
+//! contains.
+
+mod profiles;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -39,6 +42,7 @@ const RUST: &str = "/library/";
 /// Builds the bins by each line of flags and runs them under the meter.
 pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     let (workspace, tools) = (bench.workspace, bench.tools()?);
+    let profiles = profiles::measure(workspace, tools)?;
     let (mut lines, mut core) = (Vec::new(), BTreeMap::new());
     for (name, flags) in LINES {
         let flags = flags.map(|flags| format!("{flags} {LINKER}"));
@@ -71,9 +75,11 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
         listed(&core),
         bench.rustc()?
     );
+    let guide = profiles::markdown(&profiles, &bench.rustc()?);
     Ok(Found {
+        brief: Some((profiles::PAGE, guide)),
         rustc: Some(bench.rustc()?),
-        ..Found::new(text, &(&lines, &core))?
+        ..Found::new(text, &(&lines, &core, &profiles))?
     })
 }
 
@@ -148,4 +154,96 @@ fn listed(core: &BTreeMap<String, BTreeSet<String>>) -> String {
         format!("- `{file}`: {}\n", names.join(", "))
     });
     items.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::profiles::{PAGE, WITHOUT_FLAGS};
+    use crate::kit::docs::repository::{read, rows_of};
+
+    fn number(cell: &str) -> f64 {
+        cell.replace(',', "").parse().expect("a figure")
+    }
+
+    /// The cycles of a cell of the table of flags.
+    fn cycles(cell: &str) -> f64 {
+        let (_, cycles) = cell.split_once(" / ").expect("two figures");
+        let (cycles, _) = cycles.split_once(" (").expect("a multiple");
+        number(cycles)
+    }
+
+    /// By how much the first figures of pairs exceed the second: `37 to 40 %`.
+    fn excess(pairs: &[[f64; 2]]) -> String {
+        let excess = pairs.iter().map(|[more, less]| 100.0 * (more / less - 1.0));
+        let [least, most] = excess.fold([f64::INFINITY, 0.0], |[least, most], one| {
+            [least.min(one), most.max(one)]
+        });
+        match [least, most].map(|percent| format!("{percent:.0}")) {
+            [least, most] if least == most => format!("{least} %"),
+            [least, most] => format!("{least} to {most} %"),
+        }
+    }
+
+    #[test]
+    fn pages_and_templates_have_the_prices_of_the_tables() {
+        let (flags, guide) = (read("docs/flags.md"), read(PAGE));
+        let rows = rows_of(&flags);
+        let pairs = |end: &str, [more, less]: [usize; 2]| -> Vec<[f64; 2]> {
+            let rows = rows
+                .iter()
+                .filter(|row| row.len() == 5 && row[0].ends_with(end));
+            rows.map(|row| [cycles(row[more]), cycles(row[less])])
+                .collect()
+        };
+        let profiles = rows_of(&guide);
+        let of_profile = |name: &str, column: usize| {
+            let row = profiles.iter().find(|row| row[0].starts_with(name));
+            number(row.expect("the profile")[column])
+        };
+        let project =
+            |column| [WITHOUT_FLAGS, "release as written"].map(|name| of_profile(name, column));
+        let [fast, quiet, none] = [1, 2, 4];
+        let mut full = pairs("rnea engine full", [none, quiet]);
+        full.push(project(3));
+        let gravity = excess(&pairs("engine gravity", [none, quiet]));
+        let all = [" full", " gravity"]
+            .map(|end| pairs(end, [quiet, fast]))
+            .concat();
+        let without = format!("inverse dynamics takes {} more cycles", excess(&full));
+        let tick = format!("a tick takes {} more cycles", excess(&[project(1)]));
+        let megabytes = of_profile("dev at 0, `package", 4) / 1e6;
+        let template = |kind| format!("robot-import/template/{kind}/.cargo/config.toml");
+        for (file, said) in [
+            ("README.md", &without),
+            (&*template("c"), &without),
+            (&*template("rust"), &without),
+            (&*template("rust"), &tick),
+            (PAGE, &without),
+            (PAGE, &tick),
+            (PAGE, &format!("of gravity alone {gravity}")),
+            (PAGE, &format!("the code, of {megabytes:.1} MB,")),
+            (PAGE, &format!("a call takes {} more cycles", excess(&all))),
+        ] {
+            let text = read(file).replace('#', "");
+            let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(text.contains(said), "{file} does not say: {said}");
+        }
+    }
+
+    /// The guide's prose says which profiles keep the period.
+    #[test]
+    fn a_tick_is_in_time_unless_the_users_own_crate_is_at_opt_level_0() {
+        let guide = read(PAGE);
+        let rows = rows_of(&guide);
+        let rows = rows.iter().filter(|row| row.len() == 5);
+        let in_time = rows.map(|row| {
+            let share = row[2].trim_end_matches(" %");
+            assert_eq!(
+                row[0].starts_with("dev at 0"),
+                number(share) > 100.0,
+                "{row:?}"
+            );
+        });
+        assert_eq!(in_time.count(), 10);
+    }
 }

@@ -57,7 +57,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
         picture: Some(picture::svg(&suite)?),
         wrong: suite.wrong.clone(),
         summary: summary(&suite),
-        brief: Some(brief(&suite, &known(bench.workspace)?)),
+        brief: Some(("README.md", brief(&suite, &known(bench.workspace)?))),
         ..Found::new(page(&suite), &suite.rows)?
     })
 }

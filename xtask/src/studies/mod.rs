@@ -55,9 +55,9 @@ pub const STUDIES: &[Study] = &[
         form: Own(costs::Args::augment_args, |options, matches| costs::run(options, given(matches)?), costs::check),
     },
     Study {
-        name: "flags", about: "Measure what other flags of the compiler cost, rewrite docs/flags.md with the functions of core in a tick",
+        name: "flags", about: "Measure what other flags of the compiler and profiles cost, rewrite docs/flags.md and a part of the guide's page on firmware",
         files: &["docs/flags.md"],
-        held: Step(Target, Full, "docs/flags.md has today's costs by other flags of the compiler and the functions of core in a tick"),
+        held: Step(Target, Full, "docs/flags.md has today's costs by other flags of the compiler and the functions of core in a tick, the guide those of profiles"),
         form: Part(flags::measure),
     },
     Study {

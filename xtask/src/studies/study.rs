@@ -118,8 +118,8 @@ impl<'a> Bench<'a> {
 pub struct Found {
     /// The page, or its part.
     pub text: String,
-    /// The lines of the README between the markers of the study's name, if it has any.
-    pub brief: Option<String>,
+    /// The lines of another page, the README or one of the guide, between the markers of the study's name, if it has any.
+    pub brief: Option<(&'static str, String)>,
     pub picture: Option<String>,
     pub json: String,
     /// The compiler that the figures depend on, if they do on one.
@@ -197,9 +197,11 @@ impl Study {
 
     fn write(&self, workspace: &Workspace, found: &Found) -> Result<()> {
         self.page(&self.words()).write(workspace, &found.text)?;
-        if let Some(brief) = &found.brief {
-            self.readme(&self.words()).write(workspace, brief)?;
-            first_screen::write_why(workspace)?;
+        if let Some((file, brief)) = &found.brief {
+            self.part(file, &self.words()).write(workspace, brief)?;
+            if *file == "README.md" {
+                first_screen::write_why(workspace)?;
+            }
         }
         drawn::write(workspace, self.files[0])?;
         for (file, picture) in self.files[1..].iter().zip(&found.picture) {
@@ -213,8 +215,8 @@ impl Study {
         let (words, rustc) = (self.words(), found.rustc.as_deref());
         let page = self.page(&words);
         page.check(workspace, &found.text, rustc)?;
-        if let Some(brief) = &found.brief {
-            self.readme(&words).check(workspace, brief, rustc)?;
+        if let Some((file, brief)) = &found.brief {
+            self.part(file, &words).check(workspace, brief, rustc)?;
         }
         let written = workspace::read(&workspace.root.join(page.file))?;
         let same = rustc.is_none() || docs::rustc_of(page.written(&written)?) == rustc;
@@ -228,9 +230,9 @@ impl Study {
         format!("cargo xtask {}", self.name)
     }
 
-    fn readme<'a>(&self, command: &'a str) -> Page<'a> {
+    fn part<'a>(&self, file: &'a str, command: &'a str) -> Page<'a> {
         Page {
-            file: "README.md",
+            file,
             name: self.name,
             command,
         }

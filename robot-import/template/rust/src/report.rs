@@ -11,7 +11,7 @@ use motion_control::{Fault, Mode, SafetyLimits};
 
 use crate::control::{FeedForward, SetupError, controller, detectors, gains};
 use crate::marker::measured;
-use crate::scene::{self, JOINTS, N};
+use crate::scene::{self, JOINTS, N, TICK};
 use crate::simulation::{Plant, Wires};
 
 /// What a run shows.
@@ -198,11 +198,11 @@ pub fn probe() -> State<f32, N, N> {
 pub struct Clock<F> {
     /// The reading.
     pub now: F,
-    /// QEMU's instructions per count, as a fraction; `None` where nothing counts.
+    /// QEMU's instructions per count, as a fraction whose denominator is the counts of a microsecond; `None` where nothing counts.
     pub instructions: Option<[u64; 2]>,
 }
 
-/// Runs the motion with the model's torque and without, and prints what happened; whether all went well.
+/// Runs the motion and prints what happened; whether all went well, and each tick within its period.
 ///
 /// # Errors
 /// The text cannot be written.
@@ -247,8 +247,8 @@ pub fn print(out: &mut impl Write, clock: Clock<impl Fn() -> u32>) -> Result<boo
         )?;
     }
     outcome.say(out)?;
-    cost(out, &outcome, clock)?;
-    Ok(outcome.is_good())
+    let in_time = cost(out, &outcome, clock)?;
+    Ok(outcome.is_good() && in_time)
 }
 
 fn values(out: &mut impl Write, name: &str, values: &[f32; N]) -> fmt::Result {
@@ -263,13 +263,19 @@ fn values(out: &mut impl Write, name: &str, values: &[f32; N]) -> fmt::Result {
     writeln!(out)
 }
 
-fn cost(out: &mut impl Write, outcome: &Outcome, clock: Clock<impl Fn() -> u32>) -> fmt::Result {
+/// Prints what a tick costs; whether the longest one ends within its period.
+fn cost(
+    out: &mut impl Write,
+    outcome: &Outcome,
+    clock: Clock<impl Fn() -> u32>,
+) -> Result<bool, fmt::Error> {
     let Some([numerator, denominator]) = clock.instructions else {
-        return writeln!(
+        writeln!(
             out,
             "tick: {} ticks; no counter of instructions here",
             outcome.ticks
-        );
+        )?;
+        return Ok(true);
     };
     let before = (clock.now)();
     let overhead = (clock.now)().wrapping_sub(before) & COUNTS;
@@ -278,10 +284,18 @@ fn cost(out: &mut impl Write, outcome: &Outcome, clock: Clock<impl Fn() -> u32>)
         .map(|cost| u64::from(cost.saturating_sub(overhead)));
     let [first, last] =
         [least, most].map(|counts| (counts * numerator + denominator / 2) / denominator);
+    let share = 100.0 * most as f32 / (TICK * 1e6 * denominator as f32);
     writeln!(
         out,
         "tick: {first} to {last} instructions in {} ticks, within 2 ({least} to {most} counts of a timer at 168 MHz: in \
-         QEMU 1.344 an instruction, on a board cycles)",
+         QEMU 1.344 an instruction, on a board cycles); the longest takes {share:.1} % of its period",
         outcome.ticks
-    )
+    )?;
+    if share > 100.0 {
+        writeln!(
+            out,
+            "error: the longest tick takes {share:.0} % of its period: build with --release, or with opt-level 1 or more"
+        )?;
+    }
+    Ok(share <= 100.0)
 }

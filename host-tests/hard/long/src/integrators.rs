@@ -11,6 +11,8 @@ use dynamics_core::state::State;
 pub struct Integrator {
     pub name: &'static str,
     pub order: i32,
+    /// The order of the energy without friction.
+    pub energy_order: i32,
     kind: Kind,
 }
 
@@ -25,16 +27,20 @@ pub const INTEGRATORS: [Integrator; 3] = [
     Integrator {
         name: "semi-implicit Euler",
         order: 1,
+        energy_order: 1,
         kind: Kind::SemiImplicit,
     },
     Integrator {
         name: "linearly implicit Euler",
         order: 1,
+        // Its bodies move at the mean velocity of the step, as in a leapfrog.
+        energy_order: 2,
         kind: Kind::LinearlyImplicit,
     },
     Integrator {
         name: "Runge-Kutta 4",
         order: 4,
+        energy_order: 4,
         kind: Kind::RungeKutta,
     },
 ];

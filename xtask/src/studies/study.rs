@@ -275,6 +275,7 @@ mod tests {
         Found {
             text: text.into(),
             picture: Some(picture.into()),
+            brief: Some(("guide.md", "| 5 |".into())),
             ..Found::default()
         }
     }
@@ -284,7 +285,9 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let workspace = Workspace::at(folder.path());
         let part = "# By hand\n\n<!-- growth:begin -->\n<!-- growth:end -->\n";
-        std::fs::write(folder.path().join("page.md"), part).expect("written");
+        for file in ["page.md", "guide.md"] {
+            std::fs::write(folder.path().join(file), part).expect("written");
+        }
         for form in [Form::Part, Form::Whole] {
             let study = study(form(|_| Ok(Found::default())));
             study
@@ -294,6 +297,9 @@ mod tests {
             compare(found("| 1 |\n", "<svg/>")).expect("the same");
             compare(found("| 2 |\n", "<svg/>")).expect_err("another page");
             compare(found("| 1 |\n", "<svg />")).expect_err("another picture");
+            let mut other = found("| 1 |\n", "<svg/>");
+            other.brief = Some(("guide.md", "| 6 |".into()));
+            compare(other).expect_err("another part of the guide");
             let mut missed = found("| 1 |\n", "<svg/>");
             missed.wrong.push("cycles 2 > 1".into());
             let error = compare(missed).expect_err("a bar").to_string();

@@ -198,7 +198,8 @@ pub fn probe() -> State<f32, N, N> {
 pub struct Clock<F> {
     /// The reading.
     pub now: F,
-    /// QEMU's instructions per count, as a fraction whose denominator is the counts of a microsecond; `None` where nothing counts.
+    /// QEMU's instructions per count, as a fraction whose denominator is the counts of a microsecond;
+    /// `None` where nothing counts.
     pub instructions: Option<[u64; 2]>,
 }
 

@@ -131,7 +131,7 @@ const BY_TESTS: [(&str, &str, &str); 14] = [
     (
         "docs/guide/src/faults.md",
         "transitions",
-        "motion-control/src/safety/supervisor/tests/transitions.rs",
+        "docs/guide/tests/pages.rs",
     ),
     (
         "docs/guide/src/guiding.md",

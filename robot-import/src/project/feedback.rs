@@ -93,8 +93,9 @@ impl Feedback {
         }
         if let Some(joint) = weakest {
             self.words.push(format!(
-                "joint `{}` is not held against gravity everywhere: with the inertia of the links alone the feedback would need more \
-                 than {MOST_OMEGA_N} rad/s; the file has no rotor inertia (armature), which geared motors have: state it",
+                "joint `{}` is not held against gravity everywhere, and `cargo test` may fail: with the inertia of the links alone the \
+                 feedback would need more than {MOST_OMEGA_N} rad/s; the file has no rotor inertia (armature), which geared motors \
+                 have: state it",
                 tree.bodies[joint].joint
             ));
         }

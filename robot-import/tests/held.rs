@@ -300,4 +300,15 @@ fn a_joint_without_a_limit_of_torque_has_room_for_feedback() {
     assert!(words.is_empty(), "{words:?}");
     let said = run(&[("slow", project)]);
     assert!(said.contains("test result: ok. 4 passed"), "{said}");
+    // With a limit of its own the steps of the encoders saturate it up to 0.2 N·m, and do not at 0.3 N·m.
+    for (effort, is_told) in [(0.2, true), (0.3, false)] {
+        let limit = format!("'continuous'><limit effort='{effort}' velocity='3'/>");
+        let urdf = urdf.replace("'continuous'>", &limit);
+        let file = folder.write("weak.urdf", &urdf);
+        let (_, words) = self::project(&folder, &format!("weak{is_told}"), &file);
+        let told = words
+            .concat()
+            .contains("`turn` has a limit of torque of 0.2");
+        assert_eq!(told, is_told, "{words:?}");
+    }
 }

@@ -7,7 +7,7 @@
 use crate::description::Kind;
 use crate::error::Result;
 use crate::model::{AnyModel, Motion};
-use crate::tree::Tree;
+use crate::tree::{Body, Tree};
 
 /// The natural frequency of a joint's feedback, rad/s, where gravity needs no more.
 pub const OMEGA_N: f64 = 25.0;
@@ -21,6 +21,8 @@ const SAMPLES: usize = 64;
 const FREE: f64 = 1.6;
 /// A step of an encoder of 14 bits, rad.
 const RESOLUTION: f64 = std::f64::consts::TAU / 16_384.0;
+/// The bandwidth of the observer, rad/s: as in the template's `control.rs`.
+const OBSERVER: f64 = 250.0;
 /// So many steps of its encoder a joint's range has at least, or it stands still: as in the template's `scene.rs`.
 const NARROW: f64 = 32.0;
 /// As in the template's `scene.rs`, rad/s².
@@ -73,7 +75,7 @@ impl Feedback {
         };
         found.raise(tree, &model, &start);
         found.narrow(tree);
-        found.needs(tree, &model, &start.q, &inertia);
+        found.needs(tree, &model, &start, &inertia);
         Ok(found)
     }
 
@@ -93,8 +95,9 @@ impl Feedback {
         }
         if let Some(joint) = weakest {
             self.words.push(format!(
-                "joint `{}` is not held against gravity everywhere: with the inertia of the links alone the feedback would need more \
-                 than {MOST_OMEGA_N} rad/s; the file has no rotor inertia (armature), which geared motors have: state it",
+                "joint `{}` is not held against gravity everywhere, and `cargo test` may fail: with the inertia of the links alone the \
+                 feedback would need more than {MOST_OMEGA_N} rad/s; the file has no rotor inertia (armature), which geared motors \
+                 have: state it",
                 tree.bodies[joint].joint
             ));
         }
@@ -120,8 +123,8 @@ impl Feedback {
     }
 
     /// Limits of torque that are too small for the motion, or too large for the joint.
-    fn needs(&mut self, tree: &Tree, model: &AnyModel, home: &[f64], inertia: &[f64]) {
-        let needed = needed(tree, model, home);
+    fn needs(&mut self, tree: &Tree, model: &AnyModel, start: &Place, inertia: &[f64]) {
+        let needed = needed(tree, model, &start.q);
         for (joint, body) in tree.bodies.iter().enumerate() {
             let (name, needed) = (&body.joint, needed[joint]);
             let Some(effort) = body.limits.effort else {
@@ -135,20 +138,34 @@ impl Feedback {
                     body.friction, inertia[joint]
                 ));
             }
+            let taken = effort.min((3.0 * needed).max(light));
+            let rounding = self.of_rounding(tree, &start.mass[joint]);
             if needed > effort {
                 self.words.push(format!(
                     "joint `{name}` needs {needed:.3} for the motion of the project, its limit of torque is {effort}: `cargo test` \
                      fails until `home`, `away` or `limits` in src/scene.rs are changed"
                 ));
-            } else if effort > (3.0 * needed).max(light) {
+            } else if needed + rounding > taken {
+                self.words.push(format!(
+                    "joint `{name}` has a limit of torque of {taken:.3}; the motion of the project needs {needed:.3}, and the feedback asks \
+                     for up to {rounding:.3} more at half a step of the encoders: `cargo test` may fail; see `limits` in src/scene.rs"
+                ));
+            } else if effort > taken {
                 self.words.push(format!(
                     "joint `{name}` is light for its limit of torque, {effort}: it would be accelerated by {:.0e} rad/s² or m/s²; the \
                      project takes a limit of {:.3e}, see `limits` in src/scene.rs",
                     effort / inertia[joint],
-                    (3.0 * needed).max(light)
+                    taken
                 ));
             }
         }
+    }
+
+    /// The greatest torque that the feedback asks for when all encoders are half a step off, from a row of M.
+    fn of_rounding(&self, tree: &Tree, mass: &[f64]) -> f64 {
+        let of = |(mass, body): (&f64, &Body)| mass.abs() * 0.5 * RESOLUTION * ratio(body.kind);
+        let moved: f64 = mass.iter().zip(&tree.bodies).map(of).sum();
+        (self.omega_n * self.omega_n + 2.0 * self.omega_n * OBSERVER) * moved
     }
 }
 
@@ -270,7 +287,7 @@ fn home(tree: &Tree) -> Vec<f64> {
 
 /// The place where the motion turns back, as in the template's `scene.rs`.
 fn away(tree: &Tree, home: &[f64]) -> Vec<f64> {
-    let of = |(body, home): (&crate::tree::Body, &f64)| {
+    let of = |(body, home): (&Body, &f64)| {
         let [lower, upper] = body
             .limits
             .position
@@ -345,7 +362,7 @@ fn sample(tree: &Tree, k: usize) -> Vec<f64> {
     for _ in 0..60 {
         root = (1.0 + root).powf(1.0 / (n as f64 + 1.0));
     }
-    let of = |(joint, body): (usize, &crate::tree::Body)| {
+    let of = |(joint, body): (usize, &Body)| {
         let share = (0.5 + (k + 1) as f64 * root.powi(-(joint as i32 + 1))).fract();
         let [lower, upper] = body.limits.position.unwrap_or([-FREE, FREE]);
         lower + share * (upper - lower)

@@ -10,7 +10,7 @@ mod servos {
     use embassy_rp::uart::{BufferedInterruptHandler, BufferedUart, Config};
     use embassy_time::{Duration, Ticker, with_timeout};
     use joint_drivers::feetech::Servos;
-    use joint_drivers::{Direction, JointMapping};
+    use joint_drivers::{Direction, JointMapping, JointRange};
     use panic_halt as _;
 
     bind_interrupts!(struct Interrupts {
@@ -35,6 +35,14 @@ mod servos {
             config,
         );
         let Ok(middle) = JointMapping::new(core::f32::consts::PI, Direction::Forward, 1.0) else {
+            return;
+        };
+        // Each joint is within 2 rad of its middle, and turns by 6 rad/s at most.
+        let range = JointRange::Within {
+            lower: -2.0,
+            upper: 2.0,
+        };
+        let Ok(middle) = middle.with_range(range, 6.0 / 500.0) else {
             return;
         };
         let Ok(mut servos) = Servos::new(port, [1, 2, 3, 4, 5, 6], [middle; 6]) else {

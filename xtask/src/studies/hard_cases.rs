@@ -143,9 +143,8 @@ fn brief(suite: &Suite, known: &str) -> String {
     let count = |verdict: &str| suite.rows.iter().filter(|r| r.verdict == verdict).count();
     format!(
         "{} cases in f32 and f64, against computations in 50 digits and closed forms: {} figures are within their bounds, {} beyond,\n\
-         and {} naive methods are shown to fail ([each case](docs/hard-cases.md)). The page to try runs the\n\
-         [suite](host-tests/suite/README.md) of files instead, and shows one figure beyond its bound, `aba` of case 87 in f32:\n\
-         {known} ([decision 2]({DECISION})).",
+         and {} naive methods are shown to fail ([each case](docs/hard-cases.md)). The page to try shows one figure of its\n\
+         [suite](host-tests/suite/README.md) of files beyond its bound, `aba` of case 87 in f32: {known} ([decision 2]({DECISION})).",
         suite.cases.len(),
         count("pass"),
         count("fail"),

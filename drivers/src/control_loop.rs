@@ -74,7 +74,7 @@ fn kept<E>(kept: &Kept<E>) -> Option<JointError<&E>> {
 /// The control loop of a robot with V joints: its devices, a [`MotionController`] and its detectors.
 ///
 /// The age of the measurements is that of the encoders ([`EncoderType::Age`]), or
-/// [`OnCircles`](motion_control::OnCircles) of it for a robot with continuous joints. It has no heap and no panic.
+/// [`motion_control::OnCircles`] of it for a robot with continuous joints. It has no heap and no panic.
 ///
 /// ```
 /// use dynamics_core::state::State;

@@ -8,9 +8,11 @@ use crate::encoder_mapping::{LostTurn, MOST_TURNS, floor};
 use crate::{EncoderMapping, MappingError};
 
 /// In place of the readings that are missing since the last one: it is unknown in which turn the joint is.
-const LOST: u32 = u32::MAX;
+const LOST: u16 = u16::MAX;
 /// The same: each reading is placed anew.
-const CIRCLE: u32 = LOST - 1;
+const CIRCLE: u16 = LOST - 1;
+/// In place of the readings that may be missing: each one says by itself where the joint is.
+const ABSOLUTE: u16 = u16::MAX;
 
 /// The count before a reading.
 #[derive(Clone, Copy, Debug)]
@@ -40,14 +42,14 @@ pub struct MultiTurnEncoder<const BITS: u32> {
     /// Twice the count, and odd before the first reading: the middle of the turn in which it is.
     halves: i32,
     /// Readings that are missing since the last one; [`LOST`], [`CIRCLE`].
-    missing: u32,
+    missing: u16,
     /// The joint's zero in half counts, and its rad or m per half count.
     zero: f32,
     per_half: f32,
     /// The place of a joint without a reading, as in `halves`.
     near: i32,
-    /// So many readings may be missing; `u32::MAX` if each one says by itself where the joint is.
-    most: u32,
+    /// So many readings may be missing; [`ABSOLUTE`].
+    most: u16,
 }
 
 impl<const BITS: u32> MultiTurnEncoder<BITS> {
@@ -57,8 +59,6 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     };
 
     /// A counter without a reading, at the place where its joint is taken to be.
-    // Once for all joints of a robot: it is called at the start only.
-    #[inline(never)]
     pub const fn new(mapping: EncoderMapping) -> Self {
         let (zero, per_half) = mapping.in_counts((2_u32 << BITS) as f32);
         let near = place(mapping.near(), zero, per_half);
@@ -68,7 +68,11 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
             zero,
             per_half,
             near,
-            most: mapping.most_missing(PI),
+            most: if mapping.is_absolute() {
+                ABSOLUTE
+            } else {
+                counted(mapping.most_missing(PI))
+            },
         }
     }
 
@@ -92,7 +96,7 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         // Shifting out the turns leaves the difference modulo one turn, with its sign.
         let apart = (i32::from(raw) << 1).wrapping_sub(before);
         self.halves = before.wrapping_add(Self::within(apart));
-        (Before(before), missing)
+        (Before(before), missing as u32)
     }
 
     /// Takes back a reading that is none.
@@ -109,10 +113,10 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     /// Notes that so many readings failed or were not made, one in each tick: the joint may have moved on.
     #[cold]
     pub fn missed(&mut self, readings: u32) {
-        if self.most == u32::MAX {
+        if self.most == ABSOLUTE {
             self.halves = self.near;
         } else if self.halves & 1 == 0 && self.missing < LOST {
-            self.missing = self.missing.saturating_add(readings).min(LOST - 1);
+            self.missing = self.missing.saturating_add(counted(readings)).min(LOST - 1);
         }
     }
 
@@ -128,7 +132,7 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         if !is_known {
             return Err(MappingError::Range);
         }
-        if self.most != u32::MAX {
+        if self.most != ABSOLUTE {
             self.near = place(position, self.zero, self.per_half);
             (self.halves, self.missing) = (self.near, 0);
         }
@@ -140,7 +144,7 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     #[cold]
     #[inline(never)]
     fn examine(&mut self) -> Result<(), LostTurn> {
-        if self.most == u32::MAX {
+        if self.most == ABSOLUTE {
             // The angle of a circle: its count does not grow with its turns.
             let apart = self.halves.wrapping_sub(self.near);
             self.halves = self.near.wrapping_add(Self::within(apart));
@@ -203,6 +207,16 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     #[inline(always)]
     pub fn within_turn<R: Real>(&self) -> R {
         angle::<R, BITS>(Self::within(self.halves) >> 1)
+    }
+}
+
+/// A number of readings, of which 65,533 and more are the same.
+const fn counted(readings: u32) -> u16 {
+    const MOST: u32 = LOST as u32 - 2;
+    if readings < MOST {
+        readings as u16
+    } else {
+        MOST as u16
     }
 }
 

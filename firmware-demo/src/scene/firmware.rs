@@ -7,9 +7,7 @@ use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
 use joint_drivers::as5047p::As5047p;
 use joint_drivers::h_bridge::{DriveError, FullScale, LockedAntiphase};
-use joint_drivers::{
-    ControlLoop, Direction, EncoderMapping, JointError, JointMapping, JointRange, MappingError,
-};
+use joint_drivers::{ControlLoop, Direction, JointMapping, JointRange, MappingError};
 use motion_control::{
     Detect, Gains, MotionController, MotionControllerConfig, SafetyLimits, SupervisorConfig,
 };
@@ -51,7 +49,7 @@ pub enum SetupError {
     /// A torque limit is no full scale of a drive.
     Drive(DriveError),
     /// A speed limit is no step of an encoder.
-    Encoder(JointError<MappingError>),
+    Encoder(MappingError),
 }
 
 impl fmt::Display for SetupError {
@@ -119,13 +117,14 @@ where
         drives,
         brake,
     } = devices;
-    let limits = S::limits();
-    let scales = FullScale::of(limits.map(|limit| limit.torque)).map_err(SetupError::Drive)?;
-    // The plants start within half a turn of zero.
-    let ranges = [JointRange::Near(0.0); N];
-    let steps = limits.map(|limit| limit.velocity * S::TICK);
-    let mappings = EncoderMapping::of([JointMapping::IDENTITY; N], ranges, steps);
-    let mappings = mappings.map_err(SetupError::Encoder)?;
+    let scales = FullScale::of(S::limits().map(|limit| limit.torque)).map_err(SetupError::Drive)?;
+    // The plants start within half a turn of zero. One mapping for all joints, with the speed of the fastest, takes less
+    // stack than one for each.
+    let fastest = S::limits()
+        .iter()
+        .fold(0.0_f32, |most, limit| most.max(limit.velocity));
+    let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), fastest * S::TICK);
+    let mapping = mapping.map_err(SetupError::Encoder)?;
     let mut joint = 0;
     let drives = drives.map(|pwm| {
         let drive = LockedAntiphase::new(pwm, scales[joint], Direction::Forward);
@@ -134,7 +133,7 @@ where
     });
     let controller = MotionController::new(MotionControllerConfig {
         supervisor: SupervisorConfig {
-            limits: SafetyLimits::from(limits).with_rate_share(0.5),
+            limits: SafetyLimits::from(S::limits()).with_rate_share(0.5),
             tick: S::TICK,
             resolution: S::RESOLUTION,
             ride_through_ticks: RIDE,
@@ -150,11 +149,6 @@ where
         Start::OnTrajectory => controller,
         Start::OnBrake => controller.on_brake(),
     };
-    let mut joint = 0;
-    let encoders = encoders.map(|spi| {
-        let encoder = As5047p::new(spi, mappings[joint]);
-        joint += 1;
-        encoder
-    });
+    let encoders = encoders.map(|spi| As5047p::new(spi, mapping));
     Ok(new(encoders, drives, brake, gains, controller, detectors))
 }

@@ -8,11 +8,9 @@ use crate::encoder_mapping::{LostTurn, MOST_TURNS, floor};
 use crate::{EncoderMapping, MappingError};
 
 /// In place of the readings that are missing since the last one: it is unknown in which turn the joint is.
-const LOST: u16 = u16::MAX;
+const LOST: u32 = u32::MAX;
 /// The same: each reading is placed anew.
-const CIRCLE: u16 = LOST - 1;
-/// In place of the readings that may be missing: each one says by itself where the joint is.
-const ABSOLUTE: u16 = u16::MAX;
+const CIRCLE: u32 = LOST - 1;
 
 /// The count before a reading.
 #[derive(Clone, Copy, Debug)]
@@ -42,14 +40,13 @@ pub struct MultiTurnEncoder<const BITS: u32> {
     /// Twice the count, and odd before the first reading: the middle of the turn in which it is.
     halves: i32,
     /// Readings that are missing since the last one; [`LOST`], [`CIRCLE`].
-    missing: u16,
+    missing: u32,
     /// The joint's zero in half counts, and its rad or m per half count.
     zero: f32,
     per_half: f32,
-    /// The place of a joint without a reading, as in `halves`.
-    near: i32,
-    /// So many readings may be missing; [`ABSOLUTE`].
-    most: u16,
+    /// If each reading says by itself where the joint is: the place of a joint without a reading, as in `halves`, which
+    /// is odd. Else twice the number of readings that may be missing.
+    near_or_most: i32,
 }
 
 impl<const BITS: u32> MultiTurnEncoder<BITS> {
@@ -67,11 +64,10 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
             missing: if mapping.is_circle() { CIRCLE } else { 0 },
             zero,
             per_half,
-            near,
-            most: if mapping.is_absolute() {
-                ABSOLUTE
+            near_or_most: if mapping.is_absolute() {
+                near
             } else {
-                counted(mapping.most_missing(PI))
+                doubled(mapping.most_missing(PI))
             },
         }
     }
@@ -96,7 +92,12 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         // Shifting out the turns leaves the difference modulo one turn, with its sign.
         let apart = (i32::from(raw) << 1).wrapping_sub(before);
         self.halves = before.wrapping_add(Self::within(apart));
-        (Before(before), missing as u32)
+        (Before(before), missing)
+    }
+
+    /// Whether each reading says by itself where the joint is.
+    const fn is_absolute(&self) -> bool {
+        self.near_or_most & 1 == 1
     }
 
     /// Takes back a reading that is none.
@@ -113,10 +114,10 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     /// Notes that so many readings failed or were not made, one in each tick: the joint may have moved on.
     #[cold]
     pub fn missed(&mut self, readings: u32) {
-        if self.most == ABSOLUTE {
-            self.halves = self.near;
+        if self.is_absolute() {
+            self.halves = self.near_or_most;
         } else if self.halves & 1 == 0 && self.missing < LOST {
-            self.missing = self.missing.saturating_add(counted(readings)).min(LOST - 1);
+            self.missing = self.missing.saturating_add(readings).min(LOST - 1);
         }
     }
 
@@ -132,9 +133,9 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         if !is_known {
             return Err(MappingError::Range);
         }
-        if self.most != ABSOLUTE {
-            self.near = place(position, self.zero, self.per_half);
-            (self.halves, self.missing) = (self.near, 0);
+        if !self.is_absolute() {
+            self.halves = place(position, self.zero, self.per_half);
+            self.missing = 0;
         }
         Ok(())
     }
@@ -144,11 +145,11 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     #[cold]
     #[inline(never)]
     fn examine(&mut self) -> Result<(), LostTurn> {
-        if self.most == ABSOLUTE {
+        if self.is_absolute() {
             // The angle of a circle: its count does not grow with its turns.
-            let apart = self.halves.wrapping_sub(self.near);
-            self.halves = self.near.wrapping_add(Self::within(apart));
-        } else if self.missing > self.most {
+            let apart = self.halves.wrapping_sub(self.near_or_most);
+            self.halves = self.near_or_most.wrapping_add(Self::within(apart));
+        } else if self.missing > self.near_or_most as u32 / 2 {
             self.missing = LOST;
             return Err(LostTurn);
         } else {
@@ -210,13 +211,13 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     }
 }
 
-/// A number of readings, of which 65,533 and more are the same.
-const fn counted(readings: u32) -> u16 {
-    const MOST: u32 = LOST as u32 - 2;
+/// Twice a number of readings, of which 2³⁰ and more are the same.
+const fn doubled(readings: u32) -> i32 {
+    const MOST: u32 = (1 << 30) - 1;
     if readings < MOST {
-        readings as u16
+        2 * readings as i32
     } else {
-        MOST as u16
+        2 * MOST as i32
     }
 }
 

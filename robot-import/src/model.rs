@@ -53,7 +53,7 @@ impl AnyModel {
     /// The model of a tree.
     ///
     /// # Errors
-    /// More coordinates than [`MOST_COORDINATES`](crate::limits::MOST_COORDINATES), or numbers that the library refuses.
+    /// More coordinates than [`MOST_COORDINATES`], or numbers that the library refuses.
     pub fn of(tree: &Tree) -> Result<Self> {
         let v = tree.coordinates()[1].max(tree.bodies.len());
         Ok(match v {

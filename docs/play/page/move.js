@@ -5,7 +5,7 @@ import { rust } from "./rust.js";
 import { EFFECTS, chosen, has, motion, posture, range, say, state } from "./state.js";
 import { by, colours, digits, element, grouped, write } from "./words.js";
 
-const move = { bars: null, inputs: [], numbers: [], way: null, quantity: "q", text: 0, colour: null };
+const move = { bars: null, inputs: [], numbers: [], way: null, quantity: "q", text: 0, shown: 0, colour: null };
 
 /// The limits and the unit of what the sliders set.
 const QUANTITIES = {
@@ -185,12 +185,16 @@ export function frame(seconds) {
   const computed = compute();
   const all = state.robot.about.joints;
   state.view.place(computed.poses, all.map((joint, i) => (joint.torque ? computed.single[i] / joint.torque : 0)));
-  move.bars.draw(all.map((joint) => joint.name), computed, move.colour);
   const of = QUANTITIES[move.quantity];
   const now = state.moved[move.quantity];
-  all.forEach((_, i) => {
-    if (document.activeElement !== move.inputs[i] || state.swinging) move.inputs[i].value = now[i];
-  });
+  // Every other frame: software in place of a graphics processor draws all that is between what changes.
+  if (performance.now() - move.shown > 30) {
+    move.shown = performance.now();
+    move.bars.draw(all.map((joint) => joint.name), computed, move.colour);
+    all.forEach((_, i) => {
+      if (document.activeElement !== move.inputs[i] || state.swinging) move.inputs[i].value = now[i];
+    });
+  }
   // Nobody reads faster.
   if (performance.now() - move.text > 100) {
     move.text = performance.now();

@@ -128,25 +128,37 @@ export class Soft {
       const [p, q] = corners[j][1] < corners[i][1] ? [corners[j], corners[i]] : [corners[i], corners[j]];
       const slope = (q[0] - p[0]) / (q[1] - p[1]);
       const rise = (q[2] - p[2]) / (q[1] - p[1]);
-      for (let y = Math.max(top, Math.ceil(p[1] - 0.5)); y < Math.min(bottom, Math.ceil(q[1] - 0.5)); y++) {
+      const last = Math.min(bottom, Math.ceil(q[1] - 0.5));
+      for (let y = Math.max(top, Math.ceil(p[1] - 0.5)); y < last; y++) {
         const down = y + 0.5 - p[1];
         const x = p[0] + down * slope;
         const near = p[2] + down * rise;
-        if (x < left[y]) [left[y], nearLeft[y]] = [x, near];
-        if (x > right[y]) [right[y], nearRight[y]] = [x, near];
+        if (x < left[y]) {
+          left[y] = x;
+          nearLeft[y] = near;
+        }
+        if (x > right[y]) {
+          right[y] = x;
+          nearRight[y] = near;
+        }
       }
     }
     const painted = colour();
-    const box = this.box;
+    const { box, wide, near: nearest, colour: colours } = this;
     for (let y = top; y < bottom; y++) {
-      const [from, to] = [Math.max(0, Math.ceil(left[y] - 0.5)), Math.min(this.wide, Math.ceil(right[y] - 0.5))];
+      const from = Math.max(0, Math.ceil(left[y] - 0.5));
+      const to = Math.min(wide, Math.ceil(right[y] - 0.5));
       if (from >= to) continue;
       if (from < box[0]) box[0] = from;
       if (to > box[2]) box[2] = to;
       const rise = (nearRight[y] - nearLeft[y]) / (right[y] - left[y]);
       let near = nearLeft[y] + (from + 0.5 - left[y]) * rise;
-      for (let at = y * this.wide + from; at < y * this.wide + to; at++, near += rise) {
-        if (near > this.near[at]) [this.near[at], this.colour[at]] = [near, painted];
+      const end = y * wide + to;
+      for (let at = y * wide + from; at < end; at++, near += rise) {
+        if (near > nearest[at]) {
+          nearest[at] = near;
+          colours[at] = painted;
+        }
       }
     }
     if (top < box[1]) box[1] = top;
@@ -166,7 +178,16 @@ export class Soft {
       const to = y < y1 - y0 ? x1 - x0 : 0;
       for (let x = 0; x < to; x++) {
         const at = 2 * (y + y0) * wide + 2 * (x + x0);
-        let [count, even, odd] = [0, 0, 0];
+        const one = colour[at];
+        const covered = near[at] !== 0 && near[at + 1] !== 0 && near[at + wide] !== 0 && near[at + wide + 1] !== 0;
+        // Most pixels are of one face.
+        if (covered && colour[at + 1] === one && colour[at + wide] === one && colour[at + wide + 1] === one) {
+          pixels[row + x] = one;
+          continue;
+        }
+        let count = 0;
+        let even = 0;
+        let odd = 0;
         for (let k = 0; k < 4; k++) {
           const i = at + (k & 1) + (k >> 1) * wide;
           if (near[i] === 0) continue;

@@ -80,8 +80,10 @@ static DOCUMENTED: LazyLock<Documented> = LazyLock::new(|| {
             }
         }
     }
-    // The constants of an imported robot's file.
-    for file in files(&root().join("robot-import/src/write"), "rs") {
+    // The constants of an imported robot's file, and of a written project.
+    let written = files(&root().join("robot-import/src/write"), "rs");
+    let project = files(&root().join("robot-import/template/rust"), "liquid");
+    for file in written.iter().chain(&project) {
         let text = read_to_string(&file).expect("a source file");
         names.extend(between(&text, "pub const ", ':').map(str::to_owned));
     }

@@ -18,7 +18,8 @@
 //! | [`certificate`], [`page`], [`picture`] | what was proven, as data, text and picture |
 //! | [`gappa`], [`check`] | checks of it by others |
 //! | [`cycles`], `flow`, `machine`, `words` | the most cycles of a path, by the cycle meter's model |
-//! | [`stack`], [`rows`] | the most stack, and both beside what was measured |
+//! | [`stack`] | the most stack |
+//! | [`preconditions`] | what both hold for |
 //! | [`emulation`], [`sheet`], [`narrow`] | the functions in QEMU, a page of all of this, and boxes of one's own |
 //! | [`fpcore`] | the expression for other tools |
 #![forbid(unsafe_code)]
@@ -57,9 +58,9 @@ mod parts;
 pub mod paths;
 pub mod peel;
 pub mod picture;
+pub mod preconditions;
 pub mod program;
 pub mod roots;
-pub mod rows;
 pub mod search;
 pub mod sheet;
 pub mod sines;

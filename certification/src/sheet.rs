@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::image::Image;
 use crate::limits::Limits;
 use crate::page::{accelerations, ranges, short};
-use crate::rows::{PRECONDITIONS, Preconditions};
+use crate::preconditions::{PRECONDITIONS, Preconditions};
 use crate::search::Evaluation;
 use crate::stack::{self, INTERRUPT_FRAME};
 use crate::state_box::Robot;

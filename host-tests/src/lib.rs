@@ -3,7 +3,6 @@
 
 pub mod carried;
 pub mod controller;
-pub mod drawing;
 pub mod export;
 pub mod friction;
 pub mod fuzz;

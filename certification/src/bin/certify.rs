@@ -12,7 +12,6 @@ use certification::image::Image;
 use certification::limits::{self, Limits};
 use certification::narrow::{Narrow, magnitude};
 use certification::program::{self, CLUSTERED, LIBRARY, Program};
-use certification::rows::{self, Measured, Report};
 use certification::search::Effort;
 use certification::sheet::{Sheet, Target};
 use certification::state_box::Robot;
@@ -100,9 +99,6 @@ struct Args {
     /// Only compare the hashes in docs/certificates.md with today's machine code, and its numbers with their sums and each other
     #[arg(long, conflicts_with_all = ["robot", "write_docs"])]
     hashes: bool,
-    /// Bound the cycles and the stack of the measured rows of programs, as `cargo xtask static` passes them
-    #[arg(long, value_name = "JSON", conflicts_with_all = ["robot", "write_docs", "hashes"])]
-    rows: Option<PathBuf>,
     #[command(flatten)]
     options: robot_import::import::Options,
 }
@@ -175,9 +171,6 @@ fn run(args: &Args) -> Result<String> {
         let path = docs.join(PAGE);
         std::fs::read_to_string(&path).map_err(|source| Error::File { path, source })
     };
-    if let Some(path) = &args.rows {
-        return rows(path);
-    }
     if args.configurations {
         let spent = configurations::Spent {
             points: args.points.unwrap_or(CONFIGURED_POINTS),
@@ -339,27 +332,6 @@ fn limits(args: &Args, programs: &[Program], robots: &[Robot]) -> Result<Vec<Lim
         Ok(one)
     })
     .collect()
-}
-
-/// The bounds of measured rows of programs, by the paths of these.
-fn rows(path: &Path) -> Result<String> {
-    let read = |path: &Path| {
-        std::fs::read(path).map_err(|source| Error::File {
-            path: path.to_owned(),
-            source,
-        })
-    };
-    let json = |e: serde_json::Error| Error::Robot(format!("{}: {e}", path.display()));
-    let programs: Vec<(PathBuf, Vec<Measured>)> =
-        serde_json::from_slice(&read(path)?).map_err(json)?;
-    let mut bounds = Vec::new();
-    for (elf, rows) in programs {
-        let image = Image::read(&read(&elf)?)?;
-        for row in rows {
-            bounds.push(rows::bound(&image, row)?);
-        }
-    }
-    serde_json::to_string_pretty(&Report::of(bounds)).map_err(json)
 }
 
 /// What a function of a robot computes.

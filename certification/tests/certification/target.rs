@@ -7,7 +7,6 @@ use certification::error::Error;
 use certification::image::Image;
 use certification::interval::Interval;
 use certification::narrow::{Narrow, NarrowError};
-use certification::rows::{Measured, Report, bound as of_row};
 use certification::search::Evaluation;
 use certification::sheet::Target;
 use certification::stack::{INTERRUPT_FRAME, stack};
@@ -179,63 +178,6 @@ fn the_stack_is_the_deepest_chain_of_calls_and_an_interrupt() {
         Err(Declined::Recursion { at: BASE })
     );
     assert_eq!(INTERRUPT_FRAME, 108);
-}
-
-/// push {r4, lr}; dbg #0; three sums in a chain, moved to r0; dbg #1; pop {r4, pc}
-const MEASURED: [u16; 14] = [
-    0xb510, 0xf3af, 0x80f0, 0xee30, 0x0a20, 0xee30, 0x0a20, 0xee30, 0x0a20, 0xee10, 0x0a10, 0xf3af,
-    0x80f1, 0xbd10,
-];
-
-fn report(code: &[u16], cycles: [u64; 2], stack: u64) -> Report {
-    let image = image(code).with_function("arm::rnea", BASE, 2 * code.len() as u32);
-    let measured = Measured {
-        row: "arm rnea engine full".to_owned(),
-        cycles,
-        stack,
-        function: BASE,
-        region: BASE + 2,
-    };
-    Report::of(vec![of_row(&image, measured).expect("a region")])
-}
-
-#[test]
-fn a_bound_that_is_wrong_by_one_is_rejected() {
-    assert!(report(&MEASURED, [7, 7], 8).wrong.is_empty());
-    let said = |cycles, stack| report(&MEASURED, cycles, stack).wrong.join("; ");
-    assert!(said([8, 8], 8).contains("is below 8"));
-    assert!(said([6, 6], 8).contains("without a branch on data"));
-    assert!(said([7, 7], 12).contains("the bound of the stack, 116 B, is below 12 B"));
-    // The first sum is a quotient: a program that is not the one that was measured.
-    let mut other = MEASURED;
-    other[3] = 0xee80;
-    assert!(report(&other, [7, 7], 8).wrong[0].contains("the bound is 20 cycles"));
-    // cbz r0, to the end: the longer way is not known to be taken, so that the bound may be above.
-    let mut branches = MEASURED.to_vec();
-    branches.insert(3, 0xb128);
-    let report = report(&branches, [3, 3], 8);
-    assert!(report.wrong.is_empty(), "{:?}", report.wrong);
-    assert!(
-        report.text.contains("| 3 | 8 | 166.7 % | 1 |"),
-        "{}",
-        report.text
-    );
-}
-
-#[test]
-fn a_row_that_is_declined_is_listed_with_its_reason() {
-    let mut turns = MEASURED.to_vec();
-    turns.splice(3..5, [0x3801, 0xd1fd]);
-    let report = report(&turns, [100, 100], 8);
-    assert!(report.wrong.is_empty());
-    assert!(
-        report.summary.contains("Of 1 rows 0 are bounded") && report.summary.contains("1 `loop`")
-    );
-    assert!(
-        report
-            .text
-            .contains("| `loop` in `arm::rnea` | arm rnea engine full |")
-    );
 }
 
 fn robot() -> Robot {

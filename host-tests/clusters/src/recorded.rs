@@ -6,7 +6,6 @@ use dynamics_core::effects::{Armature, Gravity, RIGID_BODY, Viscous};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::{RobotState, State};
 use dynamics_core::{Core, Engine};
-use host_tests::drawing::{Drawing, drawing};
 use host_tests::export::{Robot, robot};
 use host_tests::recordings::{read, row};
 use host_tests::tolerances::Errors;
@@ -80,25 +79,6 @@ where
         torques::<T, f32, B, N, Y>(&recorded, k, "f32", &mut errors);
     }
     errors
-}
-
-/// A robot's drawing where its independent coordinates are these.
-///
-/// # Panics
-/// If the linkages do not close there.
-pub fn drawn<T, const B: usize, const N: usize, const Y: usize>(name: &str, y: [f64; Y]) -> Drawing
-where
-    T: ClusteredRobot<B, N, N, Y, Y>,
-{
-    let recorded = recording(T::MODEL.name);
-    let motion = Clustered::<Core<T>>::motion(&State::<f64, Y, Y>::at(y)).expect("it closes");
-    let poses = Core::<T>::poses(motion.configuration());
-    let ends = recorded.loops.iter().map(|one| {
-        let [a, b] = one.bodies;
-        [(a, one.points[0]), (b, one.points[1])]
-    });
-    let ends: Vec<_> = ends.collect();
-    drawing(name, &recorded.model, &poses, &ends)
 }
 
 pub fn state<R: Real, const Y: usize>(recorded: &Recording, k: usize) -> State<R, Y, Y> {

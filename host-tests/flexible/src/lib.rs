@@ -5,7 +5,6 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, Robot};
 use dynamics_core::state::State;
 
 pub mod referee;
-pub mod report;
 
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];

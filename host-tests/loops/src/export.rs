@@ -3,7 +3,6 @@
 use dynamics_core::algorithms::poses;
 use dynamics_core::loops::{BodyFrame, Loops, Moving, assemble};
 use dynamics_core::model::BASE;
-use host_tests::drawing::{Drawing, drawing};
 use host_tests::export::{Placement, Robot, robot};
 use serde::{Deserialize, Serialize};
 
@@ -56,33 +55,6 @@ where
         home: T::HOME.to_vec(),
         range: T::RANGE,
     }
-}
-
-/// Its drawing at home, with its loops closed.
-///
-/// # Panics
-/// If they do not close.
-pub fn drawn<
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const L: usize,
-    const C: usize,
-    const A: usize,
->(
-    name: &str,
-) -> Drawing
-where
-    T: Machine<B, Q, V, L, C, A>,
-{
-    let closed = assemble(&T::MODEL, &T::LOOPS, &T::HOME, Moving::Passive).expect("it closes");
-    let ends = loops(&T::LOOPS).into_iter().map(|one| {
-        let [a, b] = one.placements.map(|placement| placement.position);
-        [(one.bodies[0], a), (one.bodies[1], b)]
-    });
-    let ends: Vec<_> = ends.collect();
-    drawing(name, &robot(&T::MODEL), &poses(&T::MODEL, &closed.q), &ends)
 }
 
 /// The joints that close a machine.

@@ -1,1 +1,5 @@
-//! Tests that simulate, in `tests/`.
+//! Arms that tests in `tests/` simulate.
+
+pub mod contact;
+pub mod learning;
+mod step;

@@ -5,6 +5,7 @@ mod arm;
 mod common;
 
 mod carried;
+mod contact;
 mod contact_reaction;
 mod control_loop;
 mod fault_injection;
@@ -12,6 +13,7 @@ mod hand_guiding;
 mod hop;
 mod impedance;
 mod integrators;
+mod learning;
 mod momentum_observer;
 mod panda_payload;
 mod parameter_estimator;

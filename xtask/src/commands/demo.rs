@@ -15,14 +15,14 @@ use crate::kit::error::{Error, Result, check, refuse_if};
 use crate::kit::progress::Spinner;
 use crate::kit::protocol::{FEEDFORWARD, PD, Recording};
 use crate::kit::qemu::Run;
-use crate::kit::scene::{Scene, Shown};
+use crate::kit::scene::Scene;
 use crate::kit::setup::{self, Options, Tools};
 use crate::kit::toolchain::RELEASE;
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, firmware, meter, output};
 use crate::studies::scenes::report::{Report, feedforward_costs};
 use crate::studies::scenes::{first_screen, plot};
-use crate::studies::{budgets, drawn, scenes, trial};
+use crate::studies::{budgets, drawn, scenes};
 
 /// The picture of the default scene.
 pub const PICTURE: &str = "docs/ur5e.svg";
@@ -41,8 +41,8 @@ pub struct Args {
     /// The scene
     #[arg(long, value_enum, default_value_t)]
     #[arg(value_name = "NAME", ignore_case = true)]
-    scene: Shown,
-    /// Every scene that is about tracking, and one table of all
+    scene: Scene,
+    /// Every scene, and one table of all
     #[arg(long, conflicts_with = "scene")]
     all: bool,
     /// The report as JSON on stdout; progress stays on stderr
@@ -60,10 +60,7 @@ pub struct Args {
 pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let tools = setup::for_demo(options)?;
-    let one = match args.scene {
-        Shown::Trial(trial) => return trial::run(&tools, trial, args.json, args.write_docs),
-        Shown::Tracking(scene) => [scene],
-    };
+    let one = [args.scene];
     let scenes = if args.all { Scene::all() } else { &one };
     let built = Built::new(&workspace, &tools, scenes)?;
     let measured = match built.measure(&workspace, &tools) {

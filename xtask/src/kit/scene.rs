@@ -1,11 +1,7 @@
 //! The scenes: the one list of them.
 
-use std::sync::LazyLock;
-
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
-
-use super::docs::Page;
 
 /// A bin of `firmware-demo` that moves an arm and reports what it costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,61 +52,12 @@ impl Default for Scene {
     }
 }
 
-/// A bin of `lab-target` that shows something else than how an arm tracks, on a page of its own.
-#[derive(Clone, Copy, Debug)]
-pub struct Trial {
-    scene: Scene,
-    pub page: Page<'static>,
-}
-
-#[rustfmt::skip]
-const TRIALS: &[Trial] = &[
-    Trial {
-        scene: scene("ur5e_contact", "A UR5e without force sensors runs into a wall, finds the contact, and stops, goes back, or floats"),
-        page: Page { file: "docs/contact.md", name: "contact", command: "cargo xtask demo --scene ur5e_contact --write-docs" },
-    },
-    Trial {
-        scene: scene("so101_learn", "An SO-101 whose parameters are off by 30 % learns them, and then weighs what it carries"),
-        page: Page { file: "docs/learning.md", name: "learning", command: "cargo xtask demo --scene so101_learn --write-docs" },
-    },
-];
-
-impl Trial {
-    pub fn all() -> &'static [Self] {
-        TRIALS
-    }
-
-    /// The name on the command line and of the bins.
-    pub fn name(self) -> &'static str {
-        self.scene.name
-    }
-}
-
-#[derive(Clone, Copy, Debug)]
-pub enum Shown {
-    Tracking(Scene),
-    Trial(Trial),
-}
-
-impl Default for Shown {
-    fn default() -> Self {
-        Self::Tracking(Scene::default())
-    }
-}
-
-impl ValueEnum for Shown {
+impl ValueEnum for Scene {
     fn value_variants<'a>() -> &'a [Self] {
-        static ALL: LazyLock<Vec<Shown>> = LazyLock::new(|| {
-            let trials = TRIALS.iter().copied().map(Shown::Trial);
-            let scenes = SCENES.iter().copied().map(Shown::Tracking);
-            scenes.chain(trials).collect()
-        });
-        &ALL
+        SCENES
     }
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
-        match self {
-            Self::Tracking(scene) | Self::Trial(Trial { scene, .. }) => Some(scene.value()),
-        }
+        Some(self.value())
     }
 }

@@ -8,11 +8,10 @@ use crate::kit::error::Result;
 use crate::kit::workspace::{self, Workspace};
 
 /// Pages and what draws theirs.
-const DRAWN: [(&str, Draw); 7] = [
+const DRAWN: [(&str, Draw); 6] = [
     ("docs/scenes.md", scenes),
     ("docs/costs.md", costs),
     ("docs/peers.md", peers),
-    ("docs/eliminations.md", eliminations),
     ("docs/robots.md", robots),
     ("docs/boards.md", cores),
     ("docs/silicon.md", silicon),
@@ -101,19 +100,6 @@ fn scenes(page: &str) -> Result<String> {
         mark: None,
     }
     .svg(&[shown, second].map(|rows| (String::new(), rows)))
-}
-
-fn eliminations(page: &str) -> Result<String> {
-    let columns = [(4, Shape::Ring, ORANGE), (6, Shape::Dot, BLUE)];
-    Panels {
-        title: "Two ways of forward dynamics: the worst error in f32".into(),
-        note: "Relative to the largest acceleration; left is better.",
-        legend: &[("M, LᵀDL", ORANGE), ("ABA", BLUE)],
-        x: Axis::decades("error", [3e-6, 3.0], 0),
-        names: 290,
-        mark: None,
-    }
-    .svg(&halves(page, "Measured", &columns))
 }
 
 fn robots(page: &str) -> Result<String> {

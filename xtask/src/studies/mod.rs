@@ -9,18 +9,12 @@ pub mod costs;
 pub mod drawn;
 pub mod effects;
 pub mod flags;
-pub mod flexible;
-pub mod growth;
 pub mod hard_cases;
 pub mod history;
-pub mod host_table;
-pub mod loops;
 pub mod peers;
 pub mod robots;
 pub mod scenes;
-pub mod static_bounds;
 pub mod study;
-pub mod trial;
 
 use std::process::ExitCode;
 
@@ -61,13 +55,7 @@ pub const STUDIES: &[Study] = &[
         form: Part(flags::measure),
     },
     Study {
-        name: "growth", about: "Measure how the core's algorithms grow with a chain's length, rewrite docs/growth.md",
-        files: &["docs/growth.md", "docs/growth.svg"],
-        held: Step(Target, Full, "inverse and forward dynamics grow in step with a chain, and docs/growth.md says so"),
-        form: Whole(growth::measure),
-    },
-    Study {
-        name: "history", about: "Measure what today's algorithms replaced, rewrite docs/history.md",
+        name: "history", about: "Measure what today's algorithms replaced, and the two eliminations of forward dynamics, rewrite docs/history.md",
         files: &["docs/history.md", "docs/history.svg"],
         held: Step(Target, Full, "docs/history.md has today's costs of the algorithms that today's replaced"),
         form: Whole(history::measure),
@@ -77,12 +65,6 @@ pub const STUDIES: &[Study] = &[
         files: &["docs/boards.md", "docs/boards.svg"],
         held: Step(Target, Full, "a plain Cortex-M4F, a Cortex-M33 and an RV32 compute the host's torques, and docs/boards.md has what they and the boards' images take"),
         form: Own(cores::Args::augment_args, |options, matches| cores::run(options, given(matches)?), cores::check),
-    },
-    Study {
-        name: "trials", about: "",
-        files: &["docs/contact.md", "docs/contact.svg", "docs/learning.md", "docs/learning.svg"],
-        held: Step(Target, Full, "the host and QEMU agree on the scenes of contact and learning, and docs/contact.md and docs/learning.md have today's figures"),
-        form: Demo(trial::check),
     },
     Study {
         name: "certificates", about: "",
@@ -118,12 +100,6 @@ pub const STUDIES: &[Study] = &[
         ),
     },
     Study {
-        name: "static", about: "Bound the cycles and the stack of each algorithm by its machine code, rewrite a part of docs/certificates.md",
-        files: &["docs/certificates.md"],
-        held: Step(Target, Full, "no call takes more cycles or stack than its machine code says, a constant one exactly as many"),
-        form: Part(static_bounds::measure),
-    },
-    Study {
         name: "accuracy", about: "Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration",
         files: &[
             "docs/accuracy.md", "docs/accuracy.json", "docs/accuracy-ur5e.svg", "docs/accuracy-panda.svg",
@@ -137,24 +113,6 @@ pub const STUDIES: &[Study] = &[
         files: &["docs/effects.md", "docs/effects.svg"],
         held: Step(Target, Full, "docs/effects.md has today's prices"),
         form: Part(effects::measure),
-    },
-    Study {
-        name: "eliminations", about: "Measure on the host which of the two eliminations is less accurate where, rewrite docs/eliminations.md",
-        files: &["docs/eliminations.md", "docs/eliminations.svg"],
-        held: Step(Host, Full, "docs/eliminations.md has today's accuracies"),
-        form: Part(host_table::eliminations),
-    },
-    Study {
-        name: "loops", about: "Measure on the host how accurate dynamics with kinematic loops are, rewrite docs/loops.md",
-        files: &["docs/loops.md", "docs/loops.svg"],
-        held: Step(Host, Full, "docs/loops.md has today's accuracies of robots with loops"),
-        form: Part(loops::measure),
-    },
-    Study {
-        name: "flexible", about: "Measure on the host what few modes leave out of links that bend, rewrite docs/flexible.md",
-        files: &["docs/flexible.md", "docs/flexible.svg"],
-        held: Step(Host, Full, "docs/flexible.md has today's errors of links that bend"),
-        form: Part(flexible::measure),
     },
     Study {
         name: "hard-cases", about: "Measure on the host what breaks dynamics codes, rewrite docs/hard-cases.md",
@@ -237,8 +195,6 @@ mod tests {
         let of_studies = STUDIES.iter().flat_map(|study| study.files.iter().copied());
         let mut listed: Vec<&str> = of_studies.chain(OF_THE_DEMO).collect();
         listed.sort_unstable();
-        // Two studies write a part each of docs/certificates.md.
-        listed.dedup();
         assert_eq!(there, listed);
         for study in STUDIES {
             let (Held::Step(_, _, why) | Held::Bars(why)) = study.held;

@@ -2,10 +2,10 @@
 
 use dynamics_core::effects::{Armature, Coulomb, Viscous, Width};
 use dynamics_core::model::ArmModel;
-use lab_target::contact::plant;
+use simulation_tests::contact::plant;
 use motion_control::ContactResponse;
 
-pub use lab_target::contact::plant::{TIP, tip};
+pub use simulation_tests::contact::plant::{TIP, tip};
 
 pub type Q = [f64; 6];
 /// Speed of the tip at the contact, m/s.

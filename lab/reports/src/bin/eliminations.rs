@@ -1,5 +1,5 @@
 //! Prints how accurate forward dynamics is in f32 by its two eliminations, as lines of a table:
-//! `cargo xtask eliminations` puts them into docs/eliminations.md.
+//! `cargo xtask history` puts them into docs/history.md.
 
 use dynamics_core::Ltdl;
 use dynamics_core::algorithms::{aba, crba, forward_dynamics, ltdl, rnea, solve};

@@ -200,7 +200,7 @@ pub fn list() -> Result<ExitCode> {
         steps(Named),
         unheld.collect::<String>()
     );
-    for folder in "docs/guide/tests host-tests/hard/tests host-tests/tests host-tests/simulations/tests host-tests/specialised/tests robot-import/tests lab/trials/tests".split(' ') {
+    for folder in "docs/guide/tests host-tests/hard/tests host-tests/tests host-tests/simulations/tests host-tests/specialised/tests robot-import/tests".split(' ') {
         for (program, test) in claims::full_only(&workspace.root.join(folder))? {
             text += &format!("  {program:16} {}\n", test.replace('_', " "));
         }

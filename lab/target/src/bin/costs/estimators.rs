@@ -6,7 +6,6 @@ use dynamics_core::effects::{RIGID_BODY, Width};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::So101;
 use dynamics_core::state::State;
-use lab_target::learning::tag_k::TagK;
 use motion_control::{
     ParameterEstimator, ParameterEstimatorConfig, PayloadEstimator, PayloadEstimatorConfig,
     SelectedParameters,
@@ -34,8 +33,6 @@ pub fn payload<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>
     row("all_joints").measure(run as *const () as usize, &columns, |y| {
         run(&mut estimator, y)
     });
-    let (run, mut greedy) = (tag_k::<N>, TagK::default());
-    row("tag_k").measure(run as *const () as usize, &columns, |y| run(&mut greedy, y));
     let run = three_joints::<N>;
     row("3_joints").measure(run as *const () as usize, &columns, |y| {
         run(&mut estimator, y)
@@ -48,11 +45,6 @@ fn all_joints<const N: usize>(
     y: &[[f32; 10]; N],
 ) -> bool {
     estimator.update(y, &[1.0; N]).is_ok()
-}
-
-#[inline(never)]
-fn tag_k<const N: usize>(estimator: &mut TagK, y: &[[f32; 10]; N]) {
-    estimator.update(y, &[1.0; N]);
 }
 
 #[inline(never)]

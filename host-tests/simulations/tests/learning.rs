@@ -1,8 +1,27 @@
-//! Claims about the scene `so101_learn`, in f32 as in the firmware. `TABLES_WRITE=1` writes what the firmware knows.
+//! Claims about an SO-101 that learns its parameters and weighs its load, in f32 as in firmware. `TABLES_WRITE=1` writes what the firmware knows.
 
-use lab_target::learning::tag_k::TagK;
-use trial_tests::learning::{ERROR, LOAD_ERRORS, both, of_load};
-use trial_tests::select::{FILE, known, selected, source, truth};
+use simulation_tests::learning::arm::{BRISTLES, SMOOTH};
+use simulation_tests::learning::parameters::Known;
+use simulation_tests::learning::run::{LOAD, Outcome, run};
+use simulation_tests::learning::select::{FILE, known, selected, source, truth};
+
+/// The required error of the torques.
+const ERROR: f32 = 0.05;
+/// The errors of a load: of its mass, as a share, and of its centre, m.
+const LOAD_ERRORS: [f32; 2] = [0.02, 5e-3];
+
+/// The outcomes of an arm with either kind of friction.
+fn both(known: &Known) -> [(&'static str, Outcome); 2] {
+    let smooth = run(known, SMOOTH, |_, _, _| ()).expect("a run");
+    let sticking = run(known, BRISTLES, |_, _, _| ()).expect("a run");
+    [("Coulomb", smooth), ("LuGre", sticking)]
+}
+
+/// The errors of a load as in [`LOAD_ERRORS`].
+fn of_load(outcome: &Outcome) -> [f32; 2] {
+    let [mass, off] = outcome.load;
+    [(mass / LOAD.mass - 1.0).abs(), off]
+}
 
 #[test]
 fn the_firmware_file_is_that_of_the_selection() {
@@ -39,29 +58,5 @@ fn an_exact_model_finds_the_load() {
             mass < LOAD_ERRORS[0] && centre < LOAD_ERRORS[1],
             "{outcome:?}"
         );
-    }
-}
-
-#[test]
-fn tag_k_solves_exact_rows_and_skips_empty_ones() {
-    let truth: [f32; 10] = core::array::from_fn(|i| 0.1 * i as f32 - 0.3);
-    let mut found = TagK::default();
-    for tick in 0..2000_u32 {
-        let entry = |row: usize, k: usize| {
-            let rate = (1.0 + 0.31 * row as f32) * (0.7 + 0.13 * k as f32);
-            if row == 4 {
-                0.0
-            } else {
-                (rate * tick as f32).sin()
-            }
-        };
-        let rows: [[f32; 10]; 6] = core::array::from_fn(|i| core::array::from_fn(|k| entry(i, k)));
-        let torque = |row: &[f32; 10]| row.iter().zip(&truth).map(|(y, x)| y * x).sum();
-        let mut torques: [f32; 6] = rows.each_ref().map(torque);
-        torques[4] = 100.0;
-        found.update(&rows, &torques);
-    }
-    for (found, truth) in found.estimate().iter().zip(truth) {
-        assert!((found - truth).abs() < 1e-4, "{found} {truth}");
     }
 }

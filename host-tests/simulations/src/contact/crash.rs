@@ -1,7 +1,5 @@
 //! A run into a wall.
 
-use core::fmt;
-
 use dynamics_core::effects::Effect;
 use firmware_demo::digest::Digest;
 use firmware_demo::scene::TICK;
@@ -162,73 +160,11 @@ pub fn run<F: Effect<f32, 6, 6> + Clone>(
     Some(outcome)
 }
 
-/// The names of the columns of a [`Row`], as the firmware prints them.
-pub const COLUMNS: &str =
-    "friction|stiffness|response|contact found after|peak|of v √(k m)|force 0.5 s later|torques";
-
-/// A run of the firmware, as it prints it.
-#[derive(Clone, Copy, Debug)]
-pub struct Row {
-    pub friction: &'static str,
-    /// Stiffness of the wall, N/m.
-    pub stiffness: f32,
-    pub response: &'static str,
-    /// The outcome; `None` if the arm has no forward dynamics.
-    pub outcome: Option<Outcome>,
-}
-
-impl fmt::Display for Row {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (friction, stiffness, response) = (self.friction, self.stiffness, self.response);
-        write!(out, "{friction}|{} N/mm|{response}|", 1e-3 * stiffness)?;
-        let Some(Outcome {
-            found,
-            peak: [peak, share],
-            later: [later, _],
-            digest,
-            ..
-        }) = self.outcome
-        else {
-            return out.write_str("failed");
-        };
-        match found {
-            Some(ticks) => write!(out, "{ticks} ms")?,
-            None => out.write_str("–")?,
-        }
-        write!(
-            out,
-            "|{peak:.0} N|{share:.2}|{later:.0} N|{:016x}",
-            digest.0
-        )
-    }
-}
-
-/// The signs of the model errors of [`rows`]: inertias are off by 3 %, friction by 10 %.
+/// Signs of the model errors: inertias are off by 3 %, friction by 10 %.
 pub const SIGNS: u32 = 0b10_1010;
 
-/// The kinds of friction, as [`rows`] names them: that of the model, and that of bristles.
+/// The kinds of friction: that of the model, and that of bristles.
 pub const FRICTIONS: [&str; 2] = ["Coulomb", "LuGre"];
-
-/// The runs of the firmware: into both walls with each response, with the friction of the model and with bristles.
-pub fn rows(mut report: impl FnMut(&Row)) {
-    let off = Off::by(0.03, 0.1, SIGNS);
-    for friction in FRICTIONS {
-        for stiffness in STIFFNESSES {
-            for (response, reaction) in RESPONSES
-                .into_iter()
-                .filter(|(_, reaction)| reaction.is_some())
-            {
-                let outcome = either(stiffness, reaction, friction, &off, |_| ());
-                report(&Row {
-                    friction,
-                    stiffness,
-                    response,
-                    outcome,
-                });
-            }
-        }
-    }
-}
 
 /// A [`run`] with encoders of 14 bits and one of [`FRICTIONS`].
 pub fn either(

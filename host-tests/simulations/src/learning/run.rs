@@ -1,7 +1,5 @@
 //! Learning, then the load.
 
-use core::fmt;
-
 use dynamics_core::Core;
 use dynamics_core::effects::{Effect, Payload, RIGID_BODY};
 use dynamics_core::model::BodyInertia;
@@ -10,15 +8,14 @@ use dynamics_core::scalar::Real;
 use dynamics_core::sim::KahanState;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
-use firmware_demo::digest::Digest;
 use firmware_demo::scene::Scene;
 use firmware_demo::scenes::so101_teach::TaughtPath;
 use motion_control::PhysicalParameters;
 
-use super::arm::{Arm, BRISTLES, GEARS, GRIPPER, SMOOTH};
+use super::arm::{Arm, GEARS, GRIPPER, SMOOTH};
 use super::firmware::{Firmware, Task};
 use super::parameters::{Known, Model, N, P};
-use super::{TICK, selected};
+use super::TICK;
 
 /// Ticks of learning: half a minute.
 pub const LEARNING: u32 = 15_000;
@@ -78,25 +75,6 @@ pub fn validation(model: &Model) -> [f32; 2] {
     [of(errors.iter().sum(), sizes.iter().sum()), worst]
 }
 
-/// The torques of a load that is off, on the same path: what is left of those of the load, as a share.
-pub fn load_error(found: &[f32; 10]) -> f32 {
-    let Ok(path) = TaughtPath::reference() else {
-        return f32::NAN;
-    };
-    let truth = Payload::<f32, GRIPPER>::from_inertia(LOAD).0.parameters();
-    let (mut error, mut size) = (0.0, 0.0);
-    for tick in (0..path.ticks()).step_by(9) {
-        let columns = Core::<So101>::regressor_columns(&path.at(tick), &RIGID_BODY, GRIPPER);
-        for row in columns {
-            let of = |x: &[f32; 10]| row.iter().zip(x).fold(0.0, |sum, (y, x)| sum + y * x);
-            let (truth, found) = (of(&truth), of(found));
-            error += (found - truth) * (found - truth);
-            size += truth * truth;
-        }
-    }
-    libm::sqrtf(error / size)
-}
-
 /// All parameters by an estimate, as far as they are possible.
 pub fn possible(known: &Known, estimate: &[f32; P]) -> Option<[f32; N]> {
     let mut stored: PhysicalParameters<f32, 6, N> =
@@ -112,10 +90,6 @@ pub struct Outcome {
     pub rejected: u32,
     /// The mass of the load, kg, and how far its centre is from where it was found, m.
     pub load: [f32; 2],
-    /// The parameters of the load.
-    pub found: [f32; 10],
-    /// The digest of all torques.
-    pub digest: Digest,
 }
 
 /// Learns and weighs, with friction of the kind `F`. `observe` gets the task, its tick and the firmware after each tick.
@@ -129,7 +103,7 @@ pub fn run<F: Effect<f32, 6, 6> + Clone>(
     let nominal = Model::of(&known.nominal)?;
     let mut arm = Arm::new(excitation(0.0), friction);
     let mut firmware = Firmware::new(known, nominal).ok()?;
-    let (mut digest, mut before) = (Digest::EMPTY, [0.0; 6]);
+    let mut before = [0.0; 6];
     let mut ticks = |firmware: &mut Firmware<'_>, arm: &mut Arm<F>, task| {
         let (motion, count): (fn(f32) -> _, _) = match task {
             Task::Learn => (excitation, LEARNING),
@@ -138,7 +112,6 @@ pub fn run<F: Effect<f32, 6, 6> + Clone>(
         for tick in 0..count {
             let wanted = motion(TICK * tick as f32);
             let command = firmware.tick(&arm.encoders(), &before, &wanted, task);
-            digest.add(command);
             before = arm.advance(&command).ok()?;
             observe(task, tick, firmware);
         }
@@ -170,52 +143,5 @@ pub fn run<F: Effect<f32, 6, 6> + Clone>(
         errors: [validation(&nominal), validation(&learned)],
         rejected,
         load: [found.mass, distance],
-        found: load,
-        digest,
     })
-}
-
-/// The names of the columns of a [`Row`], as the firmware prints them.
-pub const COLUMNS: &str = "friction|torque error before|after 30 s|of the worst joint|rows rejected|load of 150 g|its centre off by|torques";
-
-/// A run of the firmware, as it prints it.
-#[derive(Clone, Copy, Debug)]
-pub struct Row {
-    pub friction: &'static str,
-    /// The outcome; `None` if the arm has no forward dynamics.
-    pub outcome: Option<Outcome>,
-}
-
-impl fmt::Display for Row {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Some(Outcome {
-            errors: [[before, _], [after, worst]],
-            rejected,
-            load: [mass, off],
-            digest,
-            ..
-        }) = self.outcome
-        else {
-            return write!(out, "{}|failed", self.friction);
-        };
-        let [before, after, worst] = [before, after, worst].map(|x| 100.0 * x);
-        let (friction, grams, mm, digest) = (self.friction, 1e3 * mass, 1e3 * off, digest.0);
-        write!(
-            out,
-            "{friction}|{before:.1} %|{after:.1} %|{worst:.1} %|{rejected}|"
-        )?;
-        write!(out, "{grams:.1} g|{mm:.1} mm|{digest:016x}")
-    }
-}
-
-/// The runs of the firmware: with the friction of the model, and with bristles.
-pub fn rows(mut report: impl FnMut(&Row)) {
-    report(&Row {
-        friction: "Coulomb",
-        outcome: run(&selected::KNOWN, SMOOTH, |_, _, _| ()),
-    });
-    report(&Row {
-        friction: "LuGre",
-        outcome: run(&selected::KNOWN, BRISTLES, |_, _, _| ()),
-    });
 }

@@ -1,7 +1,7 @@
-//! Claims about the scene `ur5e_contact`, in f32 as in the firmware.
+//! Claims about a UR5e that finds contacts without sensors, in f32 as in firmware.
 
-use lab_target::contact::crash::{FRICTIONS, RESPONSES, STIFFNESSES};
-use trial_tests::contact::{LAPS, LATER, PEAK, WATCHES, required, worst};
+use simulation_tests::contact::crash::{FRICTIONS, RESPONSES, STIFFNESSES};
+use simulation_tests::contact::watch::{LAPS, LATER, PEAK, WATCHES, required, worst};
 
 // It is relieved half a second later, with either friction.
 #[test]

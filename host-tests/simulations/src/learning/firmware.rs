@@ -1,4 +1,4 @@
-//! The firmware of the arm: a tick in five regions of the meter.
+//! The firmware of the arm.
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::{friction_regressor, regressor_columns};
@@ -6,7 +6,6 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::model;
 use dynamics_core::robots::So101;
 use dynamics_core::state::State;
-use firmware_demo::marker;
 use firmware_demo::scenes::so101_teach::{MAX_DUTY, SERVO_GAIN, STALL};
 use motion_control::{
     ConfigError, Estimate, Observer, ObserverConfig, ParameterEstimator, ParameterEstimatorConfig,
@@ -17,14 +16,6 @@ use super::TICK;
 use super::arm::GRIPPER;
 use super::parameters::{Known, Model, OWN, P, WIDTH};
 
-/// The names of the regions, by their numbers: the tick and its phases, and of those the row and the update by their task.
-pub const REGIONS: [&str; 8] = [
-    "tick", "observe", "row", "update", "law", "gate", LEARNED, WEIGHED,
-];
-/// Row and update of the arm's parameters.
-pub const LEARNED: &str = "row and update of 24 parameters";
-/// Row and update of the load.
-pub const WEIGHED: &str = "rows and update of a load";
 /// Ticks before and after a row of which the difference of velocities is its acceleration.
 const APART: usize = 8;
 const KEPT: usize = 2 * APART + 1;
@@ -110,7 +101,6 @@ impl<'a> Firmware<'a> {
     }
 
     /// A tick: from the encoders and the torques that were measured in the tick before to the commanded ones.
-    #[inline(never)]
     pub fn tick(
         &mut self,
         encoders: &[f32; 6],
@@ -118,18 +108,10 @@ impl<'a> Firmware<'a> {
         wanted: &State<f32, 6, 6>,
         task: Task,
     ) -> [f32; 6] {
-        marker::start::<0>();
-        marker::start::<1>();
         let last = (self.tick as usize + KEPT - 1) % KEPT;
         self.past[last].1 = *before;
         let estimate = self.observer.update(encoders, &wanted.qdd);
-        marker::stop::<1>();
 
-        match task {
-            Task::Learn => marker::start::<6>(),
-            Task::Weigh => marker::start::<7>(),
-        }
-        marker::start::<2>();
         let addition = match task {
             _ if self.tick <= START => Addition::Nothing,
             Task::Learn => self.row(),
@@ -137,9 +119,7 @@ impl<'a> Firmware<'a> {
         };
         self.past[self.tick as usize % KEPT].0 = estimate;
         self.tick += 1;
-        marker::stop::<2>();
 
-        marker::start::<3>();
         let added = match &addition {
             Addition::Nothing => true,
             Addition::Row(joint, y, residual) => {
@@ -148,25 +128,15 @@ impl<'a> Firmware<'a> {
             Addition::Load(y, residual) => self.payload.update(y, residual).is_ok(),
         };
         self.rejected += u32::from(!added);
-        marker::stop::<3>();
-        match task {
-            Task::Learn => marker::stop::<6>(),
-            Task::Weigh => marker::stop::<7>(),
-        }
 
-        marker::start::<4>();
         let ahead = self.model.torque(wanted);
         let tau: [f32; 6] = core::array::from_fn(|i| {
             ahead[i]
                 + SERVO_GAIN * STALL * (wanted.q[i] - estimate.q[i])
                 + 0.5 * (wanted.qd[i] - estimate.qd[i])
         });
-        marker::stop::<4>();
 
-        marker::start::<5>();
         let command = tau.map(|tau| tau.clamp(-MOST, MOST));
-        marker::stop::<5>();
-        marker::stop::<0>();
         command
     }
 
@@ -174,18 +144,6 @@ impl<'a> Firmware<'a> {
     pub fn restart(&mut self) {
         self.observer = self.fresh;
         self.tick = 0;
-    }
-
-    /// The rows of the load and what the model lacks of the torques, each divided by the standard deviation of its noise.
-    pub fn weighted(&self) -> ([[f32; 10]; 6], [f32; 6]) {
-        let Addition::Load(mut y, mut residual) = self.load() else {
-            return ([[0.0; 10]; 6], [0.0; 6]);
-        };
-        for ((y, residual), noise) in y.iter_mut().zip(&mut residual).zip(STATED) {
-            *y = y.map(|y| y / noise);
-            *residual /= noise;
-        }
-        (y, residual)
     }
 
     /// The state in the middle of what is kept, and its measured torques. The oldest estimate is the one that this tick replaces.

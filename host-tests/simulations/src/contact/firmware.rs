@@ -7,7 +7,6 @@ use dynamics_core::effects::{
 };
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
-use firmware_demo::marker;
 use firmware_demo::scene::{HOLD, NEAR, OMEGA_N, REENTRY, RIDE, Scene, TICK, ZETA};
 use firmware_demo::scenes::ur5e::{EFFECTS, PickAndPlace};
 use firmware_demo::trajectories::HOME;
@@ -137,32 +136,23 @@ impl Firmware {
     }
 
     /// A tick: from the positions that the encoders latched in the tick before to the torques.
-    #[inline(never)]
     pub fn tick(
         &mut self,
         measured: &[f32; 6],
         motion: &impl Reference<f32, 6>,
     ) -> Command<f32, 6> {
-        marker::start::<0>();
-        marker::start::<1>();
         let ahead = self.controller.reference().qdd;
         let observed = self.controller.observe(Ok(measured));
         let estimate = *self.velocities.update_delayed(measured, &ahead);
-        marker::stop::<1>();
 
-        marker::start::<2>();
         let contact = detect(&mut self.detector, &estimate, ahead, self.sensing.sticks);
         self.contact = contact.ok().flatten();
-        marker::stop::<2>();
 
-        marker::start::<3>();
         let tick = match self.reacts {
             true => self.reaction.reference(observed, contact, motion),
             false => observed.reference(motion),
         };
-        marker::stop::<3>();
 
-        marker::start::<4>();
         let share = match self.reaction.phase() {
             ContactPhase::Floating => FLOATING,
             _ => 1.0,
@@ -171,16 +161,12 @@ impl Firmware {
         let friction = Engine::<Ur5e>::rnea(tick.reference(), &FRICTION);
         let back = feedback(&self.gains, tick.reference(), tick.estimate());
         let tau = core::array::from_fn(|i| torques[i] + share * friction[i] + back[i]);
-        marker::stop::<4>();
 
-        marker::start::<5>();
         let command = tick.command(&tau);
         self.detector.drive(&command.torque);
         if command.brake {
             self.detector.restart();
         }
-        marker::stop::<5>();
-        marker::stop::<0>();
         command
     }
 

@@ -1,18 +1,14 @@
-//! The measurements of `docs/contact.md`: runs into the wall, false alarms, and delays until a push is found.
-
-mod shown;
-
-pub use shown::shown;
+//! Runs into the wall, false alarms, and delays until a push is found.
 
 use dynamics_core::Core;
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use firmware_demo::trajectories::HOME;
-use lab_target::contact::crash::{self, FRICTIONS, RESPONSES};
-use lab_target::contact::firmware::Sensing;
-use lab_target::contact::path::{Off, Push, lap};
-use lab_target::contact::plant::rotors;
+use super::crash::{self, FRICTIONS, RESPONSES};
+use super::firmware::Sensing;
+use super::path::{Off, Push, lap};
+use super::plant::rotors;
 
 /// The bars: the first peak as a share of v √(k m), the force half a second later, N, and the false alarms in a million ticks.
 pub const PEAK: f32 = 1.2;
@@ -20,8 +16,6 @@ pub const PEAK: f32 = 1.2;
 pub const LATER: f32 = 10.0;
 /// Laps of a million ticks.
 pub const LAPS: u32 = 150;
-/// Laps with pushes.
-const PUSHED: u32 = 20;
 /// Ticks from one instant of pushes to the next: no divisor of the way-points'.
 const EVERY: u32 = 251;
 /// Ticks after which a push counts as not found.
@@ -100,19 +94,6 @@ impl Watch {
         }
     }
 
-    fn words(self) -> [String; 3] {
-        let stated = if self.sticks {
-            "with stiction"
-        } else {
-            "sliding"
-        };
-        [
-            format!("{} bits", self.bits),
-            self.friction.into(),
-            stated.into(),
-        ]
-    }
-
     /// The excess of each tick of some laps, and those after each push.
     fn laps(self, laps: u32, share: f32, pushes: &[Push]) -> (Vec<f32>, Vec<(Push, Vec<f32>)>) {
         let (mut all, mut after) = (Vec::new(), Vec::new());
@@ -184,24 +165,12 @@ fn delay(excess: &[f32], margins: f32) -> u32 {
     found.map_or(PATIENCE, |ticks| ticks as u32 + 1)
 }
 
-/// The time in which a push moves its joint from rest by one step of the encoder, ms: t = √(2 Δ / q̈).
-pub fn limit(bits: u32, push: Push) -> f64 {
-    let rotors: Armature<f64, 6> = rotors();
-    let scene = (Gravity::EARTH, Inertia, Coriolis, rotors);
-    let at = State::at(HOME.map(f64::from));
-    let mut tau = Core::<Ur5e>::rnea(&at, &scene);
-    tau[push.joint] += f64::from(push.torque);
-    let qdd = Core::<Ur5e>::aba(&at, &tau, &scene).expect("an arm with mass")[push.joint];
-    let step = core::f64::consts::TAU / f64::from(1 << bits);
-    1e3 * (2.0 * step / qdd).sqrt()
-}
-
 /// The time within which a push is to be found, ms.
 pub fn required(bits: u32) -> u32 {
     if bits == 14 { 40 } else { 10 }
 }
 
-/// The encoders and kinds of friction of the page.
+/// The encoders and kinds of friction.
 pub const WATCHES: [Watch; 6] = [
     watch(14, FRICTIONS[0], false),
     watch(20, FRICTIONS[0], false),

@@ -1,5 +1,5 @@
-//! What the firmware of `so101_learn` knows before its arm moves: a nominal model that is off by 30 %, and the base parameters of its
-//! motion. On the host, in f64.
+//! The selection of what the firmware knows before its arm moves: a nominal model that is off by 30 %, and the base parameters of its
+//! motion. In f64.
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::{friction_regressor, inertial_parameters};
@@ -9,10 +9,10 @@ use dynamics_core::robots::So101;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use firmware_demo::scenes::so101_teach::{ARMATURE, COULOMB};
-use lab_target::learning::arm::{DAMPING, GEARS};
-use lab_target::learning::firmware::STATED;
-use lab_target::learning::parameters::{Known, N, OWN, P, WIDTH};
-use lab_target::learning::run::excitation;
+use super::arm::{DAMPING, GEARS};
+use super::firmware::STATED;
+use super::parameters::{Known, N, OWN, P, WIDTH};
+use super::run::excitation;
 use motion_control::Excitation;
 
 fn own() -> [f64; OWN] {
@@ -112,7 +112,7 @@ pub const SEED: u32 = 1;
 /// The file with what the firmware knows.
 pub const FILE: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
-    "/../target/src/learning/selected.rs"
+    "/src/learning/selected.rs"
 );
 
 /// What that file should be.
@@ -130,7 +130,7 @@ pub fn source() -> String {
         .map(|row| format!("            [{}],\n", words(row)))
         .collect();
     format!(
-        "//! What the firmware knows before the arm moves: written by lab/trials/tests/learning.rs with TABLES_WRITE=1.\n\n\
+        "//! What the firmware knows before the arm moves: written by host-tests/simulations/tests/learning.rs with TABLES_WRITE=1.\n\n\
          use motion_control::SelectedParameters;\n\nuse super::parameters::Known;\n\n\
          /// A nominal model whose parameters are off by 30 %, and the base parameters of the motion by it.\n\
          pub const KNOWN: Known = Known {{\n    nominal: [\n{}    ],\n    base: SelectedParameters {{\n\

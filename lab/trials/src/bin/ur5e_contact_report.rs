@@ -1,5 +1,0 @@
-//! Prints as JSON what `docs/contact.md` shows beside the runs of the firmware.
-
-fn main() -> serde_json::Result<()> {
-    serde_json::to_writer(std::io::stdout(), &trial_tests::contact::shown())
-}

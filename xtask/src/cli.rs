@@ -51,8 +51,6 @@ enum Command {
     Certify(identify::Certify),
     /// Build the page on which one tries the library in a browser, target/site/play/index.html
     Play,
-    /// Build the guide, the reports, the reference and the page to try as one site, target/site/index.html
-    Site,
     /// Feed descriptions, files, dynamics, controller and encoder frames random bytes; CI does so for a moment
     Fuzz {
         /// Seconds for each target
@@ -76,7 +74,7 @@ const FIRST: [&str; 11] = [
 ];
 
 /// The commands that lists name behind those of the studies.
-const LAST: [&str; 5] = ["site", "fuzz", "soak", "miri", "help"];
+const LAST: [&str; 4] = ["fuzz", "soak", "miri", "help"];
 
 const LABORATORY: &str = "\x1b[1;4mLaboratory, which writes the pages of docs/\x1b[0m";
 
@@ -179,7 +177,6 @@ pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {
         Command::Identify(args) => identify::run("identify", &args.arguments),
         Command::Certify(args) => identify::run("certify", &args.arguments),
         Command::Play => play::run(setup, "play/build.mjs"),
-        Command::Site => play::run(setup, "site/build.mjs"),
         Command::Fuzz { seconds } => endurance::fuzz(seconds),
         Command::Soak { ticks } => endurance::soak(ticks),
         Command::Miri => endurance::miri(),

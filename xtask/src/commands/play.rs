@@ -1,4 +1,4 @@
-//! `cargo xtask play` and `site`: the page of docs/play and the site of docs/site, whose scripts build and test them.
+//! `cargo xtask play`: the page of docs/play, whose scripts build and test it.
 
 use std::process::{Command, ExitCode};
 
@@ -20,7 +20,7 @@ fn script(
     name: &str,
     tools: &[(&'static str, &'static str)],
 ) -> Result<Command> {
-    setup::for_programs(options, "the pages of docs/play and docs/site", tools)?;
+    setup::for_programs(options, "the page of docs/play", tools)?;
     if !toolchain::native_has(WASM) {
         setup::for_cores(options, &[WASM], &[])?;
     }
@@ -42,11 +42,6 @@ pub fn check(workspace: &Workspace, options: Options) -> Result<String> {
     workspace::write(&bits, SHARED.text(workspace, "bits")?)?;
     let mut node = test(workspace, options, "play/test/play.mjs")?;
     last_line(node.arg("--host-bits").arg(&bits))
-}
-
-/// Holds the site to its checks, likewise.
-pub fn check_site(workspace: &Workspace, options: Options) -> Result<String> {
-    last_line(&mut test(workspace, options, "site/test/site.mjs")?)
 }
 
 /// A script that tests; the step is skipped where its programs are not there and may not be installed.

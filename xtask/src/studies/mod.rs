@@ -32,13 +32,6 @@ use study::{Study, given};
 /// The check of a study that no step measures.
 const NO_STEP: fn(&study::Bench<'_>) -> Result<String> = |_| Ok(String::new());
 
-/// Writes docs/film.svg, or with `--check` compares it.
-fn film(workspace: &Workspace, options: &[&str]) -> Result<String> {
-    let mut film = workspace.cargo("run");
-    film.args(["--quiet", "--package", "site", "--bin", "film", "--"]);
-    shell::capture(film.args(options).arg(workspace.report("docs/film.svg")))
-}
-
 /// In the order in which their steps run.
 #[rustfmt::skip]
 pub const STUDIES: &[Study] = &[
@@ -88,16 +81,6 @@ pub const STUDIES: &[Study] = &[
             let mut python = bench.workspace.python()?;
             shell::capture(python.arg("python/test.py"))
         }),
-    },
-    Study {
-        name: "film", about: "Simulate a UR5e with feed-forward, without it and with it again, rewrite docs/film.svg",
-        files: &["docs/film.svg"],
-        held: Step(Host, Full, "docs/film.svg is the film of today's simulation"),
-        form: Own(
-            |command| command,
-            |_, _| film(&Workspace::for_reports()?, &[]).map(|_| ExitCode::SUCCESS),
-            |bench| film(bench.workspace, &["--check"]),
-        ),
     },
     Study {
         name: "accuracy", about: "Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration",
@@ -153,11 +136,13 @@ mod tests {
     use super::study::Held;
     use crate::kit::docs::repository::{read, root};
 
-    /// The files that the demo writes; the step `readme` compares them.
-    const OF_THE_DEMO: [&str; 5] = [
+    /// The files that no study writes: those of the demo, which the step `readme` compares, and two pictures.
+    const OF_THE_DEMO: [&str; 6] = [
         "README.md",
         "docs/scenes.md",
         "docs/scenes.svg",
+        // A test of its program compares it.
+        "docs/film.svg",
         // Measured once: its picture is drawn from the page.
         "docs/silicon.svg",
         "docs/ur5e.svg",
@@ -183,9 +168,9 @@ mod tests {
     #[test]
     fn every_generated_file_belongs_to_a_study_that_is_held() {
         let mut there = below("docs");
-        // The guide, the page to play with and the site are written by hand, their programs included.
+        // The guide and the page to play with are written by hand, their programs included.
         let by_hand = |name: &str| {
-            ["docs/guide/", "docs/play/", "docs/site/"]
+            ["docs/guide/", "docs/play/"]
                 .iter()
                 .any(|folder| name.starts_with(folder))
         };

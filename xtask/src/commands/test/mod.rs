@@ -83,7 +83,6 @@ const STEPS: &[Step] = &[
     ("faults", Target, Named, "100 arms under injected faults keep their limits in QEMU, with the host's torques", functions::faults),
     ("telemetry", Target, Full, "a tick costs the same with a listener, without one, and with a full queue", |c| watch::check(&c.workspace, &c.tools, c.meter()?)),
     ("play", Host, Full, "the page of docs/play is small, fast, accessible, and computes the host's bits", |c| play::check(&c.workspace, c.options)),
-    ("site", Host, Full, "every link of the site resolves, its pages are accessible, narrow and load nothing from elsewhere", |c| play::check_site(&c.workspace, c.options)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
     ("projects", Host, Full, "new projects in Rust and in C build, run in QEMU and compute the host's torques", others::projects),
     ("lerobot", Host, Full, "an SO-101 floats in LeRobot with its scene's torques, and every fault of its bus ends without torque", others::lerobot),

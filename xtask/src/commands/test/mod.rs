@@ -46,8 +46,6 @@ struct Context {
     options: Options,
     /// Whether every robot, every scene and every report is tested, or the cheapest witness of each claim.
     full: bool,
-    /// Whether the step `debian` may install Debian's compiler.
-    may_install_debian: bool,
     tools: Tools,
     meter: OnceLock<PathBuf>,
     measured: OnceLock<Vec<Measured>>,
@@ -87,9 +85,6 @@ const STEPS: &[Step] = &[
     ("projects", Host, Full, "new projects in Rust and in C build, run in QEMU and compute the host's torques", others::projects),
     ("lerobot", Host, Full, "an SO-101 floats in LeRobot with its scene's torques, and every fault of its bus ends without torque", others::lerobot),
     ("readme", Target, Everyday, "the tables of README.md and docs/scenes.md are those of this run, which repeats itself", scenes::readme),
-    ("debian", Target, Full, "Debian's own compiler builds a scene that runs", others::debian),
-    ("qemu-10", Target, Full, "QEMU 10 logs and measures what this machine's QEMU does, byte for byte", others::qemu_10),
-    ("compilers", Target, Full, "the UR5e's demo and costs are within their budgets with rustup's other compilers", others::compilers),
 ];
 
 impl Context {
@@ -219,9 +214,6 @@ pub struct Args {
     /// List the steps, and the claims that only --full holds
     #[arg(long)]
     list: bool,
-    /// Let the step `debian` install Debian's own compiler, as on CI (CI=true)
-    #[arg(long)]
-    debian: bool,
 }
 
 /// Runs the steps of these names, or those of an everyday or a full run.
@@ -238,8 +230,6 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
         tools: setup::for_test(options)?,
         options: options.without_questions(),
         full: args.full,
-        // A CI machine is thrown away: what is installed there is in nobody's way.
-        may_install_debian: args.debian && !options.no_install || options.agrees(),
         meter: OnceLock::new(),
         measured: OnceLock::new(),
     };

@@ -7,9 +7,7 @@ use std::{env, fs};
 
 /// The folders of the crates of the repository that a project may use.
 const CRATES: [&str; 4] = ["drivers", "dynamics-core", "motion-control", "telemetry"];
-/// Its folders that are carried: the sources, and what their documentation includes.
-const FOLDERS: [&str; 2] = ["src", "equations"];
-/// What of a crate is carried beside them.
+/// What of a crate is carried beside its sources.
 const BESIDE: [&str; 3] = ["build.rs", "Cargo.toml", "NOTATION.md"];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -24,11 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 files.push(beside);
             }
         }
-        for inner in FOLDERS.map(|name| folder.join(name)) {
-            if inner.exists() {
-                walk(&inner, &mut files)?;
-            }
-        }
+        walk(&folder.join("src"), &mut files)?;
         files.sort();
         writeln!(list, "Crate {{ folder: {name:?}, files: &[")?;
         for file in &files {

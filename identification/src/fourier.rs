@@ -8,10 +8,9 @@ use motion_control::Reference;
 
 /// A periodic motion of V joints: a finite Fourier series of each, rad or m.
 ///
-/// $$
-/// q_j(t) = c_j + \sum_{h=1}^{H} a_{jh} \sin(h \omega t) + b_{jh} \cos(h \omega t), \qquad \omega = 2\pi / T
-/// $$
-#[cfg_attr(doc, doc = include_str!("../equations/fourier.html"))]
+/// ```text
+/// q_j(t) = c_j + Σ_{h=1..H} (a_jh sin(h ω t) + b_jh cos(h ω t))      ω = 2π / T
+/// ```
 ///
 /// Its velocity and acceleration are derivatives of the same coefficients, so that a series that is fitted to measured positions
 /// gives both without a difference of measurements.

@@ -1,6 +1,5 @@
-//! The equations, links and pictures of the documents, and the programs on the guide's pages.
+//! The links and pictures of the documents, and the programs on the guide's pages.
 
-mod equations;
 mod links;
 mod pages;
 mod pictures;

@@ -33,18 +33,14 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 /// Velocities as in [`rnea`](super::rnea()), then the articulated bodies from the tips to the base, then the
 /// accelerations from the base, with a₀ = −g, to the tips:
 ///
-/// $$
-/// \begin{aligned}
-/// c_i &= \mathring S_i \dot q_i + v_i \times S_i \dot q_i \cr
-/// I^A_i &= I_i + \sum_{\lambda(j) = i} {}^jX_i^T I^a_j \thinspace {}^jX_i &
-/// p^A_i &= v_i \times^\ast I_i v_i - f^x_i + \sum_{\lambda(j) = i} {}^jX_i^T p^a_j \cr
-/// U_i &= I^A_i S_i, \quad D_i = S_i^T U_i & u_i &= \tau_i - S_i^T p^A_i \cr
-/// I^a_i &= I^A_i - U_i D_i^{-1} U_i^T & p^a_i &= p^A_i + I^a_i c_i + U_i D_i^{-1} u_i \cr
-/// a^\prime_i &= {}^iX_{\lambda(i)} a_{\lambda(i)} + c_i \cr
-/// \ddot q_i &= D_i^{-1} (u_i - U_i^T a^\prime_i) & a_i &= a^\prime_i + S_i \ddot q_i
-/// \end{aligned}
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/aba.html"))]
+/// ```text
+/// c_i  = S̊_i q̇_i + v_i × S_i q̇_i
+/// Iᴬ_i = I_i + Σ_{λ(j)=i} ʲX_iᵀ Iᵃ_j ʲX_i    pᴬ_i = v_i ×* I_i v_i − fˣ_i + Σ_{λ(j)=i} ʲX_iᵀ pᵃ_j
+/// U_i  = Iᴬ_i S_i      D_i = S_iᵀ U_i        u_i  = τ_i − S_iᵀ pᴬ_i
+/// Iᵃ_i = Iᴬ_i − U_i D_i⁻¹ U_iᵀ               pᵃ_i = pᴬ_i + Iᵃ_i c_i + U_i D_i⁻¹ u_i
+/// a′_i = ⁱX_λ(i) a_λ(i) + c_i
+/// q̈_i  = D_i⁻¹ (u_i − U_iᵀ a′_i)             a_i  = a′_i + S_i q̈_i
+/// ```
 ///
 /// The effects of joints add their inertia (armatures) to D_i and subtract their torque from u_i.
 ///

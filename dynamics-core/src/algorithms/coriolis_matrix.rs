@@ -30,11 +30,10 @@ struct Body<'a, R: Real> {
 /// With the composite inertias Iᶜ, their Coriolis matrices Bᶜ (see
 /// [`rnea_two_velocities`](crate::algorithms::rnea_two_velocities())) and Ṡ_i = S̊_i + v_i × S_i:
 ///
-/// $$
-/// C_{ij} = S_i^T \thinspace {}^jX_i^T (I^c_j \dot S_j + B^c_j S_j), \qquad
-/// C_{ji} = S_j^T (I^c_j \thinspace {}^jX_i \dot S_i + B^c_j \thinspace {}^jX_i S_i)
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/coriolis_matrix.html"))]
+/// ```text
+/// C_ij = S_iᵀ ʲX_iᵀ (Iᶜ_j Ṡ_j + Bᶜ_j S_j)
+/// C_ji = S_jᵀ (Iᶜ_j ʲX_i Ṡ_i + Bᶜ_j ʲX_i S_i)
+/// ```
 ///
 /// where joint i is joint j or one of its ancestors. For joints of every kind
 ///

@@ -22,11 +22,9 @@ use crate::state::{Configuration, JointTrig};
 ///
 /// Of the effects, armatures, rotors and payloads are part of M. A non-finite input gives a non-finite output.
 ///
-/// $$
-/// I^c_i = I_i + \sum_{\lambda(j) = i} {}^jX_i^T I^c_j \thinspace {}^jX_i, \qquad
-/// M_{ij} = M_{ji} = S_i^T \thinspace {}^jX_i^T I^c_j S_j
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/crba.html"))]
+/// ```text
+/// Iᶜ_i = I_i + Σ_{λ(j)=i} ʲX_iᵀ Iᶜ_j ʲX_i      M_ij = M_ji = S_iᵀ ʲX_iᵀ Iᶜ_j S_j
+/// ```
 ///
 /// where joint i is joint j or one of its ancestors.
 ///

@@ -30,10 +30,9 @@ struct Body<'a, R: Real> {
 ///
 /// Column k of the Jacobian is the velocity of the body at unit rate of coordinate k.
 ///
-/// $$
-/// J_k = {}^bX_k S_k, \qquad M_{jk} = ({}^jX_k S_k)^T I^c_j S_j
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/crba_jacobian.html"))]
+/// ```text
+/// J_k = ᵇX_k S_k      M_jk = (ʲX_k S_k)ᵀ Iᶜ_j S_j
+/// ```
 ///
 /// # Shape
 /// V × V and 6 × V. The Jacobian of the base is zero, that of a body that the robot does not have NaN.

@@ -13,10 +13,9 @@ use crate::state::{Configuration, RobotState, entry};
 
 /// The kinetic energy T, J.
 ///
-/// $$
-/// T = \tfrac 1 2 \sum_i v_i^T I_i v_i
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/kinetic_energy.html"))]
+/// ```text
+/// T = ½ Σ_i v_iᵀ I_i v_i
+/// ```
 ///
 /// It includes the bodies, a payload of the scene, and rotors by their inertia at the joints: on a base at rest it is ½
 /// q̇ᵀ M q̇, with M under the same effects. On a base with a given motion it is that of the moving bodies.
@@ -72,10 +71,9 @@ where
 
 /// The potential energy U in the field of the effects, J; zero at the height of the base's origin.
 ///
-/// $$
-/// U = -\sum_i m_i g^T c_i
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/potential_energy.html"))]
+/// ```text
+/// U = −Σ_i m_i gᵀ c_i
+/// ```
 ///
 /// It includes the bodies and a payload, but not springs at the joints.
 ///

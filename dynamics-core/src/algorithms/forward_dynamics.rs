@@ -17,10 +17,9 @@ use crate::state::{Configuration, RobotState};
 /// light links with heavy loads lose digits: [`forward_dynamics_with_error`](super::forward_dynamics_with_error()) says how
 /// many.
 ///
-/// $$
-/// M(q) \ddot q = \tau - C(q, \dot q), \qquad C(q, \dot q) = \mathrm{ID}(q, \dot q, 0)
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/forward_dynamics.html"))]
+/// ```text
+/// M(q) q̈ = τ − C(q, q̇)      C(q, q̇) = ID(q, q̇, 0)
+/// ```
 ///
 /// # Shape
 /// V.

@@ -25,16 +25,12 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 /// The velocities and accelerations follow from the base to the tips, with a₀ = −g, the forces from the tips to the
 /// base:
 ///
-/// $$
-/// \begin{aligned}
-/// v_i &= {}^iX_{\lambda(i)} v_{\lambda(i)} + S_i \dot q_i && (3) \cr
-/// a_i &= {}^iX_{\lambda(i)} a_{\lambda(i)} + S_i \ddot q_i + \mathring S_i \dot q_i
-/// {} + v_i \times S_i \dot q_i && (4) \cr
-/// f_i &= I_i a_i + v_i \times^\ast I_i v_i - f^x_i + \sum_{\lambda(j) = i} {}^jX_i^T f_j && (5), (6), (7) \cr
-/// \tau_i &= S_i^T f_i && (8)
-/// \end{aligned}
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/rnea.html"))]
+/// ```text
+/// v_i = ⁱX_λ(i) v_λ(i) + S_i q̇_i                                   (3)
+/// a_i = ⁱX_λ(i) a_λ(i) + S_i q̈_i + S̊_i q̇_i + v_i × S_i q̇_i         (4)
+/// f_i = I_i a_i + v_i ×* I_i v_i − fˣ_i + Σ_{λ(j)=i} ʲX_iᵀ f_j     (5), (6), (7)
+/// τ_i = S_iᵀ f_i                                                   (8)
+/// ```
 ///
 /// The effects of joints (friction, armatures, springs) add their torque to τ_i.
 ///

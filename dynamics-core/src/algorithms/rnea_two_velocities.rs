@@ -34,14 +34,11 @@ struct Body<R: Real> {
 ///
 /// Both velocities v (of q̇) and w (of q̇_r) follow from the base to the tips, as do the accelerations, with a₀ = −g:
 ///
-/// $$
-/// \begin{aligned}
-/// a_i &= {}^iX_{\lambda(i)} a_{\lambda(i)} + S_i \ddot q_{r,i} + (\mathring S_i + v_i \times S_i) \dot q_{r,i} \cr
-/// f_i &= I_i a_i + B(I_i, v_i) w_i - f^x_i + \sum_{\lambda(j) = i} {}^jX_i^T f_j, \qquad \tau_i = S_i^T f_i \cr
-/// B(I, v) &= \tfrac 1 2 \left[ (v \times^\ast) I + (I v) \mathbin{\bar\times^\ast} - I (v \mathord\times) \right]
-/// \end{aligned}
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/rnea_two_velocities.html"))]
+/// ```text
+/// a_i     = ⁱX_λ(i) a_λ(i) + S_i q̈_r,i + (S̊_i + v_i × S_i) q̇_r,i
+/// f_i     = I_i a_i + B(I_i, v_i) w_i − fˣ_i + Σ_{λ(j)=i} ʲX_iᵀ f_j      τ_i = S_iᵀ f_i
+/// B(I, v) = ½ [(v ×*) I + (I v) ×̄* − I (v ×)]
+/// ```
 ///
 /// where (f ×̄*) w = w ×* f. C is that of
 /// [`coriolis_matrix`](crate::algorithms::coriolis_matrix()), which states its laws: Ṁ = C + Cᵀ for joints of every kind,

@@ -40,11 +40,9 @@ where
     /// At a dead point of the motors no torque of theirs does the work. Near it, τ_a is that of damped least squares,
     /// with the rows of A = G_aᵀ and τ over [`Driven::damped_below`](super::Driven::damped_below):
     ///
-    /// $$
-    /// \tau_a = A^T (A A^T + \lambda^2 1)^{-1} \tau, \qquad \lambda^2 = 1 - \varsigma^2 \text{ where }
-    /// \varsigma^2 = 1 / \mathrm{tr} (A A^T)^{-1} < 1
-    /// $$
-    #[cfg_attr(doc, doc = include_str!("../../equations/motor_torques.html"))]
+    /// ```text
+    /// τ_a = Aᵀ (A Aᵀ + λ² 1)⁻¹ τ      λ² = 1 − ς² where ς² = 1 / tr (A Aᵀ)⁻¹ < 1
+    /// ```
     ///
     /// ς, at most the least singular value of A, is the distance from the dead point; from one on there is no damping.
     /// Everywhere |τ_a| ≤ |τ| of these rows, and there is no jump where the damping ends.

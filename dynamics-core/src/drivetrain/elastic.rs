@@ -6,13 +6,10 @@
 
 /// The transmissions and motors of V joints, reflected to the joint.
 ///
-/// $$
-/// \begin{aligned}
-/// M(q) \ddot q + C(q, \dot q) &= k (\theta - q) \cr
-/// J \ddot\theta + b \dot\theta + k (\theta - q) &= \tau_m
-/// \end{aligned}
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/elastic.html"))]
+/// ```text
+/// M(q) q̈ + C(q, q̇)      = k (θ − q)
+/// J θ̈ + b θ̇ + k (θ − q) = τ_m
+/// ```
 ///
 /// with the motors' angles θ reflected to the joints: Spong (1987), equations (12), (13).
 ///

@@ -4,10 +4,9 @@
 //! Buondonno & De Luca, "A recursive Newton-Euler algorithm for robots with elastic joints" (2015). The derivatives τ̇
 //! and τ̈ are computed by components in link coordinates, with W_j = S q⁽ʲ⁺¹⁾, the rule of Leibniz and
 //!
-//! $$
-//! \frac{d}{dt} (X m) = X \dot m - W_0 \times X m, \qquad \frac{d}{dt} (X^T f) = X^T (\dot f + W_0 \times^\ast f)
-//! $$
-#![cfg_attr(doc, doc = include_str!("../../equations/elastic_rules.html"))]
+//! ```text
+//! d/dt (X m) = X ṁ − W₀ × X m      d/dt (Xᵀ f) = Xᵀ (ḟ + W₀ ×* f)
+//! ```
 
 use core::fmt;
 
@@ -69,11 +68,9 @@ impl core::error::Error for MultiDofJoint {}
 
 /// Torques τ_m, angles θ and rates θ̇ of the motors for a motion of the links.
 ///
-/// $$
-/// \tau = \mathrm{ID}(q, \dot q, \ddot q), \qquad \theta = q + \tau / k, \qquad
-/// \tau_m = J \ddot\theta + b \dot\theta + \tau
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/elastic_inverse_dynamics.html"))]
+/// ```text
+/// τ = ID(q, q̇, q̈)      θ = q + τ / k      τ_m = J θ̈ + b θ̇ + τ
+/// ```
 ///
 /// Effects act on the links. The torques of joint effects are differentiated with derivatives that are assumed
 /// constant: this is exact for springs and viscous friction, and for Coulomb friction at speeds above its width.
@@ -267,10 +264,9 @@ where
 ///
 /// The n-th derivative y_k,n of X m⁽ᵏ⁾ is
 ///
-/// $$
-/// y_{k,n} = y_{k+1,n-1} - \sum_{j=0}^{n-1} \binom{n-1}{j} W_j \times y_{k,n-1-j}
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/elastic_derivative.html"))]
+/// ```text
+/// y_{k,n} = y_{k+1,n−1} − Σ_{j=0..n−1} binom(n−1, j) W_j × y_{k,n−1−j}
+/// ```
 fn transformed<R: Real>(
     x: &Xform<R>,
     w: &[Motion<R>; 4],

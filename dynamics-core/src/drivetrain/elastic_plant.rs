@@ -3,11 +3,10 @@
 //! Springs and motors are integrated by backward Euler. With θ̇ at the end of the step eliminated, the torque of the
 //! springs there is
 //!
-//! $$
-//! \tau_+ = \frac{(J + h b) (e - h k \dot q_+) + h k (J \dot\theta + h \tau_m)}{D}, \qquad
-//! D = J + h (b + h k), \quad e = k (\theta - q)
-//! $$
-#![cfg_attr(doc, doc = include_str!("../../equations/elastic_plant.html"))]
+//! ```text
+//! τ₊ = ((J + h b) (e − h k q̇₊) + h k (J θ̇ + h τ_m)) / D
+//! D  = J + h (b + h k)      e = k (θ − q)
+//! ```
 //!
 //! It is linear in the links' q̇₊ = q̇ + h q̈: a torque, and h² k (J + h b) / D on the diagonal of M, which for k → ∞
 //! becomes the rotor's J + h b.

@@ -6,10 +6,9 @@ use crate::state::State;
 
 /// A constant coupling q = G u + q₀ of V joints and M motors; u in rad or m at the motors.
 ///
-/// $$
-/// q = G u + q_0, \qquad \tau_u = G^T \tau, \qquad M_u = G^T M G
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/transmission.html"))]
+/// ```text
+/// q = G u + q₀      τ_u = Gᵀ τ      M_u = Gᵀ M G
+/// ```
 ///
 /// A mimic joint (a gripper's second finger) is a row that repeats another; a differential wrist is a block of sums and
 /// differences. The power of the motors is that of the joints (Featherstone, RBDA, section 3.5: G is the null space of

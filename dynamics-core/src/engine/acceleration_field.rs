@@ -3,13 +3,10 @@
 //! The field form of the Newton-Euler equations: the acceleration of the points of a body, and the wrench of its
 //! inertia,
 //!
-//! $$
-//! \begin{aligned}
-//! a(r) &= a + U r, & U &= \alpha\mathord\times + \omega\mathord\times \omega\mathord\times, & \Sigma &= \int r r^T \thinspace dm, \cr
-//! f &= m a + U h, & n &= h \times a + \mathrm{axial}(U \Sigma - \Sigma U^T)
-//! \end{aligned}
-//! $$
-#![cfg_attr(doc, doc = include_str!("../../equations/acceleration_field.html"))]
+//! ```text
+//! a(r) = a + U r        U = α× + ω× ω×      Σ = ∫ r rᵀ dm
+//! f    = m a + U h      n = h × a + axial(U Σ − Σ Uᵀ)
+//! ```
 //!
 //! Balafoutis & Patel, *Dynamic Analysis of Robot Manipulators* (1991), also use U.
 

@@ -2,10 +2,9 @@
 //!
 //! Featherstone, RBDA (2008), section 7.1, in blocks over units of length:
 //!
-//! $$
-//! n = I \alpha + H a, \qquad f = H^T \alpha + A a
-//! $$
-#![cfg_attr(doc, doc = include_str!("../../equations/articulated_inertia.html"))]
+//! ```text
+//! n = I α + H a      f = Hᵀ α + A a
+//! ```
 
 use core::ops::Add;
 

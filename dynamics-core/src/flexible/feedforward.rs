@@ -104,11 +104,9 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     /// damping of modes that are faster than the tick: with η and η̇ extrapolated by η̈, and r the force on the modes
     /// there, η̈ changes by
     ///
-    /// $$
-    /// \delta = -\left(2 M + \tfrac 3 2 h D + h^2 K\right)^{-1} r, \qquad \dot\eta \leftarrow \dot\eta + \tfrac 3 2 h \delta,
-    /// \quad \eta \leftarrow \eta + h^2 \delta
-    /// $$
-    #[cfg_attr(doc, doc = include_str!("../../equations/flexible_correction.html"))]
+    /// ```text
+    /// δ = −(2 M + (3/2) h D + h² K)⁻¹ r      η̇ ← η̇ + (3/2) h δ      η ← η + h² δ
+    /// ```
     ///
     /// # Cost
     /// Two calls of [`rnea()`], one of [`crba`](super::crba()) for the modes alone, and M³ / 3 flops.

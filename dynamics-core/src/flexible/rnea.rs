@@ -27,14 +27,10 @@ use crate::state::{Configuration, RobotState, State};
 /// freely: nothing but the links' own stiffness and damping acts on them. Without it they are the forces that stiffness
 /// and damping have to exert.
 ///
-/// $$
-/// \begin{aligned}
-/// f_i &= I_i(\eta) a_i + v_i \times^\ast I_i(\eta) v_i + \int (\varphi \ddot\eta + 2 \omega \times \varphi \dot\eta)
-/// \thinspace dm - f^x_i + X_e^T f_e \cr
-/// Q_k &= \int \varphi_k \cdot a(r) \thinspace dm + J_k^T f_e + K \eta + D \dot\eta
-/// \end{aligned}
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/flexible_rnea.html"))]
+/// ```text
+/// f_i = I_i(η) a_i + v_i ×* I_i(η) v_i + ∫ (φ η̈ + 2 ω × φ η̇) dm − fˣ_i + X_eᵀ f_e
+/// Q_k = ∫ φ_k·a(r) dm + J_kᵀ f_e + K η + D η̇
+/// ```
 ///
 /// where f_e is the force of the bodies on the end, and J_k the end's motion per rate of mode k. Terms of any order
 /// of η that a displacement linear in η has are included; a beam's shortening when it bends is not.

@@ -13,11 +13,9 @@ use crate::state::{Configuration, JointTrig, State, entry};
 /// The trapezoidal rule for the modes' stiffness and damping, so that a mode of any frequency is stable under any step
 /// and keeps its energy; what else acts is taken at the step's begin. For joints of one coordinate each.
 ///
-/// $$
-/// \left(M + \tfrac h 2 D + \tfrac {h^2} 4 K\right) \ddot\eta + \dots =
-/// -K (\eta + \tfrac h 2 \dot\eta) - D \dot\eta - \dots
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/flexible_step.html"))]
+/// ```text
+/// (M + (h/2) D + (h²/4) K) η̈ + … = −K (η + (h/2) η̇) − D η̇ − …
+/// ```
 ///
 /// # Cost
 /// That of [`forward_dynamics`](super::forward_dynamics()).

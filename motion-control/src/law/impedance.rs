@@ -212,10 +212,9 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
 
     /// The torque of each motor, N·m or N, that makes the body behave as a mass on a spring with a damper.
     ///
-    /// $$
-    /// \tau = \tau_b + J^T (K \tilde x + D \dot{\tilde x}) + (1 - J^T \bar J^T) \tau_n
-    /// $$
-    #[cfg_attr(doc, doc = include_str!("../../equations/impedance.html"))]
+    /// ```text
+    /// τ = τ_b + Jᵀ (K x̃ + D x̃̇) + (1 − Jᵀ J̄ᵀ) τ_n
+    /// ```
     ///
     /// `rows` is J along the directions of the task, by [`task_jacobian`](dynamics_core::algorithms::task_jacobian()) or
     /// [`jacobian_rows`](dynamics_core::algorithms::jacobian_rows()); `solve` solves M x = τ with the factors of core or engine.

@@ -78,11 +78,10 @@ impl<R: Real, const V: usize> PassivityGains<R, V> {
 
 /// The torque of each motor by the law of Slotine & Li, N·m or N, under the effects of the scene.
 ///
-/// $$
-/// \tau = M \ddot q_r + C(q, \dot q) \dot q_r + g + F - K_D s, \qquad
-/// \dot q_r = \dot q_d + \Lambda (q_d - q), \quad s = \dot q - \dot q_r
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../equations/passivity.html"))]
+/// ```text
+/// τ   = M q̈_r + C(q, q̇) q̇_r + g + F − K_D s
+/// q̇_r = q̇_d + Λ (q_d − q)      s = q̇ − q̇_r
+/// ```
 ///
 /// As Ṁ = C + Cᵀ, with an exact model d/dt (½ sᵀ M s) = −sᵀ K_D s: s and with it the error of tracking
 /// decay at any speed, without the inverse or the measured acceleration that computed torque needs to be exact. A model

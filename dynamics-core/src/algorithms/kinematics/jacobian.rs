@@ -17,13 +17,10 @@ use crate::state::{Configuration, RobotState};
 ///
 /// ω in rad/s and velocity in m/s per rad/s or m/s; the force f on the body b is in the same frame:
 ///
-/// $$
-/// v_b = J \dot q, \qquad J_j = \begin{cases}
-/// {}^bX_j S_j & \text{if joint } j \text{ moves body } b \cr
-/// 0 & \text{otherwise}
-/// \end{cases}, \qquad \tau = J^T f
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/jacobian.html"))]
+/// ```text
+/// v_b = J q̇      τ = Jᵀ f
+/// J_j = ᵇX_j S_j if joint j moves body b, 0 otherwise
+/// ```
 ///
 /// # Shape
 /// 6 × V; zero for the base, NaN for a body that the robot does not have.
@@ -93,10 +90,9 @@ where
 /// It is the derivative of J q̇ in that frame's coordinates: in `LocalWorldAligned` ω̇ and p̈, in the others the
 /// spatial acceleration. `state.qdd` is not read.
 ///
-/// $$
-/// \dot v_b = J \ddot q + \dot J \dot q
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/jacobian_rate.html"))]
+/// ```text
+/// v̇_b = J q̈ + J̇ q̇
+/// ```
 ///
 /// # Shape
 /// 6; zero for the base, NaN for a body that the robot does not have.

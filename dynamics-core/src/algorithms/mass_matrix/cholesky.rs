@@ -20,10 +20,9 @@ pub struct Cholesky<R, const V: usize> {
 
 /// The factor L of M = Lᵀ L, with the reciprocals of its diagonal, for [`Cholesky::solve`].
 ///
-/// $$
-/// M = L^T L, \qquad M^{-1} = L^{-1} L^{-T}
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/cholesky.html"))]
+/// ```text
+/// M = Lᵀ L      M⁻¹ = L⁻¹ L⁻ᵀ
+/// ```
 ///
 /// # Shape
 /// V × V and V.

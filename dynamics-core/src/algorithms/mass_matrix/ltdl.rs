@@ -19,10 +19,9 @@ pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 ///
 /// For each coordinate k from the last to the first, and its ancestors i and j:
 ///
-/// $$
-/// D_k = M_{kk}, \qquad L_{ki} = M_{ki} / D_k, \qquad M_{ij} \leftarrow M_{ij} - L_{ki} D_k L_{kj}
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/ltdl.html"))]
+/// ```text
+/// D_k = M_kk      L_ki = M_ki / D_k      M_ij ← M_ij − L_ki D_k L_kj
+/// ```
 ///
 /// # Shape
 /// V × V and V.
@@ -135,10 +134,9 @@ where
 
 /// The solution x of M x = τ: accelerations of torques, rad/s² or m/s² of N·m or N.
 ///
-/// $$
-/// L^T y = \tau, \qquad D z = y, \qquad L x = z
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/ltdl_solve.html"))]
+/// ```text
+/// Lᵀ y = τ      D z = y      L x = z
+/// ```
 ///
 /// # Shape
 /// V.

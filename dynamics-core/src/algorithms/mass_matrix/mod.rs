@@ -17,10 +17,9 @@ use crate::scalar::Real;
 /// Row i holds the torques of all joints that accelerate joint i alone by one, without gravity and velocities. M is
 /// positive definite. Source: Featherstone, RBDA (2008), chapter 6. The equation of motion and the kinetic energy are
 ///
-/// $$
-/// M(q) \ddot q + C(q, \dot q) = \tau, \qquad T = \tfrac 1 2 \dot q^T M(q) \dot q
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/mass_matrix.html"))]
+/// ```text
+/// M(q) q̈ + C(q, q̇) = τ      T = ½ q̇ᵀ M(q) q̇
+/// ```
 ///
 /// ```
 /// use dynamics_core::{Engine, effects::RIGID_BODY, robots::Ur5e};

@@ -2,10 +2,10 @@
 //!
 //! Rodriguez, Jain & Kreutz-Delgado (1991, 1992):
 //!
-//! $$
-//! M = (1 + H \Phi K) D (1 + H \Phi K)^T, \qquad M^{-1} = (1 - H \Psi K)^T D^{-1} (1 - H \Psi K)
-//! $$
-#![cfg_attr(doc, doc = include_str!("../../../equations/spatial_operator.html"))]
+//! ```text
+//! M   = (1 + H Φ K) D (1 + H Φ K)ᵀ
+//! M⁻¹ = (1 − H Ψ K)ᵀ D⁻¹ (1 − H Ψ K)
+//! ```
 //!
 //! H projects on the joints; K = U/D of a joint, at its parent; Φ transmits forces inward as through rigid bodies, Ψ as
 //! through joints that move freely. The first factor is Lᵀ of RBDA's section 6.5.
@@ -23,10 +23,9 @@ use crate::state::{Configuration, entry};
 
 /// The factors L = (1 + HΦK)ᵀ and D of M(q), without M: the same as those of [`ltdl`](crate::algorithms::ltdl()).
 ///
-/// $$
-/// M = L^T D L = (1 + H \Phi K) D (1 + H \Phi K)^T
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/innovations_factor.html"))]
+/// ```text
+/// M = Lᵀ D L = (1 + H Φ K) D (1 + H Φ K)ᵀ
+/// ```
 ///
 /// H projects on the joints; K = U/D of a joint, at its parent; Φ transmits forces inward as through rigid bodies.
 ///
@@ -68,10 +67,9 @@ where
 
 /// The inverse M⁻¹, without M and without its elimination.
 ///
-/// $$
-/// M^{-1} = (1 - H \Psi K)^T D^{-1} (1 - H \Psi K)
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/inverse_factor.html"))]
+/// ```text
+/// M⁻¹ = (1 − H Ψ K)ᵀ D⁻¹ (1 − H Ψ K)
+/// ```
 ///
 /// H and K are those of [`spatial_operator_ltdl`]; Ψ transmits forces inward as through joints that move freely.
 ///

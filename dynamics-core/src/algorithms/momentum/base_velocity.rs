@@ -32,10 +32,9 @@ struct Body<R: Real> {
 /// axes, N·m·s and N·s. The velocity of a robot whose first joint is not free is returned unchanged. The effects are
 /// those of [`momentum`](crate::algorithms::momentum()).
 ///
-/// $$
-/// M_b v_b + M_{bj} \dot q_j = h
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/base_velocity.html"))]
+/// ```text
+/// M_b v_b + M_bj q̇_j = h
+/// ```
 ///
 /// # Shape
 /// V.

@@ -20,10 +20,9 @@ use crate::state::{Configuration, RobotState};
 
 /// The centroidal momentum h_G: about the centre of mass and along the base's axes, N·m·s and N·s.
 ///
-/// $$
-/// h_G = {}^0X_G^T h = \sum_i {}^iX_G^T I_i v_i
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/centroidal_momentum.html"))]
+/// ```text
+/// h_G = ⁰X_Gᵀ h = Σ_i ⁱX_Gᵀ I_i v_i
+/// ```
 ///
 /// # Shape
 /// 6.
@@ -62,10 +61,9 @@ where
 ///
 /// About the centre of mass and along the base's axes, N·m·s and N·s per rad/s or m/s.
 ///
-/// $$
-/// h_G = A_G \dot q, \qquad A_{G,j} = {}^jX_G^T I^c_j S_j
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/centroidal_matrix.html"))]
+/// ```text
+/// h_G = A_G q̇      A_G,j = ʲX_Gᵀ Iᶜ_j S_j
+/// ```
 ///
 /// # Shape
 /// 6 × V.

@@ -38,13 +38,11 @@ struct Body<R: Real> {
 ///
 /// Together they are the model of an observer that estimates external torques without accelerations:
 ///
-/// $$
-/// \dot p = \tau + C^T \dot q - g(q), \qquad
-/// p_i = S_i^T h^c_i, \qquad
-/// c_i = (v_i \times S_i + \mathring S_i)^T h^c_i, \qquad
-/// h^c_i = I_i v_i + \sum_{\lambda(j) = i} {}^jX_i^T h^c_j
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/momentum_rate.html"))]
+/// ```text
+/// ṗ    = τ + Cᵀ q̇ − g(q)
+/// p_i  = S_iᵀ hᶜ_i      c_i = (v_i × S_i + S̊_i)ᵀ hᶜ_i
+/// hᶜ_i = I_i v_i + Σ_{λ(j)=i} ʲX_iᵀ hᶜ_j
+/// ```
 ///
 /// with c = Cᵀ q̇.
 ///

@@ -22,10 +22,9 @@ pub struct MomentumAndDrift<R: Real, const V: usize> {
 ///
 /// Both arguments of `motion_control::MomentumObserver::update`, of the whole scene:
 ///
-/// $$
-/// \dot p = \tau + \beta + \tau_{ext}, \qquad \beta = C^T \dot q - g(q) - F(q, \dot q)
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/momentum_drift.html"))]
+/// ```text
+/// ṗ = τ + β + τ_ext      β = Cᵀ q̇ − g(q) − F(q, q̇)
+/// ```
 ///
 /// M and Cᵀ q̇ are those of [`momentum_and_coriolis`], with or without [`Inertia`](crate::effects::Inertia) and
 /// [`Coriolis`](crate::effects::Coriolis) in the scene. g has the wrenches of the environment beside gravity, F the

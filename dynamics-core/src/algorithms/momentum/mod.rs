@@ -81,10 +81,9 @@ pub(in crate::algorithms) fn reciprocal<R: Real>(mass: R) -> R {
 ///
 /// Along the base's axes. On a base of given motion the velocity includes that motion.
 ///
-/// $$
-/// m = \sum_i m_i, \qquad c = \frac 1 m \sum_i m_i c_i, \qquad \dot c = \frac 1 m \sum_i m_i \dot c_i
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/centre_of_mass.html"))]
+/// ```text
+/// m = Σ_i m_i      c = (1/m) Σ_i m_i c_i      ċ = (1/m) Σ_i m_i ċ_i
+/// ```
 ///
 /// # Cost
 /// O(B): some 250 flops for each revolute joint.
@@ -128,10 +127,9 @@ where
 /// Rotors behind gears are part of it if the scene has them as [`crate::effects::GyroscopicRotors`]; what
 /// [`crate::effects::Armature`] adds to the diagonal of M is not.
 ///
-/// $$
-/// h = \sum_i {}^iX_0^T I_i v_i
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/momentum.html"))]
+/// ```text
+/// h = Σ_i ⁱX₀ᵀ I_i v_i
+/// ```
 ///
 /// # Shape
 /// 6.

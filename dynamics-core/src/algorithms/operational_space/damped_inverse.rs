@@ -3,11 +3,9 @@
 //! The damping begins smoothly (after Nakamura & Hanafusa, 1986, and Chiaverini, 1997): the inverse of an eigenvalue λ
 //! below the threshold ε is replaced by a function that has the value and slope of 1/λ at ε and goes to zero with λ:
 //!
-//! $$
-//! \frac 1 \lambda \quad \text{becomes} \quad \frac{\lambda}{\lambda^2 + (\varepsilon - \lambda)^2}
-//! \quad \text{for } \lambda \lt \varepsilon
-//! $$
-#![cfg_attr(doc, doc = include_str!("../../../equations/damped_eigenvalue.html"))]
+//! ```text
+//! 1/λ becomes λ / (λ² + (ε − λ)²) for λ < ε
+//! ```
 //!
 //! The threshold is proportional to the sum of the eigenvalues, which, unlike the largest one, is smooth. Whether an
 //! eigenvalue is below the threshold is decided without eigenvalues: A − ε 1 then has a negative pivot (Sylvester's law
@@ -66,13 +64,11 @@ pub enum Conditioning<R> {
 /// The inverse of an eigenvalue λ below the threshold ε goes to zero with λ, without a jump in value or slope. An
 /// input that is not finite gives an output that is not finite and not `Regular`.
 ///
-/// $$
-/// A^{-1} = \sum_k g(\lambda_k) w_k w_k^T, \qquad g(\lambda) = \begin{cases}
-/// 1 / \lambda & \lambda \ge \varepsilon \cr
-/// \lambda / \left(\lambda^2 + (\varepsilon - \lambda)^2\right) & \lambda \lt \varepsilon
-/// \end{cases}
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/damped_inverse.html"))]
+/// ```text
+/// A⁻¹  = Σ_k g(λ_k) w_k w_kᵀ
+/// g(λ) = 1/λ                     for λ ≥ ε
+///        λ / (λ² + (ε − λ)²)     for λ < ε
+/// ```
 ///
 /// with the eigenvectors w of A.
 ///

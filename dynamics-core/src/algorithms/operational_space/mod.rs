@@ -3,10 +3,9 @@
 //! Khatib, "A unified approach for motion and force control of robot manipulators: the operational
 //! space formulation" (1987):
 //!
-//! $$
-//! \Lambda = (J M^{-1} J^T)^{-1}, \qquad \bar J = M^{-1} J^T \Lambda, \qquad \tau = J^T F + (1 - J^T \bar J^T) \tau_0
-//! $$
-#![cfg_attr(doc, doc = include_str!("../../../equations/operational_space.html"))]
+//! ```text
+//! Λ = (J M⁻¹ Jᵀ)⁻¹      J̄ = M⁻¹ Jᵀ Λ      τ = Jᵀ F + (1 − Jᵀ J̄ᵀ) τ₀
+//! ```
 
 mod damped_inverse;
 mod eigen;
@@ -98,10 +97,9 @@ pub fn jacobian_rows<R: Real, const V: usize>(jacobian: &[Motion<R>; V]) -> [[R;
 ///
 /// Of the effects, armatures and payloads are part of M.
 ///
-/// $$
-/// \Lambda = (J M^{-1} J^T)^{-1}, \qquad \bar J = M^{-1} J^T \Lambda, \qquad \tau = J^T F + (1 - J^T \bar J^T) \tau_0
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/operational_space.html"))]
+/// ```text
+/// Λ = (J M⁻¹ Jᵀ)⁻¹      J̄ = M⁻¹ Jᵀ Λ      τ = Jᵀ F + (1 − Jᵀ J̄ᵀ) τ₀
+/// ```
 ///
 /// # Cost
 /// That of [`super::crba()`], [`super::ltdl()`] and [`super::jacobian`], M solutions of 2 V² flops, 2 M² V flops and

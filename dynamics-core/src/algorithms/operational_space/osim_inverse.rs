@@ -5,15 +5,10 @@
 //! Articulated-body inertias are computed inward, as in the ABA; then Λ⁻¹ outward, from the base, where it is zero, to
 //! the body. A joint of axis s transmits the part P of its parent's acceleration and adds its own:
 //!
-//! $$
-//! U = I^A s, \qquad D = s^T U, \qquad P = 1 - s D^{-1} U^T
-//! $$
-#![cfg_attr(doc, doc = include_str!("../../../equations/osim_joint.html"))]
-//!
-//! $$
-//! \Lambda_i^{-1} = P_i {}^iX_{\lambda(i)} \Lambda_{\lambda(i)}^{-1} {}^iX_{\lambda(i)}^T P_i^T + s_i D_i^{-1} s_i^T
-//! $$
-#![cfg_attr(doc, doc = include_str!("../../../equations/osim_body.html"))]
+//! ```text
+//! U = Iᴬ s      D = sᵀ U      P = 1 − s D⁻¹ Uᵀ
+//! Λ_i⁻¹ = P_i ⁱX_λ(i) Λ_λ(i)⁻¹ ⁱX_λ(i)ᵀ P_iᵀ + s_i D_i⁻¹ s_iᵀ
+//! ```
 
 use core::borrow::Borrow;
 
@@ -185,10 +180,9 @@ fn with_row_z<R: Real>(m: &R::Mat3, row: R::Vec3) -> R::Mat3 {
 ///
 /// Inertias of joints and a payload of the scene are included.
 ///
-/// $$
-/// \Lambda^{-1} = J M^{-1} J^T
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/osim_inverse.html"))]
+/// ```text
+/// Λ⁻¹ = J M⁻¹ Jᵀ
+/// ```
 ///
 /// # Shape
 /// 6 × 6; zero for a body that the robot does not have.

@@ -9,10 +9,9 @@ use crate::scalar::Real;
 /// [`Viscous`](crate::effects::Viscous), N·m·s/rad or N·s/m, and of [`Coulomb`](crate::effects::Coulomb) of the same width, N·m or
 /// N. Friction of other coordinates has no part in it.
 ///
-/// $$
-/// \tau_j = b_j \dot q_j + F_j \, s(\dot q_j / w)
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/friction_regressor.html"))]
+/// ```text
+/// τ_j = b_j q̇_j + F_j s(q̇_j / w)
+/// ```
 ///
 /// # Shape
 /// V × 2.

@@ -29,10 +29,9 @@ use crate::state::{Configuration, JointTrig, RobotState, State};
 /// The ten parameters φ of a body are those of [`SpatialInertia::parameters`](crate::spatial::SpatialInertia::parameters)
 /// about the origin of the body's own frame and along its axes: m, m c_x, m c_y, m c_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz.
 ///
-/// $$
-/// \tau_j = \sum_i Y_{ji} \varphi_i, \qquad Y_{ji} = ({}^iX_j S_j)^T A_i(v_i, a_i)
-/// $$
-#[cfg_attr(doc, doc = include_str!("../../../equations/regressor.html"))]
+/// ```text
+/// τ_j = Σ_i Y_ji φ_i      Y_ji = (ⁱX_j S_j)ᵀ A_i(v_i, a_i)
+/// ```
 ///
 /// if body i is on a branch that joint j carries, zero elsewhere. The effects are those of [`rnea`](crate::algorithms::rnea()):
 /// gravity, accelerations, velocity products and the motion of the base are in Y as far as the scene has them. What does not

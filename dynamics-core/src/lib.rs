@@ -47,6 +47,7 @@ extern crate self as dynamics_core;
 
 pub mod advice;
 pub mod algorithms;
+mod chains;
 pub mod clusters;
 #[cfg(feature = "defmt")]
 mod defmt_form;
@@ -54,6 +55,7 @@ pub mod drivetrain;
 pub mod effects;
 mod engine;
 pub mod flexible;
+mod forms;
 pub mod loops;
 mod math;
 pub mod model;

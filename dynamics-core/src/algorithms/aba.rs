@@ -5,113 +5,23 @@
 //! [`hybrid_dynamics`](super::hybrid_dynamics()) prescribes a coordinate's motion, RBDA section 9.2, nothing is
 //! eliminated.
 
-use core::borrow::Borrow;
-
 use heapless::Vec;
 
-use super::chain;
-use super::hybrid_dynamics::{prescribed_factor, prescribed_torque};
 use super::pivot_check::{Magnitude, PivotCheck};
+use super::prescribed::{JointFactor, prescribed_factor, prescribed_torque};
 use super::rnea::external_force;
 use super::rotors::with_rotor;
 use super::tree_pass::{Passed, per_body, recalled};
 use super::{JointResult, NotPositiveDefinite, Prescribed};
 use crate::effects::{
-    Declared, Effect, Scene, add_inertia, base_motion, body_inertia, gyroscopic, joint_state,
+    Declared, Effect, add_inertia, base_motion, body_inertia, gyroscopic, joint_state,
     joint_torque, transmitted,
 };
 use crate::model::{JointKind, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::inertia::ArticulatedInertia;
 use crate::spatial::{Force, Motion, Xform};
-use crate::state::{Configuration, JointTrig, RobotState, State, entry};
-
-/// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², under the effects of the scene.
-///
-/// `state.qdd` is not read.
-///
-/// Velocities as in [`rnea`](super::rnea()), then the articulated bodies from the tips to the base, then the
-/// accelerations from the base, with a₀ = −g, to the tips:
-///
-/// ```text
-/// c_i  = S̊_i q̇_i + v_i × S_i q̇_i
-/// Iᴬ_i = I_i + Σ_{λ(j)=i} ʲX_iᵀ Iᵃ_j ʲX_i    pᴬ_i = v_i ×* I_i v_i − fˣ_i + Σ_{λ(j)=i} ʲX_iᵀ pᵃ_j
-/// U_i  = Iᴬ_i S_i      D_i = S_iᵀ U_i        u_i  = τ_i − S_iᵀ pᴬ_i
-/// Iᵃ_i = Iᴬ_i − U_i D_i⁻¹ U_iᵀ               pᵃ_i = pᴬ_i + Iᵃ_i c_i + U_i D_i⁻¹ u_i
-/// a′_i = ⁱX_λ(i) a_λ(i) + c_i
-/// q̈_i  = D_i⁻¹ (u_i − U_iᵀ a′_i)             a_i  = a′_i + S_i q̈_i
-/// ```
-///
-/// The effects of joints add their inertia (armatures) to D_i and subtract their torque from u_i.
-///
-/// # Shape
-/// V.
-///
-/// # Cost
-/// O(B): some 590 flops for each revolute joint; of a chain some 530, and 440 if each link is turned from its parent about x and
-/// shifted along x and along its own axis, as Denavit & Hartenberg's parameters say.
-///
-/// # Source
-/// Featherstone (1983); RBDA (2008), table 7.1; of these chains McMillan & Orin (1995).
-///
-/// A scene without `Inertia` does not compile:
-///
-/// ```compile_fail
-/// use dynamics_core::{Core, effects::Gravity, robots::Ur5e, state::State};
-/// let _ = Core::<Ur5e>::aba(&State::at([0.0_f32; 6]), &[0.0; 6], &Gravity::EARTH);
-/// ```
-///
-/// # Errors
-/// [`NotPositiveDefinite`] names the outermost coordinate that moves no inertia when its descendants are free (a
-/// massless last link without rotor inertia, a joint on the axis of another with no inertia between them, a massless
-/// wrist in gimbal lock), or whose inertia is NaN: its pivot does not exceed eight roundings of the largest inertia
-/// that its descendants, stretched out, could have about it. For four or more joints without inertia whose axes meet in
-/// one point, the rounding error may be larger.
-#[doc(alias = "articulated-body inertia")]
-#[doc(alias = "ABI")]
-#[doc(alias = "forward dynamics")]
-#[doc(alias = "FDab")]
-#[doc(alias = "FD")]
-#[cfg_attr(optimised, inline(always))]
-pub fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    state: impl RobotState<R, Q, V>,
-    tau: &[R; V],
-    effects: &E,
-) -> Result<[R; V], NotPositiveDefinite>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    const { Scene::<R, E, B, V>::OF_CORE };
-    const {
-        assert!(
-            E::ACCELERATIONS,
-            "forward dynamics needs `Inertia` in the scene"
-        )
-    };
-    let trig = state.configuration().trig_of(robot);
-    let (trig, state) = (trig.borrow(), state.state());
-    let given = |joint| Prescribed::Torque(entry(tau, joint));
-    let response = if const { D::MAY_BE_REVOLUTE }
-        && let Some(robot) = robot.as_revolute_chain()
-    {
-        return chain::aba::aba(&robot, trig, state, effects, tau);
-    } else if const { D::MAY_BE_REVOLUTE }
-        && let Some(robot) = robot.as_all_revolute()
-    {
-        sweep(&robot, trig, state, effects, given)?
-    } else if const { D::MAY_HAVE_FIXED }
-        && let Some(robot) = robot.as_revolute_or_fixed()
-    {
-        sweep(&robot, trig, state, effects, given)?
-    } else if const { D::CHAIN && D::SINGLE } {
-        return chain::aba::aba(robot, trig, state, effects, tau);
-    } else {
-        sweep(robot, trig, state, effects, given)?
-    };
-    Ok(response.qdd)
-}
+use crate::state::{JointTrig, State, entry};
 
 /// The data of a body that the outward passes and the inward pass share.
 struct Body<'a, R: Real> {
@@ -123,17 +33,9 @@ struct Body<'a, R: Real> {
     pa: Force<R>,
 }
 
-/// The results of the inward pass for a coordinate: U, 1/D and u; for a prescribed motion, only U and sᵀ pᴬ.
-#[derive(Clone, Copy)]
-pub(super) struct JointFactor<R: Real> {
-    pub(super) u_a: Force<R>,
-    pub(super) d_inv: R,
-    pub(super) u: R,
-}
-
-/// The three passes of table 7.1; each coordinate's torque or its acceleration is `given`.
+/// q̈ and τ by the three passes of table 7.1; each coordinate's torque or its acceleration is `given`.
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+pub(crate) fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,

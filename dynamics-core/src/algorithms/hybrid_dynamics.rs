@@ -5,16 +5,12 @@
 
 use core::borrow::Borrow;
 
-use super::aba::{JointFactor, sweep};
-use super::rotors::with_rotor;
+use super::aba::aba;
 use super::{JointResult, NotPositiveDefinite, Prescribed};
-use crate::effects::{
-    Declared, Effect, Scene, add_inertia, joint_state, joint_torque, load_friction, rotor_force,
-};
-use crate::model::{LinkView, RobotModel};
+use crate::effects::{Declared, Effect, Scene};
+use crate::model::RobotModel;
 use crate::scalar::Real;
-use crate::spatial::{Force, MotionSubspace};
-use crate::state::{Configuration, RobotState, State, entry};
+use crate::state::{Configuration, RobotState, entry};
 
 /// Torques and accelerations of all coordinates; for each coordinate one of the two is given.
 ///
@@ -64,48 +60,5 @@ where
     };
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
-    sweep(robot, trig, state, effects, |joint| entry(given, joint))
-}
-
-/// Pass 2 of a coordinate with a prescribed motion, which stays part of the articulated body: pᴬ + U q̈, U and sᵀ pᴬ.
-#[cfg_attr(optimised, inline(always))]
-pub(super) fn prescribed_factor<R: Real, E, const B: usize, const V: usize>(
-    effects: &E,
-    link: &LinkView<'_, R>,
-    s: MotionSubspace<R>,
-    u_a: Force<R>,
-    qdd: R,
-    pa: &mut Force<R>,
-) -> JointFactor<R>
-where
-    E: Effect<R, B, V>,
-{
-    let (d_inv, u) = (R::ZERO, s.dot(*pa));
-    let u_a = with_rotor(effects, link, u_a);
-    *pa += u_a * qdd;
-    JointFactor { u_a, d_inv, u }
-}
-
-/// Pass 3 of a coordinate with a prescribed motion: its torque, from the load Uᵀ a′ + sᵀ U q̈ + sᵀ pᴬ of the articulated body.
-#[cfg_attr(optimised, inline(always))]
-pub(super) fn prescribed_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-    effects: &E,
-    link: &LinkView<'_, R>,
-    state: &State<R, Q, V>,
-    joint: usize,
-    s: MotionSubspace<R>,
-    load: R,
-    qdd: R,
-) -> R
-where
-    E: Effect<R, B, V>,
-{
-    let (mut tau, mut armature) = (load, R::ZERO);
-    if E::GYROSCOPIC_ROTORS {
-        tau -= s.dot(rotor_force(effects, link)) * qdd;
-    }
-    add_inertia(effects, joint, &mut armature);
-    tau += armature * qdd + joint_torque(effects, link, state, joint);
-    load_friction(effects, joint, joint_state(link, state, joint), &mut tau);
-    tau
+    aba(robot, trig, state, effects, |joint| entry(given, joint))
 }

@@ -1,10 +1,9 @@
 //! The algorithms, one a file, for every tree and joint.
 
-mod aba;
+pub(crate) mod aba;
 mod articulated_pass;
-mod chain;
 mod coriolis_matrix;
-mod crba;
+pub(crate) mod crba;
 mod crba_jacobian;
 mod energy;
 mod error;
@@ -13,20 +12,19 @@ mod forward_error;
 mod hybrid_dynamics;
 mod joint_result;
 pub mod kinematics;
-mod mass_matrix;
+pub(crate) mod mass_matrix;
 mod momentum;
 mod operational_space;
-mod pivot_check;
+pub(crate) mod pivot_check;
+pub(crate) mod prescribed;
 mod regressor;
-mod rnea;
+pub(crate) mod rnea;
 mod rnea_two_velocities;
-mod rotors;
+pub(crate) mod rotors;
 mod transmitted;
-mod tree_pass;
+pub(crate) mod tree_pass;
 
-pub use aba::aba;
 pub use coriolis_matrix::coriolis_matrix;
-pub use crba::crba;
 pub use crba_jacobian::crba_jacobian;
 pub use energy::{kinetic_energy, potential_energy};
 pub use error::NotPositiveDefinite;
@@ -59,7 +57,8 @@ pub use regressor::{
     friction_regressor, inertial_parameters, regressor, regressor_columns, regressor_row,
     regressor_row_of_bodies,
 };
-pub use rnea::rnea;
 pub use rnea_two_velocities::rnea_two_velocities;
 pub use transmitted::transmitted_torque;
 pub(crate) use tree_pass::{inward, per_body};
+
+pub use crate::forms::{aba, crba, rnea};

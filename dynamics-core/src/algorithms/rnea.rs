@@ -1,89 +1,20 @@
 //! Inverse dynamics: the recursive Newton-Euler algorithm in link coordinates.
 //!
-//! Featherstone & Orin (2000), equations (3) to (8); RBDA (2008), table 5.1. Bias, gravity torque and full torque are
-//! computed by the same function with different effects.
-
-use core::borrow::Borrow;
+//! Featherstone & Orin (2000), equations (3) to (8), which stand at [`rnea`](crate::algorithms::rnea());
+//! RBDA (2008), table 5.1. Bias, gravity torque and full torque are computed by the same function
+//! with different effects.
 
 use heapless::Vec;
 
-use super::chain;
 use super::rotors::rotor;
 use super::tree_pass::{Passed, PerBody, Topology, inward, per_body};
 use crate::effects::{
-    Declared, Effect, Scene, base_motion, body_inertia, body_wrench, joint_torques, load_frictions,
+    Declared, Effect, base_motion, body_inertia, body_wrench, joint_torques, load_frictions,
 };
 use crate::model::{JointCoordinate, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::{Force, Motion, Xform};
-use crate::state::{Configuration, JointTrig, RobotState, State, entry};
-
-/// The torque of each motor, τ = ID(q, q̇, q̈), N·m or N, under the effects of the scene.
-///
-/// A non-finite input gives a non-finite output, which the safety gate of `motion-control` rejects.
-///
-/// The velocities and accelerations follow from the base to the tips, with a₀ = −g, the forces from the tips to the
-/// base:
-///
-/// ```text
-/// v_i = ⁱX_λ(i) v_λ(i) + S_i q̇_i                                   (3)
-/// a_i = ⁱX_λ(i) a_λ(i) + S_i q̈_i + S̊_i q̇_i + v_i × S_i q̇_i         (4)
-/// f_i = I_i a_i + v_i ×* I_i v_i − fˣ_i + Σ_{λ(j)=i} ʲX_iᵀ f_j     (5), (6), (7)
-/// τ_i = S_iᵀ f_i                                                   (8)
-/// ```
-///
-/// The effects of joints (friction, armatures, springs) add their torque to τ_i.
-///
-/// # Shape
-/// V.
-///
-/// # Cost
-/// O(B): 250 flops for each revolute joint, less what no effect needs.
-///
-/// # Source
-/// Featherstone & Orin (2000); Luh, Walker & Paul (1980).
-///
-/// # Example
-/// ```
-/// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
-/// let tau = rnea(&Ur5e::MODEL, &State::at([0.0; 6]), &RIGID_BODY);
-/// assert!(tau[1] < -50.0 && tau[0] == 0.0); // the arm stretched out; gravity does not turn its base
-/// ```
-#[doc(alias = "computed torque")]
-#[doc(alias = "inverse dynamics")]
-#[doc(alias = "ID")]
-#[cfg_attr(optimised, inline(always))]
-#[must_use]
-pub fn rnea<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    state: impl RobotState<R, Q, V>,
-    effects: &E,
-) -> [R; V]
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    const { Scene::<R, E, B, V>::OF_CORE };
-    let trig = state.configuration().trig_of(robot);
-    let (trig, state) = (trig.borrow(), state.state());
-    if const { E::VELOCITY_PRODUCTS && D::MAY_BE_REVOLUTE }
-        && let Some(robot) = robot.as_revolute_chain()
-    {
-        chain::rnea::sweep(&robot, trig, state, effects, true)
-    } else if const { D::MAY_BE_REVOLUTE }
-        && let Some(robot) = robot.as_all_revolute()
-    {
-        sweep(&robot, trig, state, effects)
-    } else if const { D::MAY_HAVE_FIXED }
-        && let Some(robot) = robot.as_revolute_or_fixed()
-    {
-        sweep(&robot, trig, state, effects)
-    } else if const { E::VELOCITY_PRODUCTS && D::CHAIN && D::KINDS.are_revolute() } {
-        chain::rnea::sweep(robot, trig, state, effects, false)
-    } else {
-        sweep(robot, trig, state, effects)
-    }
-}
+use crate::state::{JointTrig, State, entry};
 
 /// The results of the outward pass for the inward one.
 #[derive(Clone, Copy)]
@@ -92,9 +23,9 @@ struct Body<R: Real> {
     f: Force<R>,
 }
 
-/// The two passes.
+/// τ by the two passes.
 #[cfg_attr(optimised, inline(always))]
-fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+pub(crate) fn rnea<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
@@ -239,7 +170,7 @@ where
 
 /// fˣ, the wrench of the environment on body `i`; zero if no effect has one. Featherstone & Orin (6).
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn external_force<R: Real, E, T: Topology, const B: usize, const V: usize>(
+pub(crate) fn external_force<R: Real, E, T: Topology, const B: usize, const V: usize>(
     effects: &E,
     i: usize,
     link: &LinkView<'_, R>,

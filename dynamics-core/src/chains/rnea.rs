@@ -24,7 +24,7 @@ struct Body<R: Real> {
 ///
 /// `first_apart`: the first link has code of its own, with the same numbers; it takes fewer cycles, and more code.
 #[cfg_attr(optimised, inline(always))]
-pub(in crate::algorithms) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+pub(crate) fn rnea<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,

@@ -8,8 +8,8 @@ use heapless::Vec;
 
 use super::across::{Across, AcrossZ};
 use crate::algorithms::NotPositiveDefinite;
-use crate::algorithms::aba::JointFactor;
 use crate::algorithms::pivot_check::{Magnitude, PivotCheck};
+use crate::algorithms::prescribed::JointFactor;
 use crate::algorithms::rnea::external_force;
 use crate::algorithms::rotors::with_rotor;
 use crate::algorithms::tree_pass::per_body;
@@ -39,7 +39,7 @@ struct Beyond<R: Real> {
 
 /// q̈ of a chain: `D::CHAIN` and `D::SINGLE` hold.
 #[cfg_attr(optimised, inline(always))]
-pub(in crate::algorithms) fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+pub(crate) fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,

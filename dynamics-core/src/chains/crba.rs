@@ -18,7 +18,7 @@ use crate::state::JointTrig;
 
 /// M of a chain: `D::CHAIN` and `D::SINGLE` hold.
 #[cfg_attr(optimised, inline(always))]
-pub(in crate::algorithms) fn crba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+pub(crate) fn crba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
     effects: &E,

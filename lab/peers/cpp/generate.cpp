@@ -1,6 +1,6 @@
 // Writes the C that CasADi generates from Pinocchio's algorithms for given robots.
 //
-//     generate ROBOTS MACHINES OUT NAME...
+//     generate ROBOTS OUT NAME...
 //
 // makes OUT/<robot>_<algorithm>_<inputs>_<precision>.c, each with one function of that name. Inputs are
 // `q` (position, velocity, acceleration) or `cs`, where cosines and sines are given: what a control
@@ -19,7 +19,6 @@
 #include <pinocchio/algorithm/jacobian.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
 
-#include "closed.hpp"
 #include "robot.hpp"
 
 using casadi::SX;
@@ -36,10 +35,9 @@ struct Order {
     for (const Body &body : robot.bodies) {
       const bool free = body.joint == "free";
       if (body.joint == "fixed") continue;
-      const std::vector<int> own = body.joint == "universal" ? std::vector<int>{0, 1} : std::vector<int>{0};
-      append(positions, free ? std::vector<int>{4, 5, 6, 0, 1, 2, 3} : own);
-      append(velocities, free ? std::vector<int>{3, 4, 5, 0, 1, 2} : own);
-      turns.resize(positions.size(), !free && body.joint != "prismatic");
+      append(positions, free ? std::vector<int>{4, 5, 6, 0, 1, 2, 3} : std::vector<int>{0});
+      append(velocities, free ? std::vector<int>{3, 4, 5, 0, 1, 2} : std::vector<int>{0});
+      turns.resize(positions.size(), !free);
     }
   }
 
@@ -85,11 +83,9 @@ static Data::MatrixXs operational_inverse(const Model &model, Data &data, const 
   return jacobian * inverse * jacobian.transpose();
 }
 
-// A function of a robot, and of its loops if it has some.
 static casadi::Function function(
-    const Robot &robot, const std::string &loops_text, const std::string &algorithm, Position position) {
-  Placed placed;
-  const Model model = pinocchio_model(robot, position, &placed).cast<SX>();
+    const Robot &robot, const std::string &algorithm, Position position) {
+  const Model model = pinocchio_model(robot, position).cast<SX>();
   Data data(model);
   const Order order(robot);
   const SX qd = SX::sym("v", model.nv), last = SX::sym("u", model.nv);
@@ -104,19 +100,7 @@ static casadi::Function function(
   }
   const Vector v = order.theirs(qd), u = order.theirs(last);
   SX output;
-  if (!loops_text.empty()) {
-    inputs.insert(inputs.end(), {qd, last});
-    std::istringstream in(loops_text);
-    const Loops loops = read_loops(in, placed);
-    Closed closed(model, loops, q);
-    // Torques are those of the motors.
-    Vector tau = Vector::Zero(model.nv);
-    for (std::size_t k = 0; k < loops.actuated.size(); ++k) tau[loops.actuated[k]] = last(k);
-    if (algorithm == "inverse") output = closed.inverse(v, u);
-    else if (algorithm == "kkt") output = order.ours(closed.kkt(v, tau));
-    else output = order.ours(closed.projected(v, tau));
-    output = SX::cse({output}).at(0);
-  } else if (algorithm == "rnea") {
+  if (algorithm == "rnea") {
     inputs.insert(inputs.end(), {qd, last});
     output = order.ours(pinocchio::rnea(model, data, q, v, u));
   } else if (algorithm == "bias") {
@@ -175,38 +159,18 @@ static void write(const casadi::Function &made, const std::string &precision, co
   if (!file.flush()) throw std::runtime_error("cannot write " + out + "/" + name + ".c");
 }
 
-// A robot with the lines of its loops.
-using Machine = std::pair<Robot, std::string>;
-
-static std::vector<Machine> read_machines(const std::string &path) {
-  std::ifstream in(path);
-  std::vector<Machine> machines;
-  for (Robot robot = read_robot(in); !robot.name.empty(); robot = read_robot(in)) {
-    std::string lines, line;
-    std::size_t loops;
-    in >> loops;
-    std::getline(in, line);
-    lines = std::to_string(loops) + "\n";
-    // Two of each loop, the actuated coordinates, mu.
-    for (std::size_t k = 0; k < 2 * loops + 2 && std::getline(in, line); ++k) lines += line + "\n";
-    machines.emplace_back(robot, lines);
-  }
-  return machines;
-}
-
 int main(int count, char **arguments) try {
-  if (count < 4) throw std::runtime_error("usage: generate ROBOTS MACHINES OUT NAME...");
-  std::vector<Machine> all = read_machines(arguments[2]);
-  for (const Robot &robot : read_robots(arguments[1])) all.emplace_back(robot, "");
-  for (int i = 4; i < count; ++i) {
+  if (count < 3) throw std::runtime_error("usage: generate ROBOTS OUT NAME...");
+  const std::vector<Robot> all = read_robots(arguments[1]);
+  for (int i = 3; i < count; ++i) {
     // ROBOT_ALGORITHM_INPUTS_PRECISION
     const std::string name = arguments[i];
     static const std::regex parts(R"((.+)_([a-z]+)_(q|cs)_(f32|f64))");
     std::smatch found;
     if (!std::regex_match(name, found, parts)) throw std::runtime_error(name + " is no function");
     const Position position = found[3] == "q" ? Position::angle : Position::cos_sin;
-    for (const auto &[robot, loops] : all)
-      if (robot.name == found[1]) write(function(robot, loops, found[2], position), found[4], arguments[3]);
+    for (const Robot &robot : all)
+      if (robot.name == found[1]) write(function(robot, found[2], position), found[4], arguments[2]);
   }
   return 0;
 } catch (const std::exception &error) {

@@ -37,17 +37,6 @@ using Place = std::pair<pinocchio::JointIndex, pinocchio::SE3>;
 // Those of each body.
 using Placed = std::vector<Place>;
 
-// The joints that carry a body. A universal one, of which Pinocchio has no form that takes cosines, is then two revolute ones.
-inline std::vector<Body> parts(const Body &body, Position position) {
-  if (body.joint == "fixed") return {};
-  if (body.joint != "universal" || position == Position::angle) return {body};
-  Body first = body, second = body;
-  first.joint = second.joint = "revolute";
-  first.name += "_first";
-  std::copy_n(body.axis2, 3, second.axis);
-  return {first, second};
-}
-
 inline pinocchio::Model pinocchio_model(const Robot &robot, Position position, Placed *out = nullptr) {
   using namespace pinocchio;
   Model model;
@@ -59,8 +48,8 @@ inline pinocchio::Model pinocchio_model(const Robot &robot, Position position, P
     if (body.parent >= 0) std::tie(joint, at) = placed.at(body.parent);
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> rotation(body.rotation);
     SE3 here = at * SE3(Eigen::Matrix3d(rotation), Eigen::Vector3d(body.position));
-    for (const Body &part : parts(body, position)) {
-      joint = model.addJoint(joint, joint_model(part, position), here, part.name);
+    if (body.joint != "fixed") {
+      joint = model.addJoint(joint, joint_model(body, position), here, body.name);
       here = SE3::Identity();
     }
     placed.emplace_back(joint, here);

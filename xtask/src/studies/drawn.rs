@@ -1,8 +1,6 @@
 //! Pictures of tables: drawn from the page, so that they show what it says, whichever run wrote it.
 
-use crate::kit::chart::{
-    Axis, BLUE, GREEN, MUTED, OLIVE, ORANGE, PURPLE, Panels, RED, RGBColor, Row, Shape,
-};
+use crate::kit::chart::{Axis, BLUE, GREEN, MUTED, ORANGE, Panels, RGBColor, Row, Shape};
 use crate::kit::docs::cells;
 use crate::kit::error::Result;
 use crate::kit::workspace::{self, Workspace};
@@ -181,14 +179,7 @@ fn costs(page: &str) -> Result<String> {
 }
 
 /// By the first word of who wrote the code.
-const PEERS: [(&str, RGBColor); 6] = [
-    ("core", BLUE),
-    ("casadi", ORANGE),
-    ("pinocchio", GREEN),
-    ("mujoco", RED),
-    ("dynibo", PURPLE),
-    ("kdl", OLIVE),
-];
+const PEERS: [(&str, RGBColor); 3] = [("core", BLUE), ("casadi", ORANGE), ("pinocchio", GREEN)];
 
 /// Every other code against the engine.
 fn peers(page: &str) -> Result<String> {
@@ -217,7 +208,7 @@ fn peers(page: &str) -> Result<String> {
     x.ticks = vec![1.0, 2.0, 5.0, 10.0, 20.0];
     Panels {
         title: "The cost of other libraries' code, and of the core, against that of the engine".into(),
-        note: "Right of the line: slower than the engine. Several dots of a library are its compilers and functions.",
+        note: "Right of the line: slower than the engine. Several dots of a library are its compilers.",
         legend: &PEERS,
         x,
         names: 110,

@@ -11,7 +11,6 @@ mod target;
 mod tests;
 mod tools;
 
-use std::path::Path;
 use std::process::{Command, ExitCode};
 use std::thread;
 
@@ -48,9 +47,6 @@ pub struct Args {
     /// Measure nothing: fail if docs/peers.md is of other code than this
     #[arg(long)]
     check: bool,
-    /// Only robots with loops on the target: prints their rows as JSON, and leaves docs/peers.md
-    #[arg(long)]
-    loops: bool,
     /// The measurements as JSON on stdout; progress stays on stderr
     #[arg(long)]
     json: bool,
@@ -70,17 +66,12 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     // Now, so that the page is old if somebody edits it meanwhile.
     let code = age::of_code(&workspace.root)?.markdown();
     let robots = robots::export(&workspace)?;
-    if args.loops {
-        shop.generate(&robots, &host::bench(&workspace)?)?;
-        let rows = target::machines(&workspace, &shop, &tools)?;
-        return docs::show(true, &rows, "");
-    }
     // Nothing but the times waits for Pinocchio.
     let (others, pinocchio) = thread::scope(|scope| {
         let pinocchio = scope.spawn(|| host::pinocchio(&shop));
         let others = || {
             let bench = host::bench(&workspace)?;
-            shop.generate(&robots, &bench)?;
+            shop.generate(&robots)?;
             let on_target = target::measure(&workspace, &shop, &tools, &robots)?;
             Ok((on_target, host::casadi(&shop, &robots)?, bench))
         };
@@ -89,7 +80,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let ((mut rows, builds), casadi, bench) = others?;
     pinocchio.map_err(|_| check!("a build of Pinocchio panicked"))??;
     rows.extend(host::measure(&shop, &robots, casadi, &bench)?);
-    let versions = versions(&workspace, &tools, &peers)?;
+    let versions = versions(&tools, &peers)?;
     let ratios = budgets::bars(&workspace)?;
     let compared = bars::compared(&ratios, &rows);
     // Times on a host vary: one that happens to meet its bar is no reason to fail.
@@ -117,28 +108,11 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
 }
 
 /// The versions of all that was measured or measured with.
-fn versions(workspace: &Workspace, tools: &Tools, peers: &Peers) -> Result<Vec<String>> {
+fn versions(tools: &Tools, peers: &Peers) -> Result<Vec<String>> {
     let script = "from importlib.metadata import version\n\
-                  for p in ('pin', 'casadi', 'mujoco'): print(p, version(p))";
+                  for p in ('pin', 'casadi'): print(p, version(p))";
     let said = shell::capture(Command::new(&peers.python).args(["-c", script]))?;
     let mut versions: Vec<String> = said.lines().map(str::to_owned).collect();
-    let dynibo = shell::capture(workspace.cargo("pkgid").arg("dynibo"))?;
-    versions.extend(
-        dynibo
-            .trim()
-            .rsplit_once('@')
-            .map(|(_, version)| format!("dynibo {version}")),
-    );
-    let kdl = workspace::read(Path::new(tools::KDL))?;
-    let named = |line: &str| {
-        line.strip_prefix("#define KDL_VERSION_STRING ")
-            .map(str::to_owned)
-    };
-    versions.extend(
-        kdl.lines()
-            .find_map(named)
-            .map(|version| format!("Orocos KDL {}", version.trim_matches('"'))),
-    );
     versions.extend(target::compilers());
     versions.push(tools.toolchain.rustc_version()?);
     versions.push(tools.qemu.version.clone());

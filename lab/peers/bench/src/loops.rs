@@ -32,9 +32,9 @@ const BATCH: usize = 64;
 const STILL: Stabilisation<f64> = Stabilisation::NONE;
 
 /// A machine as Pinocchio's side reads it, and the recorded states in its order.
-pub struct Theirs {
+struct Theirs {
     /// A line of the robot, one a body, and lines of its loops, its actuated coordinates and `mu`.
-    pub text: String,
+    text: String,
     /// Our index of each of its positions and velocities.
     order: [Vec<usize>; 2],
     /// Our indices of the actuated coordinates.
@@ -43,7 +43,7 @@ pub struct Theirs {
 
 impl Theirs {
     /// Points by the bodies that they are on; `mu` is that of the proximal solver.
-    pub fn new(robot: &Robot, ends: &[[(i64, Placement); 2]], actuated: &[usize], mu: f64) -> Self {
+    fn new(robot: &Robot, ends: &[[(i64, Placement); 2]], actuated: &[usize], mu: f64) -> Self {
         let order = foreign::their_order(robot.bodies.iter().map(|body| &*body.joint));
         let mut text = format!("{} {}\n", robot.name, robot.bodies.len());
         let place = |p: &Placement| [&p.rotation[..], &p.position].concat();

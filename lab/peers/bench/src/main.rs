@@ -1,12 +1,9 @@
 //! `peers-bench MANIFEST`: checks every function of the manifest, and ours, against what Pinocchio
 //! recorded, then times them in one process, their batches interleaved. Each line on stdout is a
-//! JSON object. `cargo xtask peers` writes the manifest and reads the lines. Without a manifest it prints the robots with
-//! loops that the target compares.
+//! JSON object. `cargo xtask peers` writes the manifest and reads the lines.
 
-mod dynibo;
 mod foreign;
 mod loops;
-mod machines;
 mod ours;
 mod robot;
 mod subject;
@@ -26,17 +23,14 @@ use foreign::Foreign;
 #[derive(Deserialize)]
 struct Manifest {
     foreign: Vec<Foreign>,
-    /// The directory of `<robot>.urdf`.
-    urdfs: PathBuf,
     /// Names and libraries of Pinocchio's side of robots with loops.
     loops: Vec<(String, PathBuf)>,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let Some(path) = std::env::args().nth(1) else {
-        print!("{}", machines::all());
-        return Ok(());
-    };
+    let path = std::env::args()
+        .nth(1)
+        .ok_or("usage: peers-bench MANIFEST")?;
     let manifest: Manifest = serde_json::from_str(&std::fs::read_to_string(path)?)?;
     let loops = &manifest.loops;
     loops::general::<Delta, 10, 22, 21, 6, 18, 3>(loops)?;

@@ -9,7 +9,7 @@ use host_tests::recordings::{self, Recording};
 
 use crate::ours::Merged;
 use crate::subject::{Row, Subject, interleaved};
-use crate::{Manifest, dynibo, foreign, ours};
+use crate::{Manifest, foreign, ours};
 
 /// States in a timed batch; the recording is gone through again until there are so many. The matrices of a G1 then fit into a cache
 /// of 1 MiB, as the one of a control loop does; those of 256 states did not, and times differed by a fifth between starts.
@@ -29,15 +29,13 @@ where
     T: Robot<B, Q, V>,
 {
     let recording = &recordings::load(T::MODEL.name);
-    let urdf = manifest.urdfs.join(format!("{}.urdf", recording.robot));
     for algorithm in algorithms {
         one(manifest, recording, algorithm, "f64", |states| {
             let mut subjects = double(algorithm, states);
             subjects.extend(ours::run_time::<Merged<T, B>, f64, M, Q, V>(
                 algorithm, states,
             ));
-            subjects.extend(dynibo::subject(algorithm, &urdf, recording, states)?);
-            Ok(subjects)
+            subjects
         })?;
         if let Some(single) = single {
             one(manifest, recording, algorithm, "f32", |states| {
@@ -45,26 +43,24 @@ where
                 subjects.extend(ours::run_time::<Merged<T, B>, f32, M, Q, V>(
                     algorithm, states,
                 ));
-                Ok(subjects)
+                subjects
             })?;
         }
     }
     Ok(())
 }
 
-type Subjects<R> = Result<Vec<Subject<R>>, Box<dyn Error>>;
-
 fn one<R: Real, const Q: usize, const V: usize>(
     manifest: &Manifest,
     recording: &Recording,
     algorithm: &str,
     precision: &str,
-    own: impl Fn(&[State<R, Q, V>]) -> Subjects<R>,
+    own: impl Fn(&[State<R, Q, V>]) -> Vec<Subject<R>>,
 ) -> Result<(), Box<dyn Error>> {
     let theirs = foreign::their_order(recording.model.bodies.iter().map(|body| &*body.joint));
-    // Ours first, and dynibo.
-    let gather = |states: &[State<R, Q, V>]| -> Subjects<R> {
-        let mut subjects = own(states)?;
+    // Ours first.
+    let gather = |states: &[State<R, Q, V>]| -> Result<Vec<Subject<R>>, Box<dyn Error>> {
+        let mut subjects = own(states);
         for foreign in &manifest.foreign {
             let key = (&*foreign.robot, &*foreign.algorithm, &*foreign.precision);
             if key == (&*recording.robot, algorithm, precision) {
@@ -73,14 +69,13 @@ fn one<R: Real, const Q: usize, const V: usize>(
         }
         Ok(subjects)
     };
-    let (expected_rows, _) = expected(recording, algorithm, 1.0);
-    let states = states(recording, algorithm, expected_rows.len());
+    let (expected, full_scale) = expected(recording, algorithm);
+    let states = states(recording, algorithm, expected.len());
     let mut checked = gather(&states)?;
     let mut errors = Vec::new();
     for subject in &mut checked {
-        let (expected, full_scale) = expected(recording, algorithm, subject.gravity);
         let bound = bound(algorithm, precision, recording.condition);
-        let error = subject.check(states.len(), &expected, full_scale, bound);
+        let error = subject.check(states.len(), expected, full_scale, bound);
         errors.push(error.map_err(|e| format!("{algorithm} of {}: {e}", recording.robot))?);
     }
     let states = self::states(recording, algorithm, BATCH);
@@ -141,10 +136,10 @@ fn states<R: Real, const Q: usize, const V: usize>(
         .collect()
 }
 
-/// Pinocchio's results under `gravity` times its own, and their full scale.
-fn expected(recording: &Recording, algorithm: &str, gravity: f64) -> (Vec<Vec<f64>>, f64) {
+/// Pinocchio's results, and their full scale.
+fn expected<'a>(recording: &'a Recording, algorithm: &str) -> (&'a [Vec<f64>], f64) {
     let scale = &recording.full_scale;
-    let (rows, full_scale) = match algorithm {
+    match algorithm {
         "rnea" => (&recording.rnea, scale.rnea),
         "bias" => (&recording.bias, scale.bias),
         "gravity" => (&recording.gravity, scale.gravity),
@@ -154,16 +149,7 @@ fn expected(recording: &Recording, algorithm: &str, gravity: f64) -> (Vec<Vec<f6
             (rows, recordings::full_scale(rows))
         }
         _ => (&recording.aba, scale.aba),
-    };
-    let mut rows = rows.clone();
-    if gravity != 1.0 {
-        for (row, weight) in std::iter::zip(&mut rows, &recording.gravity) {
-            for (entry, weight) in std::iter::zip(row, weight) {
-                *entry += (gravity - 1.0) * weight;
-            }
-        }
     }
-    (rows, full_scale)
 }
 
 /// Largest error of a function that is worth timing, relative to full scale. Forward dynamics and Λ⁻¹ are

@@ -27,8 +27,6 @@ pub struct Subject<R> {
     pub order: Vec<Option<usize>>,
     /// Whether it is timed, or only checked.
     pub timed: bool,
-    /// Its gravity, relative to the recordings' 9.81 m/s².
-    pub gravity: f64,
 }
 
 #[derive(Serialize)]
@@ -46,7 +44,7 @@ pub struct Row<'a> {
 }
 
 impl<R: Real> Subject<R> {
-    /// A function that is timed, under the recordings' gravity.
+    /// A function that is timed.
     pub fn new(peer: &str, run: Batch<R>, order: Vec<Option<usize>>) -> Self {
         Self {
             peer: peer.to_owned(),
@@ -54,7 +52,6 @@ impl<R: Real> Subject<R> {
             outputs: order.len(),
             order,
             timed: true,
-            gravity: 1.0,
         }
     }
 

@@ -8,11 +8,7 @@
     reason = "xtask links some algorithms of some robots at a time"
 )]
 
-#[path = "costs/closed.rs"]
-mod closed;
 mod costs;
-#[path = "peers/looped.rs"]
-mod looped;
 
 use core::hint::black_box;
 
@@ -47,7 +43,7 @@ type Tip<const Q: usize, const BODY: usize> = fn(
     &Scene,
 ) -> Result<OsimInverse<f32>, NotPositiveDefinite>;
 
-/// C by a compiler; of several forms of a function with the form before it.
+/// C by a compiler.
 struct Peer {
     build: &'static str,
     run: C,
@@ -62,10 +58,8 @@ const STATES: usize = 8;
 const MOST: usize = 640;
 
 /// The input of a measured function.
-struct Ask<const Q: usize, const V: usize, X = ()> {
+struct Ask<const Q: usize, const V: usize> {
     state: State<f32, Q, V>,
-    /// What ours takes in its place, if anything.
-    own: X,
     trig: JointTrig<f32, Q>,
     /// Cosines and sines; the coordinates of a free base stand among the cosines as they are.
     cos: [f32; Q],
@@ -88,26 +82,20 @@ fn asks<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() -> 
             qd: [(); V].map(|()| number(3.0)),
             qdd: [(); V].map(|()| number(10.0)),
         };
-        Ask::new(state, Core::<T>::joint_trig(&state.q), ())
-    })
-}
-
-impl<X, const Q: usize, const V: usize> Ask<Q, V, X> {
-    fn new(state: State<f32, Q, V>, trig: JointTrig<f32, Q>, own: X) -> Self {
+        let trig = Core::<T>::joint_trig(&state.q);
         // Of an angle, sine and cosine are not both zero.
         let is_angle = |at: &JointCoordinate<f32>| at.sin != 0.0 || at.cos != 0.0;
         let cos = trig
             .coordinates
             .map(|at| if is_angle(&at) { at.cos } else { at.q });
         let sin = trig.coordinates.map(|at| at.sin);
-        Self {
+        Ask {
             state,
-            own,
             trig,
             cos,
             sin,
         }
-    }
+    })
 }
 
 fn rnea<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(peers: &[Peer]) {
@@ -135,7 +123,7 @@ fn under<T, E, const B: usize, const Q: usize, const V: usize>(
     let forms: [Inverse<'_, E, Q, V>; 2] = [Core::<T>::rnea, Engine::<T>::rnea];
     compare(
         (Of::robot::<T, B, Q, V>(algorithm), asks, peers),
-        &both(forms.map(|run| (run, run as usize))),
+        forms.map(|run| (run, run as usize)),
         |run, ask| run(ask.trig.with(&ask.state), effects),
         |tau| tau.into_iter().collect(),
     );
@@ -146,7 +134,7 @@ fn crba<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(peers
     let forms: [Matrix<Q, V>; 2] = [Core::<T>::crba, Engine::<T>::crba];
     compare(
         (Of::robot::<T, B, Q, V>("crba"), asks, peers),
-        &both(forms.map(|run| (run, run as usize))),
+        forms.map(|run| (run, run as usize)),
         |run, ask| run(&ask.trig, &RIGID_BODY),
         |m| {
             let entries = (0..V).flat_map(|i| (i..V).map(move |j| (i, j)));
@@ -161,7 +149,7 @@ fn aba<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(peers:
     let forms: [Forward<'_, Q, V>; 2] = [Core::<T>::aba, Engine::<T>::forward_dynamics];
     compare(
         (Of::robot::<T, B, Q, V>("aba"), asks, peers),
-        &both(forms.map(|run| (run, run as usize))),
+        forms.map(|run| (run, run as usize)),
         |run, ask| run(ask.trig.with(&ask.state), &ask.state.qdd, &RIGID_BODY),
         |qdd| qdd.unwrap_or([f32::NAN; V]).into_iter().collect(),
     );
@@ -180,7 +168,7 @@ where
     };
     compare(
         (Of::robot::<T, B, Q, V>("osim"), asks, peers),
-        &both(forms.map(|run| (run, run as usize))),
+        forms.map(|run| (run, run as usize)),
         |run, ask| run(&ask.trig, OnBody::<BODY>, Local, &RIGID_BODY),
         |mobility| {
             let Ok(mobility) = mobility else {
@@ -200,8 +188,6 @@ where
 struct Of {
     robot: &'static str,
     algorithm: &'static str,
-    /// Which of the C's outputs ours are; its first ones if there are none.
-    outputs: &'static [usize],
     joints: usize,
 }
 
@@ -212,40 +198,30 @@ impl Of {
         Self {
             robot: T::MODEL.name,
             algorithm,
-            outputs: &[],
             joints: V,
         }
     }
 }
 
-/// Ours: its name, the function and its address.
-type Ours<F> = (&'static str, F, usize);
-
-fn both<F>([(core, core_at), (engine, engine_at)]: [(F, usize); 2]) -> [Ours<F>; 2] {
-    [("core", core, core_at), ("engine", engine, engine_at)]
-}
-
-/// An algorithm: ours in its forms, the first of which is the reference, then each build of the C. The last entry of
-/// each row is the largest error, relative to full scale.
-fn compare<'a, X, F: Copy, O, const Q: usize, const V: usize>(
-    (of, asks, peers): (Of, &'a [Ask<Q, V, X>; STATES], &[Peer]),
-    ours: &[Ours<F>],
-    call: impl Fn(F, &'a Ask<Q, V, X>) -> O,
+/// An algorithm: ours by the core, which is the reference, and by the engine, each with its address,
+/// then each build of the C. The last entry of each row is the largest error, relative to full
+/// scale.
+fn compare<'a, F: Copy, O, const Q: usize, const V: usize>(
+    (of, asks, peers): (Of, &'a [Ask<Q, V>; STATES], &[Peer]),
+    [core, engine]: [(F, usize); 2],
+    call: impl Fn(F, &'a Ask<Q, V>) -> O,
     flat: impl Fn(O) -> Vec<f32, MOST>,
 ) {
-    let Some(&(_, textbook, _)) = ours.first() else {
-        return;
-    };
     // Another firmware has the C of this function.
     if peers.is_empty() {
         return;
     }
-    let expected = |ask| flat(call(textbook, ask));
+    let expected = |ask| flat(call(core.0, ask));
     let size = |numbers: Vec<f32, MOST>| numbers.iter().fold(0.0, |size, x| larger(size, x.abs()));
     let scale = asks
         .iter()
         .fold(0.0, |scale, ask| larger(scale, size(expected(ask))));
-    let report = |found: &mut dyn FnMut(&'a Ask<Q, V, X>) -> Vec<f32, MOST>| {
+    let report = |found: &mut dyn FnMut(&'a Ask<Q, V>) -> Vec<f32, MOST>| {
         let off = asks.iter().fold(0.0, |off, ask| {
             let (found, expected) = (found(ask), expected(ask));
             // NaN counts as wrong, and so does a number that is missing.
@@ -269,12 +245,12 @@ fn compare<'a, X, F: Copy, O, const Q: usize, const V: usize>(
         trig: false,
         joints: of.joints,
     };
-    for &(form, run, address) in ours {
+    for (form, (run, address)) in [("core", core), ("engine", engine)] {
         row(form).measure(address, asks, |ask| call(run, ask));
         report(&mut |ask| flat(call(run, ask)));
     }
     for &Peer { build, run } in peers {
-        let call = |ask: &Ask<Q, V, X>, out: &mut [f32; MOST]| {
+        let call = |ask: &Ask<Q, V>, out: &mut [f32; MOST]| {
             let (qd, qdd) = (ask.state.qd.as_ptr(), ask.state.qdd.as_ptr());
             // SAFETY: xtask's table names functions of this type, which read Q or V numbers at most from
             // each input and write no more than V (V + 1) / 2 or 21.
@@ -292,12 +268,7 @@ fn compare<'a, X, F: Copy, O, const Q: usize, const V: usize>(
         row(build).measure(run as usize, asks, |ask| call(ask, &mut out));
         report(&mut |ask| {
             call(ask, &mut out);
-            let out = black_box(out);
-            if of.outputs.is_empty() {
-                Vec::from_array(out)
-            } else {
-                of.outputs.iter().map(|&at| out[at]).collect()
-            }
+            Vec::from_array(black_box(out))
         });
     }
 }

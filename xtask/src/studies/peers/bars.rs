@@ -8,7 +8,7 @@ use crate::studies::peers::report::{HOST, M4F, OURS, Row};
 const BUILDS: [&str; 2] = ["casadi gcc", "casadi gcc -ffp-contract=off"];
 
 /// Others, on the host, by how their names begin.
-const OTHERS: [&str; 3] = ["casadi", "pinocchio", "dynibo"];
+const OTHERS: [&str; 2] = ["casadi", "pinocchio"];
 
 /// The bars of `budgets.toml` that this run has the figures for.
 pub fn compared(ratios: &Bars, rows: &[Row]) -> Vec<Compared> {

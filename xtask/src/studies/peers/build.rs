@@ -1,9 +1,9 @@
-//! Compiles the peers: CasADi's generator and what it writes, Pinocchio, MuJoCo.
+//! Compiles the peers: CasADi's generator and what it writes, and Pinocchio.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::kit::error::{Error, Result, check};
+use crate::kit::error::{Error, Result};
 use crate::kit::progress::Spinner;
 use crate::kit::shell;
 use crate::kit::workspace::{self, Workspace};
@@ -30,7 +30,7 @@ pub struct Workshop<'a> {
     sources: PathBuf,
     /// The compilers' versions: others make other code.
     compilers: String,
-    pub robots: PathBuf,
+    robots: PathBuf,
     pub code: PathBuf,
     pub built: PathBuf,
 }
@@ -79,16 +79,11 @@ impl<'a> Workshop<'a> {
         Ok(output)
     }
 
-    /// Writes the robots and has CasADi write its C; `bench` describes those with loops.
-    pub fn generate(&self, robots: &[Robot], bench: &Path) -> Result<()> {
+    /// Writes the robots and has CasADi write its C.
+    pub fn generate(&self, robots: &[Robot]) -> Result<()> {
         let _spinner = Spinner::start("generating C by CasADi");
-        for robot in robots {
-            robot.write(&self.robots)?;
-        }
         let text = self.robots_file();
         workspace::write(&text, robots.iter().map(Robot::text).collect::<String>())?;
-        let machines = self.robots.join("machines.txt");
-        workspace::write(&machines, shell::capture(&mut Command::new(bench))?)?;
         let casadi = self.peers.packages.join("casadi");
         let libraries = [self.prefix().join("lib"), casadi.clone()].map(|dir| {
             let dir = dir.display().to_string();
@@ -107,8 +102,8 @@ impl<'a> Workshop<'a> {
             parts.map(|parts| format!("{}_{}", robot.name, parts.join("_")))
         });
         let mut command = Command::new(&generator);
-        command.args([&text, &machines, &self.code]);
-        shell::capture(command.args(functions).args(target::of_machines()))?;
+        command.args([&text, &self.code]);
+        shell::capture(command.args(functions))?;
         Ok(())
     }
 
@@ -122,38 +117,6 @@ impl<'a> Workshop<'a> {
         let _spinner = Spinner::start(&format!("building {name} by {compiler}"));
         let library = format!("{}_{compiler}.so", name.trim_end_matches("_peer"));
         self.cpp(&library, compiler, &words(HOST), &format!("{name}.cpp"))
-    }
-
-    /// Orocos KDL behind our interface.
-    pub fn kdl(&self) -> Result<PathBuf> {
-        let args = [&words(HOST)[..], &["-lorocos-kdl"]].concat();
-        self.cpp("kdl.so", "g++", &args, "kdl_peer.cpp")
-    }
-
-    /// MuJoCo behind our interface.
-    pub fn mujoco(&self) -> Result<PathBuf> {
-        let package = self.peers.packages.join("mujoco");
-        let mut files = std::fs::read_dir(&package)
-            .map_err(Error::file("read", &package))?
-            .flatten();
-        let theirs = files
-            .find(|entry| {
-                entry
-                    .file_name()
-                    .to_string_lossy()
-                    .starts_with("libmujoco.")
-            })
-            .ok_or_else(|| check!("the package mujoco carries no library"))?;
-        let (theirs, dir) = (theirs.path().display().to_string(), package.display());
-        let include = format!("-isystem{dir}/include");
-        let path = format!("-Wl,-rpath,{dir}");
-        let source = self.sources.join("mujoco_peer.c");
-        self.make(
-            "mujoco.so",
-            "gcc",
-            &[&words(HOST), &[&include, &theirs, &path]],
-            &[&source],
-        )
     }
 
     /// A function of CasADi's by a compiler, as a shared library.
@@ -183,16 +146,16 @@ impl<'a> Workshop<'a> {
         let dirs = [self.prefix().join("include"), self.peers.eigen.clone()];
         let dirs = dirs.map(|dir| format!("-isystem{}", dir.display()));
         let dirs = dirs.each_ref().map(String::as_str);
-        let headers = ["closed.hpp", "robot.hpp", "robot_text.hpp"];
-        let headers = headers.iter().skip(usize::from(source != "generate.cpp"));
-        let sources: Vec<PathBuf> = std::iter::once(&source)
-            .chain(headers)
-            .map(|name| self.sources.join(name))
-            .collect();
+        let sources = [source, "robot.hpp", "robot_text.hpp"];
+        let sources = sources.map(|name| self.sources.join(name));
         // Warnings are of others' headers.
         let all: [&[&str]; 4] = [&["-std=c++17", "-w"], &words(BOOST), &dirs, args];
-        let sources: Vec<&Path> = sources.iter().map(PathBuf::as_path).collect();
-        self.make(name, compiler, &all, &sources)
+        self.make(
+            name,
+            compiler,
+            &all,
+            &sources.each_ref().map(PathBuf::as_path),
+        )
     }
 
     /// The prefix of the headers and libraries of Pinocchio's packages.

@@ -16,15 +16,6 @@ use crate::studies::peers::report::{self, HOST, Row};
 use crate::studies::peers::robots::Robot;
 
 const C_COMPILERS: [&str; 2] = ["gcc", "clang"];
-/// MuJoCo's: algorithm, name in the report, function.
-const MUJOCO: [(&str, &str, &str); 4] = [
-    ("rnea", "mujoco mj_inverse", "inverse"),
-    ("rnea", "mujoco mj_rne", "rnea"),
-    ("crba", "mujoco mj_makeM", "crba"),
-    ("aba", "mujoco mj_solveM", "forward"),
-];
-/// KDL's of chains.
-const KDL: [&str; 4] = ["rnea", "gravity", "crba", "aba"];
 const CPP_COMPILERS: [&str; 2] = ["g++", "clang++"];
 /// A time is the median of so many runs, and so is a ratio.
 const RUNS: usize = 5;
@@ -53,20 +44,20 @@ pub fn pinocchio(shop: &Workshop<'_>) -> Result<()> {
     Ok(())
 }
 
-/// Runs the benchmark five times, with CasADi's functions and the others.
+/// Runs the benchmark five times, with CasADi's functions and Pinocchio's.
 pub fn measure(
     shop: &Workshop<'_>,
     robots: &[Robot],
     mut foreign: Vec<Value>,
     bench: &Path,
 ) -> Result<Vec<Row>> {
-    foreign.extend(build(shop, robots)?);
+    foreign.extend(trees(shop, robots)?);
     let loops = CPP_COMPILERS.map(|compiler| {
         let library = shop.pinocchio("pinocchio_loops", compiler)?;
         Ok((format!("pinocchio {compiler}"), library))
     });
     let loops: Vec<_> = loops.into_iter().collect::<Result<_>>()?;
-    let manifest = json!({ "foreign": foreign, "urdfs": shop.robots, "loops": loops });
+    let manifest = json!({ "foreign": foreign, "loops": loops });
     let path = shop.built.join("manifest.json");
     workspace::write(&path, manifest.to_string())?;
     let spinner = Spinner::start("timing on the host");
@@ -78,7 +69,8 @@ pub fn measure(
     Ok(report::of_runs(rows))
 }
 
-fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
+/// Pinocchio's functions of the robots without loops.
+fn trees(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
     let mut all = Vec::new();
     let text = shop.robots_file();
     for compiler in CPP_COMPILERS {
@@ -94,32 +86,6 @@ fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
                 &peer,
                 &library,
                 &prefix,
-                algorithm,
-                Some(&text),
-            ));
-        }
-    }
-    let (mujoco, kdl) = (shop.mujoco()?, shop.kdl()?);
-    for robot in robots.iter().filter(|robot| !robot.is_free()) {
-        let file = shop.robots.join(format!("{}.xml", robot.name));
-        for (algorithm, peer, run) in MUJOCO {
-            let wanted = (robot, algorithm, "f64");
-            all.push(foreign(
-                wanted,
-                peer,
-                &mujoco,
-                "mujoco_f64_",
-                run,
-                Some(&file),
-            ));
-        }
-        for algorithm in KDL.iter().filter(|_| robot.is_chain()) {
-            let wanted = (robot, *algorithm, "f64");
-            all.push(foreign(
-                wanted,
-                "kdl",
-                &kdl,
-                "kdl_f64_",
                 algorithm,
                 Some(&text),
             ));
@@ -187,7 +153,7 @@ fn foreign(
 /// Our side, for this very processor like the others: in a directory of its own, since other flags
 /// rebuild everything.
 pub fn bench(workspace: &Workspace) -> Result<PathBuf> {
-    let _spinner = Spinner::start("compiling our side and dynibo for this processor");
+    let _spinner = Spinner::start("compiling our side for this processor");
     let target = workspace.target.join("peers/native");
     let mut command = workspace.cargo("build");
     command

@@ -6,7 +6,7 @@ use crate::kit::bars::{self, Compared};
 use crate::kit::meter::MODEL;
 use crate::kit::table::{Table, thousands};
 use crate::studies::peers::ALGORITHMS;
-use crate::studies::peers::target::{Build, LOOPS_FORWARD, LOOPS_INVERSE};
+use crate::studies::peers::target::Build;
 
 /// The processor that runs xtask.
 pub const HOST: &str = "host";
@@ -84,7 +84,7 @@ pub fn of_runs(all: Vec<Row>) -> Vec<Row> {
 
 impl Row {
     /// Whether it is of this code, and else of what `row` is.
-    pub fn is_of(&self, row: &Row, peer: &str) -> bool {
+    fn is_of(&self, row: &Row, peer: &str) -> bool {
         self.peer == peer
             && (self.target, &self.robot) == (row.target, &row.robot)
             && (&self.algorithm, &self.precision) == (&row.algorithm, &row.precision)
@@ -134,8 +134,6 @@ impl Report {
                 .on_target(algorithm)),
             host = section("Host", ON_HOST, &|algorithm| self.on_host(algorithm)),
             builds = self.build_times().markdown(),
-            looped_inverse = self.against_casadi(LOOPS_INVERSE).markdown(),
-            looped_forward = self.against_casadi(LOOPS_FORWARD).markdown(),
             inverse = self.in_a_row("loops inverse").markdown(),
             forward = self.in_a_row("loops forward").markdown(),
             bars = bars::table(&self.compared).markdown(),
@@ -171,29 +169,6 @@ impl Report {
                 ("robot, code", &|row| format!("{}, {}", row.robot, row.peer)),
                 ("ns", &|row| text(row.ns, 1)),
                 ("this / pinocchio", &|row| text(to_best(row), 2)),
-            ],
-        )
-    }
-
-    /// Cycles, and their ratio to those of CasADi's fastest function by gcc.
-    fn against_casadi(&self, algorithm: &str) -> Table {
-        let ratio = |row: &Row| {
-            let theirs = self.of(M4F, algorithm).filter(|other| {
-                other.robot == row.robot
-                    && other.peer.contains("casadi")
-                    && other.peer.contains("gcc")
-            });
-            let best = theirs.filter_map(|other| other.cycles).min()?;
-            Some(row.cycles? as f64 / best as f64)
-        };
-        Table::of(
-            self.of(M4F, algorithm),
-            &[
-                ("robot, code", &|row| format!("{}, {}", row.robot, row.peer)),
-                ("instructions", &|row| number(row.instructions)),
-                ("cycles", &|row| number(row.cycles)),
-                ("bytes", &|row| number(row.code_bytes)),
-                ("this / casadi gcc", &|row| text(ratio(row), 2)),
             ],
         )
     }
@@ -278,13 +253,13 @@ mod tests {
         };
         // A slow machine in the second run, a disturbed engine in the third.
         let runs = [[10.0, 100.0], [20.0, 200.0], [90.0, 100.0]];
-        let all = runs.map(|[ours, theirs]| [row("engine", ours), row("kdl", theirs)]);
+        let all = runs.map(|[ours, theirs]| [row("engine", ours), row("casadi gcc", theirs)]);
         let rows = of_runs(all.into_iter().flatten().collect());
-        let [engine, kdl] = &rows[..] else {
+        let [engine, casadi] = &rows[..] else {
             panic!("two functions")
         };
-        assert_eq!((engine.ns, kdl.ns), (Some(20.0), Some(100.0)));
+        assert_eq!((engine.ns, casadi.ns), (Some(20.0), Some(100.0)));
         assert_eq!(engine.ratios, [Some(1.0), None]);
-        assert_eq!(kdl.ratios, [Some(0.1), None]);
+        assert_eq!(casadi.ratios, [Some(0.1), None]);
     }
 }

@@ -1,14 +1,13 @@
-//! The library's robots in the forms that the peers read. All of them hold the numbers that are in
-//! our source, none is a maker's URDF with rounded angles.
+//! The library's robots in the form that the peers read. It holds the numbers that are in our
+//! source, and is no maker's URDF with rounded angles.
 
 use std::fmt::Write as _;
-use std::path::Path;
 
 use serde::Deserialize;
 
 use crate::kit::error::Result;
 use crate::kit::host_bin;
-use crate::kit::workspace::{self, Workspace};
+use crate::kit::workspace::Workspace;
 use crate::studies::peers::{ALGORITHMS, PRECISIONS};
 
 /// A robot as `export_robots` prints it.
@@ -37,7 +36,7 @@ struct Placement {
     position: [f64; 3],
 }
 
-/// The library's robots that are compared: of revolute joints, as the peers' forms are, and a free base.
+/// The library's robots that are compared: of revolute joints, as the peers' form is, and a free base.
 const COMPARED: [&str; 7] = ["ur5e", "panda", "iiwa14", "a1", "a1_free", "g1", "g1_free"];
 /// What is compared of a free base and of a robot with many joints.
 const DYNAMICS: [&str; 3] = ["rnea", "crba", "aba"];
@@ -131,15 +130,6 @@ impl Robot {
         })
     }
 
-    /// Writes `<name>.urdf` and `<name>.xml` (MuJoCo's form), which have no free base.
-    pub fn write(&self, dir: &Path) -> Result<()> {
-        if self.is_free() {
-            return Ok(());
-        }
-        workspace::write(&dir.join(format!("{}.urdf", self.name)), self.urdf())?;
-        workspace::write(&dir.join(format!("{}.xml", self.name)), self.mjcf())
-    }
-
     pub fn text(&self) -> String {
         let mut text = format!("{} {}\n", self.name, self.bodies.len());
         for body in &self.bodies {
@@ -154,74 +144,6 @@ impl Robot {
             ];
             let (name, numbers) = (&body.name, spaced(&numbers.concat()));
             let _ = writeln!(text, "{name} {} {} {numbers}", body.parent, body.joint);
-        }
-        text
-    }
-
-    fn urdf(&self) -> String {
-        let mut text = format!("<robot name=\"{}\">\n<link name=\"base\"/>\n", self.name);
-        for body in &self.bodies {
-            let Body {
-                name,
-                mass,
-                placement,
-                ..
-            } = body;
-            let [xx, xy, xz, yy, yz, zz] = body.inertia_com;
-            let (com, axis) = (spaced(&body.com), spaced(&body.axis));
-            let (xyz, rpy) = (
-                spaced(&placement.position),
-                spaced(&angles(&placement.rotation)),
-            );
-            let kind = if body.moves() { "continuous" } else { "fixed" };
-            let parent = usize::try_from(body.parent).ok();
-            let parent = parent.map_or("base", |index| &self.bodies[index].name);
-            let _ = write!(
-                text,
-                "<link name=\"{name}\"><inertial><origin xyz=\"{com}\"/><mass value=\"{mass}\"/>\
-                 <inertia ixx=\"{xx}\" ixy=\"{xy}\" ixz=\"{xz}\" iyy=\"{yy}\" iyz=\"{yz}\" \
-                 izz=\"{zz}\"/></inertial></link>\n\
-                 <joint name=\"{name}_joint\" type=\"{kind}\"><origin xyz=\"{xyz}\" rpy=\"{rpy}\"/>\
-                 <parent link=\"{parent}\"/><child link=\"{name}\"/><axis xyz=\"{axis}\"/></joint>\n"
-            );
-        }
-        text + "</robot>\n"
-    }
-
-    /// Without contacts and constraints, which a robot that moves freely has none of.
-    fn mjcf(&self) -> String {
-        format!(
-            "<mujoco model=\"{}\">\n<compiler angle=\"radian\"/>\n<option gravity=\"0 0 -9.81\">\
-             <flag contact=\"disable\" constraint=\"disable\"/></option>\n<worldbody>\n{}\
-             </worldbody>\n</mujoco>\n",
-            self.name,
-            self.mjcf_children(-1)
-        )
-    }
-
-    fn mjcf_children(&self, parent: i64) -> String {
-        let mut text = String::new();
-        for (index, body) in self.bodies.iter().enumerate() {
-            if body.parent != parent {
-                continue;
-            }
-            let [xx, xy, xz, yy, yz, zz] = body.inertia_com;
-            let inertia = spaced(&[xx, yy, zz, xy, xz, yz]);
-            let (pos, com) = (spaced(&body.placement.position), spaced(&body.com));
-            let [xx, xy, _, yx, yy, _, zx, zy, _] = body.placement.rotation;
-            let axes = spaced(&[xx, yx, zx, xy, yy, zy]);
-            let axis = spaced(&body.axis);
-            let joint = match body.moves() {
-                true => format!("<joint type=\"hinge\" axis=\"{axis}\"/>"),
-                false => String::new(),
-            };
-            let children = self.mjcf_children(index as i64);
-            let _ = writeln!(
-                text,
-                "<body name=\"{}\" pos=\"{pos}\" xyaxes=\"{axes}\"><inertial pos=\"{com}\" \
-                 mass=\"{}\" fullinertia=\"{inertia}\"/>{joint}\n{children}</body>",
-                body.name, body.mass
-            );
         }
         text
     }
@@ -240,30 +162,4 @@ fn spaced(numbers: &[f64]) -> String {
         .map(f64::to_string)
         .collect::<Vec<_>>()
         .join(" ")
-}
-
-/// Roll, pitch and yaw of a rotation by rows: R = Rz(yaw) Ry(pitch) Rx(roll).
-fn angles(r: &[f64; 9]) -> [f64; 3] {
-    let level = r[0].hypot(r[3]);
-    let pitch = (-r[6]).atan2(level);
-    if level < 1e-12 {
-        // Roll and yaw turn about the same axis: all of it is called roll.
-        return [(-r[5]).atan2(r[4]), pitch, 0.0];
-    }
-    [r[7].atan2(r[8]), pitch, r[3].atan2(r[0])]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::angles;
-
-    #[test]
-    fn a_quarter_turn_is_one_about_an_axis() {
-        let close = |a: &[f64], b: &[f64]| std::iter::zip(a, b).all(|(a, b)| (a - b).abs() < 1e-15);
-        let quarter = std::f64::consts::FRAC_PI_2;
-        let about_x = [1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0];
-        assert!(close(&angles(&about_x), &[quarter, 0.0, 0.0]));
-        let about_y = [0.0, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0];
-        assert!(close(&angles(&about_y), &[0.0, quarter, 0.0]));
-    }
 }

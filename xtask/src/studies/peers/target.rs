@@ -25,35 +25,9 @@ pub type Build = (String, f64);
 /// ill-conditioned.
 fn bound(algorithm: &str) -> f64 {
     match algorithm {
-        "aba" | "osim" | LOOPS_FORWARD => 1e-3,
-        LOOPS_INVERSE => 1e-4,
+        "aba" | "osim" => 1e-3,
         _ => 1e-5,
     }
-}
-
-/// Inverse and forward dynamics of robots with kinematic loops, as the firmware names them.
-pub const LOOPS_INVERSE: &str = "loops_inverse";
-pub const LOOPS_FORWARD: &str = "loops_forward";
-/// CasADi's functions of each, with what their peers are called.
-const INVERSE: [[&str; 2]; 1] = [["inverse", "casadi"]];
-const FORWARD: [[&str; 2]; 2] = [["kkt", "casadi KKT,"], ["projected", "casadi projected,"]];
-/// The robots with loops, which `peers-bench` describes, and CasADi's functions of their inverse dynamics: on its feet the
-/// motion does not determine the torques.
-const MACHINES: [(&str, &[[&str; 2]]); 6] = [
-    ("four_bar", &INVERSE),
-    ("five_bar", &INVERSE),
-    ("delta", &INVERSE),
-    ("four_bar_leg", &INVERSE),
-    ("pick_delta", &INVERSE),
-    ("a1_held", &[]),
-];
-
-/// The functions of robots with loops that CasADi is to write.
-pub fn of_machines() -> impl Iterator<Item = String> {
-    MACHINES.into_iter().flat_map(|(machine, inverse)| {
-        let functions = inverse.iter().chain(&FORWARD);
-        functions.map(move |[function, _]| format!("{machine}_{function}_cs_f32"))
-    })
 }
 
 /// Ways to compile the C: what each is called at the end of its symbols, in the report, the compiler and its flags; of
@@ -96,25 +70,7 @@ pub fn measure(
             }
         }
     }
-    found.extend(machines(workspace, shop, tools)?);
     Ok((found, builds))
-}
-
-/// The rows of robots with loops: a firmware of each function of CasADi's, since the flash does not hold all builds of the Delta's.
-pub fn machines(workspace: &Workspace, shop: &Workshop<'_>, tools: &Tools) -> Result<Vec<Row>> {
-    let mut found: Vec<Row> = Vec::new();
-    for (machine, inverse) in MACHINES {
-        for [function, _] in inverse.iter().chain(&FORWARD) {
-            let made = compile_machine(shop, machine, function)?;
-            for row in firmware(workspace, tools, made)?.0 {
-                // Ours is in both firmwares of forward dynamics.
-                if !found.iter().any(|other| other.is_of(&row, &row.peer)) {
-                    found.push(row);
-                }
-            }
-        }
-    }
-    Ok(found)
 }
 
 /// Rows of a firmware with these objects and the table of their functions, and the seconds of processor time of its build, over a
@@ -167,54 +123,11 @@ fn compile(
     robot: &Robot,
     algorithms: &[&str],
 ) -> Result<(Vec<PathBuf>, PathBuf)> {
-    let mut table = Functions::default();
+    let spinner = Spinner::start("building CasADi's C for the target");
+    let (mut objects, mut externs, mut calls) = (Vec::new(), String::new(), String::new());
+    let inputs = "_: *const f32, ".repeat(4);
     for algorithm in algorithms {
-        let peers = table.compile(shop, &format!("{}_{algorithm}_cs_f32", robot.name), "")?;
-        let [bodies, positions, velocities] = robot.size();
-        let tip = match *algorithm {
-            "osim" => format!(", {}", bodies - 1),
-            _ => String::new(),
-        };
-        let of = format!(
-            "{}, {bodies}, {positions}, {velocities}{tip}",
-            robot.type_name()
-        );
-        table.calls += &format!("    {algorithm}::<{of}>(&[{peers}]);\n");
-    }
-    table.write(shop)
-}
-
-/// The same of a function of a robot with loops.
-fn compile_machine(
-    shop: &Workshop<'_>,
-    machine: &str,
-    function: &str,
-) -> Result<(Vec<PathBuf>, PathBuf)> {
-    let mut table = Functions::default();
-    let peers = table.compile(shop, &format!("{machine}_{function}_cs_f32"), function)?;
-    let is_inverse = INVERSE.iter().any(|[name, _]| *name == function);
-    let [inverse, forward] = if is_inverse {
-        [&*peers, ""]
-    } else {
-        ["", &*peers]
-    };
-    table.calls = format!("    looped::{machine}(&[{inverse}], &[{forward}]);\n");
-    table.write(shop)
-}
-
-/// Functions of CasADi's C, compiled, and what the firmware does with them.
-#[derive(Default)]
-struct Functions {
-    objects: Vec<PathBuf>,
-    externs: String,
-    calls: String,
-}
-
-impl Functions {
-    /// Compiles a function in all ways, and returns the entries of the firmware's table, which are of this form.
-    fn compile(&mut self, shop: &Workshop<'_>, name: &str, form: &str) -> Result<String> {
-        let spinner = Spinner::start("building CasADi's C for the target");
-        let inputs = "_: *const f32, ".repeat(4);
+        let name = format!("{}_{algorithm}_cs_f32", robot.name);
         let source = shop.code.join(format!("{name}.c"));
         let mut peers = String::new();
         let builds = BUILDS
@@ -227,37 +140,32 @@ impl Functions {
             let peer = format!("-DPEER(name)=name##_{suffix}");
             let restrict = format!("-DRESTRICT={keyword}");
             let args: [&[&str]; 3] = [&words(flags), &words(COMMON), &[&peer, &restrict]];
-            let object = shop.make(&format!("{symbol}.o"), compiler, &args, &[&source])?;
-            self.objects.push(object);
-            self.externs += &format!("    fn {symbol}({inputs}_: *mut f32);\n");
-            let build = [form, build].join("/");
-            let build = build.trim_start_matches('/');
+            objects.push(shop.make(&format!("{symbol}.o"), compiler, &args, &[&source])?);
+            externs += &format!("    fn {symbol}({inputs}_: *mut f32);\n");
             peers += &format!("Peer {{ build: {build:?}, run: {symbol} }}, ");
         }
-        Ok(peers)
+        let [bodies, positions, velocities] = robot.size();
+        let tip = match *algorithm {
+            "osim" => format!(", {}", bodies - 1),
+            _ => String::new(),
+        };
+        let of = format!(
+            "{}, {bodies}, {positions}, {velocities}{tip}",
+            robot.type_name()
+        );
+        calls += &format!("    {algorithm}::<{of}>(&[{peers}]);\n");
     }
-
-    fn write(self, shop: &Workshop<'_>) -> Result<(Vec<PathBuf>, PathBuf)> {
-        let Self { externs, calls, .. } = &self;
-        let text = format!("unsafe extern \"C\" {{\n{externs}}}\nfn run() {{\n{calls}}}\n");
-        let path = shop.built.join("peers.rs");
-        // Written anew each time: cargo then links anew, and does not look at the objects itself.
-        workspace::write(&path, text)?;
-        Ok((self.objects, path))
-    }
+    let text = format!("unsafe extern \"C\" {{\n{externs}}}\nfn run() {{\n{calls}}}\n");
+    let path = shop.built.join("peers.rs");
+    // Written anew each time: cargo then links anew, and does not look at the objects itself.
+    workspace::write(&path, text)?;
+    Ok((objects, path))
 }
 
 /// What a peer is called whose row is of this form.
-fn peer(form: &str) -> String {
-    let (function, build) = form.split_once('/').unwrap_or(("", form));
-    let Some([_, name, ..]) = BUILDS.iter().find(|known| known[0] == build) else {
-        return form.to_owned();
-    };
-    let mut functions = INVERSE.iter().chain(&FORWARD);
-    match functions.find(|[known, _]| *known == function) {
-        Some([_, casadi]) => name.replacen("casadi", casadi, 1),
-        None => (*name).to_owned(),
-    }
+fn peer(form: &str) -> &str {
+    let build = BUILDS.iter().find(|build| build[0] == form);
+    build.map_or(form, |[_, name, ..]| name)
 }
 
 /// The firmware's measurements with its errors in the same order; of two forms of a build the better.
@@ -279,7 +187,7 @@ fn rows(measured: Vec<MeasuredRow>, lines: &[String]) -> Result<Vec<Row>> {
         }
         let row = Row {
             target: M4F,
-            peer: peer(&form),
+            peer: peer(&form).to_owned(),
             robot,
             algorithm,
             precision: "f32".into(),
@@ -309,30 +217,26 @@ pub fn compilers() -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{LOOPS_FORWARD, of_machines, peer, processor_time, rows};
+    use super::{peer, processor_time, rows};
     use crate::kit::rows::Row;
 
     #[test]
     fn a_function_off_by_more_than_its_bound_is_refused() {
         let measured = || {
-            let of = ["delta", LOOPS_FORWARD, "kkt/gcc", "full"];
+            let of = ["ur5e", "aba", "gcc", "full"];
             vec![Row::sample(of, 100)]
         };
         let found = rows(measured(), &["error 0.0009".into()]).expect("a row");
-        assert_eq!(found[0].peer, "casadi KKT, gcc");
+        assert_eq!(found[0].peer, "casadi gcc");
         for error in ["error 0.0011", "error NaN", "no error"] {
             assert!(rows(measured(), &[error.into()]).is_err());
         }
     }
 
     #[test]
-    fn peers_are_named_by_function_and_build() {
+    fn peers_are_named_by_their_build() {
         assert_eq!(peer("core"), "core");
         assert_eq!(peer("off"), "casadi gcc -ffp-contract=off");
-        assert_eq!(peer("kkt/gcc"), "casadi KKT, gcc");
-        assert_eq!(peer("inverse/clang"), "casadi clang");
-        // No inverse dynamics of a robot on its feet.
-        assert_eq!(of_machines().count(), 17);
     }
 
     #[test]

@@ -30,9 +30,6 @@ fn eigen() -> Option<PathBuf> {
     folders.find(|folder| folder.join("Eigen/Core").is_file())
 }
 
-/// The header of Orocos KDL that names its version.
-pub const KDL: &str = "/usr/include/kdl/config.h";
-
 /// The programs and packages of the peers.
 pub struct Peers {
     /// The directory of all that is made here.
@@ -61,10 +58,6 @@ pub fn set_up(workspace: &Workspace, options: Options) -> Result<(Tools, Peers)>
         let elsewhere = "install Eigen 3 with your system's package manager";
         plan.add("the headers of Eigen".into(), &["libeigen3-dev"], elsewhere);
     }
-    if !PathBuf::from(KDL).is_file() {
-        let elsewhere = "install Orocos KDL with its headers";
-        plan.add("Orocos KDL".into(), &["liborocos-kdl-dev"], elsewhere);
-    }
     // Debian has `python3 -m venv` in a package of its own.
     if !shell::succeeds(Command::new("python3").args(["-c", "import ensurepip, venv"])) {
         let elsewhere = "install Python's modules `venv` and `ensurepip`";
@@ -88,7 +81,7 @@ pub fn set_up(workspace: &Workspace, options: Options) -> Result<(Tools, Peers)>
         fill.args(["-m", "pip", "install", "--requirement"]);
         fill.arg(&requirements);
         let commands = [shell::display(&make), shell::display(&fill)];
-        output::note("missing: a Python environment with Pinocchio, CasADi and MuJoCo");
+        output::note("missing: a Python environment with Pinocchio and CasADi");
         setup::may_install(options, &commands, false)?;
         std::fs::create_dir_all(&dir).map_err(Error::file("create", &dir))?;
         shell::run(&mut make)?;

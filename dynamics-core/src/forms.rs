@@ -12,7 +12,7 @@ use crate::algorithms::crba::crba as textbook_crba;
 use crate::algorithms::rnea::rnea as textbook_rnea;
 use crate::algorithms::{MassMatrix, NotPositiveDefinite, Prescribed};
 use crate::chains;
-use crate::effects::{Declared, Effect, Scene};
+use crate::effects::{Effect, Scene};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, entry};

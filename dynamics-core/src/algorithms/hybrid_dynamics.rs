@@ -7,7 +7,7 @@ use core::borrow::Borrow;
 
 use super::aba::aba;
 use super::{JointResult, NotPositiveDefinite, Prescribed};
-use crate::effects::{Declared, Effect, Scene};
+use crate::effects::{Effect, Scene};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, entry};

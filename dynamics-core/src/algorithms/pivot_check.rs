@@ -63,7 +63,7 @@ impl<R: Real> Magnitude<R> {
 
     /// The same about a point at most `r` away. 7 flops.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn at_distance(&self, r: R) -> Self {
+    pub(crate) fn at_distance(&self, r: R) -> Self {
         let moment = self.first_moment + r * self.mass;
         Self {
             mass: self.mass,
@@ -87,13 +87,13 @@ impl<R: Real> Magnitude<R> {
 
 /// |x| + |y| + |z|, a bound of the length without a root.
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn length<R: Real>(v: R::Vec3) -> R {
+pub(crate) fn length<R: Real>(v: R::Vec3) -> R {
     let [x, y, z] = v.array();
     x.abs() + y.abs() + z.abs()
 }
 
 /// The bounds of the pivots of one joint, from its last coordinate to its first.
-pub(super) struct PivotCheck<R> {
+pub(crate) struct PivotCheck<R> {
     magnitude: Magnitude<R>,
     /// The errors that coordinates inherit from those eliminated before them.
     inherited: [R; MOST],
@@ -102,7 +102,7 @@ pub(super) struct PivotCheck<R> {
 impl<R: Real> PivotCheck<R> {
     /// Of a joint that moves bodies of `magnitude`.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn of(magnitude: Magnitude<R>) -> Self {
+    pub(crate) fn of(magnitude: Magnitude<R>) -> Self {
         let inherited = [R::ZERO; MOST];
         Self {
             magnitude,
@@ -113,7 +113,7 @@ impl<R: Real> PivotCheck<R> {
     /// Whether `d`, the pivot of coordinate `k` of the joint, which is coordinate `joint` of the robot, is not NaN and
     /// exceeds rounding errors.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn check(
+    pub(crate) fn check(
         &mut self,
         (link, k): (&LinkView<'_, R>, usize),
         turns: &[JointCoordinate<R>],

@@ -12,7 +12,7 @@ use crate::state::{State, entry};
 /// The couple that the rotor of a joint exerts on the parent link, in the body's frame, and the torque at the rotor due
 /// to the parent's acceleration, ρ I z·α_λ.
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn rotor<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+pub(crate) fn rotor<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,
     a_parent: Motion<R>,
@@ -37,7 +37,7 @@ where
 
 /// U, and the force of the rotor's spin: mounted on the parent's side of the joint, it rotates with the joint's q̈.
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn with_rotor<R: Real, E, const B: usize, const V: usize>(
+pub(crate) fn with_rotor<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,
     u_a: Force<R>,

@@ -9,9 +9,7 @@ use crate::spatial::inertia::{ArticulatedInertia, CompositeInertia, FreeAboutZ};
 use crate::spatial::{AxialScrews, Force, Motion, Xform};
 
 /// A transform across a link. What is kept of it is what the robot and the sines and cosines do not hold.
-pub(in crate::algorithms) trait Across<R: Real>:
-    Copy + Mul<Motion<R>, Output = Motion<R>>
-{
+pub(super) trait Across<R: Real>: Copy + Mul<Motion<R>, Output = Motion<R>> {
     type Kept: Copy;
     fn of(link: &LinkView<'_, R>, turns: &[JointCoordinate<R>]) -> Self;
     fn kept(&self) -> Self::Kept;

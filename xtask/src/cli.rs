@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_excludes_what_is_written_or_of_other_robots() {
+    fn a_file_excludes_other_robots() {
         let parses = |words: &str| {
             let words = ["cargo xtask"].into_iter().chain(words.split(' '));
             command().try_get_matches_from(words).is_ok()
@@ -214,7 +214,6 @@ mod tests {
         }
         for bad in [
             "costs --file",
-            "costs --file arm.urdf --write-budgets",
             "costs --tip hand",
             "accuracy --file arm.urdf --robot ur5e",
             "accuracy --file arm.urdf --error 0.05Nm --cycles 600",

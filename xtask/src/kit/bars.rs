@@ -10,7 +10,8 @@ use crate::kit::table::{Table, thousands};
 /// The page that explains the missed bars.
 const RECORD: &str = "decisions/0002-bars.md";
 
-/// The share by which the code of another compiler than the budgets' own may be larger.
+/// The share by which a cost may be larger with another compiler than the one that the budget or page
+/// names.
 pub const OTHER_RUSTC: f64 = 0.03;
 
 /// The bars, by the name of a row or of a pair of rows.

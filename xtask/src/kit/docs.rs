@@ -137,9 +137,9 @@ pub fn rustc_of(page: &str) -> Option<&str> {
     after.lines().next()?.trim_end().strip_suffix('.')
 }
 
-/// Fails unless what was written is what would be written now with the compiler `rustc`. If the text names another one, only the
-/// words are compared: how far its figures may differ is a matter of the budgets. If it names none, or `rustc` is empty, nothing
-/// but the same will do.
+/// Fails unless what was written is what would be written now with the compiler `rustc`. If the text
+/// names another one, only the words are compared: the step `costs` and `budgets.toml` bound its
+/// figures. If it names none, or `rustc` is empty, nothing but the same will do.
 pub fn compare(file: &str, command: &str, written: &str, fresh: &str, rustc: &str) -> Result<()> {
     let [written, fresh] = [written, fresh].map(seal::unsealed);
     let same_figures = rustc.is_empty() || rustc_of(written).is_none_or(|by| by == rustc);

@@ -87,7 +87,7 @@ impl Row {
         )
     }
 
-    /// The figures that have budgets and bars.
+    /// The figures that bars are set for.
     pub fn figures(&self) -> [(&'static str, u64); 4] {
         [
             ("instructions", self.instructions.max),

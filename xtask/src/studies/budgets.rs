@@ -1,16 +1,15 @@
-//! `budgets.toml`: what each scene and each row of `docs/costs.md` may cost at most. Lowering a budget
-//! is part of the change that earns it; `--write-budgets` writes it.
+//! `budgets.toml`: what each scene may cost at most, and the bars. Lowering a budget is part of the
+//! change that earns it; `--write-budgets` writes it.
 
 use std::collections::BTreeMap;
 
-use indexmap::IndexMap;
 use serde::Deserialize;
-use toml_edit::{DocumentMut, InlineTable, Item, value};
+use toml_edit::{Array, DocumentMut, Item, Table, value};
 
 use crate::kit::bars::{Bars, Compared, OTHER_RUSTC};
 use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::workspace::{self, Workspace};
-use crate::studies::costs::{self, TICK};
+use crate::studies::costs::TICK;
 use crate::studies::scenes::report::Report;
 
 /// The same share for flash, which contains the compiler's own library: rustc 1.99.1 takes 4.4 % more.
@@ -29,38 +28,69 @@ const BARRED: [&str; 7] = [
 
 const FILE: &str = "budgets.toml";
 
+/// The figures of a scene in the order in which the file has them.
+const FIGURES: [&str; 7] = [
+    "tick_instructions",
+    "tick_cycles",
+    "dynamics_instructions",
+    "dynamics_cycles",
+    "flash_bytes",
+    "ram_bytes",
+    "stack_bytes",
+];
+type Figures = [u64; FIGURES.len()];
+
 #[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Budgets {
     #[serde(default)]
     bars: Bars,
     #[serde(default)]
     ratios: Bars,
-    costs: Option<Rows>,
-    #[serde(flatten)]
-    scenes: BTreeMap<String, Budget>,
+    /// By the compiler that they were measured with, then by scene.
+    #[serde(default)]
+    scenes: BTreeMap<String, BTreeMap<String, Figures>>,
 }
 
-/// Costs by the names of the figures.
-type Figures = IndexMap<String, u64>;
+impl Budgets {
+    fn of(&self, scene: &str) -> Option<Budget> {
+        self.scenes.iter().find_map(|(rustc, scenes)| {
+            Some(Budget {
+                rustc: rustc.clone(),
+                figures: *scenes.get(scene)?,
+            })
+        })
+    }
+
+    /// Takes the place of what there is of this scene, by whichever compiler.
+    fn put(&mut self, scene: &str, budget: Budget) {
+        for scenes in self.scenes.values_mut() {
+            scenes.remove(scene);
+        }
+        self.scenes.retain(|_, scenes| !scenes.is_empty());
+        let scenes = self.scenes.entry(budget.rustc).or_default();
+        scenes.insert(scene.to_owned(), budget.figures);
+    }
+
+    /// Takes the place of the scenes of a file; the rest stays as it is written there.
+    fn put_scenes(&self, file: &mut DocumentMut) {
+        let mut compilers = Table::new();
+        // The tables of the compilers have headings, and the one around them has none.
+        compilers.set_implicit(true);
+        for (rustc, scenes) in &self.scenes {
+            let figures = |of: &Figures| of.iter().map(|most| *most as i64).collect::<Array>();
+            let scenes = scenes.iter().map(|(scene, of)| (scene, value(figures(of))));
+            compilers.insert(rustc, Item::Table(scenes.collect()));
+        }
+        file.insert("scenes", Item::Table(compilers));
+    }
+}
 
 /// The budget of a scene, and the compiler that it was measured with.
-#[derive(Debug, Deserialize)]
+#[derive(Debug)]
 struct Budget {
     rustc: String,
-    #[serde(flatten)]
     figures: Figures,
-}
-
-/// The budget of each row of the costs, and the compiler that they were measured with.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Rows {
-    rustc: String,
-    rows: BTreeMap<String, Figures>,
-}
-
-fn figures<const N: usize>(of: [(&str, u64); N]) -> Figures {
-    of.map(|(what, value)| (what.to_owned(), value)).into()
 }
 
 impl Budget {
@@ -68,103 +98,36 @@ impl Budget {
         let (total, dynamics) = (report.tick["total"], report.tick["dynamics"]);
         Self {
             rustc: report.rustc.clone(),
-            figures: figures([
-                ("tick_instructions", total.instructions.max),
-                ("tick_cycles", total.cycles.max),
-                ("dynamics_instructions", dynamics.instructions.max),
-                ("dynamics_cycles", dynamics.cycles.max),
-                ("flash_bytes", report.flash_bytes),
-                ("ram_bytes", report.ram_bytes),
-                ("stack_bytes", report.stack_bytes),
-            ]),
+            figures: [
+                total.instructions.max,
+                total.cycles.max,
+                dynamics.instructions.max,
+                dynamics.cycles.max,
+                report.flash_bytes,
+                report.ram_bytes,
+                report.stack_bytes,
+            ],
         }
     }
 
     /// The figures that exceed this budget, in words.
     fn exceeded_by(&self, measured: &Self) -> Vec<String> {
-        let is_other = self.rustc != measured.rustc;
-        exceeded(&self.figures, &measured.figures, is_other)
-    }
-
-    /// Takes the place of what a file has of this scene.
-    fn put(&self, scene: &str, file: &mut DocumentMut) {
-        let scene = file.entry(scene).or_insert(toml_edit::table());
-        scene["rustc"] = value(&self.rustc);
-        for (what, most) in &self.figures {
-            scene[what] = value(*most as i64);
-        }
-    }
-}
-
-impl Rows {
-    fn measured(report: &costs::Report) -> Self {
-        let rows = report.rows.iter();
-        Self {
-            rustc: report.rustc.clone(),
-            rows: rows
-                .map(|row| (row.key(), figures(row.figures())))
-                .collect(),
-        }
-    }
-
-    fn only(mut self, robot: &str) -> Self {
-        self.rows
-            .retain(|key, _| key.split(' ').next() == Some(robot));
-        self
-    }
-
-    /// The figures that exceed this budget, in words, and rows without a budget or without a measurement.
-    fn exceeded_by(&self, measured: &Self) -> Vec<String> {
-        let is_other = self.rustc != measured.rustc;
         let mut wrong = Vec::new();
-        for (key, row) in &measured.rows {
-            match self.rows.get(key) {
-                None => wrong.push(format!("{key}: has no budget")),
-                Some(most) => wrong.extend(
-                    exceeded(most, row, is_other)
-                        .iter()
-                        .map(|what| format!("{key}: {what}")),
-                ),
+        for (what, (most, now)) in FIGURES
+            .iter()
+            .zip(self.figures.iter().zip(measured.figures))
+        {
+            let more = match *what {
+                _ if self.rustc == measured.rustc => 0.0,
+                "flash_bytes" => OTHER_RUSTC_FLASH,
+                _ => OTHER_RUSTC,
+            };
+            if now as f64 > *most as f64 * (1.0 + more) {
+                wrong.push(format!("{what} {now} > {most}"));
             }
         }
-        let all = self.rows.keys();
-        let gone = all.filter(|key| !measured.rows.contains_key(*key));
-        wrong.extend(gone.map(|key| format!("{key}: is no longer measured")));
         wrong
     }
-
-    /// Takes the place of what a file has.
-    fn put(&self, file: &mut DocumentMut) {
-        file["costs"]["rustc"] = value(&self.rustc);
-        let rows = self.rows.iter().map(|(key, row)| {
-            let row = row.iter().map(|(what, most)| (what, *most as i64));
-            (key, Item::Value(row.collect::<InlineTable>().into()))
-        });
-        file["costs"]["rows"] = Item::Table(rows.collect());
-    }
-}
-
-/// The figures that are beyond what is allowed, or that only one side has, in words; whether they were measured
-/// with another compiler.
-fn exceeded(most: &Figures, measured: &Figures, is_other: bool) -> Vec<String> {
-    let mut wrong = Vec::new();
-    for (what, value) in measured {
-        let more = match &**what {
-            _ if !is_other => 0.0,
-            "flash_bytes" => OTHER_RUSTC_FLASH,
-            _ => OTHER_RUSTC,
-        };
-        match most.get(what) {
-            None => wrong.push(format!("{what} has no budget")),
-            Some(most) if *value as f64 > *most as f64 * (1.0 + more) => {
-                wrong.push(format!("{what} {value} > {most}"));
-            }
-            Some(_) => {}
-        }
-    }
-    let gone = most.keys().filter(|what| !measured.contains_key(*what));
-    wrong.extend(gone.map(|what| format!("{what} is no figure")));
-    wrong
 }
 
 fn read(workspace: &Workspace) -> Result<Budgets> {
@@ -181,24 +144,19 @@ fn read(workspace: &Workspace) -> Result<Budgets> {
     Ok(budgets)
 }
 
-/// Changes the file; what is not concerned stays as it is written there.
-fn change(workspace: &Workspace, put: impl FnOnce(&mut DocumentMut)) -> Result<()> {
-    let path = workspace.root.join(FILE);
-    let file = workspace::read(&path)?.parse();
-    let mut file = file.map_err(|e| check!("{}: {e}", path.display()))?;
-    put(&mut file);
-    workspace::write(&path, file.to_string())
-}
-
 /// Rewrites the budget of the report's scene.
 pub fn write(workspace: &Workspace, report: &Report) -> Result<()> {
-    let budget = Budget::measured(report);
-    change(workspace, |file| budget.put(&report.scene, file))
+    put(workspace, &report.scene, Budget::measured(report))
 }
 
-/// Rewrites the budgets of the costs' rows.
-pub fn write_costs(workspace: &Workspace, report: &costs::Report) -> Result<()> {
-    change(workspace, |file| Rows::measured(report).put(file))
+fn put(workspace: &Workspace, scene: &str, budget: Budget) -> Result<()> {
+    let mut budgets = read(workspace)?;
+    budgets.put(scene, budget);
+    let path = workspace.root.join(FILE);
+    let file = workspace::read(&path)?.parse();
+    let mut file: DocumentMut = file.map_err(|e| check!("{}: {e}", path.display()))?;
+    budgets.put_scenes(&mut file);
+    workspace::write(&path, file.to_string())
 }
 
 /// The bars of rows and of pairs of rows.
@@ -210,51 +168,17 @@ pub fn bars(workspace: &Workspace) -> Result<Bars> {
     Ok(bars)
 }
 
-/// The cycles that a row of the costs may take.
-pub fn cycles(workspace: &Workspace, row: &str) -> Result<u64> {
-    let costs = read(workspace)?.costs;
-    let figures = costs.as_ref().and_then(|costs| costs.rows.get(row));
-    let cycles = figures.and_then(|figures| figures.get("cycles"));
-    cycles
-        .copied()
-        .ok_or_else(|| check!("no region and no row of the costs is named `{row}`"))
-}
-
-/// Fails if a row of the costs exceeds its budget or misses its bar; else says how many rows hold. With a
-/// robot: the report has the rows of this one alone.
-pub fn check_costs(
-    workspace: &Workspace,
-    report: &costs::Report,
-    robot: Option<&str>,
-) -> Result<String> {
-    let mut budgets = read(workspace)?;
-    if let Some(robot) = robot {
-        budgets.costs = budgets.costs.map(|costs| costs.only(robot));
-    }
-    hold_costs(&budgets, report)
-}
-
-fn hold_costs(budgets: &Budgets, report: &costs::Report) -> Result<String> {
-    let budget = budgets.costs.as_ref().ok_or_else(|| {
-        check!("budgets.toml has no [costs]: `cargo xtask costs --write-budgets`")
-    })?;
-    let mut wrong = budget.exceeded_by(&Rows::measured(report));
-    wrong.extend(report.missed().iter().map(|bar| format!("bar: {bar}")));
-    refuse_if!(!wrong.is_empty(), "{}", wrong.join("\n"));
-    Ok(format!("{} rows", report.rows.len()))
-}
-
 /// Fails if the report exceeds its scene's budget; else says what there is to spare.
 pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
     hold_scene(&read(workspace)?, &report.scene, &Budget::measured(report))
 }
 
 fn hold_scene(budgets: &Budgets, scene: &str, measured: &Budget) -> Result<String> {
-    let budget = budgets.scenes.get(scene).ok_or_else(|| {
-        check!("budgets.toml has no [{scene}]: `cargo xtask demo --scene {scene} --write-budgets`")
+    let budget = budgets.of(scene).ok_or_else(|| {
+        check!("{FILE} has no {scene}: `cargo xtask demo --scene {scene} --write-budgets`")
     })?;
-    let figure = |budget: &Budget, what: &str| budget.figures.get(what).copied().unwrap_or(0);
-    let cycles = figure(measured, "tick_cycles");
+    let [_, most, .., most_stack] = budget.figures;
+    let [_, cycles, .., stack] = measured.figures;
     let mut exceeded = budget.exceeded_by(measured);
     let key = format!("{scene}{TICK}");
     let bar = Compared::of(&budgets.bars, &key, "cycles", cycles as f64);
@@ -264,8 +188,6 @@ fn hold_scene(budgets: &Budgets, scene: &str, measured: &Budget) -> Result<Strin
         !exceeded.is_empty(),
         "over budget: {exceeded} (budget of {ours}, measured with {theirs})"
     );
-    let [most, most_stack] = ["tick_cycles", "stack_bytes"].map(|what| figure(budget, what));
-    let stack = figure(measured, "stack_bytes");
     Ok(format!(
         "tick {cycles} of {most} cycles, stack {stack} of {most_stack} B"
     ))

@@ -1,11 +1,12 @@
 //! `cargo xtask costs`: what each algorithm costs on each robot, and what it may.
 
+mod record;
 mod report;
 
 use std::process::ExitCode;
 
 use crate::kit::bars::Bars;
-use crate::kit::error::{Result, check};
+use crate::kit::error::Result;
 use crate::kit::own_robot::{self, OwnRobot};
 use crate::kit::progress::Spinner;
 use crate::kit::rows::{self, Row};
@@ -52,9 +53,6 @@ pub struct Args {
     /// The measurements as JSON on stdout; progress stays on stderr
     #[arg(long)]
     pub json: bool,
-    /// Rewrite the budgets from this run
-    #[arg(long, conflicts_with = "file")]
-    pub write_budgets: bool,
 }
 
 /// Measures, writes the page and prints it.
@@ -68,9 +66,6 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let page = report.markdown();
     workspace::write(&workspace.report(PAGE), docs::seal::sealed(&page))?;
     drawn::write(&workspace, PAGE)?;
-    if args.write_budgets {
-        budgets::write_costs(&workspace, &report)?;
-    }
     docs::show(args.json, &report.rows, &page)
 }
 
@@ -126,20 +121,14 @@ fn report(workspace: &Workspace, tools: &Tools, rows: Vec<Row>, bars: Bars) -> R
     })
 }
 
-/// Fails unless every row is within its budget and its bar, and, in a full run, the page is today's.
+/// Fails unless the page says what every row costs today and every bar holds. A full run measures all
+/// robots and compares the whole page, an everyday run the rows of the first robot.
 pub fn check(bench: &Bench<'_>) -> Result<String> {
     let (workspace, tools) = (bench.workspace, bench.tools()?);
-    if !bench.full {
-        let report = measure_first(workspace, tools)?;
-        let robot = report.rows.first().map(|row| &*row.robot);
-        return budgets::check_costs(workspace, &report, robot);
-    }
-    let report = measure(workspace, tools)?;
-    let written = workspace::read(&workspace.root.join(PAGE))?;
-    let page = docs::compare(PAGE, COMMAND, &written, &report.markdown(), &report.rustc);
-    // Both are reported: a page out of date is no reason to hide what is over budget.
-    match (budgets::check_costs(workspace, &report, None), page) {
-        (Err(budget), Err(page)) => Err(check!("{budget}\n{page}")),
-        (budget, page) => page.and(budget),
-    }
+    let report = match bench.full {
+        true => measure(workspace, tools)?,
+        false => measure_first(workspace, tools)?,
+    };
+    let page = workspace::read(&workspace.root.join(PAGE))?;
+    record::hold(&page, &report, bench.full)
 }

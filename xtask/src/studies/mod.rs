@@ -38,7 +38,7 @@ pub const STUDIES: &[Study] = &[
     Study {
         name: "costs", about: "Measure what each algorithm costs on each robot, rewrite docs/costs.md",
         files: &["docs/costs.md", "docs/costs.svg"],
-        held: Step(Target, Everyday, "every function is within budgets.toml and its bar, and docs/costs.md says so"),
+        held: Step(Target, Everyday, "every function costs what docs/costs.md says, and is within its bar"),
         form: Own(costs::Args::augment_args, |options, matches| costs::run(options, given(matches)?), costs::check),
     },
     Study {

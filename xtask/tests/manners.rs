@@ -227,8 +227,8 @@ fn reports_written_elsewhere_leave_the_workspace_as_it_is() {
     assert_eq!(code, Some(0), "{said}");
     let written = std::fs::read_to_string(out.join("hard-cases.md")).expect("the report");
     assert!(written.contains("| a figure |"), "{written}");
-    // The page and its picture.
-    assert_eq!(std::fs::read_dir(&out).expect("its directory").count(), 2);
+    // The page, its picture, and the README with its line.
+    assert_eq!(std::fs::read_dir(&out).expect("its directory").count(), 3);
     assert_eq!(std::fs::read(&page).expect("the page"), before);
 }
 

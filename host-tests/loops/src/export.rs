@@ -1,7 +1,6 @@
 //! A machine's constants as the oracle's script reads them.
 
-use dynamics_core::algorithms::poses;
-use dynamics_core::loops::{BodyFrame, Loops, Moving, assemble};
+use dynamics_core::loops::{BodyFrame, Loops};
 use dynamics_core::model::BASE;
 use host_tests::export::{Placement, Robot, robot};
 use serde::{Deserialize, Serialize};

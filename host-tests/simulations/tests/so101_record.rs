@@ -14,16 +14,16 @@ use identify::recorded::Recorded;
 use identify::report::Found;
 use identify::robot::Robot;
 use identify::run::{self, JointEffect, Options};
+use motion_control::{Observer, ObserverConfig};
+use robot_import::import::Options as Selection;
+use robot_import::inertia::MassProperties;
+use robot_import::model;
 use simulation_tests::learning::TICK;
 use simulation_tests::learning::arm::{Arm, BRISTLES, GEARS, SMOOTH};
 use simulation_tests::learning::firmware::{Firmware, Task};
 use simulation_tests::learning::parameters::Model;
 use simulation_tests::learning::run::{LEARNING, excitation};
 use simulation_tests::learning::selected::KNOWN;
-use motion_control::{Observer, ObserverConfig};
-use robot_import::import::Options as Selection;
-use robot_import::inertia::MassProperties;
-use robot_import::model;
 
 /// The scene's half a minute of learning: what the observer estimates, and the measured torques.
 fn record(friction: impl Effect<f32, 6, 6> + Clone) -> String {

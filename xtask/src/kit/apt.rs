@@ -187,11 +187,6 @@ pub fn unpack(root: &Path, archives: &Path, packages: &[String], options: &[Stri
     Ok(())
 }
 
-/// Whether apt knows a package of this name (derivatives of Debian lack some).
-pub fn knows(package: &str) -> bool {
-    shell::succeeds(Command::new("apt-cache").args(["show", "--quiet", package]))
-}
-
 #[cfg(test)]
 mod tests {
     use super::Changes;

@@ -45,9 +45,6 @@ pub struct Row {
     pub stack_bytes: u64,
     #[serde(skip)]
     pub address: u64,
-    /// The address of the mark that opens its region.
-    #[serde(skip)]
-    pub region: u32,
 }
 
 #[cfg(test)]
@@ -73,7 +70,6 @@ impl Row {
             code_bytes: 0,
             stack_bytes: 0,
             address: 0,
-            region: 0,
         }
     }
 }
@@ -208,7 +204,6 @@ fn cut(
             code_bytes: code_bytes(address)?,
             stack_bytes,
             address,
-            region: mine[0].at,
         });
     }
     if rows.is_empty() || !samples.is_empty() {

@@ -226,18 +226,6 @@ pub fn for_cores(options: Options, targets: &[&str], packages: &[&'static str]) 
     plan.carry_out(options)
 }
 
-/// Installs what Debian's way needs, where Debian has it.
-pub fn debian(options: Options) -> Result<Toolchain> {
-    if let Some(why) = toolchain::debian_lacks() {
-        let mut plan = Plan::default();
-        let reason = format!("Debian's own compiler: {why}");
-        plan.add(reason, DEBIAN_PACKAGES, "");
-        plan.carry_out(options)?;
-        toolchain::require_debian()?;
-    }
-    Ok(Toolchain::Debian)
-}
-
 /// The compiler and QEMU in one plan, so that the user receives one message about everything.
 fn compiler(options: Options) -> Result<Toolchain> {
     let mut plan = Plan::default();

@@ -80,15 +80,6 @@ impl Privilege {
         }
     }
 
-    /// Whether packages can be installed without a password being typed, which is tried.
-    pub fn needs_no_password(self) -> bool {
-        match self {
-            Self::Root => true,
-            Self::Sudo => shell::succeeds(Command::new("sudo").args(["-n", "true"])),
-            Self::None => false,
-        }
-    }
-
     /// `apt-get` as this user, to be completed.
     pub fn apt_get(self) -> Command {
         let through: &[&str] = if self == Self::Sudo { &["sudo"] } else { &[] };

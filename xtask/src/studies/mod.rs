@@ -16,12 +16,9 @@ pub mod robots;
 pub mod scenes;
 pub mod study;
 
-use std::process::ExitCode;
-
 use clap::{ArgMatches, Args, Command};
 
 use crate::kit::error::Result;
-use crate::kit::workspace::Workspace;
 use crate::kit::{host_bin::SIMULATED, setup, shell};
 use study::Form::{Demo, Own, Part, Whole};
 use study::Held::{Bars, Step};

@@ -1,14 +1,8 @@
 //! Runs into the wall, false alarms, and delays until a push is found.
 
-use dynamics_core::Core;
-use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
-use dynamics_core::robots::Ur5e;
-use dynamics_core::state::State;
-use firmware_demo::trajectories::HOME;
 use super::crash::{self, FRICTIONS, RESPONSES};
 use super::firmware::Sensing;
 use super::path::{Off, Push, lap};
-use super::plant::rotors;
 
 /// The bars: the first peak as a share of v √(k m), the force half a second later, N, and the false alarms in a million ticks.
 pub const PEAK: f32 = 1.2;

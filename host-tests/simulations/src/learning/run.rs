@@ -12,10 +12,10 @@ use firmware_demo::scene::Scene;
 use firmware_demo::scenes::so101_teach::TaughtPath;
 use motion_control::PhysicalParameters;
 
-use super::arm::{Arm, GEARS, GRIPPER, SMOOTH};
+use super::TICK;
+use super::arm::{Arm, GEARS, SMOOTH};
 use super::firmware::{Firmware, Task};
 use super::parameters::{Known, Model, N, P};
-use super::TICK;
 
 /// Ticks of learning: half a minute.
 pub const LEARNING: u32 = 15_000;

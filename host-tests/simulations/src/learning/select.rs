@@ -1,6 +1,10 @@
 //! The selection of what the firmware knows before its arm moves: a nominal model that is off by 30 %, and the base parameters of its
 //! motion. In f64.
 
+use super::arm::{DAMPING, GEARS};
+use super::firmware::STATED;
+use super::parameters::{Known, N, OWN, P, WIDTH};
+use super::run::excitation;
 use dynamics_core::Core;
 use dynamics_core::algorithms::{friction_regressor, inertial_parameters};
 use dynamics_core::effects::{Payload, RIGID_BODY, Width};
@@ -9,10 +13,6 @@ use dynamics_core::robots::So101;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use firmware_demo::scenes::so101_teach::{ARMATURE, COULOMB};
-use super::arm::{DAMPING, GEARS};
-use super::firmware::STATED;
-use super::parameters::{Known, N, OWN, P, WIDTH};
-use super::run::excitation;
 use motion_control::Excitation;
 
 fn own() -> [f64; OWN] {
@@ -110,10 +110,7 @@ pub fn selected(nominal: [f64; N]) -> Known {
 
 pub const SEED: u32 = 1;
 /// The file with what the firmware knows.
-pub const FILE: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/src/learning/selected.rs"
-);
+pub const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/src/learning/selected.rs");
 
 /// What that file should be.
 pub fn source() -> String {

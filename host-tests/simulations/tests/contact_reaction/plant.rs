@@ -2,8 +2,8 @@
 
 use dynamics_core::effects::{Armature, Coulomb, Viscous, Width};
 use dynamics_core::model::ArmModel;
-use simulation_tests::contact::plant;
 use motion_control::ContactResponse;
+use simulation_tests::contact::plant;
 
 pub use simulation_tests::contact::plant::{TIP, tip};
 

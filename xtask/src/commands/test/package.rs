@@ -142,7 +142,7 @@ fn example_names(root: &Path, library: &str) -> Result<Vec<String>> {
 
 pub fn deny(context: &Context) -> Result<String> {
     if shell::which("cargo-deny").is_none() {
-        if !context.may_install_debian {
+        if !context.options.agrees() {
             let why = "to have it run: cargo install cargo-deny --locked";
             return Err(Error::Skipped(why.into()));
         }

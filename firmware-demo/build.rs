@@ -9,7 +9,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("cargo:rustc-link-search={}", out.display());
         println!("cargo:rerun-if-changed=netduinoplus2.x");
     }
-    // ARMv6-M has other hints than its successors; stable Rust has no `cfg` for it.
+    // ARMv6-M lacks the hint that marks a region; stable Rust has no `cfg` for it.
     println!("cargo:rustc-check-cfg=cfg(armv6m)");
     if env::var("TARGET")?.starts_with("thumbv6m") {
         println!("cargo:rustc-cfg=armv6m");

@@ -1,5 +1,5 @@
 //! Runs the control loop of two scenes without a simulated robot, and prints digests of its torques and the stack of a
-//! tick: in QEMU on every core, on the host the digests alone, which are the reference.
+//! tick: in QEMU on each core, on the host the digests alone, which are the reference.
 //!
 //! `cargo xtask cores` builds it with the flags and the linker script of each core, and compares what it prints.
 #![cfg_attr(target_os = "none", no_std, no_main)]
@@ -14,8 +14,6 @@ use firmware_demo::sim_io::Wires;
 use semihosting::println;
 
 #[cfg(target_os = "none")]
-mod counted;
-#[cfg(target_os = "none")]
 mod stack;
 #[cfg(target_os = "none")]
 mod start;
@@ -25,8 +23,6 @@ static UR5E: Wires<6> = Wires::new();
 
 /// The work of `main` on every processor.
 fn replays() {
-    #[cfg(target_os = "none")]
-    counted::twenty_one();
     replay::<Serve, 3, 3, 3, 3>(&SMALL);
     replay::<PickAndPlace, 6, 6, 6, 6>(&UR5E);
     println!("done");

@@ -32,7 +32,7 @@ struct New {
     /// The description: URDF or MJCF
     #[arg(long, value_name = "FILE")]
     robot: PathBuf,
-    /// Firmware for this board: nucleo-f446re, pico2 or netduinoplus2; without it the firmware drives a simulation
+    /// Firmware for this board, such as nucleo-f446re; a wrong name lists all. Without it the firmware drives a simulation
     #[arg(long, value_name = "BOARD")]
     board: Option<String>,
     /// The board's firmware under Embassy

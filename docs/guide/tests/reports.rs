@@ -6,7 +6,7 @@ use std::path::Path;
 /// Pages whose reference part is long: the words before it have a bound.
 const LONG: [&str; 3] = ["accuracy.md", "costs.md", "hard-cases.md"];
 /// Pages that are about text or about numbers of one kind, which a picture would not show better.
-const WITHOUT_PICTURE: [&str; 1] = ["flags.md"];
+const WITHOUT_PICTURE: [&str; 2] = ["boards.md", "flags.md"];
 
 /// What a page lacks.
 fn lacks(name: &str, page: &str) -> Vec<String> {

@@ -17,10 +17,6 @@
 //! a QEMU that refuses that one. QEMU's functions are looked up when the library is loaded, so it
 //! links anywhere.
 //!
-//! On other cores the plugin counts instructions and nothing else, with a further argument: `isa=thumb2` (ARMv7-M, and
-//! ARMv8-M with the main extension), `isa=armv6m`, whose markers are `mov rN, rN`, or `isa=riscv`, whose markers are
-//! `slti x0, x0, k`. What is measured there must not access devices.
-//!
 //! # What is exact
 //!
 //! Instructions: each one that QEMU executes between the markers is counted once,
@@ -100,7 +96,6 @@ mod decode;
 mod ffi;
 mod hand_counted;
 mod insn;
-mod isa;
 mod meter;
 mod model;
 #[cfg(unix)]
@@ -116,4 +111,4 @@ pub const NEWEST_INTERFACE: i32 = 7;
 /// The environment variable that sets the version of the interface which the plugin asks QEMU for.
 pub const INTERFACE: &str = "CYCLE_METER_INTERFACE";
 
-pub use samples::{Error, HEADER, INSTRUCTIONS_ALONE, Sample, Summary, parse_samples};
+pub use samples::{Error, HEADER, Sample, Summary, parse_samples};

@@ -7,9 +7,9 @@ use std::ptr;
 use std::sync::atomic::{AtomicI32, AtomicPtr, Ordering};
 
 use crate::block::{Block, Mark};
+use crate::decode::decode;
 use crate::ffi::{self, Info, PluginId, Qemu, Tb};
 use crate::insn::Insn;
-use crate::isa::Isa;
 use crate::meter::Meter;
 use crate::model::Reading;
 use crate::samples::format_samples;
@@ -19,7 +19,6 @@ struct Plugin {
     /// The version of the interface that QEMU speaks, whichever was requested.
     version: c_int,
     out: PathBuf,
-    isa: Isa,
     reading: Reading,
     meter: Meter<'static>,
     /// Blocks by address and length, so that code translated again takes no new
@@ -90,19 +89,15 @@ fn install(
     info: &Info,
     arguments: impl Iterator<Item = String>,
 ) -> Result<(), String> {
-    let (mut out, mut isa, mut reading) = (None, Isa::default(), Reading::default());
+    let (mut out, mut reading) = (None, Reading::default());
     for argument in arguments {
         match argument.split_once('=') {
             Some(("out", path)) if !path.is_empty() => out = Some(PathBuf::from(path)),
-            Some(("isa", name)) if Isa::named(name).is_some() => {
-                isa = Isa::named(name).unwrap_or_default();
-            }
             Some(("reading", name)) if Reading::named(name).is_some() => {
                 reading = Reading::named(name).unwrap_or_default();
             }
             _ => {
-                let what = "expected out=PATH, isa=thumb2, isa=armv6m, isa=riscv, reading=least or \
-                            reading=most";
+                let what = "expected out=PATH, reading=least or reading=most";
                 return Err(format!("unknown argument `{argument}`; {what}"));
             }
         }
@@ -116,7 +111,6 @@ fn install(
         qemu,
         version: info.version_cur,
         out,
-        isa,
         reading,
         meter: Meter::read_as(reading),
         blocks: HashMap::new(),
@@ -156,7 +150,7 @@ extern "C" fn translated(_: PluginId, tb: *mut Tb) {
     let qemu = plugin.qemu;
     // SAFETY: the block is valid during this callback.
     let (start, insns) = unsafe {
-        let insns = read(&qemu, plugin.version, plugin.isa, tb);
+        let insns = read(&qemu, plugin.version, tb);
         ((qemu.tb_vaddr)(tb) as u32, insns)
     };
     let block = plugin.intern(start, insns);
@@ -189,7 +183,7 @@ fn user_data<T>(data: &'static T) -> *mut c_void {
 /// # Safety
 ///
 /// `tb` must be a block that is being translated.
-unsafe fn read(qemu: &Qemu, version: c_int, isa: Isa, tb: *const Tb) -> Vec<Insn> {
+unsafe fn read(qemu: &Qemu, version: c_int, tb: *const Tb) -> Vec<Insn> {
     // SAFETY: the caller's promise.
     let count = unsafe { (qemu.tb_n_insns)(tb) };
     (0..count)
@@ -210,7 +204,8 @@ unsafe fn read(qemu: &Qemu, version: c_int, isa: Isa, tb: *const Tb) -> Vec<Insn
             };
             // QEMU 7.2 may give a halfword too many at the end of a page, never one too few.
             code[size.min(4)..].fill(0);
-            isa.decode(code)
+            let [first, second] = [0, 2].map(|at| u16::from_le_bytes([code[at], code[at + 1]]));
+            decode(first, second)
         })
         .collect()
 }
@@ -263,7 +258,7 @@ extern "C" fn exiting_from_7(_: *mut c_void) {
 extern "C" fn exiting(_: PluginId, _: *mut c_void) {
     // SAFETY: the only call in this callback.
     let plugin = unsafe { plugin() };
-    let text = format_samples(plugin.isa, plugin.meter.samples(), plugin.meter.unmatched());
+    let text = format_samples(plugin.meter.samples(), plugin.meter.unmatched());
     if let Err(error) = std::fs::write(&plugin.out, text) {
         eprintln!(
             "cycle-meter: cannot write {}: {error}",

@@ -13,13 +13,8 @@
 
 use std::fmt::Write as _;
 
-use crate::isa::Isa;
-
 /// First line of a file.
 pub const HEADER: &str = "cycle-meter 3 cortex-m4f zero-wait";
-
-/// First line of a file of a core whose cycles are not modelled: cycles and floating-point operations are zero.
-pub const INSTRUCTIONS_ALONE: &str = "cycle-meter 3 instructions alone";
 
 /// One passage through a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,7 +78,7 @@ pub enum Error {
 pub fn parse_samples(text: &str) -> Result<Vec<Sample>, Error> {
     let mut lines = text.lines().enumerate();
     let header = lines.next().map_or("", |(_, line)| line);
-    if header != HEADER && header != INSTRUCTIONS_ALONE {
+    if header != HEADER {
         return Err(Error::Header(header.into()));
     }
     lines.map(|(index, line)| sample(line, index + 1)).collect()
@@ -106,18 +101,11 @@ pub(crate) fn sample(line: &str, number: usize) -> Result<Sample, Error> {
 }
 
 /// Writes what [`parse_samples`] reads.
-pub fn format_samples(isa: Isa, samples: &[Sample], unmatched: u64) -> String {
-    let header = match isa.is_modelled() {
-        true => HEADER,
-        false => INSTRUCTIONS_ALONE,
-    };
-    let mut text = format!("{header}\n");
+pub fn format_samples(samples: &[Sample], unmatched: u64) -> String {
+    let mut text = format!("{HEADER}\n");
     for one in samples {
         let (region, instructions) = (one.region, one.instructions);
-        let (cycles, flops) = match isa.is_modelled() {
-            true => (one.cycles, one.flops),
-            false => (0, 0),
-        };
+        let (cycles, flops) = (one.cycles, one.flops);
         // Writing to a string does not fail.
         let _ = writeln!(text, "{region} {instructions} {cycles} {flops} {}", one.at);
     }
@@ -170,19 +158,11 @@ mod tests {
     #[test]
     fn what_is_written_is_read() {
         for samples in [&SAMPLES[..], &[]] {
-            let text = format_samples(Isa::CortexM4F, samples, 0);
+            let text = format_samples(samples, 0);
             assert_eq!(parse_samples(&text), Ok(samples.to_vec()));
         }
-        let text = format_samples(Isa::CortexM4F, &SAMPLES, 3);
+        let text = format_samples(&SAMPLES, 3);
         assert_eq!(parse_samples(&text), Err(Error::Unmatched(3)));
-    }
-
-    #[test]
-    fn an_unmodelled_core_is_written_with_instructions_only() {
-        let text = format_samples(Isa::RiscV, &SAMPLES, 0);
-        let expected = format!("{INSTRUCTIONS_ALONE}\n1 390 0 0 0\n0 1204 0 0 0\n");
-        assert_eq!(text, expected);
-        assert_eq!(parse_samples(&text).expect("a file")[0].cycles, 0);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::ProjectError;
-use super::templates::{COMMON, File, NETDUINO_PLUS_2, NUCLEO_F446RE, PICO_2, RTIC};
+use super::templates::{COMMON, File, RTIC, files};
 
 /// What calls the tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +49,7 @@ pub struct Board {
 }
 
 /// The boards.
-pub static BOARDS: [Board; 3] = [
+pub static BOARDS: [Board; 2] = [
     Board {
         name: "nucleo-f446re",
         title: "Nucleo-F446RE",
@@ -60,7 +60,10 @@ pub static BOARDS: [Board; 3] = [
         chip_feature: "stm32f446",
         spi_rate: ", 10 MHz",
         pins: include_str!("../../template/board/nucleo-f446re/pins.md"),
-        files: [RTIC, NUCLEO_F446RE],
+        files: [
+            RTIC,
+            files!["board/nucleo-f446re": "memory.x", "src/pins.rs"],
+        ],
     },
     Board {
         name: "pico2",
@@ -72,19 +75,19 @@ pub static BOARDS: [Board; 3] = [
         chip_feature: "rp235xa",
         spi_rate: ", 9.4 MHz",
         pins: include_str!("../../template/board/pico2/pins.md"),
-        files: [PICO_2, &[]],
-    },
-    Board {
-        name: "netduinoplus2",
-        title: "Netduino Plus 2",
-        framework: Framework::Rtic,
-        most_joints: 6,
-        target: "thumbv7em-none-eabihf",
-        chip: "STM32F405RGTx",
-        chip_feature: "stm32f405",
-        spi_rate: ", 10 MHz",
-        pins: include_str!("../../template/board/netduinoplus2/pins.md"),
-        files: [RTIC, NETDUINO_PLUS_2],
+        files: [
+            files!["board/pico2":
+                "Cargo.toml" ".liquid",
+                ".cargo/config.toml" ".liquid",
+                "memory.x",
+                "src/main.rs" ".liquid",
+                "src/firmware.rs",
+                "src/pins.rs",
+                "src/devices.rs",
+                "src/periods.rs",
+            ],
+            &[],
+        ],
     },
 ];
 

@@ -21,9 +21,11 @@ macro_rules! file {
 
 macro_rules! files {
     ($folder:literal: $($path:literal $($suffix:literal)?),* $(,)?) => {
-        &[$(file!($folder / $path $($suffix)?)),*]
+        &[$($crate::project::templates::file!($folder / $path $($suffix)?)),*]
     };
 }
+
+pub(super) use {file, files};
 
 /// Firmware in Rust.
 pub(super) const RUST: &[File] = files!["rust":
@@ -102,22 +104,6 @@ pub(super) const RTIC: &[File] = &[
     file!("board/rtic" / "src/firmware.rs"),
     file!("board/rtic" / "src/devices.rs"),
     file!("board/common" / "src/main.rs" ".liquid"),
-];
-
-pub(super) const NUCLEO_F446RE: &[File] = files!["board/nucleo-f446re": "memory.x", "src/pins.rs"];
-pub(super) const NETDUINO_PLUS_2: &[File] =
-    files!["board/netduinoplus2": "memory.x", "src/pins.rs"];
-
-/// Firmware for a Pico 2 under Embassy.
-pub(super) const PICO_2: &[File] = files!["board/pico2":
-    "Cargo.toml" ".liquid",
-    ".cargo/config.toml" ".liquid",
-    "memory.x",
-    "src/main.rs" ".liquid",
-    "src/firmware.rs",
-    "src/pins.rs",
-    "src/devices.rs",
-    "src/periods.rs",
 ];
 
 /// The constants of C that templates define or use, without the prefix that the project's name is to them.

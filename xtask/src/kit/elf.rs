@@ -92,10 +92,7 @@ fn is_in_flash(section: &object::Section<'_, '_>) -> bool {
 
 fn sizes(file: &object::File<'_>) -> Sizes {
     let sum = |counts: &dyn Fn(&object::Section<'_, '_>) -> bool| {
-        // riscv-rt's script makes all that is left of RAM a section.
-        let is_stack = |section: &object::Section<'_, '_>| section.name() == Ok(".stack");
-        let sections = file.sections().filter(|section| !is_stack(section));
-        let counted = sections.filter(|section| counts(section));
+        let counted = file.sections().filter(|section| counts(section));
         counted.map(|section| section.size()).sum()
     };
     Sizes {

@@ -1,5 +1,5 @@
-//! `cargo xtask cores`: the control loop of two scenes on every core that QEMU emulates. The torques must have the same
-//! bits on all of them and on the host; instructions, stack and code are reported.
+//! `cargo xtask cores`: the control loop of two scenes on four cores that QEMU emulates. The torques must have the same
+//! bits on all of them and on the host, and the stack of a tick a bound.
 
 mod boards;
 mod frame;
@@ -18,9 +18,9 @@ use crate::kit::progress::Spinner;
 use crate::kit::setup::{self, Options};
 use crate::kit::toolchain::Toolchain;
 use crate::kit::workspace::{self, Workspace};
-use crate::kit::{docs, firmware, output};
+use crate::kit::{docs, output};
+use crate::studies::budgets;
 use crate::studies::study::Bench;
-use crate::studies::{budgets, drawn};
 use boards::Board;
 use list::{CORES, Core};
 use page::{PAGE, rows_of};
@@ -73,27 +73,25 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let text = report.markdown()?;
     if args.write_docs {
         PAGE.write(&workspace, &text)?;
-        drawn::write(&workspace, PAGE.file)?;
     }
     docs::show(args.json, &report, &text)
 }
 
-/// Fails unless the cores of CI compute the host's torques, in as many instructions as the page says.
+/// Fails unless the cores compute the host's torques, with as much stack as the page says.
 ///
 /// # Errors
 /// Also [`Error::Skipped`], if none of them can be run here.
 pub fn check(bench: &Bench<'_>) -> Result<String> {
     let (workspace, options) = (bench.workspace, bench.options);
     let page = workspace::read(&workspace.root.join(PAGE.file))?;
-    let wanted: Vec<&Core> = CORES.iter().filter(|core| core.in_tests).collect();
-    let (mut targets, packages) = list::needed(&wanted);
+    let (mut targets, packages) = list::needed();
     targets.extend(boards::missing());
     targets.sort_unstable();
     targets.dedup();
     // A core whose tools cannot be installed is skipped below, with the missing tools named.
     let _ = setup::for_cores(options, &targets, &packages);
     let (cores, lacking): (Vec<&Core>, Vec<&Core>) =
-        wanted.iter().partition(|core| core.missing().is_empty());
+        CORES.iter().partition(|core| core.missing().is_empty());
     let boards = boards::missing();
     let add = |target: &&str| format!("rustup target add {target}");
     let lacks = lacking.iter().flat_map(|core| core.missing());
@@ -142,16 +140,15 @@ fn same_bits(core: &str, torques: &[&Torques], host: &[Torques]) -> Result<()> {
 impl Report {
     fn measure(workspace: &Workspace, cores: &[&Core]) -> Result<Self> {
         let torques = run::on_host(workspace)?;
-        let plugin = firmware::build_meter(workspace)?;
         let bars = budgets::bars(workspace)?;
         let mut rows = Vec::new();
         for core in cores {
             let _spinner = Spinner::start(&format!("{} in QEMU", core.name));
-            let row = run::measure(workspace, core, &plugin)?;
+            let row = run::measure(workspace, core)?;
             let mine: Vec<&Torques> = row.scenes.iter().map(|scene| &scene.torques).collect();
             same_bits(core.name, &mine, &torques)?;
             for scene in &row.scenes {
-                let (tick, stack) = (format!("{} tick", scene.torques.scene), scene.code.stack);
+                let (tick, stack) = (format!("{} tick", scene.torques.scene), scene.bound);
                 bars::hold(&bars, &tick, [("stack_bytes", stack as f64)])
                     .map_err(|error| check!("{}, {error}", core.name))?;
             }

@@ -6,12 +6,11 @@ use crate::kit::error::Result;
 use crate::kit::workspace::{self, Workspace};
 
 /// Pages and what draws theirs.
-const DRAWN: [(&str, Draw); 6] = [
+const DRAWN: [(&str, Draw); 5] = [
     ("docs/scenes.md", scenes),
     ("docs/costs.md", costs),
     ("docs/peers.md", peers),
     ("docs/robots.md", robots),
-    ("docs/boards.md", cores),
     ("docs/silicon.md", silicon),
 ];
 type Draw = fn(&str) -> Result<String>;
@@ -112,22 +111,6 @@ fn robots(page: &str) -> Result<String> {
         mark: None,
     }
     .svg(&halves(page, "# Robots", &columns))
-}
-
-fn cores(page: &str) -> Result<String> {
-    let columns = [(4, Shape::Ring, MUTED), (5, Shape::Dot, BLUE)];
-    Panels {
-        title: "Instructions of the longest tick on each core, the same bits on all".into(),
-        note: "The last two cores have no floating-point unit.",
-        legend: &[
-            ("scara_table, three joints", MUTED),
-            ("ur5e, six joints, all effects", BLUE),
-        ],
-        x: Axis::decades("instructions", [500.0, 2e5], 0),
-        names: 125,
-        mark: None,
-    }
-    .svg(&halves(page, "How it is measured", &columns))
 }
 
 fn silicon(page: &str) -> Result<String> {

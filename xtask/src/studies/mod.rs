@@ -51,9 +51,9 @@ pub const STUDIES: &[Study] = &[
         form: Whole(history::measure),
     },
     Study {
-        name: "cores", about: "Run the control loop on every core that QEMU emulates: the same bits, instructions, stack",
-        files: &["docs/boards.md", "docs/boards.svg"],
-        held: Step(Target, Full, "a plain Cortex-M4F, a Cortex-M33 and an RV32 compute the host's torques, and docs/boards.md has what they and the boards' images take"),
+        name: "cores", about: "Run the control loop on four cores that QEMU emulates: the same bits, the stack",
+        files: &["docs/boards.md"],
+        held: Step(Target, Full, "a Cortex-M0, M3 and M33 and an RV32 compute the host's torques, and docs/boards.md has the stack that they take and the sizes of the boards' images"),
         form: Own(cores::Args::augment_args, |options, matches| cores::run(options, given(matches)?), cores::check),
     },
     Study {

@@ -1,5 +1,5 @@
-//! The digest of the torques and the cycles of a tick on the board, beside those of `docs/boards.md`; no encoder and no
-//! drive is needed.
+//! The digest of the torques and the cycles of a tick on the board, to compare with `docs/boards.md` and `docs/scenes.md`;
+//! no encoder and no drive is needed.
 //!
 //! ```text
 //! cargo build --release -p nucleo-f446re --target thumbv7em-none-eabihf
@@ -15,10 +15,17 @@ mod firmware {
     use firmware_demo::replay::Replay;
     use firmware_demo::scenes::ur5e::PickAndPlace;
     use firmware_demo::sim_io::Wires;
-    use nucleo_f446re::{CYCLES, TORQUES, clocks};
     use panic_halt as _;
     use stm32f4xx_hal::pac;
     use stm32f4xx_hal::prelude::*;
+    use stm32f4xx_hal::rcc::Config;
+
+    /// 168 MHz from the 8 MHz of the ST-LINK: five wait states of the flash at 3.3 V, with its accelerator.
+    fn clocks() -> Config {
+        Config::hse(8.MHz())
+            .bypass_hse_oscillator()
+            .sysclk(168.MHz())
+    }
 
     #[entry]
     fn main() -> ! {
@@ -51,13 +58,11 @@ mod firmware {
         let Ok(digest) = digest else {
             return defmt::println!("a tick had a fault");
         };
-        let (modelled, other) = TORQUES;
         defmt::println!("torques of {=u32} ticks: {=u64:016x}", ticks, digest.0);
-        defmt::println!("of docs/boards.md, {=str} ticks: {=str}", modelled, other);
+        defmt::println!("docs/boards.md has the digest of other cores");
         defmt::println!("cycles of a tick: {=u32} to {=u32}", least, most);
         defmt::println!(
-            "modelled, memory that does not wait: {=str}; this flash has five wait states",
-            CYCLES
+            "docs/scenes.md has those of memory that does not wait; this flash has five wait states"
         );
     }
 }

@@ -10,7 +10,7 @@ use crate::kit::error::{Error, Result};
 use crate::kit::{processes, shell};
 
 impl Qemu {
-    /// Runs a firmware to its end under the plugin and returns its output.
+    /// Runs a firmware to its end and returns its output.
     ///
     /// # Errors
     /// QEMU cannot run it, ends with another code than zero, or does not end in time.
@@ -19,7 +19,6 @@ impl Qemu {
         name: &str,
         machine: &[&str],
         elf: &Path,
-        (plugin, argument): (&Path, &str),
         limit: Duration,
     ) -> Result<String> {
         let mut command = Command::new(&self.program);
@@ -30,13 +29,7 @@ impl Qemu {
             "-semihosting-config",
             "enable=on,target=native",
         ]);
-        let version = self.interface(plugin)?;
-        command
-            .envs(version.map(|version| (cycle_meter::INTERFACE, version.to_string())))
-            .arg("-plugin")
-            .arg(format!("{},{argument}", plugin.display()))
-            .arg("-kernel")
-            .arg(elf);
+        command.arg("-kernel").arg(elf);
         let (mut child, _group) = shell::spawn(shell::heard_by(&mut command, Stdio::piped))?;
         let stdout = child.stdout.take().map(bytes_of);
         let stderr = child.stderr.take().map(bytes_of);

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::list::without_home;
-use super::walk::Walk;
+use super::walk;
 use crate::kit::bars::{self, Bars};
 use crate::kit::elf::Image;
 use crate::kit::error::{Result, check};
@@ -25,11 +25,9 @@ struct Bin {
 }
 
 #[rustfmt::skip]
-const BINS: [Bin; 5] = [
+const BINS: [Bin; 3] = [
     Bin { package: "nucleo-f446re", name: "control", profile: SMALL, target: toolchain::TARGET, tick: Some("TIM2"), is_polled: false },
     Bin { package: "nucleo-f446re", name: "replay", profile: RELEASE, target: toolchain::TARGET, tick: None, is_polled: false },
-    Bin { package: "pico2", name: "replay", profile: RELEASE, target: "thumbv8m.main-none-eabihf", tick: None, is_polled: false },
-    Bin { package: "pico2", name: "replay", profile: RELEASE, target: "riscv32imac-unknown-none-elf", tick: None, is_polled: false },
     Bin { package: "pico2-embassy", name: "control", profile: SMALL, target: "thumbv8m.main-none-eabihf", tick: Some("8firmware4tick17h"), is_polled: true },
 ];
 
@@ -107,14 +105,14 @@ fn read(workspace: &Workspace, bin: &Bin) -> Result<Board> {
     };
     let (start, tick) = if bin.is_polled {
         if let Some(name) = bin.tick {
-            Walk::of(&image, false, address(name)?)?;
+            walk::stack(&image, false, address(name)?)?;
         }
         (None, None)
     } else {
-        let stack = |name| Walk::of(&image, false, address(name)?).map(|walk| walk.stack);
+        let stack = |name| walk::stack(&image, false, address(name)?);
         let tick = bin.tick.map(stack).transpose()?;
-        let start = Walk::of_start(&image, address("main")?)?;
-        (Some(start.stack), tick.map(|stack| stack + INTERRUPT))
+        let start = walk::stack_of_start(&image, address("main")?)?;
+        (Some(start), tick.map(|stack| stack + INTERRUPT))
     };
     Ok(Board {
         package: bin.package,

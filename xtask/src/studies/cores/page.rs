@@ -1,6 +1,6 @@
 //! The tables of `docs/boards.md`.
 
-use super::list::{CORES, Core, Isa};
+use super::list::{CORES, Core};
 use super::run::{Replayed, Row, Torques};
 use super::{Report, boards};
 use crate::kit::docs::Page;
@@ -43,18 +43,6 @@ impl Report {
         let [small, large] = scenes[..] else {
             bail!("two scenes were expected: {scenes:?}");
         };
-        let instructions = |index: usize| {
-            move |(row, _): &Line<'_>| {
-                let spread = row.scenes[index].costs[0].instructions;
-                format!("{} to {}", thousands(spread.min), thousands(spread.max))
-            }
-        };
-        let cycles = |(row, core): &Line<'_>| match (core.isa, row.scenes[1].costs[0].cycles) {
-            (Isa::CortexM4F, spread) => {
-                format!("{} to {}", thousands(spread.min), thousands(spread.max))
-            }
-            _ => "–".into(),
-        };
         let of = |index: usize, what: fn(&Replayed) -> u64| {
             move |(row, _): &Line<'_>| thousands(what(&row.scenes[index]))
         };
@@ -64,35 +52,15 @@ impl Report {
             ("target", &|(_, core)| format!("`{}`", core.target)),
             ("flags", &|(_, core)| core.shown_flags()),
             (
-                &format!("instructions of a tick, `{small}`"),
-                &instructions(0),
-            ),
-            (&format!("`{large}`"), &instructions(1)),
-            (&format!("cycles, `{large}`"), &cycles),
-            ("flash, B", &|(row, _)| thousands(row.flash)),
-        ];
-        text += &format!("\n{}", Table::of(&both, &columns).markdown());
-        text += "\nThe stack and the code of a tick, of the function that the interrupt calls and of all that it calls:\n";
-        let columns: [Column<'_, Line<'_>>; 7] = [
-            ("core", &|(row, _)| row.core.into()),
-            (
                 &format!("stack written, `{small}`, B"),
                 &of(0, |scene| scene.stack),
             ),
-            ("stack, bound", &of(0, |scene| scene.code.stack)),
+            ("stack, bound", &of(0, |scene| scene.bound)),
             (
                 &format!("stack written, `{large}`, B"),
                 &of(1, |scene| scene.stack),
             ),
-            ("stack, bound", &of(1, |scene| scene.code.stack)),
-            (
-                &format!("code, `{small}`, B"),
-                &of(0, |scene| scene.code.code),
-            ),
-            (
-                &format!("code, `{large}`, B"),
-                &of(1, |scene| scene.code.code),
-            ),
+            ("stack, bound", &of(1, |scene| scene.bound)),
         ];
         text += &format!("\n{}", Table::of(&both, &columns).markdown());
         text += "\nThe images of real boards, without a simulation:\n\n";
@@ -147,10 +115,10 @@ mod tests {
     #[test]
     fn boards_whose_target_is_missing_are_not_compared() {
         let core = "| Cortex-M33 | `thumbv8m` | 7 |\n";
-        let page = format!("{core}| `pico2` | `thumbv8m` | 9 |\n| `pico2` | `riscv32` | 3 |\n");
+        let page = format!("{core}| `pico2` | `thumbv8m` | 9 |\n| `nucleo` | `thumbv7em` | 3 |\n");
         let without = |missing: &[&str]| rows_of(&page, &["Cortex-M33"], missing);
         assert_eq!(without(&[]), page);
-        assert_eq!(without(&["thumbv8m", "riscv32"]), core);
-        assert!(without(&["riscv32"]).ends_with("| 9 |\n"));
+        assert_eq!(without(&["thumbv8m", "thumbv7em"]), core);
+        assert!(without(&["thumbv7em"]).ends_with("| 9 |\n"));
     }
 }

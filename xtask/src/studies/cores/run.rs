@@ -1,16 +1,15 @@
-//! Builds the replay for a core, runs it under the cycle meter, and reads what both wrote.
+//! Builds the replay for a core, runs it, and reads what it wrote.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use serde::Serialize;
 
-use super::list::{self, Core, Isa};
-use super::walk::Walk;
+use super::list::{self, Core};
+use super::walk;
 use crate::kit::elf::Image;
-use crate::kit::error::{Error, Result, check, refuse_if};
+use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::host_bin::SHARED;
-use crate::kit::meter::{self, Cost, REGIONS};
 use crate::kit::qemu::Qemu;
 use crate::kit::shell;
 use crate::kit::toolchain::RELEASE;
@@ -19,8 +18,6 @@ use crate::kit::workspace::Workspace;
 const PACKAGE: &str = "cores";
 /// The time limit of a core in QEMU.
 const LIMIT: Duration = Duration::from_secs(300);
-/// The instructions in the bin's first region (`cores/src/counted.rs`).
-const COUNTED_BY_HAND: u64 = 21;
 
 /// The bits of a scene's torques.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -34,19 +31,15 @@ pub struct Torques {
 #[derive(Debug, Serialize)]
 pub struct Replayed {
     pub torques: Torques,
-    /// The cost of a tick: whole, by phase, and between the phases; cycles are zero except on the Cortex-M4F.
-    pub costs: Vec<Cost>,
     /// The bytes of stack that a tick wrote to, at most.
     pub stack: u64,
-    /// The stack and the functions of the tick, from its machine code.
-    pub code: Walk,
+    /// The stack that no tick exceeds, from its machine code.
+    pub bound: u64,
 }
 
 #[derive(Debug, Serialize)]
 pub struct Row {
     pub core: &'static str,
-    /// Code and constants of the whole image, which also prints.
-    pub flash: u64,
     /// The scenes, the small one first.
     pub scenes: Vec<Replayed>,
 }
@@ -96,7 +89,7 @@ pub fn on_host(workspace: &Workspace) -> Result<Vec<Torques>> {
 
 /// Builds the bin for a core.
 pub fn build(workspace: &Workspace, core: &Core) -> Result<PathBuf> {
-    let mut flags = core.flags(workspace)?;
+    let mut flags: Vec<String> = core.flags.iter().map(ToString::to_string).collect();
     // Cargo calls the compiler in the root of the workspace.
     for script in [format!("machines/{}.x", core.machine), "link.x".into()] {
         flags.push(format!("-Clink-arg=-T{PACKAGE}/{script}"));
@@ -112,32 +105,15 @@ pub fn build(workspace: &Workspace, core: &Core) -> Result<PathBuf> {
         // Instead of those of `.cargo/config.toml`, which has another linker script.
         .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"));
     shell::cargo(&mut command)?;
-    // Two cores of one target have their bin in the same place.
-    let built = target.join(core.target).join(RELEASE).join(PACKAGE);
-    let elf = target.join(core.machine).with_extension("elf");
-    std::fs::copy(&built, &elf).map_err(Error::file("copy", &built))?;
-    Ok(elf)
+    Ok(target.join(core.target).join(RELEASE).join(PACKAGE))
 }
 
 /// Builds and runs the bin on a core.
-pub fn measure(workspace: &Workspace, core: &Core, plugin: &Path) -> Result<Row> {
+pub fn measure(workspace: &Workspace, core: &Core) -> Result<Row> {
     let elf = build(workspace, core)?;
-    let regions = workspace.output(&format!("cores-{}.regions", core.machine))?;
-    let argument = format!("out={}{}", regions.display(), core.isa.argument());
     let qemu = Qemu::at(core.qemu().0)?;
-    let machine = core.machine_arguments();
-    let text = qemu.text(core.name, &machine, &elf, (plugin, &argument), LIMIT)?;
+    let text = qemu.text(core.name, &core.machine_arguments(), &elf, LIMIT)?;
     let said = Said::read(&text)?;
-    let samples = meter::read(&regions)?;
-    let (first, mut rest) = samples
-        .split_first()
-        .ok_or_else(|| check!("the cycle meter measured nothing"))?;
-    refuse_if!(
-        first.instructions != COUNTED_BY_HAND,
-        "on {} the cycle meter counts {} instructions, by hand they are {COUNTED_BY_HAND}",
-        core.name,
-        first.instructions
-    );
     let image = Image::read(&elf)?;
     let count = said.torques.len();
     refuse_if!(
@@ -146,40 +122,22 @@ pub fn measure(workspace: &Workspace, core: &Core, plugin: &Path) -> Result<Row>
     );
     let mut scenes = Vec::new();
     for ((torques, stack), at) in said.torques.into_iter().zip(said.stacks).zip(said.ticks_at) {
-        let few = || {
-            check!(
-                "the cycle meter saw fewer ticks of {} than were run",
-                torques.scene
-            )
-        };
-        let (mine, others) = rest
-            .split_at_checked(torques.ticks * REGIONS.len())
-            .ok_or_else(few)?;
-        rest = others;
-        let code = Walk::of(&image, core.isa == Isa::RiscV, at)
+        let bound = walk::stack(&image, core.is_risc_v(), at)
             .map_err(|e| check!("{}, {}: {e}", core.name, torques.scene))?;
         refuse_if!(
-            code.stack < stack,
-            "{}, {}: a tick wrote to {stack} B of stack, more than the bound of its code, {} B",
+            bound < stack,
+            "{}, {}: a tick wrote to {stack} B of stack, more than the bound of its code, {bound} B",
             core.name,
-            torques.scene,
-            code.stack
+            torques.scene
         );
-        let costs = meter::costs(mine, torques.ticks, |_| true)?;
         scenes.push(Replayed {
             torques,
-            costs,
             stack,
-            code,
+            bound,
         });
     }
-    refuse_if!(
-        !rest.is_empty(),
-        "the cycle meter saw more ticks than were run"
-    );
     Ok(Row {
         core: core.name,
-        flash: image.sizes.flash,
         scenes,
     })
 }

@@ -1,23 +1,10 @@
-//! The functions that a function can reach, and its largest stack: read from the machine code of any of the cores.
+//! The largest stack of a function and of all that it calls: read from the machine code of any of the cores.
 
 use std::collections::BTreeMap;
-
-use serde::Serialize;
 
 use super::frame::{self, Flow};
 use crate::kit::elf::{Function, Image, is_f64, is_panic};
 use crate::kit::error::{Result, bail, check, refuse_if};
-
-/// The functions that a function reaches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Walk {
-    /// The number of functions, with itself.
-    pub functions: usize,
-    /// Their bytes, constants in the code included.
-    pub code: u64,
-    /// No call takes more stack: the largest sum of frames along a chain of calls.
-    pub stack: u64,
-}
 
 /// A function while it is walked, and its stack afterwards.
 enum State {
@@ -25,43 +12,29 @@ enum State {
     Known(u64),
 }
 
-impl Walk {
-    /// From the function at an address.
-    ///
-    /// # Errors
-    /// Something in reach calls through a register, calls itself, takes a frame whose size the code does not say, leaves
-    /// the known functions, computes in f64, or panics.
-    pub fn of(image: &Image, is_risc_v: bool, address: u64) -> Result<Self> {
-        Self::reached(image, is_risc_v, address, |name| {
-            is_f64(name) || is_panic(name)
-        })
-    }
+/// The largest sum of frames along a chain of calls from the function at an address: no call of it takes more stack.
+///
+/// # Errors
+/// Something in reach calls through a register, calls itself, takes a frame whose size the code does not say, leaves
+/// the known functions, computes in f64, or panics.
+pub fn stack(image: &Image, is_risc_v: bool, address: u64) -> Result<u64> {
+    // The lowest bit says Thumb and is no part of the address.
+    let address = if is_risc_v { address } else { address & !1 };
+    let unwanted = |name: &str| is_f64(name) || is_panic(name);
+    stack_of(image, (is_risc_v, unwanted), address, &mut BTreeMap::new())
+}
 
-    /// From the function at an address, which may compute in f64 and panic.
-    ///
-    /// # Errors
-    /// As [`Self::of`], without those two.
-    pub fn of_start(image: &Image, address: u64) -> Result<Self> {
-        Self::reached(image, !image.is_arm, address, |_| false)
-    }
-
-    fn reached(
-        image: &Image,
-        is_risc_v: bool,
-        address: u64,
-        unwanted: fn(&str) -> bool,
-    ) -> Result<Self> {
-        let mut known = BTreeMap::new();
-        // The lowest bit says Thumb and is no part of the address.
-        let address = if is_risc_v { address } else { address & !1 };
-        let stack = stack_of(image, (is_risc_v, unwanted), address, &mut known)?;
-        let bytes = |index: &usize| image.functions[*index].bytes.len() as u64;
-        Ok(Self {
-            functions: known.len(),
-            code: known.keys().map(bytes).sum(),
-            stack,
-        })
-    }
+/// As [`stack`] for a Cortex-M, of what may compute in f64 and panic.
+///
+/// # Errors
+/// As [`stack`], without those two.
+pub fn stack_of_start(image: &Image, address: u64) -> Result<u64> {
+    stack_of(
+        image,
+        (false, |_| false),
+        address & !1,
+        &mut BTreeMap::new(),
+    )
 }
 
 /// The stack of the function that an address lies in, and of all that it calls.
@@ -122,7 +95,7 @@ fn flow(function: &Function, is_risc_v: bool) -> Result<Flow> {
 
 #[cfg(test)]
 mod tests {
-    use super::Walk;
+    use super::{stack, stack_of_start};
     use crate::kit::elf::{Function, Image};
 
     fn image(functions: &[(&str, u64, &[u16])]) -> Image {
@@ -145,8 +118,7 @@ mod tests {
             ("shallow", 0x1020, SHALLOW),
             ("deep", 0x1040, DEEP),
         ]);
-        let walk = Walk::of(&image, false, 0x1001).expect("a bound");
-        assert_eq!((walk.functions, walk.code, walk.stack), (3, 22, 16 + 64));
+        assert_eq!(stack(&image, false, 0x1001).expect("a bound"), 16 + 64);
     }
 
     #[test]
@@ -169,17 +141,17 @@ mod tests {
             ("__aeabi_dadd", DEEP, "reaches `__aeabi_dadd`"),
             ("_ZN4core9panicking5panicE", DEEP, "panicking"),
         ] {
-            let error = Walk::of(&of(name, code), false, 0x1000)
+            let error = stack(&of(name, code), false, 0x1000)
                 .expect_err(what)
                 .to_string();
             assert!(error.contains(what), "{error}");
         }
         for name in ["__aeabi_d2f", "_ZN4core9panicking5panicE"] {
             let image = of(name, DEEP);
-            assert!(Walk::of_start(&image, 0x1000).is_ok());
-            assert!(Walk::of(&image, false, 0x1000).is_err(), "{name}");
+            assert!(stack_of_start(&image, 0x1000).is_ok());
+            assert!(stack(&image, false, 0x1000).is_err(), "{name}");
         }
-        let error = Walk::of(&image(&[("tick", 0x1000, CALLER)]), false, 0x1000);
+        let error = stack(&image(&[("tick", 0x1000, CALLER)]), false, 0x1000);
         assert!(
             error
                 .expect_err("a gap")

@@ -58,6 +58,7 @@ mod parts;
 pub mod paths;
 pub mod peel;
 pub mod picture;
+mod positive;
 pub mod preconditions;
 pub mod program;
 pub mod roots;

@@ -5,12 +5,13 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 use crate::bound::{Bounder, Enclosure, SineErrors};
-use crate::certificate::{Certificate, Function, Subject};
+use crate::certificate::{Certificate, Subject};
+use crate::digits;
 use crate::error::{Error, Result};
+use crate::function::Function;
 use crate::gappa;
 use crate::image::{Image, hexadecimal};
 use crate::interval::Interval;
-use crate::page;
 use crate::state_box::Robot;
 
 /// A part of the page, between its marks.
@@ -99,7 +100,7 @@ pub fn numbers(page: &str) -> Result<()> {
             let is_observed =
                 |at: &usize| ["worst observed", "found"].contains(head.get(*at).unwrap_or(&""));
             for at in (1..cells.len()).filter(is_observed) {
-                let [bound, observed] = [at - 1, at].map(|at| page::number(cells[at]));
+                let [bound, observed] = [at - 1, at].map(|at| digits::number(cells[at]));
                 if bound.is_none_or(|bound| observed.is_none_or(|observed| bound < observed)) {
                     return Err(Error::Page(format!(
                         "{name}: a bound below what was observed: {row}"

@@ -9,8 +9,8 @@ use dynamics_core::state::State;
 use firmware_demo::robots::FourBarLeg;
 
 use crate::bodies::{Body, Position, inertia_matrix};
-use crate::certificate::Function;
 use crate::error::Result;
+use crate::function::Function;
 use crate::inertias::Links;
 
 /// A function of a robot's model.

@@ -15,7 +15,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::bodies::{Body, Position, inertia_matrix};
 use crate::interval::Interval;
+use crate::parts::{WIDE, somewhere, wide};
 use crate::peel;
+use crate::positive::{Matrix, not_positive};
 use crate::taylor::{SLOPES, Taylor};
 
 /// What was proven of the least eigenvalue.
@@ -194,31 +196,8 @@ pub fn is_above(
     Some(parts)
 }
 
-/// A small part of the box, where no slope is zero by chance.
-pub(crate) fn somewhere(positions: &[Interval]) -> Vec<Interval> {
-    let small = (0..).zip(positions).map(|(k, x)| {
-        let share = 0.3 + 0.4 * (0.618 * f64::from(k)).fract();
-        let middle = x.low + share * (x.high - x.low);
-        let half = 0.01 * (x.high - x.low);
-        Interval::new(middle - half, middle + half)
-    });
-    small.collect()
-}
-
 /// A coordinate is not split if it has less than this share of the widest.
 const NARROW: f64 = 0.2;
-
-/// Of a coordinate wider than that the slope says little.
-pub(crate) const WIDE: f64 = 1.6;
-
-/// The widest of these coordinates, if it is wider than that.
-pub(crate) fn wide(axes: &[usize], part: &[Interval], least: f64) -> Option<usize> {
-    let width = |k: usize| part[k].high - part[k].low;
-    let wide = axes.iter().copied().filter(|k| width(*k) > least);
-    wide.max_by(|a, b| width(*a).total_cmp(&width(*b)))
-}
-
-type Matrix = Vec<Vec<f64>>;
 
 /// M over a part: the centre, slopes and remainders, each by the lower triangle.
 struct Enclosure {
@@ -325,41 +304,6 @@ impl Enclosure {
             not_positive(&mut corner)
         })
     }
-}
-
-/// A direction in which a symmetric matrix, of which the lower triangle is given, may not be positive; none if it is positive definite. What
-/// the matrix was is lost.
-pub(crate) fn not_positive(matrix: &mut Matrix) -> Option<Vec<f64>> {
-    let n = matrix.len();
-    let trace: f64 = (0..n).map(|i| matrix[i][i].abs()).sum();
-    // The factorisation is that of a matrix within γ/(1 − γ) of the trace, γ = (n + 1) 2⁻⁵³ / (1 − (n + 1) 2⁻⁵³).
-    let roundings = 2.0 * (n as f64 + 2.0) * f64::EPSILON * trace + f64::MIN_POSITIVE;
-    for (i, row) in matrix.iter_mut().enumerate() {
-        row[i] -= roundings;
-    }
-    for j in 0..n {
-        for i in j..n {
-            let products = (0..j).map(|k| matrix[i][k] * matrix[j][k]);
-            let x = matrix[i][j] - products.sum::<f64>();
-            matrix[i][j] = match i == j {
-                true if x > 0.0 => x.sqrt(),
-                true => return Some(direction(matrix, j)),
-                false => x / matrix[j][j],
-            };
-        }
-    }
-    None
-}
-
-/// (−A⁻¹ a, 1, 0, …) of the rows before one that a factorisation ended at, and its own row a.
-fn direction(factors: &Matrix, row: usize) -> Vec<f64> {
-    let mut x = vec![0.0; factors.len()];
-    x[row] = 1.0;
-    for i in (0..row).rev() {
-        let known = (i + 1..row).map(|k| factors[k][i] * x[k]);
-        x[i] = (-factors[row][i] - known.sum::<f64>()) / factors[i][i];
-    }
-    x
 }
 
 /// The least eigenvalue of M at a position, scaled as for [`prove`], to about ten digits: by halving.

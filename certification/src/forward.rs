@@ -24,12 +24,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::bodies::{Body, Position, inertia_matrix};
 use crate::bound::{Bounder, Enclosure, SineErrors};
-use crate::certificate::Output;
 use crate::error::{Error, Result};
 use crate::factors::{Factored, Noise};
 use crate::floor::{self, Floor};
 use crate::graph::Graph;
 use crate::inertias::Links;
+use crate::output::Output;
 use crate::search::{Effort, Evaluation, Observed, worst};
 use crate::state_box::Robot;
 

@@ -2,7 +2,7 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`program`], [`image`] | a robot's functions, compiled as firmware is, and read |
+//! | [`program`], [`image`], `function` | a robot's functions, compiled as firmware is, and read |
 //! | `decode`, [`walk`], [`graph`] | from instructions to the expression that they evaluate |
 //! | [`interval`], [`state_box`], [`forms`] | ranges of numbers, inputs and sums |
 //! | [`bound`], [`branch`] | the error over a part of the box, and over the whole |
@@ -10,17 +10,17 @@
 //! | [`sines`], [`roots`] | the errors of sines and of reciprocal roots, by trying every number |
 //! | [`paths`] | that every state of the box takes the path that was followed at a branch |
 //! | [`bodies`], [`taylor`] | the robot's bodies, in numbers and over parts of the box |
-//! | [`limits`]: [`floor`], [`peel`], [`speeds`] | the least eigenvalue of the inertia matrix, and the speeds of the links |
+//! | [`limits`]: [`floor`], [`peel`], `positive`, [`speeds`] | the least eigenvalue of the inertia matrix, and the speeds of the links |
 //! | [`inertias`], `links` | the most that inertias known within some percent change torques |
 //! | [`factors`], [`forward`] | that forward dynamics solves with factors of the inertia matrix, and its error relative to the condition of that |
 //! | [`configurations`] | the errors of other kernels of sines and of other models |
 //! | [`search`] | the worst error that is found |
-//! | [`certificate`], [`page`], [`picture`] | what was proven, as data, text and picture |
+//! | [`certificate`], `output`, [`page`], [`picture`] | what was proven, as data, text and picture |
 //! | [`gappa`], [`check`] | checks of it by others |
 //! | [`cycles`], `flow`, `machine`, `words` | the most cycles of a path, by the cycle meter's model |
 //! | [`stack`] | the most stack |
 //! | [`preconditions`] | what both hold for |
-//! | [`emulation`], [`sheet`], [`narrow`] | the functions in QEMU, a page of all of this, and boxes of one's own |
+//! | [`emulation`], `target`, [`sheet`], [`narrow`] | the functions in QEMU, a page of all of this, and boxes of one's own |
 //! | [`fpcore`] | the expression for other tools |
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -33,6 +33,7 @@ pub mod check;
 pub mod configurations;
 pub mod cycles;
 mod decode;
+mod digits;
 pub mod emulation;
 pub mod error;
 pub mod exact;
@@ -43,6 +44,7 @@ mod flow;
 pub mod forms;
 pub mod forward;
 pub mod fpcore;
+mod function;
 pub mod gappa;
 pub mod graph;
 pub mod grid;
@@ -53,11 +55,13 @@ pub mod limits;
 mod links;
 mod machine;
 pub mod narrow;
+mod output;
 pub mod page;
 mod parts;
 pub mod paths;
 pub mod peel;
 pub mod picture;
+mod positive;
 pub mod preconditions;
 pub mod program;
 pub mod roots;
@@ -67,6 +71,7 @@ pub mod sines;
 pub mod speeds;
 pub mod stack;
 pub mod state_box;
+mod target;
 pub mod taylor;
 pub mod walk;
 mod words;

@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 use serde::{Deserialize, Serialize};
 
 use crate::bodies;
+use crate::digits::short;
 use crate::error::{Error, Result};
 use crate::floor::{self, Floor};
 use crate::image::Image;
 use crate::inertias::{self, Band, Bands};
-use crate::page::short;
 use crate::program::Program;
 use crate::speeds::{self, Speed, Speeds};
 use crate::state_box::Robot;

@@ -17,9 +17,9 @@
 use std::collections::BinaryHeap;
 
 use crate::bodies::{Body, Moves, Position, inertia_matrix};
-use crate::floor::{WIDE, somewhere, wide};
 use crate::interval::Interval;
-use crate::parts::Part;
+use crate::parts::{Part, WIDE, somewhere, wide};
+use crate::positive::not_positive;
 use crate::taylor::{SLOPES, Scalar, Taylor};
 
 /// A robot's bodies with those that stand still on others as parts of them; bodies that stand still on the base are none.
@@ -124,7 +124,7 @@ fn is_positive(inertia: &[f64; 10]) -> bool {
         vec![z, 0.0, -x, xy, yy],
         vec![-y, x, 0.0, xz, yz, zz],
     ];
-    crate::floor::not_positive(&mut matrix).is_none()
+    not_positive(&mut matrix).is_none()
 }
 
 /// D of the last joint.

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use crate::certificate::{Certificate, Function};
+use crate::certificate::Certificate;
+use crate::function::Function;
 
 /// Colours on a light and on a dark page; colour-blind readers can distinguish them.
 const STYLE: &str = "text{font:12px system-ui,Helvetica,Arial,sans-serif;fill:#2d323a}.t{font-size:14px}.p{fill:#fff}.g{stroke:#e4e7eb}.l{stroke:#b4bac4;stroke-width:2}\

@@ -5,8 +5,8 @@ use std::process::Command;
 
 use robot_import::import;
 
-use crate::certificate::Function;
 use crate::error::{Error, Result};
+use crate::function::Function;
 
 /// The robots of the library of which `docs/certificates.md` has certificates, and what the firmware includes for each.
 pub const LIBRARY: [(&str, &str); 5] = [

@@ -9,9 +9,8 @@ use std::collections::BinaryHeap;
 use serde::{Deserialize, Serialize};
 
 use crate::bodies::{Body, Moves, Position, Vector, constant, cross, plus};
-use crate::floor::{WIDE, somewhere, wide};
 use crate::interval::Interval;
-use crate::parts::Part;
+use crate::parts::{Part, WIDE, somewhere, wide};
 use crate::taylor::{SLOPES, Scalar, Taylor};
 
 /// A speed: what is proven, and the greatest that was found.

@@ -2,10 +2,10 @@
 
 use super::{Band, Bands, Chain, Effort, Of};
 use crate::bodies::{Body, Moves, Position};
+use crate::digits::short;
 use crate::error::{Error, Result};
 use crate::interval::Interval;
 use crate::links::{EARTH, Frame, monomials, terms};
-use crate::page::short;
 use crate::peel::welded;
 use crate::state_box::Robot;
 

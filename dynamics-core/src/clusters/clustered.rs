@@ -3,8 +3,8 @@
 use super::places::{TreeCoordinate, TreeLayout};
 use core::marker::PhantomData;
 
+use super::description::{TreeState, sealed::Set};
 use super::layout::{EXPANDED, NONE};
-use super::set::{TreeState, sealed::Set};
 use super::{ClusterError, ClusteredRobot, TreeMotion};
 use crate::algorithms::rnea;
 use crate::effects::{Declared, Effect, OfBodies, no_load_friction};

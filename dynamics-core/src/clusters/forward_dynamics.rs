@@ -5,9 +5,9 @@
 
 use super::aba::ForwardError;
 use super::clustered::{evaluate, sealed::Tree};
+use super::description::sealed::Set;
 use super::layout::NONE;
 use super::places::TreeLayout;
-use super::set::sealed::Set;
 use super::{ClusterError, ClusterProblem, Clustered, ClusteredRobot, TreeMotion};
 use crate::Engine;
 use crate::algorithms::{MATRIX_ROUNDINGS, MassMatrix, NotPositiveDefinite};

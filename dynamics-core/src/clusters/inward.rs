@@ -7,9 +7,9 @@
 
 use super::aba::ForwardError;
 use super::articulated::{Column, Group};
+use super::description::sealed::Set;
 use super::layout::{INDEPENDENT, NONE};
 use super::passes::Passes;
-use super::set::sealed::Set;
 use super::{ClusterError, ClusterProblem, ClusteredRobot};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::{Effect, add_inertia, joint_torque};

@@ -63,6 +63,7 @@ mod inward;
 mod layout;
 mod linkages;
 mod motor_motion;
+mod motor_torques;
 mod motors;
 mod passes;
 mod places;
@@ -73,11 +74,10 @@ mod tree_motion;
 pub use aba::ForwardError;
 pub use cluster::{Cluster, ClusterError, ClusterMotion, ClusterProblem};
 pub use clustered::{Clustered, TreeAlgorithms};
-pub use description::{ClusteredRobot, DEAD_POINT, Driven};
+pub use description::{ClusterSet, ClusteredRobot, DEAD_POINT, Driven};
 pub use linkages::{
     Belt, Branch, Delta, Differential, FiveBar, FourBar, Leg, ParallelAnkle, Rod, Stewart,
 };
-pub use motors::MotorTorques;
-pub use set::ClusterSet;
+pub use motor_torques::MotorTorques;
 pub use status::{ClusteredTorque, Conditioning, NEAR_SINGULAR, NearSingular};
 pub use tree_motion::TreeMotion;

@@ -3,7 +3,7 @@
 //! q_a = γ_a(y), q̇_a = G_a ẏ of the rows a that [`Driven::actuated`](super::Driven::actuated) names.
 
 use super::clustered::evaluate;
-use super::set::sealed::Set;
+use super::description::sealed::Set;
 use super::{ClusterError, Clustered, ClusteredRobot, MotorTorques, TreeAlgorithms, TreeMotion};
 use crate::effects::{Effect, no_load_friction};
 use crate::scalar::Real;

@@ -2,8 +2,8 @@
 
 use core::marker::PhantomData;
 
+use super::description::sealed::Set;
 use super::layout::{Layout, NONE, at, independent};
-use super::set::sealed::Set;
 use super::{Cluster, ClusteredRobot};
 
 /// The layout of a robot's coordinates, with its checks: constants with names, which the compiler evaluates once, and not in

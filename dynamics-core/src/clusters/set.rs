@@ -1,7 +1,8 @@
 //! All clusters of a robot: a tuple.
 
 use super::cluster::{add, add_torque, dot};
-use super::motors::MotorTorques;
+use super::description::{TreeState, sealed};
+use super::motor_torques::MotorTorques;
 use super::places::{ClusterRow, IndependentRow, TreeLayout};
 use super::{Cluster, ClusterError, ClusterMotion, ClusteredRobot, Driven};
 use crate::engine::{Index, for_each_joint};
@@ -9,92 +10,6 @@ use crate::model::JointCoordinate;
 use crate::scalar::Real;
 use crate::state::{State, entry};
 use crate::trig::Kernel;
-
-/// A tuple of clusters: up to eight [`Driven`], of any kinds.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` is not a tuple of clusters",
-    note = "a tuple of up to eight `Driven<C, M, N>` with `C: Cluster<M, N>`, and a comma after a single \
-            one: `(Driven<FourBar, 3, 1>,)`"
-)]
-pub trait ClusterSet: sealed::Set {}
-
-impl<S: sealed::Set> ClusterSet for S {}
-
-/// The state of the spanning tree while it is filled in.
-pub struct TreeState<'a, R, const Q: usize, const V: usize> {
-    pub(super) turns: &'a mut [JointCoordinate<R>; Q],
-    pub(super) state: &'a mut State<R, Q, V>,
-}
-
-pub(super) mod sealed {
-    use super::{ClusterError, MotorTorques, Real, State, TreeState};
-    use crate::clusters::ClusteredRobot;
-    use crate::trig::Kernel;
-    use core::fmt::Debug;
-
-    /// What the algorithms do with all clusters of a robot.
-    pub trait Set: Copy {
-        /// The motions of the clusters.
-        type Motions<R: Real>: Copy + Debug + PartialEq;
-        /// M and N of each.
-        const SIZES: &'static [[usize; 2]];
-
-        /// Evaluates every cluster and fills in the tree's coordinates that it drives.
-        fn evaluate<
-            R: Real,
-            K: Kernel<R>,
-            T: ClusteredRobot<B, Q, V, P, Y, Clusters = Self>,
-            const B: usize,
-            const Q: usize,
-            const V: usize,
-            const P: usize,
-            const Y: usize,
-        >(
-            &self,
-            y: &State<R, P, Y>,
-            tree: &mut TreeState<'_, R, Q, V>,
-        ) -> Result<Self::Motions<R>, ClusterError>;
-
-        /// Gᵀ τ of every cluster.
-        fn torque<
-            R: Real,
-            T: ClusteredRobot<B, Q, V, P, Y, Clusters = Self>,
-            const B: usize,
-            const Q: usize,
-            const V: usize,
-            const P: usize,
-            const Y: usize,
-        >(
-            motions: &Self::Motions<R>,
-            tau: &[R; V],
-            out: &mut [R; Y],
-        );
-
-        /// The torques of the motors, in place of those at y.
-        fn motors<
-            R: Real,
-            T: ClusteredRobot<B, Q, V, P, Y, Clusters = Self>,
-            const B: usize,
-            const Q: usize,
-            const V: usize,
-            const P: usize,
-            const Y: usize,
-        >(
-            &self,
-            motions: &Self::Motions<R>,
-            torques: &mut MotorTorques<R, Y>,
-        ) -> Result<(), ClusterError>;
-
-        /// A row of G and of Ġ ẏ.
-        fn row<R: Real>(motions: &Self::Motions<R>, cluster: usize, row: usize) -> (&[R], R);
-        /// Whether a cluster is at a singularity.
-        fn singular<R: Real>(motions: &Self::Motions<R>, cluster: usize) -> bool;
-        /// The name of a cluster.
-        fn name(&self, cluster: usize) -> &'static str;
-        /// The actuated rows of a cluster.
-        fn actuated(&self, cluster: usize) -> Option<&[usize]>;
-    }
-}
 
 impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
     /// Evaluates the cluster, which is the I-th, and fills in the tree's coordinates that it drives.

@@ -7,7 +7,7 @@
 use core::fmt;
 
 use super::clustered::evaluate;
-use super::set::sealed::Set;
+use super::description::sealed::Set;
 use super::{ClusterError, Clustered, ClusteredRobot, TreeAlgorithms, TreeMotion};
 use crate::effects::{Effect, no_load_friction};
 use crate::scalar::Real;

@@ -3,8 +3,8 @@
 use super::places::{TreeCoordinate, TreeLayout};
 use core::fmt;
 
+use super::description::sealed::Set;
 use super::layout::{EXPANDED, Layout, NONE};
-use super::set::sealed::Set;
 use super::{ClusterError, ClusterProblem, ClusteredRobot};
 use crate::algorithms::MassMatrix;
 use crate::engine::for_each_joint;

@@ -13,10 +13,10 @@
 use core::ops::Add;
 
 use super::compile::{Compiled, CompiledJoint, Joint, JointMotion};
-use super::displacement::Displacement;
+use super::displacement::{Displacement, offset_cross};
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
-use super::folding::{offset_cross, rotate_symmetric_to_parent, rotate_to_parent};
+use super::folding::{rotate_symmetric_to_parent, rotate_to_parent};
 use super::joint_rates::{JointRates, SeveralRates};
 use super::pose::Pose;
 use crate::effects::RegroupedInertia;

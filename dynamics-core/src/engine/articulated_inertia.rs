@@ -10,10 +10,10 @@ use core::ops::Add;
 
 use super::acceleration_field::{Inertia, Wrench};
 use super::compile::{Compiled, Joint, JointMotion};
-use super::displacement::Displacement;
+use super::displacement::{Displacement, cross_offset};
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
-use super::folding::{cross_offset, rotate_matrix_to_parent, rotate_symmetric_to_parent};
+use super::folding::{rotate_matrix_to_parent, rotate_symmetric_to_parent};
 use crate::scalar::Real;
 
 /// The three blocks.

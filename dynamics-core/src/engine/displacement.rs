@@ -4,7 +4,7 @@
 //! sine and a cosine; those of spherical and free joints are the matrix of the unit quaternion.
 
 use super::compile::{Compiled, CompiledJoint, JointMotion};
-use super::folding::{Folded, Mat3, Sym3, Vec3, rotate_to_parent};
+use super::folding::{Folded, Mat3, Sym3, Vec3, constant_offset_cross, rotate_to_parent};
 use crate::model::{JointCoordinate, near_unit, rotation};
 use crate::scalar::{Matrix, Real};
 use crate::trig::Kernel;
@@ -213,6 +213,35 @@ impl<R: Real> Displacement<R> {
             Folded::runtime(self.turn.cos),
         )
     }
+}
+
+/// p × v, p the offset from the origin of joint I's parent to its own.
+#[cfg_attr(optimised, inline(always))]
+pub(crate) fn offset_cross<R: Real, C, const I: usize>(v: Vec3<R>, at: &Displacement<R>) -> Vec3<R>
+where
+    C: Compiled,
+{
+    let mut sum = constant_offset_cross::<R, C, I>(v);
+    if CompiledJoint::<C, I>::SHIFTS {
+        sum = sum + at.shift::<C, I>().cross(v);
+    }
+    sum
+}
+
+/// p × each column.
+#[cfg_attr(optimised, inline(always))]
+pub(crate) fn cross_offset<R: Real, C, const I: usize>(
+    Mat3([x, y, z]): Mat3<R>,
+    at: &Displacement<R>,
+) -> Mat3<R>
+where
+    C: Compiled,
+{
+    Mat3([
+        offset_cross::<R, C, I>(x, at),
+        offset_cross::<R, C, I>(y, at),
+        offset_cross::<R, C, I>(z, at),
+    ])
 }
 
 /// The position of the number `k`.

@@ -7,27 +7,17 @@ use super::compiled::CompiledModes;
 use super::feedforward::correct;
 use super::forward_dynamics::{accelerates, accelerations};
 use super::{
-    FlexibleError, FlexibleInertia, JointsAndModes, ModalFeedforward, Modes, crba,
+    BendingRobot, FlexibleError, FlexibleInertia, JointsAndModes, ModalFeedforward, Modes, crba,
     forward_dynamics, modal_dynamics, rnea,
 };
 use crate::algorithms::MassMatrix;
 use crate::effects::{Bias, Effect, Scene, add_inertia, all_transmitted, no_gyroscopic_rotors};
 use crate::engine::{bending_inertia, bending_torques};
-use crate::model::{Robot, RobotModel, Static};
+use crate::model::{RobotModel, Static};
 use crate::scalar::Real;
 use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 use crate::trig::Kernel;
 use crate::{Core, Engine};
-
-/// A robot whose links bend, known at compile time. One robot may have several tables, of different numbers of modes M.
-///
-/// An example is that of [`Bending`].
-pub trait BendingRobot<const B: usize, const Q: usize, const V: usize, const M: usize>:
-    Robot<B, Q, V>
-{
-    /// The modes of all links.
-    const MODES: Modes<f64, M>;
-}
 
 /// The algorithms of the module for a robot and modes known at compile time: `Bending<Core<T>>` or `Bending<Engine<T>>`.
 ///

@@ -45,12 +45,12 @@ mod shape;
 mod step;
 
 pub use beam::{Beam, Shape};
-pub use bending::{Bending, BendingRobot};
+pub use bending::Bending;
 pub use crba::{FlexibleInertia, crba};
 pub use feedforward::ModalFeedforward;
 pub use forward_dynamics::{FlexibleError, forward_dynamics, modal_dynamics};
 pub use link::{FlexibleLink, MODES_PER_LINK, Mode, ModeError, ModeProblem};
-pub use modes::Modes;
+pub use modes::{BendingRobot, Modes};
 pub use rnea::rnea;
 pub use step::step;
 

@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3, Mat3, Vec3};
 
 use super::link::{FlexibleLink, ModeError, ModeProblem, Rows};
 use crate::math::const_eval::{mul, mul_vec, transpose, vec3};
-use crate::model::{Model, Text};
+use crate::model::{Model, Robot, Text};
 use crate::scalar::Real;
 
 /// The M modes of a robot's links, beside its model: in the order of the links, and of a link in that of its description.
@@ -228,6 +228,16 @@ impl<const M: usize> Modes<f64, M> {
         }
         modes
     }
+}
+
+/// A robot whose links bend, known at compile time. One robot may have several tables, of different numbers of modes M.
+///
+/// An example is that of [`Bending`](super::Bending).
+pub trait BendingRobot<const B: usize, const Q: usize, const V: usize, const M: usize>:
+    Robot<B, Q, V>
+{
+    /// The modes of all links.
+    const MODES: Modes<f64, M>;
 }
 
 const fn problem(link: &'static str, mode: usize, problem: ModeProblem) -> ModeError {

@@ -10,8 +10,7 @@ use heapless::Vec;
 
 use super::Stabilisation;
 use super::chain::{LoopBodies, common_ancestor, inverse};
-use super::description::Loops;
-use super::elimination::NONE;
+use super::description::{Loops, NONE};
 use super::error::LoopError;
 use super::joint_constraint::counts;
 use super::loop_joint::LoopJoint;

@@ -4,15 +4,18 @@ use core::ops::Range;
 
 use glam::DMat3;
 
-use super::elimination::{NONE, SINGULAR, thresholds};
 use super::error::{LoopModelError, LoopProblem};
 use super::joint_constraint::{JointConstraint, MOST, counts};
 use super::loop_frame::{Both, Frame, both, select};
 use super::loop_joint::{BodyFrame, LoopJoint};
 use super::reach;
+use super::thresholds::{SINGULAR, thresholds};
 use crate::model::{BASE, Joint, JointKind, Model};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::{Force, Xform};
+
+/// No coordinate, no loop, no row or no column of K.
+pub(super) const NONE: usize = usize::MAX;
 
 /// The L loops of a robot, which constrain C directions, and its A actuated coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -74,18 +74,20 @@ mod reach;
 mod singular;
 mod stabilisation;
 mod status;
+mod thresholds;
 
 pub use assembly::{Assembly, Moving, assemble};
 pub use constraints::{Constraints, constraints};
 pub use coordinate_map::{CoordinateMap, Drive, coordinate_map};
 pub use description::Loops;
-pub use elimination::{LoopRows, RANK_TOLERANCE, SINGULAR};
+pub use elimination::LoopRows;
 pub use error::{LoopError, LoopModelError, LoopProblem};
 pub use forward_dynamics::{LoopMotion, forward_dynamics};
 pub use inverse_dynamics::{LoopTorque, inverse_dynamics};
 pub use loop_joint::{BodyFrame, LoopJoint};
 pub use stabilisation::{Stabilisation, TIME_CONSTANT};
 pub use status::{Closure, LoopRank, Mobility, OPEN, mobility};
+pub use thresholds::{RANK_TOLERANCE, SINGULAR};
 
 use crate::model::Robot;
 

@@ -12,8 +12,9 @@
 
 use core::iter::once;
 
-use super::description::Loops;
-use super::elimination::{Elimination, NONE, RANK_TOLERANCE, dot, subtract, thresholds};
+use super::description::{Loops, NONE};
+use super::elimination::{Elimination, dot, subtract};
+use super::thresholds::{RANK_TOLERANCE, thresholds};
 use crate::algorithms::shifted_inverse;
 use crate::scalar::Real;
 use crate::state::entry;

@@ -2,7 +2,6 @@
 //! remove the others as well, but in ten times the time.
 
 use crate::engine::compile::{Compiled, CompiledJoint, Joint};
-use crate::engine::displacement::Displacement;
 use crate::engine::folding::Folded;
 use crate::engine::folding::{Mat3, Sym3, Vec3};
 use crate::scalar::Real;
@@ -21,42 +20,14 @@ where
     product::<R, C, ROT, I>(v)
 }
 
-/// p × v, p the offset from the origin of joint I's parent to its own.
-#[cfg_attr(optimised, inline(always))]
-pub(crate) fn offset_cross<R: Real, C, const I: usize>(v: Vec3<R>, at: &Displacement<R>) -> Vec3<R>
-where
-    C: Compiled,
-{
-    let mut sum = constant_offset_cross::<R, C, I>(v);
-    if CompiledJoint::<C, I>::SHIFTS {
-        sum = sum + at.shift::<C, I>().cross(v);
-    }
-    sum
-}
-
-/// The same without the joint's own translation.
+/// p × v, p the offset from the origin of joint I's parent to its own, without the joint's own
+/// translation.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn constant_offset_cross<R: Real, C, const I: usize>(v: Vec3<R>) -> Vec3<R>
 where
     C: Compiled,
 {
     product::<R, C, CROSS, I>(v)
-}
-
-/// p × each column.
-#[cfg_attr(optimised, inline(always))]
-pub(crate) fn cross_offset<R: Real, C, const I: usize>(
-    Mat3([x, y, z]): Mat3<R>,
-    at: &Displacement<R>,
-) -> Mat3<R>
-where
-    C: Compiled,
-{
-    Mat3([
-        offset_cross::<R, C, I>(x, at),
-        offset_cross::<R, C, I>(y, at),
-        offset_cross::<R, C, I>(z, at),
-    ])
 }
 
 /// R M Rᵀ of joint I.

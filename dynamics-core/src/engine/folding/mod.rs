@@ -7,8 +7,7 @@ mod series;
 
 pub(crate) use folded::Folded;
 pub(crate) use joint_products::{
-    constant_offset_cross, cross_offset, offset_cross, rotate_matrix_to_parent,
-    rotate_symmetric_to_parent, rotate_to_parent,
+    constant_offset_cross, rotate_matrix_to_parent, rotate_symmetric_to_parent, rotate_to_parent,
 };
 pub(crate) use linalg::{Mat3, Sym3, Vec3};
 pub(crate) use series::{Series, Turn};

@@ -95,8 +95,8 @@ impl Positions<'_> {
         }
     }
 
-    /// The rows of an argument with all angles in the range, if that changes one; `joint_of` names the joint of a velocity
-    /// coordinate.
+    /// The rows of an argument with all angles in the range, if that changes one; `joint_of` names
+    /// the joint of a velocity coordinate.
     pub fn in_range<'r, R: Scalar>(
         &self,
         py: Python<'_>,

@@ -29,7 +29,8 @@ const INTEGRATORS: [(&str, &str, RGBColor, u32); 5] = [
 /// Cycles of a second at 168 MHz: a simulation right of it is slower than what it simulates.
 const REAL_TIME: f64 = 168e6;
 
-/// The pictures of the part of the page about a robot's torques, or about the simulations: file and SVG.
+/// The pictures of the part of the page about a robot's torques, or about the simulations: file and
+/// SVG.
 pub fn pictures(points: &[Point], host: &Host, robot: Robot) -> Result<Vec<(String, String)>> {
     let file = format!("docs/{}", page_of(robot).name);
     if robot == Robot::DoublePendulum {

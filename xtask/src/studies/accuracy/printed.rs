@@ -69,8 +69,8 @@ fn wrapped(point: &Point, way: &str, code: &str, joints: &str) -> String {
     code::filled(template, &values)
 }
 
-/// Fails unless all generated code reproduces the figures of the points that it was chosen for, errors to the bit; else says how
-/// much that is.
+/// Fails unless all generated code reproduces the figures of the points that it was chosen for,
+/// errors to the bit; else says how much that is.
 pub fn check(all: &[Point], single: &[Point]) -> Result<usize> {
     let mut different = Vec::new();
     let name = |point: &Point| format!("{} {}", point.robot, point.key);

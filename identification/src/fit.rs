@@ -11,9 +11,9 @@ use dynamics_core::model::RobotModel;
 use dynamics_core::state::State;
 use nalgebra::DMatrix;
 
-use crate::batch::Solved;
 use crate::physical::most_probable;
 use crate::reduced::{Filters, Reduced};
+use crate::solved::Solved;
 use crate::{BaseModel, IdentificationError, PhysicalSet, TickRecording};
 
 /// Passes over the weights, and over the friction of gears, whose columns depend on the estimate.

@@ -69,6 +69,7 @@ mod physical;
 mod recording;
 mod reduced;
 mod search;
+mod solved;
 mod ticks;
 
 pub use base::BaseModel;

@@ -1,6 +1,6 @@
 //! The noise of the projected torques of each joint, from the residuals of least squares.
 
-use crate::batch::Solved;
+use crate::solved::Solved;
 
 /// The least noise relative to a joint's torque: without any, as of a simulation, weights are finite.
 const LEAST: f64 = 1e-9;

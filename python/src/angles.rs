@@ -3,11 +3,10 @@
 
 use dynamics_core::model::JointKind;
 use pyo3::prelude::*;
+use robot_dynamics_kernels::Scalar;
 use robot_dynamics_kernels::spec::Spec;
 
-use crate::compute::Numbers;
 use crate::error::Exception;
-use crate::robot::Robot;
 
 /// The range of the engine in f32 for joints whose limits are within two turns, rad:
 /// `Link::angle_range`.
@@ -96,11 +95,12 @@ impl Positions<'_> {
         }
     }
 
-    /// The rows of an argument with all angles in the range, if that changes one.
-    pub fn in_range<R: Numbers>(
+    /// The rows of an argument with all angles in the range, if that changes one; `joint_of` names
+    /// the joint of a velocity coordinate.
+    pub fn in_range<'r, R: Scalar>(
         &self,
         py: Python<'_>,
-        robot: &Robot,
+        joint_of: impl Fn(usize) -> &'r str,
         (data, width): (&[R], usize),
         engine: bool,
         effects: &[Spec],
@@ -123,7 +123,7 @@ impl Positions<'_> {
             };
             let column = || data.iter().skip(position.column).step_by(width).enumerate();
             let refused = |row: usize, angle: R, reason: String| {
-                let (joint, angle) = (robot.joint_of(position.coordinate), angle.to_f64());
+                let (joint, angle) = (joint_of(position.coordinate), angle.to_f64());
                 let text = format!(
                     "joint `{joint}` is at {angle} rad, and sines are computed to {most} rad: {reason} (state {row})"
                 );

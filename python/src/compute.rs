@@ -2,14 +2,16 @@
 
 use numpy::{Element, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
-use robot_dynamics_engines::{InEngine, Scene};
+use robot_dynamics_engines::InEngine;
 use robot_dynamics_kernels::job::{Input, Job, Output};
 use robot_dynamics_kernels::model::Models;
-use robot_dynamics_kernels::spec::{BodyRef, Spec, fit};
-use robot_dynamics_kernels::{Scalar, Setting, Which};
+use robot_dynamics_kernels::spec::{BodyRef, fit};
+use robot_dynamics_kernels::{Scalar, Setting};
 
-use crate::arrays::{Argument, Dtype, array, dtype, leading};
-use crate::error::{Exception, of_failure};
+use crate::arrays::{Dtype, array, dtype, leading};
+use crate::error::Exception;
+use crate::failure::of_failure;
+use crate::request::{By, Request};
 use crate::robot::Robot;
 
 /// A scalar with numpy's arrays.
@@ -28,30 +30,6 @@ impl Numbers for f64 {
     fn of(robot: &Robot) -> &Models<Self> {
         &robot.double
     }
-}
-
-/// What computes the rows.
-#[derive(Clone, Copy)]
-pub enum By<'a> {
-    /// An algorithm over the robot's model.
-    Model(Which<'a>),
-    /// The engine of a robot of the library.
-    Engine(Scene),
-}
-
-impl<'a> From<Which<'a>> for By<'a> {
-    fn from(which: Which<'a>) -> Self {
-        Self::Model(which)
-    }
-}
-
-/// A call: the effects, the arguments, and the shape of a row of each result.
-pub struct Request<'a, 'py> {
-    pub effects: &'a [Spec],
-    pub arguments: &'a [Argument<'a, 'py>],
-    pub results: &'a [&'a [usize]],
-    /// The names of a machine's loops or linkages, which the library knows by their numbers.
-    pub names: &'a [String],
 }
 
 /// Batches of fewer states are computed with Python's lock, which takes longer to release.
@@ -103,7 +81,7 @@ impl Robot {
             .map(|(array, argument)| match &argument.positions {
                 Some(positions) => {
                     let data = (array.as_slice()?, argument.width());
-                    positions.in_range(py, self, data, engine, request.effects)
+                    positions.in_range(py, |at| self.joint_of(at), data, engine, request.effects)
                 }
                 None => Ok(None),
             })

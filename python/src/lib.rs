@@ -6,10 +6,12 @@ mod compute;
 mod costs;
 mod effects;
 mod error;
+mod failure;
 mod flexible;
 mod library;
 mod linkages;
 mod loops;
+mod request;
 mod robot;
 
 use pyo3::prelude::*;

@@ -13,10 +13,10 @@ use robot_dynamics_kernels::spec::Spec;
 
 use crate::angles::{Position, Positions, Use};
 use crate::arrays::Argument;
-use crate::compute::Request;
 use crate::effects::given as effects_of;
 use crate::error::{Exception, wanted};
 use crate::loops::whole;
+use crate::request::Request;
 use crate::robot::{Array, Robot, argument};
 
 /// A linkage whose coordinates are a function of fewer independent ones, such as `FourBar(...)`.

@@ -12,9 +12,9 @@ use robot_import::number::Attitude;
 
 use crate::angles::Use;
 use crate::arrays::Argument;
-use crate::compute::Request;
 use crate::effects::given as effects_of;
 use crate::error::{Exception, wanted};
+use crate::request::Request;
 use crate::robot::{Array, Robot, argument};
 
 /// A joint that closes a loop: its name, its kind, the two bodies by name or number, None being the base, the frames on

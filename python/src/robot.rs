@@ -22,10 +22,10 @@ use robot_import::tree::{Numbers, Tree};
 
 use crate::angles::{self, Position, Positions, Use};
 use crate::arrays::Argument;
-use crate::compute::{By, Request};
 use crate::costs::{self, Cost};
 use crate::error::{Exception, of_import, of_model, wanted};
 use crate::library;
+use crate::request::{By, Request};
 use robot_dynamics_engines::{InEngine, Scene as EngineScene};
 use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::model::{Bodies, Counts, Models};

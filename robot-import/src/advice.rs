@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::check::Checked;
 use crate::description::{Description, Format, Joint, Kind};
 use crate::inertia::MassProperties;
+pub use crate::physical::TOLERANCE;
 use crate::physical::{impossible, sentence};
 use crate::selection::{Role, Selected};
 use crate::tree::{Body, Tree};
@@ -54,9 +55,6 @@ pub struct Advice {
     /// A sentence with the reason.
     pub text: String,
 }
-
-/// By how much a principal moment may exceed the sum of the others: the rounding of a file's digits.
-pub const TOLERANCE: f64 = 1e-3;
 
 /// The radius of gyration, m, beyond which an inertia is a placeholder or in another unit.
 pub const FAR_GYRATION: f64 = 2.0;

@@ -34,6 +34,7 @@ pub mod plausible;
 mod print;
 pub mod project;
 pub mod report;
+mod rows;
 pub mod selection;
 pub mod snap;
 pub mod source;

@@ -10,12 +10,12 @@ use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, ModelError};
 use dynamics_core::state::State;
 
-use crate::check::energy::{Rows, rows};
 use crate::description::{Kind, Pose, shortened};
 use crate::error::{Problem, Result};
 use crate::limits::MOST_COORDINATES;
 use crate::loops::Closed;
 use crate::number::Attitude;
+use crate::rows::{Rows, rows};
 use crate::tree::{self, Tree};
 
 /// A state: q, q̇ and q̈.

@@ -4,6 +4,9 @@
 
 use dynamics_core::model::ImpossibleInertia;
 
+/// By how much a principal moment may exceed the sum of the others: the rounding of a file's digits.
+pub const TOLERANCE: f64 = 1e-3;
+
 /// The defect of an inertia about the centre of mass, if it exceeds `tolerance` of its largest moment.
 pub fn impossible(inertia: [f64; 6], tolerance: f64) -> Option<ImpossibleInertia> {
     ImpossibleInertia::of(inertia, tolerance)

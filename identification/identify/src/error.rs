@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use identification::IdentificationError;
 use robot_import::error::ImportError;
 
+use crate::mistake::Mistake;
+
 /// The result of anything here that reads a file.
 pub type Result<T> = std::result::Result<T, Error>;
 
@@ -86,10 +88,7 @@ pub enum Error {
     },
     /// The recording has a mistake, for which no possible robot fits it.
     #[error("{}: {mistake}. Nothing is offered to paste: correct the recording and identify again", path.display())]
-    Mistake {
-        path: PathBuf,
-        mistake: crate::mistakes::Mistake,
-    },
+    Mistake { path: PathBuf, mistake: Mistake },
     /// JSON of what was found.
     #[error("the report is no JSON: {0}")]
     Json(#[from] serde_json::Error),

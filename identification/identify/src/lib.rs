@@ -10,8 +10,10 @@
 //! | [`picture`] | the torques by time |
 //! | [`paste`] | the robot's Rust file and its initialisers in C with what was found |
 
+mod attempt;
 mod delay;
 pub mod error;
+mod mistake;
 pub mod mistakes;
 pub mod paste;
 pub mod picture;

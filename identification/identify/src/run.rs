@@ -1,68 +1,21 @@
 //! The fit of a recording, its comparison with held-out ticks, and the physical set.
 
-use std::f64::consts::PI;
 use std::path::Path;
 
-use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY, Width};
-use dynamics_core::model::{ArmModel, BodyInertia};
+use dynamics_core::model::BodyInertia;
 use dynamics_core::spatial::SpatialInertia;
-use identification::{
-    BaseModel, Comparison, ExcitationLimits, Fit, Fitted, IdentificationError, OfJoint, Parameter,
-    PhysicalSet, TickRecording,
-};
+use identification::{Comparison, IdentificationError, OfJoint, TickRecording};
 
+use crate::attempt::{Attempt, Task, own, possible};
+pub use crate::attempt::{JointEffect, Options};
 use crate::error::{Error, Result};
+use crate::mistakes;
 use crate::recorded::Recorded;
 use crate::report::{BodyFound, Found, Gear, JointFound, Numbers, ParameterFound, Part, Trace};
 use crate::robot::Robot;
-use crate::{delay, mistakes};
 
-/// How far the numbers of a description are believed: a relative standard deviation.
-const BELIEVED: f64 = 0.3;
-/// The range of a joint without limits, rad, and the least speed and acceleration that are compared, rad/s and rad/s².
-const TURN: f64 = PI;
-const SLOWEST: f64 = 0.2;
-const SLOWEST_RATE: f64 = 1.0;
-/// A joint that moves less rests, rad or m.
-const RESTS: f64 = 1e-3;
-/// By how much a joint may be beyond its limits, rad or m.
-const BEYOND: f64 = 0.2;
-/// An offset is shown by the recording from so many deviations on,
-const SHOWN: f64 = 4.0;
-/// and from this share of the joint's largest torque on.
-const LEAST_OFFSET: f64 = 0.01;
 /// The most points of a trace.
 const POINTS: usize = 800;
-
-/// What is identified of joints, and how.
-#[derive(Clone, Debug)]
-pub struct Options {
-    pub effects: Vec<JointEffect>,
-    /// The width of the smooth sign of Coulomb friction, rad/s or m/s.
-    pub width: f64,
-    /// The frequency up to which torques are compared, Hz.
-    pub cutoff: f64,
-    /// The share of the ticks that is held out, where there is no other recording.
-    pub hold_out: f64,
-}
-
-/// An effect at joints.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum JointEffect {
-    /// Viscous friction
-    Viscous,
-    /// Coulomb friction
-    Coulomb,
-    /// Inertia of the rotors
-    Armature,
-    /// Friction of gears that grows with the torque
-    Load,
-    /// A constant torque
-    Offset,
-}
-
-pub(crate) type Base<const V: usize> =
-    BaseModel<ArmModel<f64, V>, (Gravity, Inertia, Coriolis), V, V>;
 
 /// The parameters of a robot by a recording; the other recording is of another path.
 ///
@@ -104,113 +57,6 @@ pub fn identify(
         };
     }
     sized!(1 2 3 4 5 6 7 8 9 10 11 12)
-}
-
-/// What a recording and the time of its torques give.
-pub(crate) struct Attempt<const V: usize> {
-    pub arm: Base<V>,
-    pub joints: [OfOneJoint; V],
-    pub nominal: Vec<f64>,
-    pub known: Vec<bool>,
-    pub fit: Fit,
-    pub found: Fitted<V>,
-    pub set: PhysicalSet<V, V>,
-    /// The mean squares of what the set leaves of the torques, relative to the joints' largest torques, summed.
-    pub residual: f64,
-}
-
-/// Viscous and Coulomb friction, armature and offset of a joint.
-type OfOneJoint = [f64; 4];
-
-/// A robot, the file of its recording, and what is identified.
-pub(crate) struct Task<'a> {
-    pub robot: &'a Robot,
-    pub path: &'a Path,
-    pub options: &'a Options,
-}
-
-impl Task<'_> {
-    fn failed(&self, source: IdentificationError) -> Error {
-        let path = self.path.to_owned();
-        Error::Identification { path, source }
-    }
-
-    /// The fit of a part of a recording, with torques so long after the positions, s; estimated if not given.
-    pub fn attempt<const V: usize>(
-        &self,
-        whole: &TickRecording<V>,
-        part: &TickRecording<V>,
-        delay: Option<f64>,
-    ) -> Result<Attempt<V>> {
-        let options = self.options;
-        let (model, bodies, joints) = self.robot.model::<V>()?;
-        let limits = limits(self.robot, self.path, whole)?;
-        let largest = limits.torque;
-        let arm = Base::<V>::new(model, RIGID_BODY, Width::new(options.width), limits);
-        let nominal = arm.of_all(&bodies, &joints);
-        let known = known(&arm, &options.effects);
-        let mut fit = Fit {
-            cutoff: options.cutoff,
-            ..Fit::new(part.tick())
-        };
-        let gears = options.effects.contains(&JointEffect::Load);
-        let gears = gears.then_some([[0.0; 2]; V]);
-        let run = |fit: &Fit| fit.identify(&arm, part, &nominal, &known, gears);
-        let found = match delay {
-            Some(delay) => {
-                fit.delay = delay;
-                run(&fit)
-            }
-            None => delay::least(&mut fit, &largest, run),
-        }
-        .map_err(|source| self.failed(source))?;
-        let believed = believed(&arm, &found, &nominal, &joints, &options.effects);
-        let mut set = found
-            .physical(&arm, &bodies, &believed, BELIEVED)
-            .map_err(|source| self.failed(source))?;
-        for (j, joint) in set.joints.iter_mut().enumerate() {
-            let own = own(&arm, j, OfJoint::Offset).filter(|&base| !known[base]);
-            let is_shown = own.is_some_and(|base| {
-                found.base[base].abs() > SHOWN * found.deviations[base]
-                    && found.base[base].abs() > LEAST_OFFSET * largest[j]
-            });
-            if !is_shown {
-                joint[3] = 0.0;
-            }
-        }
-        let after = arm.of_all(&set.bodies, &set.joints);
-        let compared = fit
-            .compare(&arm, part, &[(&after[..], possible(&found))])
-            .map_err(|source| self.failed(source))?;
-        let pairs = compared.measured.iter().zip(&compared.modelled[0]);
-        let square = |(measured, modelled): (&[f64; V], &[f64; V])| -> f64 {
-            let share = |j: usize| ((measured[j] - modelled[j]) / largest[j]).powi(2);
-            (0..V).map(share).sum()
-        };
-        let residual = pairs.map(square).sum::<f64>() / compared.measured.len() as f64;
-        Ok(Attempt {
-            arm,
-            joints,
-            nominal,
-            known,
-            fit,
-            found,
-            set,
-            residual,
-        })
-    }
-}
-
-/// The friction of the gears that a gear can have.
-fn possible<const V: usize>(found: &Fitted<V>) -> Option<[[f64; 2]; V]> {
-    let gears = found.gears?;
-    Some(gears.map(|[mu, _]| mu.map(|mu| mu.clamp(0.0, 0.95))))
-}
-
-/// The base parameter that is this parameter of a joint.
-pub(crate) fn own<const V: usize>(arm: &Base<V>, joint: usize, of: OfJoint) -> Option<usize> {
-    let parameter = Parameter::Joint { joint, of };
-    (0..arm.len()).find(|&base| arm.terms(base)[0].1 == parameter)
 }
 
 fn of_size<const V: usize>(
@@ -317,113 +163,6 @@ fn of_size<const V: usize>(
         bodies: (0..V).map(of_body).collect(),
         traces: traces(&names, validated.as_ref().unwrap_or(&own_part)),
     })
-}
-
-/// The limits within which the motion is compared with random ones: positions of the description, the speeds of the recording.
-fn limits<const V: usize>(
-    robot: &Robot,
-    path: &Path,
-    recording: &TickRecording<V>,
-) -> Result<ExcitationLimits<V>> {
-    let mut limits = ExcitationLimits {
-        lower: [-TURN; V],
-        upper: [TURN; V],
-        velocity: [SLOWEST; V],
-        acceleration: [SLOWEST_RATE; V],
-        torque: [0.0; V],
-    };
-    let extremes = recording.extremes();
-    if extremes.iter().all(|[low, high, _]| high - low < RESTS) {
-        let path = path.to_owned();
-        return Err(Error::AtRest { path });
-    }
-    let largest = extremes
-        .iter()
-        .fold(1e-6, |most: f64, [.., tau]| most.max(*tau));
-    for (j, [low, high, torque]) in extremes.into_iter().enumerate() {
-        let body = &robot.imported.tree.bodies[j];
-        if let Some([lower, upper]) = body.limits.position.filter(|[a, b]| a < b) {
-            for position in [low, high] {
-                if position < lower - BEYOND || position > upper + BEYOND {
-                    return Err(Error::Outside {
-                        recording: path.to_owned(),
-                        robot: robot.path.clone(),
-                        joint: j,
-                        name: body.joint.clone(),
-                        position,
-                        lower,
-                        upper,
-                    });
-                }
-            }
-            (limits.lower[j], limits.upper[j]) = (lower.max(-TURN), upper.min(TURN));
-        }
-        if limits.lower[j] >= limits.upper[j] {
-            (limits.lower[j], limits.upper[j]) = (low - SLOWEST, high + SLOWEST);
-        }
-        limits.torque[j] = (1.2 * torque).max(0.01 * largest);
-    }
-    let [speeds, rates] = recording.rates();
-    for j in 0..V {
-        limits.velocity[j] = speeds[j].max(SLOWEST);
-        limits.acceleration[j] = rates[j].max(SLOWEST_RATE);
-    }
-    Ok(limits)
-}
-
-/// Which base parameters are those of the description: effects that are not identified.
-fn known<const V: usize>(arm: &Base<V>, effects: &[JointEffect]) -> Vec<bool> {
-    let is_left_out = |(_, parameter): &(f64, Parameter)| match parameter {
-        Parameter::Body { .. } => false,
-        Parameter::Joint { of, .. } => !effects.contains(&match of {
-            OfJoint::Viscous => JointEffect::Viscous,
-            OfJoint::Coulomb => JointEffect::Coulomb,
-            OfJoint::Armature => JointEffect::Armature,
-            OfJoint::Offset => JointEffect::Offset,
-        }),
-    };
-    let all = 0..arm.len();
-    all.map(|base| arm.terms(base).iter().all(is_left_out))
-        .collect()
-}
-
-/// The parameters of the joints around which the physical set is looked for: of an effect that the description lacks, the estimate.
-fn believed<const V: usize>(
-    arm: &Base<V>,
-    found: &Fitted<V>,
-    nominal: &[f64],
-    joints: &[[f64; 4]; V],
-    effects: &[JointEffect],
-) -> [[f64; 4]; V] {
-    let mut believed = *joints;
-    let kinds = [
-        (OfJoint::Viscous, JointEffect::Viscous),
-        (OfJoint::Coulomb, JointEffect::Coulomb),
-        (OfJoint::Armature, JointEffect::Armature),
-    ];
-    let is_wanted = |of| {
-        kinds
-            .iter()
-            .any(|(one, effect)| *one == of && effects.contains(effect))
-    };
-    for (base, nominal) in nominal.iter().enumerate() {
-        for (factor, parameter) in arm.terms(base) {
-            let Parameter::Joint { joint, of } = parameter else {
-                continue;
-            };
-            // What the motion adds to the description, also to the sum of an armature and inertias.
-            let more = (found.base[base] - nominal) / factor;
-            let place = &mut believed[joint][of as usize];
-            // One that the recording does not distinguish from none stays none.
-            if is_wanted(of)
-                && *place == 0.0
-                && more > 2.0 * (found.deviations[base] / factor).abs()
-            {
-                *place = more;
-            }
-        }
-    }
-    believed
 }
 
 /// The residuals of a joint.

@@ -3,44 +3,9 @@
 use dynamics_core::model::RobotModel;
 use dynamics_core::scalar::Real;
 
-use crate::algorithms::Algorithm;
-use crate::job::{Failure, Job, One, Row};
-use crate::model::Counts;
-use crate::scene::Parts;
+use crate::algorithm::{Algorithm, Call, Done, Terms};
+use crate::job::{Failure, Row, Rows};
 use crate::spec::Spec;
-
-/// Nothing, or where it cannot be computed.
-pub type Done = Result<(), Failure>;
-
-/// Rows that are computed one after the other.
-pub trait Rows<R> {
-    /// How many there are.
-    fn count(&self) -> usize;
-    /// One of them.
-    fn at(&mut self, row: usize) -> impl Row<R>;
-}
-
-impl<R: Real> Rows<R> for Job<'_, R> {
-    fn count(&self) -> usize {
-        self.rows
-    }
-
-    #[inline(always)]
-    fn at(&mut self, row: usize) -> impl Row<R> {
-        One { job: self, row }
-    }
-}
-
-/// The terms of a scene.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Terms {
-    /// Products of accelerations.
-    pub inertia: bool,
-    /// Products of velocities.
-    pub coriolis: bool,
-    /// Effects at bodies, at the base or in gears.
-    pub extra: bool,
-}
 
 /// Those of the effects.
 pub fn terms_of(effects: &[Spec]) -> Terms {
@@ -53,20 +18,6 @@ pub fn terms_of(effects: &[Spec]) -> Terms {
         }
     }
     terms
-}
-
-/// A call of an algorithm for a robot of a type.
-pub struct Call<'a, D, P, R: Real, const V: usize> {
-    /// The robot.
-    pub robot: &'a D,
-    /// Its sizes.
-    pub counts: Counts,
-    /// The scene.
-    pub terms: Terms,
-    /// The scene's effects.
-    pub parts: &'a Parts<R, V>,
-    /// The rows.
-    pub rows: &'a mut P,
 }
 
 /// Computes the rows one after the other. One that has no result because an argument is not finite

@@ -121,6 +121,25 @@ pub trait Row<R> {
     }
 }
 
+/// Rows that are computed one after the other.
+pub trait Rows<R> {
+    /// How many there are.
+    fn count(&self) -> usize;
+    /// One of them.
+    fn at(&mut self, row: usize) -> impl Row<R>;
+}
+
+impl<R: Real> Rows<R> for Job<'_, R> {
+    fn count(&self) -> usize {
+        self.rows
+    }
+
+    #[inline(always)]
+    fn at(&mut self, row: usize) -> impl Row<R> {
+        One { job: self, row }
+    }
+}
+
 /// One row of a job.
 pub struct One<'j, 'a, R> {
     /// The job.

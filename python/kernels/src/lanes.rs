@@ -14,8 +14,7 @@ use dynamics_core::scalar::{Matrix, Real, Vector, sealed};
 use dynamics_core::spatial::{SpatialInertia, Xform};
 use wide::f32x8;
 
-use crate::dispatch::Rows;
-use crate::job::{Job, Row};
+use crate::job::{Job, Row, Rows};
 
 /// How many states are computed at once.
 pub const LANES: usize = 8;

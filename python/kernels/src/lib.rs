@@ -3,6 +3,7 @@
 //! All machine code of the algorithms is in this crate, which compiles in minutes; the extension module beside it, which
 //! knows Python, compiles in seconds.
 
+mod algorithm;
 mod algorithms;
 mod dispatch;
 pub mod flexible;
@@ -20,8 +21,7 @@ use dynamics_core::scalar::Real;
 
 pub use algorithms::AnyFrame;
 
-use algorithms::Algorithm;
-use dispatch::{Call, Terms};
+use algorithm::{Algorithm, Call, Terms};
 use flexible::AnyModes;
 use job::{Failure, Job};
 use lanes::{Blocks, LANES, Lanes};

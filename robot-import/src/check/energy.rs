@@ -12,6 +12,7 @@ use dynamics_core::glam::DVec3;
 use super::dual::{Dual, Number};
 use crate::description::{Description, Inertial, Joint, Kind, Pose};
 use crate::inertia::{MassProperties, matrix};
+pub use crate::rows::{Rows, rows};
 use crate::selection::{Role, Selected};
 
 /// g of [`dynamics_core::effects::Gravity::EARTH`], m/s².
@@ -24,9 +25,6 @@ pub const BALL: [usize; 3] = [2, 1, 0];
 pub const PLANE: [usize; 3] = [3, 4, 2];
 /// Of a free joint.
 pub const FREE: [usize; 6] = [3, 4, 5, 2, 1, 0];
-
-/// A pose: the upper three rows of a 4 × 4 matrix.
-pub type Rows<T> = [[T; 4]; 3];
 
 /// ∫ r rᵀ dm about the link's origin, m c and m.
 type Moments = ([[f64; 3]; 3], [f64; 3], f64);
@@ -298,16 +296,6 @@ fn product_of_parts<T: Number>(a: &Rows<T>, b: &Rows<T>, is_pose: bool) -> Rows<
         }
     }
     out
-}
-
-/// A pose as rows.
-pub fn rows(pose: &Pose) -> Rows<f64> {
-    std::array::from_fn(|i| {
-        std::array::from_fn(|k| match k {
-            3 => pose.position[i],
-            _ => pose.rotation.col(k)[i],
-        })
-    })
 }
 
 /// A pose followed by the placement of a joint, as the file gives it.

@@ -5,6 +5,7 @@
 //! robot does not have are left out.
 
 mod board;
+mod choice;
 mod error;
 mod feedback;
 mod libraries;

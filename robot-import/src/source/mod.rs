@@ -3,6 +3,7 @@
 mod encoding;
 mod extensions;
 mod limits;
+mod lines;
 mod mjcf;
 mod plain;
 mod tolerant;

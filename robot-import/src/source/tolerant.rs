@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
-use super::xml::Lines;
+use super::lines::Lines;
 use crate::error::{ImportError, Problem, Result};
 use crate::limits::{MOST_ATTRIBUTES, MOST_DEPTH, MOST_PREFIXES, MOST_TOLERATED};
 

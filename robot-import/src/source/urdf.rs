@@ -2,6 +2,7 @@
 
 use roxmltree::Node;
 
+use super::lines::Lines;
 use super::xml::{self, child, children, number, numbers, required};
 use super::{extensions, xacro};
 use crate::description::{
@@ -52,7 +53,7 @@ pub fn read(root: Node<'_, '_>) -> Result<Description> {
         files: Vec::new(),
     };
     // So far offsets.
-    let lines = xml::Lines::of(root.document().input_text());
+    let lines = Lines::of(root.document().input_text());
     let of_links = robot.links.iter_mut().map(|link| &mut link.line);
     let of_joints = robot.joints.iter_mut().map(|joint| &mut joint.line);
     for line in of_links.chain(of_joints) {

@@ -2,6 +2,7 @@
 
 use roxmltree::Node;
 
+use super::lines::Lines;
 use super::xml::{self, children};
 use crate::description::shortened;
 use crate::error::{ImportError, Problem, Result};
@@ -83,7 +84,7 @@ fn is_text(text: &str) -> bool {
 /// The elements that are none of URDF, such as calls of macros without a prefix, and texts of xacro in what is not read; a
 /// sentence each.
 pub fn left_out(root: Node<'_, '_>) -> Vec<String> {
-    let lines = xml::Lines::of(root.document().input_text());
+    let lines = Lines::of(root.document().input_text());
     let line = |node| lines.line(xml::offset(node));
     let mut notes = Vec::new();
     for node in root.children().filter(Node::is_element) {

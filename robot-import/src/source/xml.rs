@@ -2,6 +2,7 @@
 
 use roxmltree::{Document, Node, ParsingOptions};
 
+pub use super::lines::Lines;
 use super::tolerant::Tolerant;
 use crate::description::shortened;
 use crate::error::{ImportError, Problem, Result};
@@ -70,26 +71,6 @@ pub fn tag<'a>(node: Node<'a, '_>) -> &'a str {
 /// Where an element starts, in bytes: a search for its line would take as long as the file is.
 pub fn offset(node: Node<'_, '_>) -> u32 {
     node.range().start as u32
-}
-
-/// The lines of offsets, from 1.
-pub struct Lines(Vec<u32>);
-
-impl Lines {
-    /// Of a text.
-    pub fn of(text: &str) -> Self {
-        let ends = text.bytes().enumerate();
-        Self(
-            ends.filter(|(_, byte)| *byte == b'\n')
-                .map(|(i, _)| i as u32)
-                .collect(),
-        )
-    }
-
-    /// The line of an offset.
-    pub fn line(&self, offset: u32) -> u32 {
-        self.0.partition_point(|end| *end < offset) as u32 + 1
-    }
 }
 
 /// An error at an element.

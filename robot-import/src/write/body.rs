@@ -2,10 +2,9 @@
 
 use std::fmt::Write as _;
 
-use crate::advice::TOLERANCE;
 use crate::description::Kind;
 use crate::number::{Attitude, angle, literal};
-use crate::physical::impossible;
+use crate::physical::{TOLERANCE, impossible};
 use crate::text::string_literal;
 use crate::tree::Body;
 

@@ -12,8 +12,7 @@ pub use body::placed;
 pub use names::{given_type_name, renamed, type_name, type_of};
 pub use rustfmt::formatted;
 
-use crate::advice::TOLERANCE;
-use crate::physical::{impossible, sentence};
+use crate::physical::{TOLERANCE, impossible, sentence};
 use crate::text::{code_span, doc_name, doc_sentence, string_literal, visible};
 use crate::tree::{Body, Tree};
 

@@ -14,6 +14,13 @@ const RECORD: &str = "decisions/0002-bars.md";
 /// names.
 pub const OTHER_RUSTC: f64 = 0.03;
 
+/// The end of the name of a scene's bar.
+pub const TICK: &str = " tick";
+/// The end of the name of a bar of what effects add to a rigid body's call.
+pub const ADDED: &str = " added";
+/// The end of the name of a bar of a board's image.
+pub const IMAGE: &str = " image";
+
 /// The bars, by the name of a row or of a pair of rows.
 pub type Bars = BTreeMap<String, Bar>;
 

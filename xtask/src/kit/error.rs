@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::{Command, ExitStatus};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::kit::shell;
+use crate::kit::display::display;
 
 /// Whether every error of a program names it.
 pub static VERBOSE: AtomicBool = AtomicBool::new(false);
@@ -72,12 +72,12 @@ pub(crate) use {bail, check, refuse_if};
 impl Error {
     /// `command` could not be started.
     pub fn spawn(command: &Command, source: std::io::Error) -> Self {
-        let command = shell::display(command);
+        let command = display(command);
         Self::Spawn { command, source }
     }
 
     pub fn failed(command: &Command, status: ExitStatus, output: String) -> Self {
-        let command = shell::display(command);
+        let command = display(command);
         Self::Failed {
             command,
             status,

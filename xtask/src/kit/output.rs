@@ -6,7 +6,7 @@ use std::io::Write;
 use std::sync::{Mutex, PoisonError};
 
 use crate::kit::error::{Error, Result};
-use crate::kit::progress;
+use crate::kit::screen;
 
 /// Writes a text to stdout.
 ///
@@ -14,7 +14,7 @@ use crate::kit::progress;
 /// It cannot be written, all of it.
 pub fn print(text: &str) -> Result<()> {
     // Between two frames of a spinner, which stderr may show on the same terminal.
-    progress::above(|| {
+    screen::above(|| {
         let mut stdout = std::io::stdout().lock();
         let written = stdout.write_all(text.as_bytes());
         written.and_then(|()| stdout.flush()).map_err(Error::Output)
@@ -31,7 +31,7 @@ pub fn line(text: &str) -> Result<()> {
 
 /// Writes a line to stderr.
 pub fn note(text: &str) {
-    progress::above(|| {
+    screen::above(|| {
         // There is nowhere to say that it failed.
         let _ = writeln!(std::io::stderr().lock(), "{text}");
     });

@@ -1,31 +1,11 @@
 //! Spinners on stderr, where there is someone to see them.
 
-use std::sync::LazyLock;
 use std::time::Duration;
 
-use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::kit::output;
-
-/// The spinners on the screen: one for a step of the tests, one for its current action.
-static SPINNERS: LazyLock<MultiProgress> =
-    LazyLock::new(|| MultiProgress::with_draw_target(target()));
-
-/// The place where spinners and bars are drawn: none if the user wants plain text or the terminal is limited to it.
-pub fn target() -> ProgressDrawTarget {
-    let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-    if is_set("NO_COLOR") || is_dumb {
-        ProgressDrawTarget::hidden()
-    } else {
-        ProgressDrawTarget::stderr()
-    }
-}
-
-/// Writes while no spinner does.
-pub fn above<T>(write: impl FnOnce() -> T) -> T {
-    SPINNERS.suspend(write)
-}
+use crate::kit::screen::SPINNERS;
 
 /// A line about the current action, shown until it is dropped.
 pub struct Spinner(ProgressBar);

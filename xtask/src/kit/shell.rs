@@ -4,19 +4,10 @@ use std::io::{BufRead, BufReader, IsTerminal};
 use std::path::PathBuf;
 use std::process::{Child, Command, ExitStatus, Stdio};
 
+pub use crate::kit::display::display;
 use crate::kit::error::{Error, Result};
 use crate::kit::processes::Group;
 use crate::kit::{flags, output};
-
-/// The command as one would type it, without its environment.
-pub fn display(command: &Command) -> String {
-    let words = std::iter::once(command.get_program()).chain(command.get_args());
-    let quoted = words.map(|word| match word.to_string_lossy() {
-        word if word.contains([' ', '"', '*']) => format!("'{word}'"),
-        word => word.into_owned(),
-    });
-    quoted.collect::<Vec<_>>().join(" ")
-}
 
 /// Starts a command whose processes end on a signal that ends xtask.
 pub fn spawn(command: &mut Command) -> Result<(Child, Group)> {

@@ -13,6 +13,7 @@ mod point;
 mod printed;
 mod proven;
 mod recorded;
+mod robot;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -27,9 +28,9 @@ use crate::studies::scenes::first_screen;
 use crate::studies::study::Bench;
 
 pub use choice::{Allowed, Budget};
-pub use measure::Robot;
 use measure::{Measured, Plan};
 use point::{Kind, Point, of_group};
+pub use robot::Robot;
 
 #[derive(clap::Args)]
 #[command(group = ArgGroup::new("chosen").args(["robot", "file"]))]
@@ -171,7 +172,7 @@ pub fn check(bench: &Bench<'_>) -> Result<String> {
     };
     let measured = plan.run(workspace, tools)?;
     let (single, host, rustc) = (&measured.single, &measured.host, &measured.rustc);
-    let generated = printed::check(&measured)?;
+    let generated = printed::check(&measured.generated, &measured.single)?;
     page::SINGLES.check(workspace, &page::singles(single, rustc), Some(rustc))?;
     let brief = page::brief(single, measured.shares, rustc);
     page::README.check(workspace, &brief, Some(rustc))?;
@@ -186,7 +187,7 @@ pub fn check(bench: &Bench<'_>) -> Result<String> {
         let part = page::page_of(robot);
         let rustc = docs::rustc_of(part.written(&text)?).unwrap_or_default();
         part.check(workspace, &page::text(&recorded, host, robot, rustc), None)?;
-        for (file, svg) in page::pictures(&recorded, host, robot)? {
+        for (file, svg) in plot::pictures(&recorded, host, robot)? {
             docs::compare_picture(workspace, &file, page::COMMAND, &svg, true)?;
             pictures += 1;
         }
@@ -215,7 +216,7 @@ fn write(
     let mut files: Vec<(PathBuf, String)> = vec![recorded::replaced(workspace, points)?];
     let is_whole = |robot: &Robot| only.is_none_or(|only| only == *robot);
     for robot in Robot::ALL.into_iter().filter(is_whole) {
-        let pictures = page::pictures(points, host, robot)?.into_iter();
+        let pictures = plot::pictures(points, host, robot)?.into_iter();
         files.extend(pictures.map(|(file, svg)| (workspace.report(&file), svg)));
         let part = page::page_of(robot);
         let by = docs::rustc_of(part.written(&text)?).filter(|_| is_recorded);

@@ -6,10 +6,9 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml_edit::{Array, DocumentMut, Item, Table, value};
 
-use crate::kit::bars::{Bars, Compared, OTHER_RUSTC};
+use crate::kit::bars::{Bars, Compared, OTHER_RUSTC, TICK};
 use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::workspace::{self, Workspace};
-use crate::studies::costs::TICK;
 use crate::studies::scenes::report::Report;
 
 /// The same share for flash, which contains the compiler's own library: rustc 1.99.1 takes 4.4 % more.

@@ -17,7 +17,7 @@ use crate::kit::{docs, firmware, output};
 use crate::studies::study::Bench;
 use crate::studies::{budgets, drawn};
 
-pub use report::{ADDED, IMAGE, Report, TICK};
+pub use report::Report;
 
 /// Two bins for each robot, inverse dynamics and the rest, but one for the SO-101, two for robots with loops, and one for links that bend: the
 /// compiler builds them side by side.

@@ -113,7 +113,7 @@ fn versions(tools: &Tools, peers: &Peers) -> Result<Vec<String>> {
                   for p in ('pin', 'casadi'): print(p, version(p))";
     let said = shell::capture(Command::new(&peers.python).args(["-c", script]))?;
     let mut versions: Vec<String> = said.lines().map(str::to_owned).collect();
-    versions.extend(target::compilers());
+    versions.extend(build::compilers());
     versions.push(tools.toolchain.rustc_version()?);
     versions.push(tools.qemu.version.clone());
     versions.extend(processor().map(|name| format!("host: {name}")));

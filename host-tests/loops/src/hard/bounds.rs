@@ -1,6 +1,17 @@
 //! The demand on each quantity: case, quantity, f32, f64. Bounds are about twice the measured values.
 
-use super::outcome::Demand::{self, Named, NamedWithin, Within};
+use Demand::{Named, NamedWithin, Within};
+
+/// The demand on a quantity in one scalar.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Demand {
+    /// An error of at most this of full scale, and no status.
+    Within(f64),
+    /// The same, and a status that names the singular loop.
+    NamedWithin(f64),
+    /// An error or a status that names the singular loop, and numbers that are finite and bounded.
+    Named,
+}
 
 #[rustfmt::skip]
 pub const BOUNDS: &[(u32, &str, Demand, Demand)] = &[

@@ -12,10 +12,10 @@ mod setup;
 mod status;
 mod torque;
 
-pub use bounds::BOUNDS;
+pub use bounds::{BOUNDS, Demand};
 pub use cases::CASES;
 pub use four_bars::problem;
-pub use outcome::{Demand, Outcome, rows};
+pub use outcome::{Outcome, rows};
 pub use setup::{Exported, Planar, Setup, Start, TrueState, Truth};
 
 use lab_target::hard::loops::{PROBLEMS, RIG};

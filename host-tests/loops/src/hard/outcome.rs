@@ -1,21 +1,10 @@
-//! The outcome of an algorithm for one state, and the demand on it.
+//! The outcome of an algorithm for one state, held against the demand on it.
 
 use dynamics_core::scalar::Real;
 use host_tests::hard::Row;
 use host_tests::measured::largest;
 
-use super::bounds::BOUNDS;
-
-/// The demand on a quantity in one scalar.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Demand {
-    /// An error of at most this of full scale, and no status.
-    Within(f64),
-    /// The same, and a status that names the singular loop.
-    NamedWithin(f64),
-    /// An error or a status that names the singular loop, and numbers that are finite and bounded.
-    Named,
-}
+use super::bounds::{BOUNDS, Demand};
 
 /// Numbers, and whether they come with a status or an error that names what is singular.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use motion_control::Fault;
 
-use super::run::Random;
+use super::random::Random;
 
 /// The kinds of faults that are injected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,6 +6,7 @@
 mod arm;
 mod kinds;
 mod plants;
+mod random;
 mod run;
 
 pub use arm::{Controller, HOLD, RIDE, Setup, Violation, controller};

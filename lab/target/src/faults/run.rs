@@ -7,30 +7,13 @@ use motion_control::{Fault, Mode, Trajectory, WayPoint};
 use super::arm::{Arm, Episode, Setup, Violation};
 use super::kinds::{Kind, Onset};
 use super::plants::{Plant, TICK};
+use super::random::Random;
 
 /// Ticks of a run: faults begin in the first part.
 pub const TICKS: u32 = 6000;
 const FAULTY: u32 = 2600;
 /// Ticks without a fault before a stopped arm is started again.
 const QUIET: u32 = 20;
-
-/// Marsaglia's xorshift32 (2003).
-pub(super) struct Random(u32);
-
-impl Random {
-    pub fn new(seed: u32) -> Self {
-        let mut random = Self(seed.wrapping_mul(0x9e37_79b9) | 1);
-        (0..8).for_each(|_| _ = random.below(2));
-        random
-    }
-
-    pub fn below(&mut self, n: u32) -> u32 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 17;
-        self.0 ^= self.0 << 5;
-        ((u64::from(self.0) * u64::from(n)) >> 32) as u32
-    }
-}
 
 /// The observations of a single fault while the arm followed its motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

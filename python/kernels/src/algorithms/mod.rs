@@ -8,67 +8,12 @@ use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
 
-use crate::dispatch::{Call, Done, Rows, terms};
-use crate::job::{Problem, Row};
+use crate::algorithm::{Algorithm, Call, Done};
+use crate::dispatch::terms;
+use crate::job::{Problem, Row, Rows};
 use crate::lanes::Lanes;
 use crate::model::Counts;
 use crate::scene::{Parts, Scene};
-
-/// An algorithm.
-pub trait Algorithm: Sync {
-    /// Whether the library has a form of it for some kinds of robots.
-    const FAST: bool = false;
-    /// Whether it computes what fills the model up, too, with the inertia 1: M then has its factors.
-    const WHOLE: bool = false;
-    /// Whether it computes several states at once: its only comparisons are those of pivots, and of
-    /// placements, which its states share.
-    const LANES: bool = false;
-
-    /// Computes one row, of a scene with the products of accelerations (A), of velocities (C) and effects at bodies (X).
-    ///
-    /// # Errors
-    /// Why this state has no result.
-    fn row<
-        R: Real,
-        D: RobotModel<R, B, Q, V>,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-        const A: bool,
-        const C: bool,
-        const X: bool,
-    >(
-        &self,
-        robot: &D,
-        counts: Counts,
-        parts: &Parts<R, V>,
-        row: &mut impl Row<R>,
-    ) -> Result<(), Problem>;
-
-    /// Computes all blocks of rows in the scene of the call, which has no effects at bodies.
-    ///
-    /// # Errors
-    /// The block and why it has none.
-    fn blocks<D, P, const B: usize, const Q: usize, const V: usize>(
-        &self,
-        call: Call<'_, D, P, Lanes, V>,
-    ) -> Done
-    where
-        D: RobotModel<Lanes, B, Q, V>,
-        P: Rows<Lanes>;
-
-    /// Computes all rows in the scene of the call.
-    ///
-    /// # Errors
-    /// The row and why it has none.
-    fn all<R: Real, D, P, const B: usize, const Q: usize, const V: usize>(
-        &self,
-        call: Call<'_, D, P, R, V>,
-    ) -> Done
-    where
-        D: RobotModel<R, B, Q, V>,
-        P: Rows<R>;
-}
 
 /// An algorithm: which scenes it distinguishes, what it reads and what it writes.
 macro_rules! algorithm {

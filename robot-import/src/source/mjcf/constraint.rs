@@ -10,7 +10,7 @@ use super::defaults::{Classes, View};
 use super::element::Element;
 use super::mimic;
 use super::pose::Placement;
-use crate::description::{Kind, Loop, shortened};
+use crate::description::{Kind, Loop};
 use crate::error::{Problem, Result};
 
 /// The constraints of all sections `<equality>`.
@@ -51,15 +51,6 @@ pub fn read(
     Ok(loops)
 }
 
-/// The error of a name.
-pub fn no_such(element: &Element, what: &'static str, name: &str) -> crate::error::ImportError {
-    element.error(Problem::NoSuch {
-        what,
-        name: shortened(name),
-        suggestion: String::new(),
-    })
-}
-
 /// The two sites of a constraint, if it names sites.
 fn sites(element: &Element, tree: &Tree<'_>) -> Result<Option<[(usize, Placement); 2]>> {
     if element.get("site1").is_none() && element.get("site2").is_none() {
@@ -72,7 +63,7 @@ fn sites(element: &Element, tree: &Tree<'_>) -> Result<Option<[(usize, Placement
         let name = element.get(attribute);
         let name = name.ok_or_else(|| element.error(Problem::Missing(attribute)))?;
         let found = tree.sites.get(name).cloned();
-        found.ok_or_else(|| no_such(element, "site", name))
+        found.ok_or_else(|| element.no_such("site", name))
     };
     Ok(Some([find("site1")?, find("site2")?]))
 }
@@ -81,7 +72,7 @@ fn sites(element: &Element, tree: &Tree<'_>) -> Result<Option<[(usize, Placement
 fn bodies(element: &Element, tree: &Tree<'_>) -> Result<[usize; 2]> {
     let find = |name: &str| {
         let found = tree.bodies.get(name).copied();
-        found.ok_or_else(|| no_such(element, "body", name))
+        found.ok_or_else(|| element.no_such("body", name))
     };
     let first = element.get("body1");
     let first = first.ok_or_else(|| element.error(Problem::Missing("body1")))?;

@@ -118,6 +118,15 @@ impl Element {
         })
     }
 
+    /// The error of a name.
+    pub fn no_such(&self, what: &'static str, name: &str) -> ImportError {
+        self.error(Problem::NoSuch {
+            what,
+            name: shortened(name),
+            suggestion: String::new(),
+        })
+    }
+
     /// Refuses attributes that are not in `known`: each could have an effect.
     pub fn only(&self, known: &str) -> Result<()> {
         let unknown = |name: &&(String, String)| !known.split(' ').any(|other| other == name.0);

@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 
 use super::body::Tree;
-use super::constraint::no_such;
 use super::defaults::View;
 use super::element::Element;
 use crate::description::Mimic;
@@ -31,7 +30,7 @@ fn find(
     let name = element.get(attribute);
     let name = name.ok_or_else(|| element.error(Problem::Missing(attribute)))?;
     let found = joints.get(name).copied();
-    let found = found.ok_or_else(|| no_such(element, "joint", name))?;
+    let found = found.ok_or_else(|| element.no_such("joint", name))?;
     match tree.joints[found].kind.has_axis() {
         true => Ok(found),
         false => Err(element.value(format!("joint `{name}` is no hinge and no slide"))),
@@ -75,7 +74,7 @@ pub fn of_tendon(
     let name = name.ok_or_else(|| element.error(Problem::Missing("tendon1")))?;
     let mut all = root.all("tendon").flat_map(|section| &section.children);
     let tendon = all.find(|tendon| tendon.name() == Some(name));
-    let tendon = tendon.ok_or_else(|| no_such(element, "tendon", name))?;
+    let tendon = tendon.ok_or_else(|| element.no_such("tendon", name))?;
     let over: Vec<&Element> = tendon.children.iter().collect();
     let ([one, other], "fixed", None) =
         (over.as_slice(), tendon.tag.as_str(), element.get("tendon2"))

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::Context;
-use crate::kit::bars::Compared;
+use crate::kit::bars::{ADDED, Compared};
 use crate::kit::elf::Image;
 use crate::kit::error::{Result, bail, check, refuse_if};
 use crate::kit::qemu::Run;
@@ -11,7 +11,6 @@ use crate::kit::rows::{self, Row};
 use crate::kit::toolchain::RELEASE;
 use crate::kit::{firmware, same_code};
 use crate::studies::budgets;
-use crate::studies::costs::ADDED;
 
 const BIN: &str = "ablation_identity";
 /// The scene with LuGre friction, and the same without.

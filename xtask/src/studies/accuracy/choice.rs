@@ -2,9 +2,9 @@
 
 use std::str::FromStr;
 
-use super::measure::Robot;
 use super::names::{cycles, digits, lines, name, stated};
 use super::point::{Kind, Point, of_group};
+use super::robot::Robot;
 use super::{code, front};
 use crate::kit::error::{Result, bail, check};
 use crate::kit::table::thousands;

@@ -1,8 +1,8 @@
 //! A configuration as Rust to paste.
 
-use super::measure::Robot;
 use super::names;
 use super::point::{Kind, Point};
+use super::robot::Robot;
 use crate::kit::error::{Result, check, refuse_if};
 
 /// The paths of the items of dynamics-core in generated code.

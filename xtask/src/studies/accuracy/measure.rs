@@ -6,6 +6,7 @@ use super::join::{self, Bin, Host};
 use super::point::{Kind, Point};
 use super::printed::{self, PRINTED};
 use super::proven;
+use super::robot::Robot;
 use crate::kit::bracket::{self, READINGS};
 use crate::kit::error::{Result, check};
 use crate::kit::host_bin::{SHARED, SIMULATED};
@@ -23,38 +24,6 @@ const BINS: [&str; 3] = ["accuracy_ur5e", "accuracy_panda", "accuracy_leg"];
 /// The bins, here and there, with a dozen ways of each robot.
 const QUICK_BIN: &str = "accuracy_quick";
 const SIMULATION_BIN: &str = "accuracy_simulation";
-
-/// A robot with measurements.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Robot {
-    Ur5e,
-    Panda,
-    #[value(name = "a1_leg")]
-    A1Leg,
-    #[value(skip)]
-    DoublePendulum,
-}
-
-impl Robot {
-    pub const ALL: [Self; 4] = [Self::Ur5e, Self::Panda, Self::A1Leg, Self::DoublePendulum];
-    /// The robots whose torques are computed.
-    pub const COMPUTED: [Self; 3] = [Self::Ur5e, Self::Panda, Self::A1Leg];
-
-    /// Its name in rows, lines and files, in print, and in the library; and the number of its joints.
-    pub fn names(self) -> [&'static str; 4] {
-        match self {
-            Self::Ur5e => ["ur5e", "UR5e", "Ur5e", "6"],
-            Self::Panda => ["panda", "Panda", "Panda", "7"],
-            Self::A1Leg => ["a1_leg", "leg of the A1", "A1Leg", "3"],
-            Self::DoublePendulum => ["double_pendulum", "double pendulum", "", "2"],
-        }
-    }
-
-    /// Its name in rows, lines and files.
-    pub fn name(self) -> &'static str {
-        self.names()[0]
-    }
-}
 
 /// The rows from the target, and [`Measured::shares`].
 type Costs = (Vec<Bin>, Option<[f64; 2]>);

@@ -3,12 +3,12 @@
 #[cfg(test)]
 mod tests;
 
+use super::front;
 use super::join::{Host, Line};
-use super::measure::Robot;
 use super::names::{cycles, digits, name, stated};
 use super::point::{Kind, Point, of_group};
 use super::proven::Proven;
-use super::{front, plot};
+use super::robot::Robot;
 use crate::kit::docs::Page;
 use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::meter::MODEL;
@@ -62,16 +62,6 @@ pub fn page_of(robot: Robot) -> Page<'static> {
         Robot::DoublePendulum => "accuracy-simulation",
     };
     part(FILE, name)
-}
-
-/// The pictures of that part: file and SVG.
-pub fn pictures(points: &[Point], host: &Host, robot: Robot) -> Result<Vec<(String, String)>> {
-    let file = format!("docs/{}", page_of(robot).name);
-    if robot == Robot::DoublePendulum {
-        return Ok(vec![(file + ".svg", plot::simulations(points)?)]);
-    }
-    let own = of_group(points, (robot.name(), Kind::Inverse, ""));
-    Ok(vec![(file + ".svg", plot::front(robot, &own, host)?)])
 }
 
 /// The points of a front, from the cheapest on, each much more accurate than the one before; the default in any case.

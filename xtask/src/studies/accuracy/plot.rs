@@ -2,10 +2,10 @@
 
 use super::front as fronts;
 use super::join::Host;
-use super::measure::Robot;
 use super::names::{name, stated};
-use super::page::{BRIEF_ROWS, SCENES, is_single, steps};
+use super::page::{BRIEF_ROWS, SCENES, is_single, page_of, steps};
 use super::point::{Kind, Point, of_group};
+use super::robot::Robot;
 use crate::kit::chart::{
     Axis, BLUE, GREEN, HEAD, HPos, Line, MUTED, ORANGE, Plot, RED, RGBColor, SKY, TEXT, TITLE,
     coloured, dot, label, legend, lines, path, svg, wide,
@@ -28,6 +28,17 @@ const INTEGRATORS: [(&str, &str, RGBColor, u32); 5] = [
 ];
 /// Cycles of a second at 168 MHz: a simulation right of it is slower than what it simulates.
 const REAL_TIME: f64 = 168e6;
+
+/// The pictures of the part of the page about a robot's torques, or about the simulations: file and
+/// SVG.
+pub fn pictures(points: &[Point], host: &Host, robot: Robot) -> Result<Vec<(String, String)>> {
+    let file = format!("docs/{}", page_of(robot).name);
+    if robot == Robot::DoublePendulum {
+        return Ok(vec![(file + ".svg", simulations(points)?)]);
+    }
+    let own = of_group(points, (robot.name(), Kind::Inverse, ""));
+    Ok(vec![(file + ".svg", front(robot, &own, host)?)])
+}
 
 /// Logarithmic axes around these points, with so much room left, right and above.
 fn axes(

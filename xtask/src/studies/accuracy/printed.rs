@@ -3,8 +3,8 @@
 
 use std::path::PathBuf;
 
-use super::measure::{Measured, Robot};
 use super::point::Point;
+use super::robot::Robot;
 use super::{code, page, recorded};
 use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::workspace::{self, Workspace};
@@ -69,8 +69,9 @@ fn wrapped(point: &Point, way: &str, code: &str, joints: &str) -> String {
     code::filled(template, &values)
 }
 
-/// Fails unless all generated code reproduces its figures, errors to the bit; else says how much that is.
-pub fn check(measured: &Measured) -> Result<usize> {
+/// Fails unless all generated code reproduces the figures of the points that it was chosen for,
+/// errors to the bit; else says how much that is.
+pub fn check(all: &[Point], single: &[Point]) -> Result<usize> {
     let mut different = Vec::new();
     let name = |point: &Point| format!("{} {}", point.robot, point.key);
     let figures = |point: &Point| {
@@ -80,9 +81,9 @@ pub fn check(measured: &Measured) -> Result<usize> {
             point.costs()[1],
         ]
     };
-    for generated in &measured.generated {
+    for generated in all {
         let what = name(generated);
-        let chosen = measured.single.iter().find(|point| name(point) == what);
+        let chosen = single.iter().find(|point| name(point) == what);
         let lacks = || check!("{what} is generated, but not measured otherwise");
         let chosen = chosen.ok_or_else(lacks)?;
         let [found, promised] = [generated, chosen].map(figures);
@@ -97,7 +98,7 @@ pub fn check(measured: &Measured) -> Result<usize> {
         }
     }
     refuse_if!(!different.is_empty(), "{}", different.join("\n"));
-    let count = measured.generated.len();
+    let count = all.len();
     refuse_if!(count == 0, "no generated code was measured");
     Ok(count)
 }

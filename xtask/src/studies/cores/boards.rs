@@ -4,14 +4,13 @@ use serde::Serialize;
 
 use super::list::without_home;
 use super::walk;
-use crate::kit::bars::{self, Bars};
+use crate::kit::bars::{self, Bars, IMAGE};
 use crate::kit::elf::Image;
 use crate::kit::error::{Result, check};
 use crate::kit::shell;
 use crate::kit::table::{Column, Table, thousands};
 use crate::kit::toolchain::{self, RELEASE, SMALL};
 use crate::kit::workspace::Workspace;
-use crate::studies::costs::IMAGE;
 
 struct Bin {
     package: &'static str,

@@ -1,6 +1,6 @@
 //! The rows in print.
 
-use crate::kit::bars::{self, Bars, Compared, is_ratio};
+use crate::kit::bars::{self, ADDED, Bars, Compared, IMAGE, TICK, is_ratio};
 use crate::kit::meter::{CLOCK_MHZ, MODEL};
 use crate::kit::rows::Row;
 use crate::kit::table::{Table, thousands};
@@ -8,13 +8,6 @@ use crate::kit::table::{Table, thousands};
 /// The least arithmetic known for a general arm of six joints, flops: Balafoutis; McMillan & Orin.
 const FLOORS: [(&str, u64); 3] = [("rnea", 836), ("crba", 855), ("aba", 2067)];
 const FLOOR_JOINTS: usize = 6;
-
-/// The end of the name of a scene's bar.
-pub const TICK: &str = " tick";
-/// The end of the name of a bar of what effects add to a rigid body's call.
-pub const ADDED: &str = " added";
-/// The end of the name of a bar of a board's image.
-pub const IMAGE: &str = " image";
 
 /// Between the names of two rows in a bar on the difference of their figures.
 const OVER: &str = " over ";

@@ -8,7 +8,6 @@ use crate::kit::progress::Spinner;
 use crate::kit::shell;
 use crate::kit::workspace::{self, Workspace};
 use crate::studies::peers::robots::Robot;
-use crate::studies::peers::target;
 use crate::studies::peers::tools::Peers;
 
 /// The limits that Pinocchio needs in Boost: it has more types of joints than Boost's defaults allow.
@@ -22,6 +21,15 @@ const HOST: &str = "-O3 -march=native -DNDEBUG -fPIC -shared -fvisibility=hidden
 /// Arguments that have no spaces.
 pub fn words(line: &str) -> Vec<&str> {
     line.split_whitespace().collect()
+}
+
+/// `--version` of the compilers, first lines.
+pub fn compilers() -> Vec<String> {
+    ["gcc", "clang", "arm-none-eabi-gcc"]
+        .iter()
+        .filter_map(|program| shell::capture(Command::new(program).arg("--version")).ok())
+        .filter_map(|text| text.lines().next().map(str::to_owned))
+        .collect()
 }
 
 /// The directories and what is made in them.
@@ -45,7 +53,7 @@ impl<'a> Workshop<'a> {
         Ok(Self {
             peers,
             sources: workspace.root.join("lab/peers/cpp"),
-            compilers: target::compilers().join("\n"),
+            compilers: compilers().join("\n"),
             robots: make("robots")?,
             code: make("code")?,
             built: make("built")?,

@@ -6,7 +6,6 @@ use crate::kit::bars::{self, Compared};
 use crate::kit::meter::MODEL;
 use crate::kit::table::{Table, thousands};
 use crate::studies::peers::ALGORITHMS;
-use crate::studies::peers::target::Build;
 
 /// The processor that runs xtask.
 pub const HOST: &str = "host";
@@ -90,6 +89,9 @@ impl Row {
             && (&self.algorithm, &self.precision) == (&row.algorithm, &row.precision)
     }
 }
+
+/// A function, and the seconds of a release build of the firmware with it.
+pub type Build = (String, f64);
 
 pub struct Report {
     pub rows: Vec<Row>,

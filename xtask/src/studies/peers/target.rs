@@ -12,14 +12,11 @@ use crate::kit::toolchain::RELEASE;
 use crate::kit::workspace::{self, LAB, Workspace};
 use crate::studies::peers::ALGORITHMS;
 use crate::studies::peers::build::{Workshop, words};
-use crate::studies::peers::report::{M4F, Row};
+use crate::studies::peers::report::{Build, M4F, Row};
 use crate::studies::peers::robots::Robot;
 
 /// The firmware's bin, and the feature that it is built with.
 const BIN: &str = "peers";
-
-/// A function, and the seconds of a release build of the firmware with it.
-pub type Build = (String, f64);
 
 /// Largest error relative to full scale of a function that is worth measuring: forward dynamics and Λ⁻¹ are
 /// ill-conditioned.
@@ -204,15 +201,6 @@ fn rows(measured: Vec<MeasuredRow>, lines: &[String]) -> Result<Vec<Row>> {
         }
     }
     Ok(rows)
-}
-
-/// `--version` of the compilers, first lines.
-pub fn compilers() -> Vec<String> {
-    ["gcc", "clang", "arm-none-eabi-gcc"]
-        .iter()
-        .filter_map(|program| shell::capture(Command::new(program).arg("--version")).ok())
-        .filter_map(|text| text.lines().next().map(str::to_owned))
-        .collect()
 }
 
 #[cfg(test)]

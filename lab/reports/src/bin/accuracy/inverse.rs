@@ -7,13 +7,13 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Robot;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use host_tests::random::{random_numbers, within};
+use host_tests::random::random_numbers;
 use host_tests::recordings::{Precise, load, read};
 use lab_target::accuracy::robots::Compared;
 use lab_target::accuracy::{Inverse, Visitor};
-use proptest::test_runner::TestRng;
 use serde_json::json;
 
+use super::problem::{Problem, drawn};
 use super::statistics::{Errors, object, widened};
 use super::yardsticks;
 
@@ -35,12 +35,6 @@ pub struct Bench<const N: usize> {
     way: Vec<Problem<N>>,
 }
 
-/// A desired state of the joints, and its exact torques.
-pub struct Problem<const N: usize> {
-    pub state: State<f32, N, N>,
-    pub truth: [f64; N],
-}
-
 impl<const N: usize> Visitor<N> for Bench<N> {
     fn way<W: Inverse<N>>(&mut self) {
         let run = |problems: &[Problem<N>]| {
@@ -58,12 +52,6 @@ impl<const N: usize> Visitor<N> for Bench<N> {
         let scales = [self.full_scale, self.floor];
         run(&self.way).print(self.robot, self.kind, scales, line);
     }
-}
-
-/// Random positions, speeds and accelerations within ± these bounds.
-pub fn drawn<const N: usize>(random: &mut TestRng, bounds: [f64; 3]) -> State<f32, N, N> {
-    let [q, qd, qdd] = bounds.map(|bound| within::<N>(random, bound).map(|x| x as f32));
-    State { q, qd, qdd }
 }
 
 /// Prints what everything is compared with, and a line for each of these ways of the robot T.

@@ -13,6 +13,7 @@
 
 mod inverse;
 mod motion;
+mod problem;
 mod simulation;
 mod statistics;
 mod yardsticks;

@@ -2,6 +2,7 @@
 //! it: errors are those from the core in f64.
 
 mod inverse;
+mod problem;
 mod statistics;
 mod yardsticks;
 // `Robot` and the number of its joints, `N`.

@@ -6,6 +6,7 @@ mod inverse;
 mod printed {
     include!(env!("ACCURACY_PRINTED"));
 }
+mod problem;
 mod statistics;
 mod yardsticks;
 

@@ -11,7 +11,7 @@ use dynamics_core::{Core, Engine};
 use host_tests::random::{random_numbers, within};
 use serde_json::json;
 
-use super::inverse::{Problem, drawn};
+use super::problem::{Problem, drawn};
 use super::statistics::{Errors, widened};
 
 /// Steps of an encoder in a turn: 14 bits.

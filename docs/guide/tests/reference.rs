@@ -73,7 +73,7 @@ static NAMES: LazyLock<BTreeSet<String>> = LazyLock::new(|| {
     let written = files(&root().join("robot-import/src/write"), "rs");
     let project = files(&root().join("robot-import/template/rust"), "liquid");
     for file in written.iter().chain(&project) {
-        let text = read_to_string(&file).expect("a source file");
+        let text = read_to_string(file).expect("a source file");
         names.extend(between(&text, "pub const ", ':').map(str::to_owned));
     }
     // Classes of Python, those that Rust defines by their stubs.

@@ -1,4 +1,5 @@
-//! Puts the memory of a board where memory.x of the workspace includes it. Each package of this folder has this script.
+//! Puts the memory of a board where memory.x of the workspace includes it. Each package of this
+//! folder has this script.
 
 use std::{env, error::Error, fs, path::PathBuf};
 

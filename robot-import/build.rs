@@ -1,4 +1,5 @@
-//! The sources of the libraries that a project carries, as a list in the program: it stands alone wherever it was installed.
+//! The sources of the libraries that a project carries, as a list in the program: it stands alone
+//! wherever it was installed.
 
 use std::error::Error;
 use std::fmt::Write as _;

@@ -1,6 +1,8 @@
-//! The bodies of a robot, as the program carries them, and their kinematics in numbers or in [`Taylor`] models of them.
+//! The bodies of a robot, as the program carries them, and their kinematics in numbers or in
+//! [`Taylor`] models of them.
 //!
-//! Frames are those of the library's `Link`: the joint's axis is z. The inertia matrix is that of composite bodies, RBDA (2008), table 6.2.
+//! Frames are those of the library's `Link`: the joint's axis is z. The inertia matrix is that of
+//! composite bodies, RBDA (2008), table 6.2.
 
 use serde::{Deserialize, Serialize};
 
@@ -38,7 +40,8 @@ pub struct Body {
 /// Three coordinates.
 pub type Vector<S> = [S; 3];
 
-/// What kinematics needs of a joint's position: cosine and sine, those of twice the angle, and the position.
+/// What kinematics needs of a joint's position: cosine and sine, those of twice the angle, and the
+/// position.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Position<S> {
     cosine: S,
@@ -227,7 +230,8 @@ impl<S: Scalar> Inertia<S> {
         });
         let r = body.origin(at);
         let moved: Vector<S> = std::array::from_fn(|i| first[i] + r[i].times(self.mass));
-        // I − r× h× − (h + m r)× r×, whose entry i, j is δ (r·h + (h + m r)·r) − h_i r_j − r_i (h + m r)_j.
+        // I − r× h× − (h + m r)× r×, whose entry i, j is δ (r·h + (h + m r)·r) − h_i r_j − r_i (h +
+        // m r)_j.
         let dot = |a: &Vector<S>, b: &Vector<S>| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let trace = dot(&r, &first) + dot(&r, &moved);
         let second = PLACES.map(|(i, j)| {

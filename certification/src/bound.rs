@@ -1,14 +1,15 @@
 //! A bound of a function's rounding error over a box of states.
 //!
-//! Every operation k of the machine code adds its own error e_k, |e_k| ≤ ½ ulp of the largest value that it has in the box; a literal
-//! differs by half an ulp from the number that it stands for, a sine by the error of its kernel. By the mean value theorem the error of
-//! the result is Σ e_k ∂τ/∂v_k, with derivatives at some point between the exact values and the computed ones. Intervals that hold
-//! both hold that point, so that
+//! Every operation k of the machine code adds its own error e_k, |e_k| ≤ ½ ulp of the largest value
+//! that it has in the box; a literal differs by half an ulp from the number that it stands for, a
+//! sine by the error of its kernel. By the mean value theorem the error of the result is Σ e_k
+//! ∂τ/∂v_k, with derivatives at some point between the exact values and the computed ones.
+//! Intervals that hold both hold that point, so that
 //!
 //!   |error| ≤ Σ ½ulp(max |v_k|) max |∂τ/∂v_k|,
 //!
-//! without a term of second order that would be left out. The derivatives are adjoints in reverse mode: Griewank & Walther, Evaluating
-//! Derivatives (2008), chapter 3, over intervals.
+//! without a term of second order that would be left out. The derivatives are adjoints in reverse
+//! mode: Griewank & Walther, Evaluating Derivatives (2008), chapter 3, over intervals.
 
 use serde::{Deserialize, Serialize};
 
@@ -232,8 +233,9 @@ impl Bounder {
         }
     }
 
-    /// The derivatives of a quotient, a root or an absolute value by its operands, at any point between exact and computed values. |a| has none at zero;
-    /// the mean value theorem holds with a number from −1 to 1 there (Lebourg 1975).
+    /// The derivatives of a quotient, a root or an absolute value by its operands, at any point
+    /// between exact and computed values. |a| has none at zero; the mean value theorem holds with a
+    /// number from −1 to 1 there (Lebourg 1975).
     fn slopes_of(&self, k: usize) -> [Interval; 2] {
         let (values, one) = (&self.values, Interval::point(1.0));
         let first = match self.graph.nodes[k] {
@@ -297,7 +299,8 @@ impl Bounder {
                 self.evaluate(&self.uses[k], &self.adjoints)
             };
             self.adjoints[k] = adjoint;
-            // Rounded up: each sum has a relative error of 2⁻⁵³, which the factor exceeds for all of them.
+            // Rounded up: each sum has a relative error of 2⁻⁵³, which the factor exceeds for all
+            // of them.
             let term = self.errors[k] * adjoint.magnitude() * (1.0 + 1e-12);
             match self.graph.nodes[k] {
                 Node::Input(_) => bound.sines += term,

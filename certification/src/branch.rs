@@ -1,4 +1,5 @@
-//! The bound over a whole box, as the greatest over parts of it: branch and bound, the part with the largest bound first.
+//! The bound over a whole box, as the greatest over parts of it: branch and bound, the part with
+//! the largest bound first.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -42,7 +43,8 @@ pub struct Proven {
     pub bound: Bound,
     /// The range of the output: the hull of the parts' ranges.
     pub range: Interval,
-    /// The same sum of errors at single states, of which the greatest was found: no split gets below it.
+    /// The same sum of errors at single states, of which the greatest was found: no split gets
+    /// below it.
     pub reached: f64,
     /// All parts, which together are the whole box.
     pub parts: Vec<Part>,
@@ -103,7 +105,8 @@ fn bounded(bounder: &mut Bounder, states: Vec<Interval>) -> Part {
     }
 }
 
-/// The end of a range that is further from zero: speeds and accelerations at their limits have the largest errors.
+/// The end of a range that is further from zero: speeds and accelerations at their limits have the
+/// largest errors.
 fn outermost(x: Interval) -> f64 {
     if x.high.abs() >= x.low.abs() {
         x.high
@@ -115,7 +118,8 @@ fn outermost(x: Interval) -> f64 {
 /// What a split along each coordinate has gained so far.
 struct Gains {
     axes: Vec<usize>,
-    /// The mean share of the bound that was left, by place in `axes` and number of splits of it before.
+    /// The mean share of the bound that was left, by place in `axes` and number of splits of it
+    /// before.
     left: Vec<[Option<f64>; DEEPEST]>,
 }
 
@@ -132,7 +136,8 @@ impl Gains {
         }
     }
 
-    /// The coordinates to try, as places in `axes` with their depths; those never tried at their depth come first.
+    /// The coordinates to try, as places in `axes` with their depths; those never tried at their
+    /// depth come first.
     fn candidates(&self, part: &Part, whole: &[Interval]) -> Vec<(usize, usize)> {
         let width = |x: Interval| x.high - x.low;
         let depth = |axis: usize| {
@@ -163,7 +168,8 @@ impl Gains {
     }
 }
 
-/// A part's halves along the coordinate that lowers their bounds most; no halves of a part too small to have any.
+/// A part's halves along the coordinate that lowers their bounds most; no halves of a part too
+/// small to have any.
 fn split(
     bounder: &mut Bounder,
     part: &Part,

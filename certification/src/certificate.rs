@@ -1,4 +1,5 @@
-//! A certificate: what was proven of a function over a box of states, beside the worst that was observed.
+//! A certificate: what was proven of a function over a box of states, beside the worst that was
+//! observed.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -75,7 +76,8 @@ pub struct Subject {
     function: Function,
     /// Its expression.
     pub walked: Walked,
-    /// The expression whose results have bounds: of a symmetric matrix the upper triangle, of forward dynamics that of [`Factored`].
+    /// The expression whose results have bounds: of a symmetric matrix the upper triangle, of
+    /// forward dynamics that of [`Factored`].
     pub graph: Graph,
     /// Forward dynamics, taken apart.
     pub factored: Option<Factored>,
@@ -132,7 +134,8 @@ impl Subject {
     /// Bounds the results, and searches the worst errors beside them.
     ///
     /// # Errors
-    /// [`Error::Contradicted`], [`Error::Infinite`], [`Error::Missing`] of an input that the box does not bound.
+    /// [`Error::Contradicted`], [`Error::Infinite`], [`Error::Missing`] of an input that the box
+    /// does not bound.
     pub fn outputs(
         &self,
         robot: &Robot,
@@ -178,7 +181,8 @@ impl Subject {
                 _ => (bound, Proof::Parts),
             };
             if graph.is_constant(output) {
-                // The compiler may have added literals, each rounded: the number is compared itself.
+                // The compiler may have added literals, each rounded: the number is compared
+                // itself.
                 bound.literals = bound.literals.max(observed.error + slack);
             }
             let total = bound.total();
@@ -211,7 +215,8 @@ impl Subject {
     }
 }
 
-/// More than the error of the exact function in f64, as a share of the greatest result of any joint.
+/// More than the error of the exact function in f64, as a share of the greatest result of any
+/// joint.
 const REFERENCE: f64 = 1e-14;
 /// The parts of the floor of the scaled inertia matrix.
 const FLOOR_PARTS: usize = 20_000;
@@ -221,8 +226,9 @@ const SHARE: usize = 8;
 /// Proves the bounds of a function, and searches the worst errors beside them.
 ///
 /// # Errors
-/// [`Error::Declined`] of code that is not followed, [`Error::Branch`] of a branch that states of the box may take otherwise,
-/// [`Error::Contradicted`] if the search finds more than the bound, [`Error::Infinite`] if there is none.
+/// [`Error::Declined`] of code that is not followed, [`Error::Branch`] of a branch that states of
+/// the box may take otherwise, [`Error::Contradicted`] if the search finds more than the bound,
+/// [`Error::Infinite`] if there is none.
 pub fn certify(
     program: &Program,
     function: Function,
@@ -233,7 +239,8 @@ pub fn certify(
     let image = Image::read(&program.elf)?;
     let subject = Subject::of(&image, function)?;
     let walked = &subject.walked;
-    // Forward dynamics has comparisons of pivots alone, of which the certificate itself says what they are.
+    // Forward dynamics has comparisons of pivots alone, of which the certificate itself says what
+    // they are.
     if subject.factored.is_none() {
         paths::prove(walked, robot, sines, PATH_PARTS)?;
     }

@@ -51,7 +51,8 @@ fn markers(part: Part) -> (String, String, String) {
     (name.to_owned(), marker("begin") + "\n", marker("end"))
 }
 
-/// A block of the page with the sum of its text at its end, as `xtask/src/kit/docs/seal.rs` writes and reads it.
+/// A block of the page with the sum of its text at its end, as `xtask/src/kit/docs/seal.rs` writes
+/// and reads it.
 fn sealed(block: &str) -> String {
     let block = block.trim();
     let sum = &hexadecimal(Sha256::new_with_prefix(block))[..16];
@@ -67,7 +68,8 @@ fn unsealed(block: &str) -> &str {
 
 const BEFORE_SUM: &str = "<!-- sum of the above: ";
 
-/// Fails unless each block of the page is as it was written and has no bound below what was observed.
+/// Fails unless each block of the page is as it was written and has no bound below what was
+/// observed.
 ///
 /// # Errors
 /// [`Error::Page`], with the row.
@@ -146,8 +148,8 @@ pub fn hash_of(page: &str, robot: &str, function: Function, hash: &str) -> Resul
     }
 }
 
-/// Has Gappa, and Coq if wanted, check a part of the box around the worst state of each output: its bound must hold there, and be no less than what was
-/// observed.
+/// Has Gappa, and Coq if wanted, check a part of the box around the worst state of each output: its
+/// bound must hold there, and be no less than what was observed.
 ///
 /// # Errors
 /// [`Error::Program`] if Gappa rejects a part, [`Error::Contradicted`].
@@ -206,8 +208,8 @@ pub fn file(path: &Path, text: &str) -> Result<()> {
     }
 }
 
-/// Has Gappa and Coq check a part of the box of one result of a function, drawn at random, and refuse what is wrong: Gappa a smaller
-/// bound, Coq a smaller rounding error in Gappa's proof.
+/// Has Gappa and Coq check a part of the box of one result of a function, drawn at random, and
+/// refuse what is wrong: Gappa a smaller bound, Coq a smaller rounding error in Gappa's proof.
 ///
 /// # Errors
 /// [`Error::Program`] if one of them decides otherwise.

@@ -1,9 +1,11 @@
-//! Proven errors of the configurations of `cargo xtask accuracy`: kernels of sines and models, against inverse dynamics of the whole model.
+//! Proven errors of the configurations of `cargo xtask accuracy`: kernels of sines and models,
+//! against inverse dynamics of the whole model.
 //!
-//! A kernel of sines changes the inputs of the function alone, and the compiler may not change what f32 is rounded to; so the expression that one
-//! walk reads is that of all of them, and each has the error that trying every angle found ([`crate::sines`]). A model that leaves something
-//! out is another expression. The distance of two expressions, their literals taken as they are, is a trigonometric polynomial too, and is bounded by
-//! the same grid; then
+//! A kernel of sines changes the inputs of the function alone, and the compiler may not change what
+//! f32 is rounded to; so the expression that one walk reads is that of all of them, and each has
+//! the error that trying every angle found ([`crate::sines`]). A model that leaves something out is
+//! another expression. The distance of two expressions, their literals taken as they are, is a
+//! trigonometric polynomial too, and is bounded by the same grid; then
 //!
 //!   |error| ≤ |computed − the model's expression| + |that − the whole expression| + |that − the whole model|,
 //!
@@ -43,7 +45,8 @@ fn kernels() -> [(&'static str, Kernel); 9] {
     ]
 }
 
-/// The models by their names on the axis `model`, and the variables of the program; that of the whole robot has none.
+/// The models by their names on the axis `model`, and the variables of the program; that of the
+/// whole robot has none.
 const MODELS: [(&str, &str); 11] = [
     ("", "CONFIGURED_FULL"),
     ("no_coriolis", "CONFIGURED_NO_CORIOLIS"),
@@ -70,7 +73,8 @@ const LEFT_OUT: [(&str, &str); 5] = [
     ("f64", "its code calls routines for f64"),
 ];
 
-/// The robots of `docs/accuracy.md`, and the accelerations that their paths there keep to: what is measured lies in the box.
+/// The robots of `docs/accuracy.md`, and the accelerations that their paths there keep to: what is
+/// measured lies in the box.
 pub const PATHS: [(&str, f64); 3] = [("ur5e", 12.0), ("panda", 12.0), ("a1_leg", 300.0)];
 
 /// The proven errors of a robot's configurations.
@@ -122,8 +126,8 @@ fn expressions(image: &Image) -> Result<Vec<Walked>> {
     each.collect()
 }
 
-/// SHA-256 of what proofs are of: of the machine code of each model, by the variable that points to it, and of `inputs`, the box and the bits
-/// of each kernel's sines at some ten thousand angles.
+/// SHA-256 of what proofs are of: of the machine code of each model, by the variable that points to
+/// it, and of `inputs`, the box and the bits of each kernel's sines at some ten thousand angles.
 ///
 /// # Errors
 /// [`Error::Declined`], [`Error::Missing`].
@@ -253,7 +257,8 @@ impl<'a> Whole<'a> {
     }
 }
 
-/// The greatest error of a joint by each kernel, of a model's expression; beside the whole one if it is another.
+/// The greatest error of a joint by each kernel, of a model's expression; beside the whole one if
+/// it is another.
 pub fn each(
     own: &Graph,
     whole: Option<&Whole<'_>>,

@@ -1,9 +1,10 @@
-//! The most cycles that a function or a measured region can take, by the cycle meter's model: its longest path, with what the pipeline
-//! carries from instruction to instruction.
+//! The most cycles that a function or a measured region can take, by the cycle meter's model: its
+//! longest path, with what the pipeline carries from instruction to instruction.
 //!
-//! The code is executed with numbers where they are known and names where they are not. So loops whose counts do not depend on data are
-//! followed turn by turn, as the processor does. At a branch that depends on data both ways are followed to where they meet again, and
-//! what they leave behind is joined. What has no bound is declined, with its address.
+//! The code is executed with numbers where they are known and names where they are not. So loops
+//! whose counts do not depend on data are followed turn by turn, as the processor does. At a branch
+//! that depends on data both ways are followed to where they meet again, and what they leave behind
+//! is joined. What has no bound is declined, with its address.
 
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
@@ -19,7 +20,8 @@ use crate::words::Names;
 
 /// The instructions before the mark whose pipeline the region finds.
 const LEAD: usize = 24;
-/// The turns of a loop on data after which nothing bounds it, and the branches on data that can be open at once.
+/// The turns of a loop on data after which nothing bounds it, and the branches on data that can be
+/// open at once.
 const MOST_TURNS: usize = 64;
 const MOST_OPEN: usize = 300;
 /// More instructions than are followed in one region.
@@ -104,7 +106,8 @@ impl Declined {
 
 type Result<T> = std::result::Result<T, Declined>;
 
-/// The most cycles of a measured region, and the branches on data in it, of which both ways were followed.
+/// The most cycles of a measured region, and the branches on data in it, of which both ways were
+/// followed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bound {
     /// Its cycles, or why they have no bound.
@@ -113,8 +116,8 @@ pub struct Bound {
     pub branches: Vec<u32>,
 }
 
-/// The bound of the region that opens with the mark at an address; what it calls itself through a register is the function at another.
-/// Nothing if no function holds the mark.
+/// The bound of the region that opens with the mark at an address; what it calls itself through a
+/// register is the function at another. Nothing if no function holds the mark.
 pub fn region(image: &Image, at: u32, callee: Option<u32>) -> Option<Bound> {
     let function = image.function(at)?;
     let whole = Flow::of(image, function.0, |to| is_within(function, to), false);
@@ -134,7 +137,8 @@ pub fn region(image: &Image, at: u32, callee: Option<u32>) -> Option<Bound> {
     })
 }
 
-/// The same of a call of the function at an address, from its first instruction to its return, with nothing pending in the pipeline.
+/// The same of a call of the function at an address, from its first instruction to its return, with
+/// nothing pending in the pipeline.
 pub fn function(image: &Image, at: u32) -> Bound {
     let at = at & !1;
     let range = image.function(at).unwrap_or((at, u32::MAX));
@@ -155,8 +159,8 @@ pub(crate) fn is_within((start, size): (u32, u32), at: u32) -> bool {
 /// Instructions, and states of the pipeline with the cycles until there.
 type Before<'a> = (Vec<&'a Fetched>, Vec<(Pipe, u64)>);
 
-/// The instructions that are executed in a row right before a mark whatever was executed before them, and what the pipeline can hold
-/// at the mark: a branch to it leaves nothing pending.
+/// The instructions that are executed in a row right before a mark whatever was executed before
+/// them, and what the pipeline can hold at the mark: a branch to it leaves nothing pending.
 fn before<'a>(image: &Image, whole: &'a Flow, mark: u32) -> Option<Before<'a>> {
     whole.code.get(&mark)?;
     let ways = whole.code.values().flat_map(|one| one.ways(image));

@@ -1,4 +1,5 @@
-//! Instructions of ARMv7E-M with FPv4-SP that straight-line arithmetic uses: ARM DDI 0403E, chapters A5 to A7.
+//! Instructions of ARMv7E-M with FPv4-SP that straight-line arithmetic uses: ARM DDI 0403E,
+//! chapters A5 to A7.
 //!
 //! What is not here is declined by the walk, with its address: no instruction is guessed at.
 
@@ -105,7 +106,8 @@ pub enum Instruction {
         offset: i32,
         load: bool,
     },
-    /// Words between registers, a bit each, and n upward; `before` n of a store that decrements. Whether n moves.
+    /// Words between registers, a bit each, and n upward; `before` n of a store that decrements.
+    /// Whether n moves.
     Words {
         n: u8,
         registers: u16,
@@ -176,7 +178,8 @@ pub enum Instruction {
     MultiplyAdd { d: u8, n: u8, m: u8, a: u8 },
     /// d = the number of zeros before the first one of m
     LeadingZeros { d: u8, m: u8 },
-    /// TBB, TBH: branches forward by twice entry m of the table at n, whose entries are bytes or halfwords.
+    /// TBB, TBH: branches forward by twice entry m of the table at n, whose entries are bytes or
+    /// halfwords.
     TableBranch { n: u8, m: u8, shift: u8 },
     /// Memory of any size at n + offset.
     Access(Access),

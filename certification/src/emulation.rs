@@ -1,4 +1,5 @@
-//! The program's functions in QEMU, at states of the box: their cycles by the meter, and the bits of their results.
+//! The program's functions in QEMU, at states of the box: their cycles by the meter, and the bits
+//! of their results.
 
 use std::process::{Command, Stdio};
 
@@ -27,7 +28,8 @@ pub struct Emulation {
 }
 
 impl Emulation {
-    /// What a program printed, a line for each call, and what its calls cost; nothing if these are not as many.
+    /// What a program printed, a line for each call, and what its calls cost; nothing if these are
+    /// not as many.
     pub fn read(states: Vec<Vec<f64>>, said: &str, samples: Vec<Sample>) -> Option<Self> {
         let is_whole = !samples.is_empty() && samples.len() == said.lines().count();
         let calls = said
@@ -40,7 +42,8 @@ impl Emulation {
         })
     }
 
-    /// The cost of each call of a function, and the bits of its results, in the order of the states.
+    /// The cost of each call of a function, and the bits of its results, in the order of the
+    /// states.
     pub fn of<'a>(&'a self, function: &'a str) -> impl Iterator<Item = (Sample, &'a [u32])> {
         let mine = self.calls.iter().filter(move |call| call.0 == function);
         mine.map(|call| (call.1, &*call.2))
@@ -50,7 +53,8 @@ impl Emulation {
 /// Runs a program at random states of a robot's box.
 ///
 /// # Errors
-/// [`Error::Program`] if there is no QEMU that takes the meter, [`Error::Missing`] if the program is not one that runs.
+/// [`Error::Program`] if there is no QEMU that takes the meter, [`Error::Missing`] if the program
+/// is not one that runs.
 pub fn run(program: &Program, robot: &Robot) -> Result<Emulation> {
     let image = Image::read(&program.elf)?;
     let n = robot.joints.len();

@@ -49,7 +49,8 @@ pub enum Error {
         /// What is not proven.
         reason: &'static str,
     },
-    /// The direction of a branch depends on the state, or is not proven to be the same in the whole box.
+    /// The direction of a branch depends on the state, or is not proven to be the same in the whole
+    /// box.
     #[error(
         "declined at {address:#010x}: a branch depends on data; its comparison gives {ordering:?} at the zero state, which is not proven for q, q̇, q̈ in {states:.3?}: a narrower --box may exclude this part"
     )]
@@ -97,7 +98,8 @@ pub enum Error {
         /// What a state has.
         found: f64,
     },
-    /// A call took more cycles than its machine code says, or not as many although nothing branches on data.
+    /// A call took more cycles than its machine code says, or not as many although nothing branches
+    /// on data.
     #[error("{function}: the bound is {bound} cycles, and {least} to {most} were measured")]
     Cycles {
         /// The function.

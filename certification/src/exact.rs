@@ -1,4 +1,5 @@
-//! The exact function that a certificate is about: of the robot's model in f64, whose numbers no literal has rounded.
+//! The exact function that a certificate is about: of the robot's model in f64, whose numbers no
+//! literal has rounded.
 //!
 //! The expression of the machine code in f64 is not it: its literals are numbers of f32.
 
@@ -52,7 +53,8 @@ impl Exact {
         Ok(Self { function, model })
     }
 
-    /// The results at these places, in words from the first, at a state q, q̇, q̈; NaN where there is none.
+    /// The results at these places, in words from the first, at a state q, q̇, q̈; NaN where there
+    /// is none.
     pub fn at(&self, state: &[f64], places: impl Iterator<Item = usize>) -> Vec<f64> {
         let n = state.len() / 3;
         let part = |i: usize| &state[i * n..(i + 1) * n];

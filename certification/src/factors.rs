@@ -1,9 +1,12 @@
-//! That machine code of forward dynamics factors M = Lᵀ D L and solves with the factors, and how often it rounds.
+//! That machine code of forward dynamics factors M = Lᵀ D L and solves with the factors, and how
+//! often it rounds.
 //!
-//! The recursion (RBDA, tables 6.3 and 6.4) is written down here once more, over expressions: of the entries of M, which are those of the
-//! engine's `crba`, and of torques less biases it makes the accelerations. They must be the expressions of the machine code, operation by
-//! operation. Compared are normal forms, in which operands of sums and products have no order, signs are carried outwards and what is known
-//! to the compiler is computed: rounding to nearest knows no order and no sign, so that all expressions of a normal form have one value.
+//! The recursion (RBDA, tables 6.3 and 6.4) is written down here once more, over expressions: of
+//! the entries of M, which are those of the engine's `crba`, and of torques less biases it makes
+//! the accelerations. They must be the expressions of the machine code, operation by operation.
+//! Compared are normal forms, in which operands of sums and products have no order, signs are
+//! carried outwards and what is known to the compiler is computed: rounding to nearest knows no
+//! order and no sign, so that all expressions of a normal form have one value.
 //!
 //! With the unit roundoff u = 2⁻²⁴ and 1 + θ_m for a product of m factors (1 + δ)^±1, |δ| ≤ u, |θ_m| ≤ γ_m = m u / (1 − m u) (Higham, Accuracy
 //! and Stability of Numerical Algorithms, 2002, lemma 3.1), let d_k be the exact reciprocal of the computed 1/D_k. Each entry of M̂ is a
@@ -11,8 +14,9 @@
 //!
 //!   M̂_ij = Σ_k d_k l_ki l_kj (1 + θ_f),   (τ − b̂)_i = Σ_j Σ_k d_k l_ki l_kj (1 + θ_s) q̈_j,
 //!
-//! as in his theorems 10.3 and 10.4 of Cholesky, so that (M̂ + E) q̈ = τ − b̂ of the computed q̈, with |E_ij| ≤ γ_m Σ_k d_k |l_ki l_kj| where
-//! m = f + s is the number of roundings that [`Factored::roundings`] has.
+//! as in his theorems 10.3 and 10.4 of Cholesky, so that (M̂ + E) q̈ = τ − b̂ of the computed q̈,
+//! with |E_ij| ≤ γ_m Σ_k d_k |l_ki l_kj| where m = f + s is the number of roundings that
+//! [`Factored::roundings`] has.
 
 use std::cmp::Ordering;
 use std::collections::HashMap;
@@ -166,7 +170,8 @@ struct Solved {
     roundings: Vec<Vec<u32>>,
 }
 
-/// In which order the last substitution subtracts from an acceleration the products with those of the joint's ancestors.
+/// In which order the last substitution subtracts from an acceleration the products with those of
+/// the joint's ancestors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
     /// From the base's joint to the parent, as the engine.
@@ -228,12 +233,14 @@ fn solve(terms: &mut Terms, mut m: Vec<Vec<Term>>, mut x: Vec<Term>, order: Orde
 /// f + s of each entry, the most of any k.
 fn roundings(turns: &[Vec<Option<u32>>], subtracted: &[u32], order: Order) -> Vec<Vec<u32>> {
     let n = subtracted.len();
-    // The product with l_ki and the subtractions from row i, or from torque i, before its own; without such a product all of them.
+    // The product with l_ki and the subtractions from row i, or from torque i, before its own;
+    // without such a product all of them.
     let inward = |k: usize, i: usize| match k == i {
         true => Some(subtracted[i]),
         false => turns[k][i],
     };
-    // The same of acceleration k, from which products with the accelerations of its ancestors are subtracted.
+    // The same of acceleration k, from which products with the accelerations of its ancestors are
+    // subtracted.
     let outward = |k: usize, j: usize| {
         let before = match order {
             _ if k == j => 0..n,
@@ -266,13 +273,15 @@ pub struct Noise {
 /// Forward dynamics, taken apart.
 #[derive(Clone, Debug)]
 pub struct Factored {
-    /// Its results are the biases b and the lower triangle of M, by rows: offsets 4 i and 4 (n + n i + j).
+    /// Its results are the biases b and the lower triangle of M, by rows: offsets 4 i and 4 (n + n
+    /// i + j).
     pub graph: Graph,
     /// Of each entry of M, m as above.
     pub roundings: Vec<Vec<u32>>,
     /// What each pivot is compared with, where it is: the greatest.
     pub noise: Vec<Option<Noise>>,
-    /// The joints whose pivots are compared with what depends on the state in another way than M, and the nodes of the graph that this is.
+    /// The joints whose pivots are compared with what depends on the state in another way than M,
+    /// and the nodes of the graph that this is.
     pub others: Vec<(usize, usize)>,
 }
 
@@ -385,7 +394,8 @@ fn on_torques(code: &Graph) -> Vec<bool> {
     depends
 }
 
-/// The torque of a joint less what does not depend on torques, which is its bias if the result is that of the recursion.
+/// The torque of a joint less what does not depend on torques, which is its bias if the result is
+/// that of the recursion.
 fn remaining(
     terms: &mut Terms,
     code: &Graph,

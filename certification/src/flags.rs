@@ -1,4 +1,5 @@
-//! The flags of sums of integers, and the conditions that they decide: ARM DDI 0403E, A2.2.1 and A7.3.
+//! The flags of sums of integers, and the conditions that they decide: ARM DDI 0403E, A2.2.1 and
+//! A7.3.
 
 use crate::decode::Condition;
 

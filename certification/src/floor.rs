@@ -1,14 +1,17 @@
 //! A floor of the least eigenvalue of the inertia matrix M(q) over all positions of the joints.
 //!
-//! Over a part of the box, M = A(d) + R with A affine in d ∈ [−1, 1]ⁿ and |R_ij| ≤ r_ij ([`crate::taylor`]). For any positive s,
+//! Over a part of the box, M = A(d) + R with A affine in d ∈ [−1, 1]ⁿ and |R_ij| ≤ r_ij
+//! ([`crate::taylor`]). For any positive s,
 //!
 //!   2 |R_ij x_i x_j| ≤ r_ij (s_j/s_i x_i² + s_i/s_j x_j²),
 //!
-//! so that M − A(d) + D is positive semidefinite with the diagonal D_i = Σ_j r_ij s_j/s_i: a congruence of R by diag(s) and Gershgorin's
-//! circles. The least eigenvalue is a concave function of a symmetric matrix (Horn & Johnson, Matrix Analysis, 4.3), so that that of A(d) − D is
-//! least at a corner of the part. There it is above μ if the factorisation of Cholesky of A − D − (μ + c) I succeeds in f64, with c for its
-//! roundings (Rump, BIT Numerical Mathematics 46, 2006). If it fails, it gives a direction x in which A − D is too small, and the part is halved
-//! along the coordinate that changes M most in that direction.
+//! so that M − A(d) + D is positive semidefinite with the diagonal D_i = Σ_j r_ij s_j/s_i: a
+//! congruence of R by diag(s) and Gershgorin's circles. The least eigenvalue is a concave function
+//! of a symmetric matrix (Horn & Johnson, Matrix Analysis, 4.3), so that that of A(d) − D is least
+//! at a corner of the part. There it is above μ if the factorisation of Cholesky of A − D − (μ + c)
+//! I succeeds in f64, with c for its roundings (Rump, BIT Numerical Mathematics 46, 2006). If it
+//! fails, it gives a direction x in which A − D is too small, and the part is halved along the
+//! coordinate that changes M most in that direction.
 
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
@@ -49,8 +52,8 @@ const KEPT: [f64; 2] = [0.6, 0.85];
 /// Joints of an arm whose floor is proven directly before further joints are added.
 const FIRST: [usize; 3] = [1, 3, 4];
 
-/// Proves a floor x over these positions, M ⪰ x diag(scales), with at most so many parts for each value that is tried: joint by joint from the base on by
-/// [`crate::peel`], and directly.
+/// Proves a floor x over these positions, M ⪰ x diag(scales), with at most so many parts for each
+/// value that is tried: joint by joint from the base on by [`crate::peel`], and directly.
 pub fn prove(bodies: &[Body], positions: &[Interval], scales: &[f64], most: usize) -> Floor {
     let mut arms = vec![peel::welded(bodies)];
     while let Some(next) = arms.last().filter(|arm| arm.len() > 1) {
@@ -60,7 +63,8 @@ pub fn prove(bodies: &[Body], positions: &[Interval], scales: &[f64], most: usiz
     let Some(arm) = arms.last().filter(|arm| arm.len() == positions.len()) else {
         return Floor::default();
     };
-    // The first joints' floors are in the ratio of the scales, or of inertias at one position, which keep more for the joints beyond.
+    // The first joints' floors are in the ratio of the scales, or of inertias at one position,
+    // which keep more for the joints beyond.
     let middle = positions
         .iter()
         .map(|x| Position::at(0.5 * (x.low + x.high)));
@@ -121,7 +125,8 @@ fn directly(
     }
 }
 
-/// The floor of the last of some arms, each with a joint more than the one before, of which the joints keep a share of their own floors.
+/// The floor of the last of some arms, each with a joint more than the one before, of which the
+/// joints keep a share of their own floors.
 fn by_joints(
     arms: &[Vec<Body>],
     mut floors: Vec<f64>,
@@ -158,7 +163,8 @@ fn scaled(of: &[f64], scales: &[f64]) -> f64 {
     each.fold(f64::MAX, f64::min)
 }
 
-/// The number of parts by which it is proven that M is above the diagonal matrix of these numbers; none if they are not enough.
+/// The number of parts by which it is proven that M is above the diagonal matrix of these numbers;
+/// none if they are not enough.
 pub fn is_above(
     bodies: &[Body],
     positions: &[Interval],
@@ -243,8 +249,8 @@ impl Enclosure {
         size
     }
 
-    /// The coordinate along which M changes most in a direction, of those that are not much narrower than others: a slope says nothing of how
-    /// it changes.
+    /// The coordinate along which M changes most in a direction, of those that are not much
+    /// narrower than others: a slope says nothing of how it changes.
     fn widest(&self, weak: &[f64], part: &[Interval]) -> Option<usize> {
         let width = |k: usize| part[k].high - part[k].low;
         let most = self
@@ -306,7 +312,8 @@ impl Enclosure {
     }
 }
 
-/// The least eigenvalue of M at a position, scaled as for [`prove`], to about ten digits: by halving.
+/// The least eigenvalue of M at a position, scaled as for [`prove`], to about ten digits: by
+/// halving.
 pub fn least_eigenvalue(bodies: &[Body], q: &[f64], scales: &[f64]) -> f64 {
     let at: Vec<Position<f64>> = q.iter().map(|q| Position::at(*q)).collect();
     let matrix = inertia_matrix(bodies, q.len(), &at);

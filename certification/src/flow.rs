@@ -85,7 +85,8 @@ impl Fetched {
         branch.filter(|to| to.words == 0).map(|to| to.target)
     }
 
-    /// The targets of a table that the compiler wrote behind a jump: offsets, of which none leads into the table, or branches.
+    /// The targets of a table that the compiler wrote behind a jump: offsets, of which none leads
+    /// into the table, or branches.
     pub fn table(&self, image: &Image) -> Vec<u32> {
         if self.insn.class == Class::TableBranch && self.code[0] & 15 == 15 {
             let (mut targets, mut end) = (
@@ -228,7 +229,8 @@ fn block(image: &Image, it: &Fetched) -> Vec<(u32, Condition)> {
     conditions.collect()
 }
 
-/// The immediate postdominators, by the algorithm of Cooper, Harvey and Kennedy (2001); those that are the exit are left out.
+/// The immediate postdominators, by the algorithm of Cooper, Harvey and Kennedy (2001); those that
+/// are the exit are left out.
 fn meets(follows: &HashMap<u32, Vec<Option<u32>>>) -> HashMap<u32, u32> {
     let mut before: HashMap<Option<u32>, Vec<u32>> = HashMap::new();
     for (at, ways) in follows {

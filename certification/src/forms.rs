@@ -1,9 +1,11 @@
 //! Sums as linear forms of products, so that what belongs together is bounded together.
 //!
-//! Interval arithmetic forgets where a number comes from: it bounds c x + s y by |x| + |y| although (c, s) is a point of the circle, and
-//! p − (p − q) by three times what it is. Here a sum is written out over its products; a product that occurs twice is counted once with
-//! the sum of its signs, and those with the sine and the cosine of one joint make a [`Rotation`], whose range over a sector of angles is
-//! known in closed form. The same holds of adjoints, which are sums over the places where a value is used.
+//! Interval arithmetic forgets where a number comes from: it bounds c x + s y by |x| + |y| although
+//! (c, s) is a point of the circle, and p − (p − q) by three times what it is. Here a sum is
+//! written out over its products; a product that occurs twice is counted once with the sum of its
+//! signs, and those with the sine and the cosine of one joint make a [`Rotation`], whose range over
+//! a sector of angles is known in closed form. The same holds of adjoints, which are sums over the
+//! places where a value is used.
 
 use std::collections::BTreeMap;
 
@@ -35,7 +37,8 @@ pub struct Form {
     pub rotations: Vec<Rotation>,
     /// The nodes whose rounding errors the sum has beside these.
     pub errors: Sum,
-    /// Of adjoints, those of quotients, roots and absolute values, and of which operand: the first or the second.
+    /// Of adjoints, those of quotients, roots and absolute values, and of which operand: the first
+    /// or the second.
     pub steep: Vec<(usize, usize)>,
 }
 
@@ -113,7 +116,8 @@ fn value(graph: &Graph, leaves: &[Option<Leaf>], sum: usize) -> Option<Form> {
     Some(form)
 }
 
-/// Whether a node is a product with a sine or cosine: whether with the sine, of which joint, and the other factor.
+/// Whether a node is a product with a sine or cosine: whether with the sine, of which joint, and
+/// the other factor.
 fn turned(graph: &Graph, leaves: &[Option<Leaf>], k: usize) -> Option<(bool, usize, usize)> {
     let Node::Mul(a, b) = graph.nodes[k] else {
         return None;

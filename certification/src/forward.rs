@@ -1,24 +1,29 @@
 //! The error of forward dynamics, relative to the condition of the inertia matrix.
 //!
-//! The machine code computes M̂ and b̂, of which |M̂ − M| ≤ μ and |b̂ − b| ≤ β are proven over the box as torques are, and solves with the factors
-//! of M̂, so that (M̂ + E) q̈̂ = τ − b̂ with |E_ij| ≤ γ_m Σ_k d_k |l_ki l_kj| ([`crate::factors`]). Pivots d are positive, so that this sum is at
-//! most √(h_i h_j) by the inequality of Cauchy and Schwarz, with h_i = Σ_k d_k l_ki² ≤ M̂_ii / (1 − γ). Therefore, at each state,
+//! The machine code computes M̂ and b̂, of which |M̂ − M| ≤ μ and |b̂ − b| ≤ β are proven over the
+//! box as torques are, and solves with the factors of M̂, so that (M̂ + E) q̈̂ = τ − b̂ with |E_ij|
+//! ≤ γ_m Σ_k d_k |l_ki l_kj| ([`crate::factors`]). Pivots d are positive, so that this sum is at
+//! most √(h_i h_j) by the inequality of Cauchy and Schwarz, with h_i = Σ_k d_k l_ki² ≤ M̂_ii / (1 −
+//! γ). Therefore, at each state,
 //!
 //!   |q̈̂ − q̈| ≤ |M⁻¹| (β + Φ |q̈̂|),   Φ_ij = μ_ij + γ_m √(h_i h_j),
 //!
-//! entry by entry (Higham 2002, section 7.2), and with S = diag(√h_i) of the greatest h_i of the box and ρ = ‖(S⁻¹ M S⁻¹)⁻¹‖₂
+//! entry by entry (Higham 2002, section 7.2), and with S = diag(√h_i) of the greatest h_i of the
+//! box and ρ = ‖(S⁻¹ M S⁻¹)⁻¹‖₂
 //!
 //!   ‖S (q̈̂ − q̈)‖₂ ≤ ρ (β_S + ε ‖S q̈̂‖₂),   β_S = ‖S⁻¹ β‖₂,   ε = ‖S⁻¹ Φ S⁻¹‖₂.
 //!
-//! ρ is the condition number κ of S⁻¹ M S⁻¹ by its norm, which is at most n: scaled so that the diagonal is at most one, M is nearly as well
-//! conditioned as it can be (van der Sluis, Numerische Mathematik 14, 1969; Demmel, LAPACK Working Note 14, 1989).
+//! ρ is the condition number κ of S⁻¹ M S⁻¹ by its norm, which is at most n: scaled so that the
+//! diagonal is at most one, M is nearly as well conditioned as it can be (van der Sluis, Numerische
+//! Mathematik 14, 1969; Demmel, LAPACK Working Note 14, 1989).
 //!
-//! Pivots are positive wherever ρ ε < 1. Let every rounding be 1 + t δ, 0 ≤ t ≤ 1. At t = 0 the pivots are those of M̂, which is positive
-//! definite, and they are continuous in t while they are positive. So long, M̂ + E is above (1/ρ − ε) S², and so is each pivot above
-//! (1/ρ − ε) h_k: none reaches zero.
+//! Pivots are positive wherever ρ ε < 1. Let every rounding be 1 + t δ, 0 ≤ t ≤ 1. At t = 0 the
+//! pivots are those of M̂, which is positive definite, and they are continuous in t while they are
+//! positive. So long, M̂ + E is above (1/ρ − ε) S², and so is each pivot above (1/ρ − ε) h_k: none
+//! reaches zero.
 //!
-//! A number below 2⁻¹²⁶ has an absolute error of 2⁻¹⁵⁰ besides. Such errors of all operations, with factors of at most n h, are less than
-//! `TINY`.
+//! A number below 2⁻¹²⁶ has an absolute error of 2⁻¹⁵⁰ besides. Such errors of all operations, with
+//! factors of at most n h, are less than `TINY`.
 
 use serde::{Deserialize, Serialize};
 
@@ -35,7 +40,8 @@ use crate::state_box::Robot;
 
 /// The unit roundoff of f32.
 const UNIT: f64 = 1.0 / (1 << 24) as f64;
-/// A bound of the sum of all errors of subnormal numbers, for robots whose inertias are at most [`HEAVIEST`].
+/// A bound of the sum of all errors of subnormal numbers, for robots whose inertias are at most
+/// [`HEAVIEST`].
 const TINY: f64 = 1e-30;
 /// kg·m²
 const HEAVIEST: f64 = 1e6;
@@ -61,11 +67,13 @@ pub struct Forward {
     pub beta: f64,
     /// The floor of the least eigenvalue of S⁻¹ M S⁻¹, which is 1/ρ.
     pub floor: Floor,
-    /// Whether it follows that each state of the box has accelerations: no pivot is too small for the code.
+    /// Whether it follows that each state of the box has accelerations: no pivot is too small for
+    /// the code.
     pub is_total: bool,
     /// The states that were tried.
     pub states: usize,
-    /// Of each joint, the greatest error of its acceleration as a share of the bound at the same state; then that of the norm.
+    /// Of each joint, the greatest error of its acceleration as a share of the bound at the same
+    /// state; then that of the norm.
     pub shares: Vec<Observed>,
     /// The same states, for a computation in more digits.
     pub worst: Vec<Worst>,
@@ -97,8 +105,8 @@ fn gamma(roundings: u32) -> f64 {
 }
 
 impl Forward {
-    /// Of the bounds of what [`Factored::graph`] has as results, with sines of these errors, for a robot of these bodies. The floor is proven by at
-    /// most so many parts.
+    /// Of the bounds of what [`Factored::graph`] has as results, with sines of these errors, for a
+    /// robot of these bodies. The floor is proven by at most so many parts.
     ///
     /// # Errors
     /// [`Error::Factors`] of inertias beyond what f32 is taken for.
@@ -183,10 +191,12 @@ impl Forward {
             .collect()
     }
 
-    /// Searches the greatest shares, at states of which accelerations are drawn too: torques are those that they need.
+    /// Searches the greatest shares, at states of which accelerations are drawn too: torques are
+    /// those that they need.
     ///
     /// # Errors
-    /// [`Error::Contradicted`] if an error is above its bound, [`Error::Robot`] of bodies that are not taken.
+    /// [`Error::Contradicted`] if an error is above its bound, [`Error::Robot`] of bodies that are
+    /// not taken.
     pub fn search(
         &mut self,
         code: &Graph,
@@ -228,7 +238,8 @@ impl Forward {
         Ok(())
     }
 
-    /// Of each joint the error as a share of its bound, and the same of the norm; zero where nothing is proven.
+    /// Of each joint the error as a share of its bound, and the same of the norm; zero where
+    /// nothing is proven.
     fn shares_of(&self, trial: &Trial) -> Vec<f64> {
         let rho = self.inverse_norm(&trial.inverse);
         if rho * self.epsilon >= 1.0 {
@@ -291,7 +302,8 @@ struct Exact<'a> {
 }
 
 impl Exact<'_> {
-    /// At positions, speeds and accelerations, for the torques of f32 that are next to those that these need.
+    /// At positions, speeds and accelerations, for the torques of f32 that are next to those that
+    /// these need.
     fn at(&mut self, state: &[f64]) -> Option<Trial> {
         let n = state.len() / 3;
         let [q, qd, qdd] = [0, 1, 2].map(|i| &state[i * n..(i + 1) * n]);
@@ -333,14 +345,16 @@ fn magnitude(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a * b).abs()).sum()
 }
 
-/// A bound of the greatest singular value of a matrix without negative entries: the root of its greatest sums of a row and of a column.
+/// A bound of the greatest singular value of a matrix without negative entries: the root of its
+/// greatest sums of a row and of a column.
 fn norm(of: &Matrix) -> f64 {
     let row = of.iter().map(|row| row.iter().sum()).fold(0.0, f64::max);
     let columns = (0..of.len()).map(|j| of.iter().map(|row| row[j]).sum());
     (row * columns.fold(0.0, f64::max)).sqrt() * UP
 }
 
-/// The inverse of a symmetric positive definite matrix, of which the lower triangle is given: by Gauss and Jordan, in place.
+/// The inverse of a symmetric positive definite matrix, of which the lower triangle is given: by
+/// Gauss and Jordan, in place.
 pub fn inverse(of: &Matrix) -> Option<Matrix> {
     let n = of.len();
     let mut a: Matrix = (0..n)

@@ -1,8 +1,10 @@
-//! A result of machine code as an FPCore, the form of the benchmarks of FPBench, which other tools that bound rounding errors read.
+//! A result of machine code as an FPCore, the form of the benchmarks of FPBench, which other tools
+//! that bound rounding errors read.
 //!
-//! FPCore 2.0 (<https://fpbench.org/spec/fpcore-2.0.html>). An operation of the code is a binding of `let*`, rounded to binary32; a
-//! product and a sum stay two operations, as the code has them. A reciprocal root, in the code a guess from bits and Newton's steps, is one that is
-//! rounded once: FPCore knows no bits.
+//! FPCore 2.0 (<https://fpbench.org/spec/fpcore-2.0.html>). An operation of the code is a binding
+//! of `let*`, rounded to binary32; a product and a sum stay two operations, as the code has them. A
+//! reciprocal root, in the code a guess from bits and Newton's steps, is one that is rounded once:
+//! FPCore knows no bits.
 
 use std::fmt::Write as _;
 
@@ -20,7 +22,8 @@ fn variable(robot: &Robot, axis: usize) -> String {
     format!("{letters}{}", joint + 1)
 }
 
-/// An output of a graph; None if one of its inputs is not the robot's. `name` is that of the benchmark.
+/// An output of a graph; None if one of its inputs is not the robot's. `name` is that of the
+/// benchmark.
 pub fn fpcore(graph: &Graph, output: usize, robot: &Robot, name: &str) -> Option<String> {
     let graph = graph.of_output(output);
     let (mut used, mut bindings) = (vec![false; 3 * robot.joints.len()], String::new());

@@ -20,7 +20,8 @@ pub enum Function {
     Crba,
     /// Inverse dynamics of the core
     Core,
-    /// Forward dynamics of the engine, whose error is relative to the condition of the inertia matrix
+    /// Forward dynamics of the engine, whose error is relative to the condition of the inertia
+    /// matrix
     #[serde(rename = "forward_dynamics")]
     #[value(name = "forward_dynamics")]
     ForwardDynamics,
@@ -32,7 +33,8 @@ pub enum Function {
     #[serde(rename = "core_forward_dynamics")]
     #[value(name = "core_forward_dynamics")]
     CoreForwardDynamics,
-    /// Inverse dynamics of the engine for a robot with a kinematic loop: the program of `four_bar_leg` has no other
+    /// Inverse dynamics of the engine for a robot with a kinematic loop: the program of
+    /// `four_bar_leg` has no other
     Clustered,
 }
 

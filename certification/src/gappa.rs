@@ -1,10 +1,13 @@
-//! The proof over one part of the box as a script for Gappa, which checks it without knowing of this crate.
+//! The proof over one part of the box as a script for Gappa, which checks it without knowing of
+//! this crate.
 //!
-//! Gappa (de Dinechin, Lauter, Melquiond, 2011) proves intervals of expressions with rounded operations. Its own way to an error of the
-//! result, forward along the operations, loses what the adjoints keep: that errors cancel. So the script is a chain of small statements:
-//! for each instruction the range of its result and the size of its rounding error, for each value the range of its adjoint, and at last
-//! the sum. Each takes the ranges of what it uses as given, and is given by those before it. What is left to trust is the mean value
-//! theorem that joins them, and that the instructions are those of the program.
+//! Gappa (de Dinechin, Lauter, Melquiond, 2011) proves intervals of expressions with rounded
+//! operations. Its own way to an error of the result, forward along the operations, loses what the
+//! adjoints keep: that errors cancel. So the script is a chain of small statements: for each
+//! instruction the range of its result and the size of its rounding error, for each value the range
+//! of its adjoint, and at last the sum. Each takes the ranges of what it uses as given, and is
+//! given by those before it. What is left to trust is the mean value theorem that joins them, and
+//! that the instructions are those of the program.
 
 use std::collections::BTreeSet;
 use std::io::Write as _;
@@ -35,7 +38,8 @@ fn range(of: &str, x: Interval) -> String {
 /// The statements of a part of the box.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Script {
-    /// The ranges that are given: inputs and literals by what they are, results by the statements before.
+    /// The ranges that are given: inputs and literals by what they are, results by the statements
+    /// before.
     pub given: Vec<String>,
     /// What is to be proven.
     pub proven: Vec<String>,
@@ -276,9 +280,11 @@ pub fn is_checked_by_coq(proof: &str) -> Result<bool> {
         .map_err(failed("coqc"))
 }
 
-/// A proof for Coq in which the greatest rounding error of one operation is said to be half of what it is.
+/// A proof for Coq in which the greatest rounding error of one operation is said to be half of what
+/// it is.
 pub fn corrupted(proof: &str) -> Option<String> {
-    // Of a statement BND(round(a op b) - (a op b), interval), the interval's name and then its ends.
+    // Of a statement BND(round(a op b) - (a op b), interval), the interval's name and then its
+    // ends.
     let statement = proof.lines().find(|line| {
         line.starts_with("Notation") && line.contains("BND(float<") && line.contains(" - ")
     })?;

@@ -34,7 +34,8 @@ pub enum Node {
     Abs(usize),
 }
 
-/// A guess of 1/√x, the number whose bits are a magic number less half of those of x, and the steps y + y (½ − ½ x y²) from there.
+/// A guess of 1/√x, the number whose bits are a magic number less half of those of x, and the steps
+/// y + y (½ − ½ x y²) from there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Guess {
     /// The magic number.

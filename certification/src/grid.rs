@@ -1,23 +1,28 @@
 //! The bound over all angles from a grid of them.
 //!
-//! Sines and cosines enter the code by sums and products alone. So every value and every adjoint is a trigonometric polynomial in each
-//! angle, whose degree the code shows, and a quadratic one in speeds and accelerations. Riesz (1914): such a polynomial of degree n
-//! falls from its greatest absolute value M no faster than M cos(n θ), so that a grid of enough angles bounds it everywhere (`lattice`). Between the
-//! points nothing has to be enclosed, so that what cancels does. The same holds of Σ |c_m| M_m over the coefficients c_m of the monomials of speeds
-//! and accelerations, which is the greatest of the polynomials Σ ± c_m M_m.
+//! Sines and cosines enter the code by sums and products alone. So every value and every adjoint is
+//! a trigonometric polynomial in each angle, whose degree the code shows, and a quadratic one in
+//! speeds and accelerations. Riesz (1914): such a polynomial of degree n falls from its greatest
+//! absolute value M no faster than M cos(n θ), so that a grid of enough angles bounds it everywhere
+//! (`lattice`). Between the points nothing has to be enclosed, so that what cancels does. The same
+//! holds of Σ |c_m| M_m over the coefficients c_m of the monomials of speeds and accelerations,
+//! which is the greatest of the polynomials Σ ± c_m M_m.
 //!
-//! The errors are the same as in [`crate::bound`], of an exact identity in place of the mean value theorem: with the numbers v that the
-//! code's literals and exact sines give, and computed ones v + d,
+//! The errors are the same as in [`crate::bound`], of an exact identity in place of the mean value
+//! theorem: with the numbers v that the code's literals and exact sines give, and computed ones v +
+//! d,
 //!
 //!   d_k = d_a + d_b + e_k of a sum,   d_k = v_a d_b + v_b d_a + (d_a d_b + e_k) of a product,
 //!
-//! so that the error of the result is Σ (e_k + d_a d_b) ∂τ/∂v_k with derivatives at v. The same identity, with the errors of the literals, leads
-//! from v to the model's exact value.
+//! so that the error of the result is Σ (e_k + d_a d_b) ∂τ/∂v_k with derivatives at v. The same
+//! identity, with the errors of the literals, leads from v to the model's exact value.
 
 //!
-//! A quotient or a root is no polynomial in the angles that its divisor or operand depends on, and neither is the position of a joint that slides. Of
-//! those coordinates the box is split into parts, over each of which a coefficient is a number within a radius; over the other angles it stays the
-//! same polynomial. The identity has a term of second order for a quotient too, and Lagrange's remainder for a root.
+//! A quotient or a root is no polynomial in the angles that its divisor or operand depends on, and
+//! neither is the position of a joint that slides. Of those coordinates the box is split into
+//! parts, over each of which a coefficient is a number within a radius; over the other angles it
+//! stays the same polynomial. The identity has a term of second order for a quotient too, and
+//! Lagrange's remainder for a root.
 
 mod classes;
 mod lanes;
@@ -34,7 +39,8 @@ use std::collections::BTreeMap;
 use crate::graph::{Graph, Node, operands};
 use crate::state_box::{Leaf, Robot};
 
-/// A product of at most two speeds and accelerations, the lesser number first, from one; zero stands for one.
+/// A product of at most two speeds and accelerations, the lesser number first, from one; zero
+/// stands for one.
 type Monomial = (u8, u8);
 /// Where a coefficient is, and whether it is negated there.
 type Place = (u32, bool);
@@ -76,7 +82,8 @@ pub struct Program {
     places: u32,
     /// The steps of the values, before those of the adjoints.
     forward: usize,
-    /// The sums of absolute values that are wanted: place, and the monomial's greatest value; a value for each node, then an adjoint.
+    /// The sums of absolute values that are wanted: place, and the monomial's greatest value; a
+    /// value for each node, then an adjoint.
     sums: Vec<Vec<(u32, f64)>>,
     /// The degree of each node's value and adjoint in each angle.
     degrees: Vec<Vec<u8>>,
@@ -105,7 +112,8 @@ impl Builder<'_> {
         Some(Polynomial::from([((0, 0), (to, false))]))
     }
 
-    /// 1/x or 1/√x of a quotient's divisor or a root's operand, of which node k has the place; with √x of a root.
+    /// 1/x or 1/√x of a quotient's divisor or a root's operand, of which node k has the place; with
+    /// √x of a root.
     fn inverse(&mut self, k: usize, of: usize, is_root: bool) -> Option<[Polynomial; 2]> {
         let mut x = self.values[of].clone();
         if x.values().any(|(_, is_minus)| *is_minus) {
@@ -209,7 +217,8 @@ impl Builder<'_> {
         constant(place)
     }
 
-    /// Adds a node's adjoint to those of its operands. `uses` counts the uses of each node: an operand with one use shares its places.
+    /// Adds a node's adjoint to those of its operands. `uses` counts the uses of each node: an
+    /// operand with one use shares its places.
     fn propagate(&mut self, k: usize, uses: &[usize]) -> Option<()> {
         let one = Polynomial::from([((0, 0), (ONE, false))]);
         let adjoint = self.adjoints[k].clone();
@@ -333,8 +342,8 @@ fn times(m: Monomial, n: Monomial) -> Option<Monomial> {
 }
 
 impl Program {
-    /// Of a graph of one output; `None` if it is no such polynomial: of a higher degree in speeds, of a quotient by speeds or a root of them,
-    /// of an absolute value.
+    /// Of a graph of one output; `None` if it is no such polynomial: of a higher degree in speeds,
+    /// of a quotient by speeds or a root of them, of an absolute value.
     pub fn new(graph: &Graph, robot: &Robot) -> Option<Self> {
         let n = robot.joints.len();
         let whole = robot.whole();

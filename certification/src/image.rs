@@ -101,7 +101,8 @@ impl Image {
         self.code.get(after).copied()
     }
 
-    /// The name of the function that holds an address: the last parts of its path, without the hash.
+    /// The name of the function that holds an address: the last parts of its path, without the
+    /// hash.
     pub fn name(&self, at: u32) -> Option<String> {
         let mut symbols = self.symbols.iter();
         let (name, ..) = symbols.find(|(_, start, size)| at.wrapping_sub(*start) < *size)?;
@@ -147,7 +148,8 @@ impl Image {
         ))
     }
 
-    /// SHA-256 of the functions that hold these addresses, each from its first instruction to its last literal.
+    /// SHA-256 of the functions that hold these addresses, each from its first instruction to its
+    /// last literal.
     pub fn hash(&self, visited: &[u32]) -> String {
         let mut hash = Sha256::new();
         let holds = |(_, start, size): &&(String, u32, u32)| {

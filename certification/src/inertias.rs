@@ -1,16 +1,22 @@
-//! The most that a torque changes if the inertia of each link is known within some percent, over all positions, speeds and accelerations.
+//! The most that a torque changes if the inertia of each link is known within some percent, over
+//! all positions, speeds and accelerations.
 //!
-//! A link is what moves as one. Its mass, first and second moments are all off by the same factor, at most 1 ± x: its mass is, and its centre of
-//! mass and radii of gyration are not, so that what is assumed stays a body. Each link has a factor of its own. Torques are linear in
-//! inertias, so that joint i needs at most x Σ_k |τ_i^k| more or less, where τ_i^k is what link k alone needs, and some factors need it.
+//! A link is what moves as one. Its mass, first and second moments are all off by the same factor,
+//! at most 1 ± x: its mass is, and its centre of mass and radii of gyration are not, so that what
+//! is assumed stays a body. Each link has a factor of its own. Torques are linear in inertias, so
+//! that joint i needs at most x Σ_k |τ_i^k| more or less, where τ_i^k is what link k alone needs,
+//! and some factors need it.
 //!
-//! For any signs s_k and any speeds and accelerations, Σ s_k τ_i^k is a trigonometric polynomial of degree two in each angle, as the inertia
-//! matrix is; one in cos θ for a joint that slides to q = middle + half cos θ. By the theorem of Riesz ([`crate::grid`]) the most over all
-//! angles is below that of a grid of N by no more than 1 / cos(2 π / N) for each joint. Of joints with limits there is a second bound: a
-//! polynomial with |T| ≤ M has |T''| ≤ 4 M (Bernstein), so that between points of the range, 2 δ apart and its ends among them, it is at most
-//! 2 M δ² above them. The lesser one counts.
+//! For any signs s_k and any speeds and accelerations, Σ s_k τ_i^k is a trigonometric polynomial of
+//! degree two in each angle, as the inertia matrix is; one in cos θ for a joint that slides to q =
+//! middle + half cos θ. By the theorem of Riesz ([`crate::grid`]) the most over all angles is below
+//! that of a grid of N by no more than 1 / cos(2 π / N) for each joint. Of joints with limits there
+//! is a second bound: a polynomial with |T| ≤ M has |T''| ≤ 4 M (Bernstein), so that between points
+//! of the range, 2 δ apart and its ends among them, it is at most 2 M δ² above them. The lesser one
+//! counts.
 //!
-//! At a point of the grid the signs of each link and each joint's speed are tried, and accelerations and squares of speeds add up.
+//! At a point of the grid the signs of each link and each joint's speed are tried, and
+//! accelerations and squares of speeds add up.
 
 use std::f64::consts::{PI, TAU};
 
@@ -240,7 +246,8 @@ fn row(here: &Here, i: usize, k: usize) -> &[f64] {
     &here.coefficients[i * length..(i + 1) * length]
 }
 
-/// The most of Σ |τ^k| over speeds and accelerations if it is above what is known already: an upper bound of it.
+/// The most of Σ |τ^k| over speeds and accelerations if it is above what is known already: an upper
+/// bound of it.
 fn greatest(rows: &[&[f64]], joints: usize, known: f64) -> f64 {
     let apart: f64 = rows
         .iter()
@@ -265,8 +272,9 @@ fn greatest(rows: &[&[f64]], joints: usize, known: f64) -> f64 {
     best
 }
 
-/// The most of |τ| over speeds and accelerations: it is linear in each product of two different joints' speeds, so that these are at their
-/// greatest, one way or the other; squares count where they add.
+/// The most of |τ| over speeds and accelerations: it is linear in each product of two different
+/// joints' speeds, so that these are at their greatest, one way or the other; squares count where
+/// they add.
 fn with_speeds(x: &[f64; terms(SIGNS)], joints: usize) -> f64 {
     let (mut accelerations, mut squares) = (0.0, [0.0; 2]);
     for a in 0..joints {

@@ -11,7 +11,8 @@ pub struct Interval {
     pub high: f64,
 }
 
-/// At least the next number: one unit in the last place is at most |x| 2⁻⁵², and the result of an operation is half of one off.
+/// At least the next number: one unit in the last place is at most |x| 2⁻⁵², and the result of an
+/// operation is half of one off.
 #[inline]
 fn up(x: f64) -> f64 {
     x + (x.abs() * f64::EPSILON + f64::MIN_POSITIVE)
@@ -171,7 +172,8 @@ impl Mul for Interval {
     }
 }
 
-/// Half a unit in the last place of f32 at a magnitude: the most that rounding to nearest changes a number of it.
+/// Half a unit in the last place of f32 at a magnitude: the most that rounding to nearest changes a
+/// number of it.
 #[inline]
 pub fn half_ulp(magnitude: f64) -> f64 {
     const SMALLEST: f64 = f32::MIN_POSITIVE as f64;

@@ -1,4 +1,5 @@
-//! Proven rounding errors of machine code over a whole box of states: what `cargo xtask certify` runs.
+//! Proven rounding errors of machine code over a whole box of states: what `cargo xtask certify`
+//! runs.
 //!
 //! | module | what |
 //! |---|---|

@@ -1,4 +1,5 @@
-//! What is proven of a robot itself, whatever the code: the speeds of its links, and a floor of the least eigenvalue of its inertia matrix.
+//! What is proven of a robot itself, whatever the code: the speeds of its links, and a floor of the
+//! least eigenvalue of its inertia matrix.
 
 use std::fmt::Write as _;
 

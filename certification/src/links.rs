@@ -1,10 +1,12 @@
-//! The torque that one link's inertia needs, as a polynomial in speeds and accelerations whose coefficients depend on the positions.
+//! The torque that one link's inertia needs, as a polynomial in speeds and accelerations whose
+//! coefficients depend on the positions.
 //!
-//! Everything is in the link's own frame, where its mass m, first moment h and second moments I are constants. With ω_a and v_a, what the
-//! velocity of joint a adds to the angular velocity and to that of the origin,
+//! Everything is in the link's own frame, where its mass m, first moment h and second moments I are
+//! constants. With ω_a and v_a, what the velocity of joint a adds to the angular velocity and to
+//! that of the origin,
 //!
-//!   α = Σ ω_a q̈_a + Σ_{a<b} ω_a × ω_b q̇_a q̇_b,   a = g + Σ v_a q̈_a + Σ_{a,b} ω_{min} × v_{max} q̇_a q̇_b,
-//!   f = m a + α × h + ω × (ω × h),   n = I α + ω × I ω + h × a,   τ_i = v_i · f + ω_i · n.
+//!   α = Σ ω_a q̈_a + Σ_{a<b} ω_a × ω_b q̇_a q̇_b, a = g + Σ v_a q̈_a + Σ_{a,b} ω_{min} × v_{max}
+//!   q̇_a q̇_b, f = m a + α × h + ω × (ω × h), n = I α + ω × I ω + h × a, τ_i = v_i · f + ω_i · n.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -69,7 +71,8 @@ impl<S: Scalar> Frame<S> {
         self.up
     }
 
-    /// The coefficients of the torque of each joint before the link: of one; then, for each joint a, of q̈_a and of q̇_b q̇_a for b up to a.
+    /// The coefficients of the torque of each joint before the link: of one; then, for each joint
+    /// a, of q̈_a and of q̇_b q̇_a for b up to a.
     pub fn coefficients(&self, inertia: &[f64; 10], to: &mut Vec<S>) {
         let [mass, x, y, z, xx, xy, xz, yy, yz, zz] = *inertia;
         let first: Vector<S> = constant([x, y, z]);
@@ -134,7 +137,8 @@ fn dot<S: Scalar>(a: Vector<S>, b: Vector<S>) -> S {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The most that a number of a computation can be, over all positions, and the most by which f64 computes it wrong.
+/// The most that a number of a computation can be, over all positions, and the most by which f64
+/// computes it wrong.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Size {
     pub most: f64,
@@ -144,7 +148,8 @@ pub(crate) struct Size {
 /// More than half a unit in the last place, and than what a subnormal result loses.
 const ROUNDING: f64 = f64::EPSILON;
 const LOST: f64 = f64::MIN_POSITIVE;
-/// More than the relative error of the literals: of rotations against the next that are orthonormal, and of inertias that were added up.
+/// More than the relative error of the literals: of rotations against the next that are
+/// orthonormal, and of inertias that were added up.
 const LITERAL: f64 = 1e-14;
 
 impl Size {
@@ -189,7 +194,8 @@ impl Scalar for Size {
     fn of(x: f64) -> Self {
         Self::new(x.abs(), LITERAL * x.abs())
     }
-    /// The literal may be of a rotation, whose entries are at most one and off by as much where they are zero.
+    /// The literal may be of a rotation, whose entries are at most one and off by as much where
+    /// they are zero.
     fn times(self, factor: f64) -> Self {
         self * Self::new(factor.abs(), LITERAL * factor.abs().max(1.0))
     }

@@ -1,4 +1,5 @@
-//! The state of a processor of which only a part is known: integers and addresses are followed, other data is not.
+//! The state of a processor of which only a part is known: integers and addresses are followed,
+//! other data is not.
 
 use std::collections::HashMap;
 
@@ -26,7 +27,8 @@ pub struct Machine {
     /// Negative, zero, carry, overflow.
     flags: [Option<bool>; 4],
     memory: HashMap<Word, Kept>,
-    /// Whether an address of the stack was stored, so that a word from memory that is not known can be one.
+    /// Whether an address of the stack was stored, so that a word from memory that is not known can
+    /// be one.
     is_exposed: bool,
     pipes: Vec<(Pipe, u64)>,
 }
@@ -204,8 +206,9 @@ impl Machine {
         }
     }
 
-    /// Executes what an instruction does apart from branching. `under` is nothing outside an IT block, else whether its condition is
-    /// known to hold; if it is not, what the instruction writes is unknown.
+    /// Executes what an instruction does apart from branching. `under` is nothing outside an IT
+    /// block, else whether its condition is known to hold; if it is not, what the instruction
+    /// writes is unknown.
     pub fn execute(
         &mut self,
         (names, image): (&mut Names, &Image),
@@ -221,7 +224,8 @@ impl Machine {
             self.havoc(names, insn);
         }
         use Instruction::{Constant, Integer, Sub};
-        // Short instructions set no flags in an IT block, comparisons apart; of one that is not followed nothing is known.
+        // Short instructions set no flags in an IT block, comparisons apart; of one that is not
+        // followed nothing is known.
         let is_comparison = matches!(
             decoded,
             None | Some(Sub { d: NOWHERE, .. } | Integer { d: NOWHERE, .. })

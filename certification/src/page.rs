@@ -39,7 +39,8 @@ pub struct RecordedForward {
     pub function: Function,
     /// The robot's bodies.
     pub bodies: Vec<Body>,
-    /// For each joint the state of its greatest error as a share of the bound, then that of the norm.
+    /// For each joint the state of its greatest error as a share of the bound, then that of the
+    /// norm.
     pub worst: Vec<Worst>,
     /// The accelerations at these states, which the script adds.
     #[serde(default)]

@@ -1,8 +1,9 @@
 //! The proof that every state of the box takes the execution path that the walk has followed.
 //!
-//! A branch depends on the order of two computed numbers. Intervals of their difference, over parts of the box, hold exact and computed
-//! values; where they exclude zero, the order is the same everywhere. Equal are only numbers that are the same constant, such as sums of
-//! finite numbers times zero.
+//! A branch depends on the order of two computed numbers. Intervals of their difference, over parts
+//! of the box, hold exact and computed values; where they exclude zero, the order is the same
+//! everywhere. Equal are only numbers that are the same constant, such as sums of finite numbers
+//! times zero.
 
 use std::cmp::Ordering;
 
@@ -13,10 +14,12 @@ use crate::interval::Interval;
 use crate::state_box::Robot;
 use crate::walk::{Comparison, Walked};
 
-/// Proves of all comparisons that their order is the same in the whole box, each by at most so many parts.
+/// Proves of all comparisons that their order is the same in the whole box, each by at most so many
+/// parts.
 ///
 /// # Errors
-/// [`Error::Branch`] of the first comparison whose order is not proven, [`Error::Missing`] of an input that the box does not bound.
+/// [`Error::Branch`] of the first comparison whose order is not proven, [`Error::Missing`] of an
+/// input that the box does not bound.
 pub fn prove(walked: &Walked, robot: &Robot, sines: SineErrors, parts: usize) -> Result<()> {
     for comparison in &walked.comparisons {
         let undecided = each(&walked.graph, comparison, robot, sines, parts)?;
@@ -79,7 +82,8 @@ pub(crate) fn halves(part: &[Interval], axis: usize) -> Option<[Vec<Interval>; 2
     })
 }
 
-/// The coordinate without whose width most numbers become finite, and then the result's range the narrowest.
+/// The coordinate without whose width most numbers become finite, and then the result's range the
+/// narrowest.
 pub(crate) fn decisive(bounder: &mut Bounder, part: &[Interval]) -> Option<usize> {
     let mut best: Option<(f64, usize)> = None;
     for axis in bounder.axes() {

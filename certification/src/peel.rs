@@ -1,18 +1,22 @@
-//! A floor of the least eigenvalue of an arm's inertia matrix by taking its last body off, again and again.
+//! A floor of the least eigenvalue of an arm's inertia matrix by taking its last body off, again
+//! and again.
 //!
 //! Let the last joint have the velocity w and the others a, with
 //!
 //!   q̇ᵀ M q̇ = aᵀ S a + D (w + bᵀa / D)²
 //!
-//! where D and b are the last row of M: D is the second moment of the last body about its own axis, or its mass, whatever the position is, and S
-//! what the other joints feel while the last one is free. A symmetric J with J z = 0 for the joint's motion z, with the same rotated about the
-//! axis, and below the body's inertia I, I − J ⪰ 0, is below what the free body weighs on its parent too: the complement of Schur of I − J is
-//! I − I z zᵀ I / zᵀ I z − J. So S is no less than the inertia matrix of the arm without the last body, with J as part of the body before it. If
-//! that one is above the diagonal matrix of F_i,
+//! where D and b are the last row of M: D is the second moment of the last body about its own axis,
+//! or its mass, whatever the position is, and S what the other joints feel while the last one is
+//! free. A symmetric J with J z = 0 for the joint's motion z, with the same rotated about the axis,
+//! and below the body's inertia I, I − J ⪰ 0, is below what the free body weighs on its parent too:
+//! the complement of Schur of I − J is I − I z zᵀ I / zᵀ I z − J. So S is no less than the inertia
+//! matrix of the arm without the last body, with J as part of the body before it. If that one is
+//! above the diagonal matrix of F_i,
 //!
 //!   q̇ᵀ M q̇ ≥ Σ s F_i a_i² + Σ (1 − s) F_i a_i² + D (w + bᵀa / D)²
 //!
-//! for any share s, and with Σ b_i² / F_i ≤ K² the last two are at least D w² / (1 + K² / ((1 − s) D)) for every a.
+//! for any share s, and with Σ b_i² / F_i ≤ K² the last two are at least D w² / (1 + K² / ((1 − s)
+//! D)) for every a.
 
 use std::collections::BinaryHeap;
 
@@ -22,7 +26,8 @@ use crate::parts::{Part, WIDE, somewhere, wide};
 use crate::positive::not_positive;
 use crate::taylor::{SLOPES, Scalar, Taylor};
 
-/// A robot's bodies with those that stand still on others as parts of them; bodies that stand still on the base are none.
+/// A robot's bodies with those that stand still on others as parts of them; bodies that stand still
+/// on the base are none.
 pub fn welded(bodies: &[Body]) -> Vec<Body> {
     let mut bodies = bodies.to_vec();
     while let Some(k) = bodies.iter().rposition(|body| body.moves == Moves::Fixed) {

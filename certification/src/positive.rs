@@ -4,12 +4,13 @@
 /// A matrix by rows, of which the lower triangle is read.
 pub(crate) type Matrix = Vec<Vec<f64>>;
 
-/// A direction in which a symmetric matrix, of which the lower triangle is given, may not be positive; none if it is positive definite. What
-/// the matrix was is lost.
+/// A direction in which a symmetric matrix, of which the lower triangle is given, may not be
+/// positive; none if it is positive definite. What the matrix was is lost.
 pub(crate) fn not_positive(matrix: &mut Matrix) -> Option<Vec<f64>> {
     let n = matrix.len();
     let trace: f64 = (0..n).map(|i| matrix[i][i].abs()).sum();
-    // The factorisation is that of a matrix within γ/(1 − γ) of the trace, γ = (n + 1) 2⁻⁵³ / (1 − (n + 1) 2⁻⁵³).
+    // The factorisation is that of a matrix within γ/(1 − γ) of the trace, γ = (n + 1) 2⁻⁵³ / (1 −
+    // (n + 1) 2⁻⁵³).
     let roundings = 2.0 * (n as f64 + 2.0) * f64::EPSILON * trace + f64::MIN_POSITIVE;
     for (i, row) in matrix.iter_mut().enumerate() {
         row[i] -= roundings;

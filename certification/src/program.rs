@@ -8,7 +8,8 @@ use robot_import::import;
 use crate::error::{Error, Result};
 use crate::function::Function;
 
-/// The robots of the library of which `docs/certificates.md` has certificates, and what the firmware includes for each.
+/// The robots of the library of which `docs/certificates.md` has certificates, and what the
+/// firmware includes for each.
 pub const LIBRARY: [(&str, &str); 5] = [
     ("ur5e", include_str!("../firmware/robots/ur5e.rs")),
     ("panda", include_str!("../firmware/robots/panda.rs")),
@@ -134,7 +135,8 @@ fn cargo() -> Command {
     cargo
 }
 
-/// The name of a description's robot and what the firmware includes; the robot's own file is written beside.
+/// The name of a description's robot and what the firmware includes; the robot's own file is
+/// written beside.
 fn of_description(
     file: &Path,
     options: &import::Options,

@@ -1,8 +1,10 @@
-//! The relative error of reciprocal square roots by an initial estimate from the bits and Newton's steps, found by evaluating every f32.
+//! The relative error of reciprocal square roots by an initial estimate from the bits and Newton's
+//! steps, found by evaluating every f32.
 //!
-//! A factor of four in x halves the guess and every number of the steps exactly, as long as no number is subnormal or overflows; so that the
-//! relative error over all x is that over [1, 4), of which each number of f32 is tried. The walk reads the steps one by one; here they become
-//! one operation.
+//! A factor of four in x halves the guess and every number of the steps exactly, as long as no
+//! number is subnormal or overflows; so that the relative error over all x is that over [1, 4), of
+//! which each number of f32 is tried. The walk reads the steps one by one; here they become one
+//! operation.
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;

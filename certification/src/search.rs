@@ -1,8 +1,8 @@
-//! The worst error that a search finds: the graph in f32, as the target computes it, against the exact function in f64
-//! ([`crate::exact`]), or against the same graph in f64 with exact sines.
+//! The worst error that a search finds: the graph in f32, as the target computes it, against the
+//! exact function in f64 ([`crate::exact`]), or against the same graph in f64 with exact sines.
 //!
-//! No gradients: rounding errors have none. Random states first, then for each output the worst of them, changed at random by less and
-//! less.
+//! No gradients: rounding errors have none. Random states first, then for each output the worst of
+//! them, changed at random by less and less.
 
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};

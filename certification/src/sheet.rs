@@ -1,4 +1,5 @@
-//! The sheet of a robot: one page of what is proven and observed of its functions, of what they take on the target, and of what is assumed.
+//! The sheet of a robot: one page of what is proven and observed of its functions, of what they
+//! take on the target, and of what is assumed.
 
 use std::fmt::Write as _;
 
@@ -44,7 +45,8 @@ struct Entry<'a> {
 }
 
 impl<'a> Sheet<'a> {
-    /// Of some certificates of one robot, and of what is proven of the robot itself; nothing of none.
+    /// Of some certificates of one robot, and of what is proven of the robot itself; nothing of
+    /// none.
     pub fn of(certificates: &'a [Certificate], limits: &'a Limits) -> Option<Self> {
         let first = certificates.first()?;
         let entry = |certificate: &'a Certificate| Entry {

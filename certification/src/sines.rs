@@ -1,8 +1,9 @@
 //! The error of the library's sines over the ranges of a robot's joints, by trying every angle.
 //!
-//! The same source computes the same bits on host and target (`cargo xtask test bits`), and an angle is one of at most 2³² numbers, so
-//! that little needs to be argued about the kernel: each angle's sine and cosine are compared with f64's. Below 2⁻³⁰ rad the kernel's
-//! step is zero, its square is lost beside one, and what it returns is the angle itself and one.
+//! The same source computes the same bits on host and target (`cargo xtask test bits`), and an
+//! angle is one of at most 2³² numbers, so that little needs to be argued about the kernel: each
+//! angle's sine and cosine are compared with f64's. Below 2⁻³⁰ rad the kernel's step is zero, its
+//! square is lost beside one, and what it returns is the angle itself and one.
 
 use std::ops::RangeInclusive;
 
@@ -11,9 +12,11 @@ use dynamics_core::trig;
 use crate::bound::SineErrors;
 use crate::state_box::Joint;
 
-/// More than the error of the reference: that of this host's libm, and of the series of small angles.
+/// More than the error of the reference: that of this host's libm, and of the series of small
+/// angles.
 const REFERENCE: f64 = 1e-15;
-/// Angles below it are not tried: their sine is the angle within 2⁻⁹⁰, their cosine is one within 2⁻⁶¹.
+/// Angles below it are not tried: their sine is the angle within 2⁻⁹⁰, their cosine is one within
+/// 2⁻⁶¹.
 const TINY: f32 = 1.0 / 1_073_741_824.0;
 /// Below it the series of sine and cosine are exact enough with two terms.
 const SMALL: f32 = 1.0 / 4096.0;
@@ -61,7 +64,8 @@ impl Kernel {
     }
 }
 
-/// The greatest errors of the library's sines over all numbers of f32 in the ranges of the joints that turn.
+/// The greatest errors of the library's sines over all numbers of f32 in the ranges of the joints
+/// that turn.
 pub fn enumerate(joints: &[Joint]) -> SineErrors {
     enumerate_each(joints, &[Kernel::NATIVE])[0]
 }
@@ -101,7 +105,8 @@ fn larger(a: SineErrors, b: SineErrors) -> SineErrors {
     }
 }
 
-/// The errors over numbers of f32 by their bits, on all cores. The kernels are of the angle with its sign, the angle without.
+/// The errors over numbers of f32 by their bits, on all cores. The kernels are of the angle with
+/// its sign, the angle without.
 fn over(bits: RangeInclusive<u32>, kernels: &[Function], sign: f32) -> Vec<SineErrors> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from) as u32;
     let (first, last) = (*bits.start(), (*bits.end()).max(*bits.start()));

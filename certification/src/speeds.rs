@@ -1,8 +1,8 @@
 //! The greatest speeds of a robot's links over all positions and speeds of its joints.
 //!
-//! A link's velocity is linear in the joints' speeds, so that its length is greatest where each joint moves at its greatest speed, one way or
-//! the other. For each of these corners the positions are split where the bound is largest, until it is hardly above a speed that a position
-//! has.
+//! A link's velocity is linear in the joints' speeds, so that its length is greatest where each
+//! joint moves at its greatest speed, one way or the other. For each of these corners the positions
+//! are split where the bound is largest, until it is hardly above a speed that a position has.
 
 use std::collections::BinaryHeap;
 
@@ -46,7 +46,8 @@ enum Of {
     Mass,
 }
 
-/// The speeds of each body, with at most so many parts for each of them. `most` are the joints' greatest speeds.
+/// The speeds of each body, with at most so many parts for each of them. `most` are the joints'
+/// greatest speeds.
 pub fn prove(bodies: &[Body], positions: &[Interval], most: &[f64], parts: usize) -> Vec<Speeds> {
     let of = |body: usize, what: Of| {
         let path = Path::to(bodies, body, what);

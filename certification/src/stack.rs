@@ -1,7 +1,9 @@
-//! The most stack that a call takes: of each function where its stack pointer is lowest, and of the calls from there.
+//! The most stack that a call takes: of each function where its stack pointer is lowest, and of the
+//! calls from there.
 //!
-//! Every instruction is followed with what is known of registers relative to the stack pointer at the start, whatever the data. So loops
-//! need no count, but where two ways meet the pointer must be the same.
+//! Every instruction is followed with what is known of registers relative to the stack pointer at
+//! the start, whatever the data. So loops need no count, but where two ways meet the pointer must
+//! be the same.
 
 use std::collections::HashMap;
 
@@ -10,15 +12,16 @@ use crate::decode::{Instruction, LR, NOWHERE, Operand, SP};
 use crate::flow::{Fetched, Flow, Way};
 use crate::image::Image;
 
-/// The bytes that a Cortex-M4F pushes when an interrupt comes: 26 words with the registers of the FPU, whose room is taken at once
-/// although they are stored lazily, and a word if the stack pointer is no multiple of eight (ARM DDI 0403E, B1.5.6 and B1.5.7).
+/// The bytes that a Cortex-M4F pushes when an interrupt comes: 26 words with the registers of the
+/// FPU, whose room is taken at once although they are stored lazily, and a word if the stack
+/// pointer is no multiple of eight (ARM DDI 0403E, B1.5.6 and B1.5.7).
 pub const INTERRUPT_FRAME: u64 = 4 * 26 + 4;
 
 /// What is known of the core registers, relative to the stack pointer at the start.
 type Known = [Option<i32>; 15];
 
-/// The most bytes below the stack pointer that a call of the function at an address takes, with all that it calls and the frame of one
-/// interrupt; the stack of the interrupt's handler is its own.
+/// The most bytes below the stack pointer that a call of the function at an address takes, with all
+/// that it calls and the frame of one interrupt; the stack of the interrupt's handler is its own.
 ///
 /// # Errors
 /// [`Declined`].

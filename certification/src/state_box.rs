@@ -54,7 +54,8 @@ pub struct Robot {
 }
 
 impl Robot {
-    /// The joints that a program carries, with this greatest acceleration; a speed and a range replace those of joints without.
+    /// The joints that a program carries, with this greatest acceleration; a speed and a range
+    /// replace those of joints without.
     ///
     /// # Errors
     /// [`Error::Missing`], and [`Error::Unbounded`] of a joint.
@@ -206,7 +207,8 @@ impl Sector {
         }
     }
 
-    /// a cos θ + b sin θ for every θ of the sector: linear in a and b, so that its extremes are at their ends.
+    /// a cos θ + b sin θ for every θ of the sector: linear in a and b, so that its extremes are at
+    /// their ends.
     #[inline]
     pub fn rotated(&self, a: Interval, b: Interval) -> Interval {
         let corners = [
@@ -225,7 +227,8 @@ impl Sector {
         Interval::new(-most(-1.0), most(1.0)).widened(4.0 * LIBM * (a.magnitude() + b.magnitude()))
     }
 
-    /// The most of a cos θ + b sin θ: the length of (a, b) if its direction may be in the sector, else at an end.
+    /// The most of a cos θ + b sin θ: the length of (a, b) if its direction may be in the sector,
+    /// else at an end.
     #[inline]
     fn most(&self, a: f64, b: f64) -> f64 {
         let [(c1, s1), (c2, s2)] = self.ends;

@@ -1,4 +1,5 @@
-//! The cycles, the stack and the bits of a call on the target, against the machine code and the host.
+//! The cycles, the stack and the bits of a call on the target, against the machine code and the
+//! host.
 
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
@@ -62,8 +63,8 @@ mod untagged {
 }
 
 impl Target {
-    /// Of a function of a program that was run, or was not for a reason. The calls must take what the machine code says, and results must
-    /// have the bits that the host computes.
+    /// Of a function of a program that was run, or was not for a reason. The calls must take what
+    /// the machine code says, and results must have the bits that the host computes.
     ///
     /// # Errors
     /// [`Error::Cycles`], [`Error::Bits`], [`Error::Missing`].

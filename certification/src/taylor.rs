@@ -1,8 +1,10 @@
-//! Numbers as functions of where in a part of the box the joints are: a centre, a slope for each coordinate, and a remainder.
+//! Numbers as functions of where in a part of the box the joints are: a centre, a slope for each
+//! coordinate, and a remainder.
 //!
-//! With each coordinate of the part as d ∈ [−1, 1], a number is c + Σ g_k d_k + e with |e| ≤ r: a Taylor model of first order (Makino & Berz,
-//! International Journal of Pure and Applied Mathematics 4, 2003). What intervals forget, that two numbers grow together, the slopes keep; the
-//! remainder falls with the square of the part's width. Roundings of f64 are in the remainder.
+//! With each coordinate of the part as d ∈ [−1, 1], a number is c + Σ g_k d_k + e with |e| ≤ r: a
+//! Taylor model of first order (Makino & Berz, International Journal of Pure and Applied
+//! Mathematics 4, 2003). What intervals forget, that two numbers grow together, the slopes keep;
+//! the remainder falls with the square of the part's width. Roundings of f64 are in the remainder.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -63,7 +65,8 @@ impl Taylor {
             return [any, any];
         }
         let (s, c) = middle.sin_cos();
-        // cos δ is between cos h and 1; sin δ is δ − δ³/6 with at most δ⁵/120 more, of which a line leaves h³/24.
+        // cos δ is between cos h and 1; sin δ is δ − δ³/6 with at most δ⁵/120 more, of which a line
+        // leaves h³/24.
         let (level, spread) = (0.5 * (1.0 + half.cos()), 0.5 * (1.0 - half.cos()));
         let (cube, fifth) = (half.powi(3), half.powi(5));
         let (slant, bend) = match cube / 24.0 + fifth / 120.0 {

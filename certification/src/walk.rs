@@ -1,10 +1,12 @@
 //! From machine code to the expression that it evaluates.
 //!
-//! The walk executes the code with real numbers as nodes of a graph and everything else, addresses and counters, as it is. So it follows
-//! calls and loops with constant bounds. At a branch by a comparison of real numbers it goes on as the state zero does, and notes the
-//! comparison, of which [`crate::paths`] proves that all states of the box decide it so. Operations on the bits of a real number are followed as far as
-//! they are the same for all positive numbers. Calls of the function that the program names
-//! `CERTIFIED_SINES` are not followed: they are inputs, the sine and the cosine of a coordinate.
+//! The walk executes the code with real numbers as nodes of a graph and everything else, addresses
+//! and counters, as it is. So it follows calls and loops with constant bounds. At a branch by a
+//! comparison of real numbers it goes on as the state zero does, and notes the comparison, of which
+//! [`crate::paths`] proves that all states of the box decide it so. Operations on the bits of a
+//! real number are followed as far as they are the same for all positive numbers. Calls of the
+//! function that the program names `CERTIFIED_SINES` are not followed: they are inputs, the sine
+//! and the cosine of a coordinate.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, HashMap};
@@ -22,7 +24,8 @@ mod sines;
 use bits::within;
 use sines::Sines;
 
-/// Addresses at which nothing lies: of what the arguments point to, a range for each; of the stack; and of the caller.
+/// Addresses at which nothing lies: of what the arguments point to, a range for each; of the stack;
+/// and of the caller.
 const ARGUMENTS: u32 = 0x9000_0000;
 const RANGE: u32 = 0x0100_0000;
 const STACK: u32 = 0x2001_0000;
@@ -91,8 +94,9 @@ struct Walk<'a> {
     code: u32,
 }
 
-/// Walks the function at an address. An argument is a pointer to inputs, or to what lies at an address of the program; the first
-/// one is where results go. From the fifth on they are on the stack.
+/// Walks the function at an address. An argument is a pointer to inputs, or to what lies at an
+/// address of the program; the first one is where results go. From the fifth on they are on the
+/// stack.
 ///
 /// # Errors
 /// [`Error::Declined`].
@@ -128,7 +132,8 @@ pub fn walk<const N: usize>(
             }
         }
     }
-    // Registers that a function must keep hold what its caller left there, of which nothing is known but that it is kept.
+    // Registers that a function must keep hold what its caller left there, of which nothing is
+    // known but that it is kept.
     for (i, kept) in (4..13).enumerate() {
         walk.core[kept] = Some(Word::Bits(CALLER + i as u32));
     }

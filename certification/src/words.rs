@@ -1,6 +1,8 @@
-//! Words of which only a part is known: numbers, and names of what is not, with what can lie at them as addresses.
+//! Words of which only a part is known: numbers, and names of what is not, with what can lie at
+//! them as addresses.
 
-/// A number plus what a name stands for: nothing if the name is 0, else a word of which nothing is known.
+/// A number plus what a name stands for: nothing if the name is 0, else a word of which nothing is
+/// known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Word {
     name: u32,

@@ -85,7 +85,8 @@ fn a_loop_of_constant_length_is_followed() {
 
 #[test]
 fn an_it_block_executes_what_its_conditions_let() {
-    // Compares 1 with 2: itete lt of vadd, vmul, mov 4 and mov 2; then whether that with its last bit set is 5: it eq of vneg.
+    // Compares 1 with 2: itete lt of vadd, vmul, mov 4 and mov 2; then whether that with its last
+    // bit set is 5: it eq of vneg.
     let code =
         "91ed010ad1ed020a0123022bb5bf30ee200a20ee200a0423022343f00103052b08bfb1ee400a80ed000a7047";
     let image = Image::of(BASE, &bytes(code));
@@ -124,7 +125,8 @@ fn a_byte_stored_into_an_input_or_the_program_is_declined() {
     }
 }
 
-/// Bits of a cosine: less the least of a positive number there is no carry; less one there may be. Then bytes and a table of bytes.
+/// Bits of a cosine: less the least of a positive number there is no carry; less one there may be.
+/// Then bytes and a table of bytes.
 #[test]
 fn bits_of_a_positive_number_are_followed_as_a_range() {
     let code = "91ed020a10ee103ab3f5000328bfb1ee400a80ed000a704700bf\

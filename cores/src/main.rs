@@ -1,7 +1,9 @@
-//! Runs the control loop of two scenes without a simulated robot, and prints digests of its torques and the stack of a
-//! tick: in QEMU on each core, on the host the digests alone, which are the reference.
+//! Runs the control loop of two scenes without a simulated robot, and prints digests of its torques
+//! and the stack of a tick: in QEMU on each core, on the host the digests alone, which are the
+//! reference.
 //!
-//! `cargo xtask cores` builds it with the flags and the linker script of each core, and compares what it prints.
+//! `cargo xtask cores` builds it with the flags and the linker script of each core, and compares
+//! what it prints.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use firmware_demo::replay::Replay;

@@ -7,23 +7,25 @@ const PAINTED: usize = 1024;
 /// No code, address or small number that a tick could store has these bits.
 const PAINT: u32 = 0xcccc_cccc;
 
-/// The result of `run`, and the bytes of stack below the caller that it wrote to: its own frame and those of all that it
-/// calls. What a frame reserves at its deepest end and never writes is not seen.
+/// The result of `run`, and the bytes of stack below the caller that it wrote to: its own frame and
+/// those of all that it calls. What a frame reserves at its deepest end and never writes is not
+/// seen.
 #[inline(never)]
 pub fn measured<T>(run: impl FnOnce() -> T) -> (T, usize) {
     let top = stack_pointer();
     let bottom = top.wrapping_sub(PAINTED);
     let mut at = bottom;
     while at < top {
-        // SAFETY: memory below the stack pointer belongs to nobody: no interrupt is enabled, these cores have no red
-        // zone, and this function's frame, which no call extends here, lies above it. The linker scripts leave more
-        // than PAINTED words there.
+        // SAFETY: memory below the stack pointer belongs to nobody: no interrupt is enabled, these
+        // cores have no red zone, and this function's frame, which no call extends here, lies above
+        // it. The linker scripts leave more than PAINTED words there.
         unsafe { at.write_volatile(PAINT) };
         at = at.wrapping_add(1);
     }
     let result = run();
     let mut deepest = bottom;
-    // SAFETY: as above; the volatile reads are of words that were written above, or by `run` after them.
+    // SAFETY: as above; the volatile reads are of words that were written above, or by `run` after
+    // them.
     while deepest < top && unsafe { deepest.read_volatile() } == PAINT {
         deepest = deepest.wrapping_add(1);
     }

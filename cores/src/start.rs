@@ -1,5 +1,5 @@
-//! From reset to `main`, and what a fault does. The core is as QEMU starts it; what it needs beside is a stack, a
-//! floating-point unit that is switched on, and the initial values of variables.
+//! From reset to `main`, and what a fault does. The core is as QEMU starts it; what it needs beside
+//! is a stack, a floating-point unit that is switched on, and the initial values of variables.
 
 use core::arch::global_asm;
 

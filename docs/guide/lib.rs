@@ -1,4 +1,5 @@
-//! The pages of the guide as documentation: `cargo test --doc -p guide` compiles and runs the code on them.
+//! The pages of the guide as documentation: `cargo test --doc -p guide` compiles and runs the code
+//! on them.
 
 /// The README's first call.
 #[doc = include_str!("../../README.md")]

@@ -1,14 +1,14 @@
 //! AS5047P: a magnetic absolute encoder of 14 bits on SPI.
 //!
 //! # Source
-//! ams OSRAM, AS5047P data sheet (2016), figures 13 to 18: 16-bit frames, SPI mode 1, bit 15 of each makes its parity
-//! even, bit 14 of a command reads, bit 14 of an answer reports an error.
+//! ams OSRAM, AS5047P data sheet (2016), figures 13 to 18: 16-bit frames, SPI mode 1, bit 15 of
+//! each makes its parity even, bit 14 of a command reads, bit 14 of an answer reports an error.
 //!
-//! A frame answers the command of the frame before, with the angle latched when that one ended. One frame a tick is
-//! read, and the angle is one tick old: the observer extrapolates by one tick
-//! ([`motion_control::Observer::update_delayed`]), which costs no transfers. A second frame for the present
-//! angle would cost six transfers per tick on the bus of six joints, 10 µs and more at the 10 MHz that the part
-//! supports.
+//! A frame answers the command of the frame before, with the angle latched when that one ended. One
+//! frame a tick is read, and the angle is one tick old: the observer extrapolates by one tick
+//! ([`motion_control::Observer::update_delayed`]), which costs no transfers. A second frame for the
+//! present angle would cost six transfers per tick on the bus of six joints, 10 µs and more at the
+//! 10 MHz that the part supports.
 
 use core::f32::consts::TAU;
 use core::fmt;
@@ -25,7 +25,8 @@ pub const COUNTS: u16 = 1 << BITS;
 pub const RESOLUTION: f32 = TAU / COUNTS as f32;
 const BITS: u32 = 14;
 const MASK: u16 = COUNTS - 1;
-/// The command that reads ANGLECOM (0x3FFF): the angle with the encoder's own dynamic error compensation.
+/// The command that reads ANGLECOM (0x3FFF): the angle with the encoder's own dynamic error
+/// compensation.
 pub const READ_ANGLE: u16 = with_parity(READ | 0x3fff);
 /// The command that reads ERRFL (0x0001), which clears it.
 pub const READ_ERRORS: u16 = with_parity(READ | 0x0001);
@@ -85,7 +86,8 @@ pub struct As5047p<Spi> {
 }
 
 impl<Spi> As5047p<Spi> {
-    /// An encoder that has not been read yet; the first angle is where the mapping says that the joint can be.
+    /// An encoder that has not been read yet; the first angle is where the mapping says that the
+    /// joint can be.
     pub const fn new(spi: Spi, mapping: EncoderMapping) -> Self {
         Self {
             spi,
@@ -112,8 +114,8 @@ impl<Spi> As5047p<Spi> {
         self.spi
     }
 
-    /// Takes the angle of a frame, or says what was before one that is not the joint's. With [`Self::accept_otherwise`] the
-    /// part that the blocking and the asynchronous form share.
+    /// Takes the angle of a frame, or says what was before one that is not the joint's. With
+    /// [`Self::accept_otherwise`] the part that the blocking and the asynchronous form share.
     #[inline(always)]
     pub(crate) fn accept<E: Error>(
         &mut self,
@@ -121,7 +123,8 @@ impl<Spi> As5047p<Spi> {
         frame: [u8; 2],
     ) -> Result<(), Before> {
         let frame = u16::from_be_bytes(frame);
-        // It is taken before it is examined: one branch for all checks, and both loads side by side.
+        // It is taken before it is examined: one branch for all checks, and both loads side by
+        // side.
         let (before, missing) = self.turns.follow(frame);
         if sent.is_ok() && (u32::from(wrong(frame)) | missing) == 0 {
             Ok(())
@@ -130,8 +133,8 @@ impl<Spi> As5047p<Spi> {
         }
     }
 
-    /// Takes what a transfer brought that was not accepted: a function of its own, so that the usual frame has no case for
-    /// it.
+    /// Takes what a transfer brought that was not accepted: a function of its own, so that the
+    /// usual frame has no case for it.
     #[cold]
     #[inline(never)]
     pub(crate) fn accept_otherwise<E: Error>(
@@ -156,10 +159,11 @@ impl<Spi> As5047p<Spi> {
 }
 
 impl<Spi: SpiDevice> As5047p<Spi> {
-    /// Makes the next answer an angle: clears the encoder's error flags, requests the angle, and drops both answers,
-    /// which belong to earlier commands.
+    /// Makes the next answer an angle: clears the encoder's error flags, requests the angle, and
+    /// drops both answers, which belong to earlier commands.
     ///
-    /// Without it the first answer after power-up is undefined. Errors are reported by [`Self::read`].
+    /// Without it the first answer after power-up is undefined. Errors are reported by
+    /// [`Self::read`].
     #[cold]
     pub fn start(&mut self) {
         for command in [READ_ERRORS, READ_ANGLE] {
@@ -169,7 +173,8 @@ impl<Spi: SpiDevice> As5047p<Spi> {
 
     /// The joint's angle in rad at the end of the previous frame, one tick ago.
     ///
-    /// After an error the encoder is restarted at once, with two more frames, so that every error costs one angle.
+    /// After an error the encoder is restarted at once, with two more frames, so that every error
+    /// costs one angle.
     ///
     /// # Errors
     /// [`FrameError`]; the count of turns is then unchanged.
@@ -253,7 +258,8 @@ pub fn decode(frame: u16) -> Result<u16, FrameError> {
     })
 }
 
-/// Whether a frame has a wrong parity or the error flag, in bit 0: one branch for both, which almost no frame takes.
+/// Whether a frame has a wrong parity or the error flag, in bit 0: one branch for both, which
+/// almost no frame takes.
 #[inline(always)]
 const fn wrong(frame: u16) -> u16 {
     (parity(frame) | frame >> ERROR_BIT) & 1
@@ -281,7 +287,8 @@ pub const fn with_parity(frame: u16) -> u16 {
     low | (parity(low) << 15)
 }
 
-/// A frame's parity in bit 0, odd for 1: folded, since a Cortex-M has no instruction that counts bits.
+/// A frame's parity in bit 0, odd for 1: folded, since a Cortex-M has no instruction that counts
+/// bits.
 #[inline(always)]
 const fn parity(frame: u16) -> u16 {
     let byte = frame ^ (frame >> 8);

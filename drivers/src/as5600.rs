@@ -1,14 +1,17 @@
 //! AS5600: a magnetic absolute encoder of 12 bits on I²C.
 //!
 //! # Source
-//! ams, AS5600 data sheet v1-06 (2018-06-20): device address 0x36 (section "I²C Interface"), registers RAW ANGLE
-//! 0x0C/0x0D and STATUS 0x0B (figure 21, register map), bits MD, ML and MH of STATUS (figures 21 and 23).
+//! ams, AS5600 data sheet v1-06 (2018-06-20): device address 0x36 (section "I²C Interface"),
+//! registers RAW ANGLE 0x0C/0x0D and STATUS 0x0B (figure 21, register map), bits MD, ML and MH of
+//! STATUS (figures 21 and 23).
 //!
-//! RAW ANGLE covers one turn whatever start, stop and range are programmed. The two registers are read in two
-//! transfers: the data sheet does not say whether the address pointer stops at the high byte of RAW ANGLE if it came
-//! there by itself (section "Automatic Increment of the Address Pointer").
+//! RAW ANGLE covers one turn whatever start, stop and range are programmed. The two registers are
+//! read in two transfers: the data sheet does not say whether the address pointer stops at the high
+//! byte of RAW ANGLE if it came there by itself (section "Automatic Increment of the Address
+//! Pointer").
 //!
-//! I²C has no checksum: a bit that is wrong on the bus is not detected, except all ones, which no STATUS has.
+//! I²C has no checksum: a bit that is wrong on the bus is not detected, except all ones, which no
+//! STATUS has.
 
 use core::fmt;
 
@@ -86,7 +89,8 @@ pub struct As5600<Bus> {
 }
 
 impl<Bus> As5600<Bus> {
-    /// An encoder that has not been read yet; the first angle is where the mapping says that the joint can be.
+    /// An encoder that has not been read yet; the first angle is where the mapping says that the
+    /// joint can be.
     pub const fn new(bus: Bus, mapping: EncoderMapping) -> Self {
         Self {
             bus,
@@ -140,7 +144,8 @@ impl<Bus: I2c> As5600<Bus> {
         decode_status(status[0])
     }
 
-    /// The joint's angle in rad without a check of the magnet: 5 bytes on the bus, 0.11 ms at 400 kHz.
+    /// The joint's angle in rad without a check of the magnet: 5 bytes on the bus, 0.11 ms at 400
+    /// kHz.
     ///
     /// # Errors
     /// [`As5600Error::Bus`], [`As5600Error::LostTurn`]; the count of turns is then unchanged.
@@ -150,7 +155,8 @@ impl<Bus: I2c> As5600<Bus> {
         self.accept(read, raw)
     }
 
-    /// The joint's angle in rad, after a check of the magnet: 9 bytes on the bus, 0.2 ms at 400 kHz.
+    /// The joint's angle in rad, after a check of the magnet: 9 bytes on the bus, 0.2 ms at 400
+    /// kHz.
     ///
     /// # Errors
     /// [`As5600Error`]; the count of turns is then unchanged.

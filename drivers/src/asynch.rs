@@ -1,4 +1,5 @@
-//! The encoders on a bus over `embedded-hal-async`: the transfers alone; state and decoding are the blocking form's.
+//! The encoders on a bus over `embedded-hal-async`: the transfers alone; state and decoding are the
+//! blocking form's.
 //!
 //! Drives have no such form: `embedded-hal-async` has no PWM and no output pins.
 
@@ -34,7 +35,8 @@ pub trait JointEncoders<const V: usize>: EncoderType {
     /// The joints' positions, rad or m, finite.
     ///
     /// # Errors
-    /// That of the first joint without a position. In an array all others have been read nevertheless.
+    /// That of the first joint without a position. In an array all others have been read
+    /// nevertheless.
     async fn read(&mut self) -> Result<[f32; V], JointError<Self::Error>>;
 }
 

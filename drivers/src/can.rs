@@ -107,8 +107,8 @@ pub const fn fd_length(bytes: usize) -> Option<usize> {
 
 /// A CAN FD data frame of up to 64 bytes, or a remote frame.
 ///
-/// For HALs whose own frame of more than 8 bytes does not implement [`embedded_can::Frame`]: copy identifier and data
-/// from one to the other.
+/// For HALs whose own frame of more than 8 bytes does not implement [`embedded_can::Frame`]: copy
+/// identifier and data from one to the other.
 ///
 /// ```
 /// use embedded_can::{Frame, StandardId};

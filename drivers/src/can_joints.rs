@@ -1,4 +1,5 @@
-//! The controllers of a robot's joints on one CAN bus, whose replies carry the positions: encoders and drives at once.
+//! The controllers of a robot's joints on one CAN bus, whose replies carry the positions: encoders
+//! and drives at once.
 
 use core::cell::RefCell;
 
@@ -31,7 +32,8 @@ pub trait CanJoint {
 pub struct Report {
     /// The joint's position, rad or m.
     pub position: Option<f32>,
-    /// Whether the controller delivers torques, or why it does not: [`CanError::NotReady`], [`CanError::Fault`].
+    /// Whether the controller delivers torques, or why it does not: [`CanError::NotReady`],
+    /// [`CanError::Fault`].
     pub delivers: Option<Result<(), CanError>>,
 }
 
@@ -53,7 +55,8 @@ impl CanJoint for moteus::Moteus {
     }
 }
 
-/// The axis is to send its estimates and its heartbeat by itself, at least once a tick and in its ride-through.
+/// The axis is to send its estimates and its heartbeat by itself, at least once a tick and in its
+/// ride-through.
 impl CanJoint for odrive::ODrive {
     fn command<F: embedded_can::Frame>(&self, torque: f32) -> Result<F, CanError> {
         self.set_torque(torque)
@@ -76,10 +79,12 @@ impl CanJoint for odrive::ODrive {
     }
 }
 
-/// The joints on one bus. A [`ControlLoop`](crate::ControlLoop) takes a reference to it twice, as its encoders and its drives.
+/// The joints on one bus. A [`ControlLoop`](crate::ControlLoop) takes a reference to it twice, as
+/// its encoders and its drives.
 ///
-/// In each tick it takes the frames that have come since the last one, and then sends a torque to each joint: a position is that
-/// of the tick before. A joint without a position since then has no angle in this tick.
+/// In each tick it takes the frames that have come since the last one, and then sends a torque to
+/// each joint: a position is that of the tick before. A joint without a position since then has no
+/// angle in this tick.
 ///
 /// ```
 /// use embedded_can::{ExtendedId, Frame, nb::Can};
@@ -132,7 +137,8 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
 }
 
 impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
-    /// Takes the frames that have come: no more than four of each joint, so that a bus that is busy ends the tick.
+    /// Takes the frames that have come: no more than four of each joint, so that a bus that is busy
+    /// ends the tick.
     fn receive(&mut self) -> Result<(), CanError> {
         for _ in 0..4 * V {
             match self.bus.receive() {

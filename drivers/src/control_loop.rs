@@ -1,7 +1,8 @@
 //! The tick: read, reference, dynamics, safety, write.
 //!
-//! The loop owns encoders, drives and brake through [`JointEncoders`], [`JointDrives`] and [`OutputPin`], and calls the
-//! [`MotionController`], which contains the state of the loop and the reaction to faults.
+//! The loop owns encoders, drives and brake through [`JointEncoders`], [`JointDrives`] and
+//! [`OutputPin`], and calls the [`MotionController`], which contains the state of the loop and the
+//! reaction to faults.
 
 use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
@@ -19,8 +20,8 @@ mod probe;
 
 pub use probe::{Phase, Probe, Telemetry};
 
-/// The feed-forward part of the control law; `X` is its input beside the reference (the payload, the motion of the
-/// base).
+/// The feed-forward part of the control law; `X` is its input beside the reference (the payload,
+/// the motion of the base).
 ///
 /// ```
 /// use dynamics_core::effects::RIGID_BODY;
@@ -34,14 +35,15 @@ pub use probe::{Phase, Probe, Telemetry};
 /// }
 /// ```
 pub trait Law<const V: usize, X = ()> {
-    /// Whether the feed-forward produces the acceleration of the reference. If so, it decelerates a held arm with all
-    /// coupling; if not, only K_d of the feedback does.
+    /// Whether the feed-forward produces the acceleration of the reference. If so, it decelerates a
+    /// held arm with all coupling; if not, only K_d of the feedback does.
     const ACCELERATES: bool = true;
 
     /// The torque for the reference, N·m or N.
     fn feedforward(reference: &State<f32, V, V>, environment: &X) -> [f32; V];
 
-    /// The command, N·m or N: τ = feed-forward + K_p (q_d − q) + K_d (q̇_d − q̇), or that of another loop.
+    /// The command, N·m or N: τ = feed-forward + K_p (q_d − q) + K_d (q̇_d − q̇), or that of
+    /// another loop.
     #[inline(always)]
     fn torque(
         gains: &Gains<f32, V>,
@@ -71,10 +73,12 @@ fn kept<E>(kept: &Kept<E>) -> Option<JointError<&E>> {
     Some(JointError { joint, error })
 }
 
-/// The control loop of a robot with V joints: its devices, a [`MotionController`] and its detectors.
+/// The control loop of a robot with V joints: its devices, a [`MotionController`] and its
+/// detectors.
 ///
 /// The age of the measurements is that of the encoders ([`EncoderType::Age`]), or
-/// [`motion_control::OnCircles`] of it for a robot with continuous joints. It has no heap and no panic.
+/// [`motion_control::OnCircles`] of it for a robot with continuous joints. It has no heap and no
+/// panic.
 ///
 /// ```
 /// use dynamics_core::state::State;
@@ -160,7 +164,8 @@ where
     Brake: OutputPin,
     Detectors: Detect<f32, V>,
 {
-    /// A loop at the start of its trajectory; starts the encoders. High at `brake` holds the joints.
+    /// A loop at the start of its trajectory; starts the encoders. High at `brake` holds the
+    /// joints.
     ///
     /// The first tick should follow within one tick, or the arm must stand still until then.
     pub fn new(
@@ -187,8 +192,8 @@ where
     Brake: OutputPin,
     Detectors: Detect<f32, V>,
 {
-    /// As [`ControlLoop::new`], of a controller with joints that are circles. Its detectors are those
-    /// [`on_circles`](motion_control::Detectors::on_circles), too.
+    /// As [`ControlLoop::new`], of a controller with joints that are circles. Its detectors are
+    /// those [`on_circles`](motion_control::Detectors::on_circles), too.
     pub fn on_circles(
         mut encoders: E,
         drives: D,
@@ -248,7 +253,8 @@ where
         self.tick_probed::<L, T, X>(trajectory, environment, &mut ())
     }
 
-    /// One tick under the law `L`, watched by a probe. It is inlined: call it from a function that is not.
+    /// One tick under the law `L`, watched by a probe. It is inlined: call it from a function that
+    /// is not.
     #[inline(always)]
     pub fn tick_probed<L: Law<V, X>, T: Reference<f32, V>, X>(
         &mut self,
@@ -298,8 +304,8 @@ where
 
     /// One tick under the law `L` at the count of a timer that advances by one per period.
     ///
-    /// Missed ticks are reported to the controller, and so is a tick that ends after its period. A tick that ends in
-    /// time gives what feeds a [`Watchdog`](motion_control::Watchdog).
+    /// Missed ticks are reported to the controller, and so is a tick that ends after its period. A
+    /// tick that ends in time gives what feeds a [`Watchdog`](motion_control::Watchdog).
     pub fn tick_at<L: Law<V, X>, T: Reference<f32, V>, X>(
         &mut self,
         trajectory: &T,
@@ -326,8 +332,8 @@ where
         self.controller.stop_by(fault, category);
     }
 
-    /// Restarts a stopped arm: clears the fault and leads the arm back onto its trajectory. The brake holds until the
-    /// torque that keeps the arm at rest is reached, a few ticks later.
+    /// Restarts a stopped arm: clears the fault and leads the arm back onto its trajectory. The
+    /// brake holds until the torque that keeps the arm at rest is reached, a few ticks later.
     ///
     /// # Errors
     /// [`ResetError`]; the controller is then unchanged.
@@ -336,18 +342,20 @@ where
         self.controller.reset(trajectory)
     }
 
-    /// The encoders, to tell one that has lost its turn where its joint is: [`crate::MultiTurnEncoder::place_near`].
+    /// The encoders, to tell one that has lost its turn where its joint is:
+    /// [`crate::MultiTurnEncoder::place_near`].
     pub fn encoders(&mut self) -> &mut E {
         &mut self.encoders
     }
 
-    /// The error of the first encoder without a position in the last tick, which was the fault of [`EncoderType::fault`].
-    /// Joints above 255 are called 255.
+    /// The error of the first encoder without a position in the last tick, which was the fault of
+    /// [`EncoderType::fault`]. Joints above 255 are called 255.
     pub fn encoder_error(&self) -> Option<JointError<&E::Error>> {
         kept(&self.encoder_error)
     }
 
-    /// The last error of a drive, which was [`Fault::Drive`] or [`Fault::NotReady`]. Joints above 255 are called 255.
+    /// The last error of a drive, which was [`Fault::Drive`] or [`Fault::NotReady`]. Joints above
+    /// 255 are called 255.
     pub fn drive_error(&self) -> Option<JointError<&D::Error>> {
         kept(&self.drive_error)
     }
@@ -474,7 +482,8 @@ fn observe<'a, E: EncoderType, D: Detect<f32, V>, A: MeasurementAge, const V: us
     }
 }
 
-/// Reference, law and limits: the tick of the trajectory, the command, and what the detectors say of it.
+/// Reference, law and limits: the tick of the trajectory, the command, and what the detectors say
+/// of it.
 #[inline(always)]
 fn compute<L, T, X, A, D, const V: usize>(
     tick: ObservedTick<'_, f32, V, A>,
@@ -521,7 +530,8 @@ fn follow<'a, T: Reference<f32, V>, D: Detect<f32, V>, A: MeasurementAge, const 
     tick
 }
 
-/// Stops the arm in this tick: in a function of its own, so that the usual tick keeps no registers for it.
+/// Stops the arm in this tick: in a function of its own, so that the usual tick keeps no registers
+/// for it.
 #[cold]
 #[inline(never)]
 fn stop<A: MeasurementAge, const V: usize>(tick: &mut ReferencedTick<'_, f32, V, A>, fault: Fault) {

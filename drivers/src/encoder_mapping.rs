@@ -5,40 +5,43 @@ use core::fmt;
 
 use crate::{JointError, JointMapping, MappingError};
 
-/// The part of a turn that a range leaves free: two counts of 12 bits, so that the rounding of a count at one end is not
-/// the other end.
+/// The part of a turn that a range leaves free: two counts of 12 bits, so that the rounding of a
+/// count at one end is not the other end.
 const FREE: f32 = 1.0 / 2048.0;
-/// The most turns of an encoder between its zero and the place of its joint: their half counts of 16 bits fit into 32.
+/// The most turns of an encoder between its zero and the place of its joint: their half counts of
+/// 16 bits fit into 32.
 pub(crate) const MOST_TURNS: f32 = 16_000.0;
 /// The part of half a turn that is taken for it: below it a count more does not matter.
 const HALF: f32 = 0.999;
 
 /// The places where a joint can be, which say in which of its turns an encoder is.
 ///
-/// An absolute encoder knows its angle within a turn. Its first reading after power-up, and each after a gap, is one of
-/// the angles x + 2πk: this choice tells which.
+/// An absolute encoder knows its angle within a turn. Its first reading after power-up, and each
+/// after a gap, is one of the angles x + 2πk: this choice tells which.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum JointRange {
-    /// Between its mechanical ends, rad or m of the joint: of the angles the one in this range. The range is shorter than
-    /// one turn of the encoder.
+    /// Between its mechanical ends, rad or m of the joint: of the angles the one in this range. The
+    /// range is shorter than one turn of the encoder.
     Within {
         /// The lower end.
         lower: f32,
         /// The upper end.
         upper: f32,
     },
-    /// Within half a turn of the encoder from this position of the joint, rad or m, at the first reading; turns are counted
-    /// from there. For ranges of a turn and more, and for encoders at the motor: the arm stands there at power-up, or
-    /// another sensor has measured it.
+    /// Within half a turn of the encoder from this position of the joint, rad or m, at the first
+    /// reading; turns are counted from there. For ranges of a turn and more, and for encoders at
+    /// the motor: the arm stands there at power-up, or another sensor has measured it.
     Near(f32),
-    /// Anywhere on a circle: the joint turns without an end, and its position is within half a turn of the encoder from its
-    /// zero, exact after any number of turns. One turn of the encoder is one of the joint, or a whole number of them.
+    /// Anywhere on a circle: the joint turns without an end, and its position is within half a turn
+    /// of the encoder from its zero, exact after any number of turns. One turn of the encoder is
+    /// one of the joint, or a whole number of them.
     Continuous,
 }
 
 impl JointRange {
-    /// The middle of the joint's place, or why an encoder of which `ratio` turns are one of the joint cannot resolve it.
+    /// The middle of the joint's place, or why an encoder of which `ratio` turns are one of the
+    /// joint cannot resolve it.
     const fn middle(self, ratio: f32) -> Result<f32, MappingError> {
         let middle = match self {
             Self::Within { lower, upper } => {
@@ -71,7 +74,8 @@ impl JointRange {
     }
 }
 
-/// The mapping of an encoder whose count wraps, and where its joint can be: [`JointMapping::with_range`].
+/// The mapping of an encoder whose count wraps, and where its joint can be:
+/// [`JointMapping::with_range`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EncoderMapping {
     mapping: JointMapping,
@@ -83,18 +87,19 @@ pub struct EncoderMapping {
 }
 
 impl JointMapping {
-    /// The mapping of an encoder whose joint is where `range` says and moves by at most `step` rad or m in a tick: its
-    /// greatest speed times the length of a tick.
+    /// The mapping of an encoder whose joint is where `range` says and moves by at most `step` rad
+    /// or m in a tick: its greatest speed times the length of a tick.
     ///
-    /// After readings that failed or were missed, in which the encoder can have turned by half a turn, a joint of
-    /// [`JointRange::Within`] and [`JointRange::Continuous`] is placed anew. One of [`JointRange::Near`] has lost its turn
-    /// and reports it ([`LostTurn`]) until it is told where it is.
+    /// After readings that failed or were missed, in which the encoder can have turned by half a
+    /// turn, a joint of [`JointRange::Within`] and [`JointRange::Continuous`] is placed anew. One
+    /// of [`JointRange::Near`] has lost its turn and reports it ([`LostTurn`]) until it is told
+    /// where it is.
     ///
     /// # Errors
     /// [`MappingError::Range`]: not a number, the ends in the wrong order, or more than 16,000 turns of the encoder away.
     /// [`MappingError::Turns`]: the range is longer than a turn of the encoder. [`MappingError::Circle`]: a turn of the
-    /// encoder is not a whole number of turns of a continuous joint. [`MappingError::Step`]: the step is not above zero, or
-    /// half a turn of the encoder.
+    /// encoder is not a whole number of turns of a continuous joint. [`MappingError::Step`]: the
+    /// step is not above zero, or half a turn of the encoder.
     ///
     /// ```
     /// use joint_drivers::{Direction, JointMapping, JointRange, MappingError};
@@ -174,7 +179,8 @@ impl EncoderMapping {
         self.range
     }
 
-    /// The same joint, known to be within half a turn of the encoder from `position` if nothing else says where it is.
+    /// The same joint, known to be within half a turn of the encoder from `position` if nothing
+    /// else says where it is.
     pub(crate) fn moved_near(mut self, position: f32) -> Result<Self, MappingError> {
         let near = JointRange::Near(position).middle(self.mapping.ratio())?;
         if !self.is_absolute() {
@@ -192,8 +198,9 @@ impl EncoderMapping {
         matches!(self.range, JointRange::Continuous)
     }
 
-    /// The readings, one in each tick, that may be missing between two: before the shaft can turn by `angle` rad, or any
-    /// number (`u32::MAX`) if every reading says by itself where the joint is.
+    /// The readings, one in each tick, that may be missing between two: before the shaft can turn
+    /// by `angle` rad, or any number (`u32::MAX`) if every reading says by itself where the joint
+    /// is.
     pub(crate) const fn most_missing(&self, angle: f32) -> u32 {
         if self.is_absolute() {
             return u32::MAX;
@@ -209,7 +216,8 @@ impl EncoderMapping {
         ticks as f32 * self.step >= HALF * angle
     }
 
-    /// The zero of the joint in counts of `turn` per turn, within half a turn, and rad or m of the joint per count.
+    /// The zero of the joint in counts of `turn` per turn, within half a turn, and rad or m of the
+    /// joint per count.
     pub(crate) const fn in_counts(&self, turn: f32) -> (f32, f32) {
         let per_count = TAU / turn;
         let zero = within_turn(self.mapping.zero());
@@ -227,8 +235,8 @@ impl EncoderMapping {
         -floor(-(self.near / per_count + zero))
     }
 
-    /// The position of a joint whose device counts `turns` of the shaft, of which the whole ones are known if they were kept
-    /// in `whole`; they are kept if the device counts on from them.
+    /// The position of a joint whose device counts `turns` of the shaft, of which the whole ones
+    /// are known if they were kept in `whole`; they are kept if the device counts on from them.
     pub(crate) fn position_at(
         &self,
         turns: f32,
@@ -260,10 +268,11 @@ const fn within_turn(angle: f32) -> f32 {
     (angle - turns * HIGH) - turns * LOW
 }
 
-/// An encoder can have turned by half a turn or more since its last reading: its count does not say where the joint is.
+/// An encoder can have turned by half a turn or more since its last reading: its count does not say
+/// where the joint is.
 ///
-/// It lasts until the driver is told where the joint is, by its function `place_near`; the controller stops the arm
-/// ([`motion_control::Fault::LostTurn`]).
+/// It lasts until the driver is told where the joint is, by its function `place_near`; the
+/// controller stops the arm ([`motion_control::Fault::LostTurn`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LostTurn;
 

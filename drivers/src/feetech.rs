@@ -1,20 +1,23 @@
-//! STS3215 and its relatives: servos on Feetech's half-duplex serial bus, six of which move the SO-101.
+//! STS3215 and its relatives: servos on Feetech's half-duplex serial bus, six of which move the
+//! SO-101.
 //!
 //! # Source
-//! Feetech, "Communication Protocol User Manual", sections 1.1 to 1.3 (packets, instructions, examples 1 to 8), and
-//! "Magnetic encoder STS servo, memory table", in public copies; the signs of position (bit 15) and duty (bit 10) also
-//! in Feetech's SCServo SDK (`SMS_STS.cpp`). Addresses: mode 0x21, torque enable 0x28, goal position 0x2A, goal duty
-//! 0x2C (in the position mode the time of the motion), present position 0x38. Low byte first; 4096 counts per turn.
+//! Feetech, "Communication Protocol User Manual", sections 1.1 to 1.3 (packets, instructions,
+//! examples 1 to 8), and "Magnetic encoder STS servo, memory table", in public copies; the signs of
+//! position (bit 15) and duty (bit 10) also in Feetech's SCServo SDK (`SMS_STS.cpp`). Addresses:
+//! mode 0x21, torque enable 0x28, goal position 0x2A, goal duty 0x2C (in the position mode the time
+//! of the motion), present position 0x38. Low byte first; 4096 counts per turn.
 //!
-//! The duties need the servos in mode 2, PWM; the positions in mode 0. The mode is in the EPROM: set it with Feetech's
-//! tool, or by [`Servos::write`]. In mode 0 a servo of one turn goes from its count to its goal without passing from 4095
-//! to 0: a goal on the other side of that seam is refused. A range with the seam in it needs another offset (address 0x1F)
-//! of the servo, or its multi-turn form ([`Servos::with_turns`]).
-//! The register of speed is not read: its unit depends on a setting of the servo, and a
-//! controller's observer estimates the velocity from positions.
+//! The duties need the servos in mode 2, PWM; the positions in mode 0. The mode is in the EPROM:
+//! set it with Feetech's tool, or by [`Servos::write`]. In mode 0 a servo of one turn goes from its
+//! count to its goal without passing from 4095 to 0: a goal on the other side of that seam is
+//! refused. A range with the seam in it needs another offset (address 0x1F) of the servo, or its
+//! multi-turn form ([`Servos::with_turns`]). The register of speed is not read: its unit depends on
+//! a setting of the servo, and a controller's observer estimates the velocity from positions.
 //!
-//! At 1 Mbit/s, reading the positions of six servos takes 62 bytes, 0.62 ms, and setting six duties 26 bytes, 0.26 ms,
-//! without the pauses before the replies: a control loop of 500 Hz has room for both, one of 1 kHz does not.
+//! At 1 Mbit/s, reading the positions of six servos takes 62 bytes, 0.62 ms, and setting six duties
+//! 26 bytes, 0.26 ms, without the pauses before the replies: a control loop of 500 Hz has room for
+//! both, one of 1 kHz does not.
 
 use embedded_io::{Read, ReadReady, Write};
 use motion_control::{CurrentTick, Fault};
@@ -58,9 +61,9 @@ const MOST_NOISE: usize = 64;
 
 /// The servos of `N` joints on one port.
 ///
-/// The port returns an error or zero bytes if none comes within its time limit, which is at least the servos' return
-/// delay: without a limit a servo that is unplugged blocks the caller for ever. By [`ReadReady`] replies that came too
-/// late for an earlier request are found and dropped.
+/// The port returns an error or zero bytes if none comes within its time limit, which is at least
+/// the servos' return delay: without a limit a servo that is unplugged blocks the caller for ever.
+/// By [`ReadReady`] replies that came too late for an earlier request are found and dropped.
 ///
 /// ```
 /// # use embedded_io::{ErrorType, Read, ReadReady, Write};
@@ -99,8 +102,8 @@ pub struct Servos<Port, const N: usize> {
 }
 
 impl<Port, const N: usize> Servos<Port, N> {
-    /// The servos `ids`, 0 to 253, each with the mapping from its 0 rad (count 0) to its joint; the first position of each is
-    /// where its mapping says that the joint can be.
+    /// The servos `ids`, 0 to 253, each with the mapping from its 0 rad (count 0) to its joint; the
+    /// first position of each is where its mapping says that the joint can be.
     ///
     /// # Errors
     /// [`FeetechError::Id`].
@@ -131,14 +134,15 @@ impl<Port, const N: usize> Servos<Port, N> {
         self
     }
 
-    /// The same servos in their multi-turn form, with both angle limits at 0: a goal is within ±32,767 counts instead of one
-    /// turn.
+    /// The same servos in their multi-turn form, with both angle limits at 0: a goal is within
+    /// ±32,767 counts instead of one turn.
     pub fn with_turns(mut self) -> Self {
         self.has_turns = true;
         self
     }
 
-    /// As [`MultiTurnEncoder::place_near`], of the joint at a place, and nothing for one that there is not.
+    /// As [`MultiTurnEncoder::place_near`], of the joint at a place, and nothing for one that there
+    /// is not.
     ///
     /// # Errors
     /// [`MappingError::Range`]; nothing is changed.
@@ -171,7 +175,8 @@ impl<Port, const N: usize> Servos<Port, N> {
         Ok(counter.position())
     }
 
-    /// Takes what the exchange of a joint brought: of the joints from a failed one on there is no reading.
+    /// Takes what the exchange of a joint brought: of the joints from a failed one on there is no
+    /// reading.
     fn accept(
         &mut self,
         joint: usize,
@@ -209,8 +214,8 @@ impl<Port, const N: usize> Servos<Port, N> {
         self.goals(GOAL_POSITION, goals)
     }
 
-    /// The counts that the servo's own count lacks to that of its counter for a goal: since its last reply, or before it if the whole
-    /// range of the joint is within one turn of the servo.
+    /// The counts that the servo's own count lacks to that of its counter for a goal: since its
+    /// last reply, or before it if the whole range of the joint is within one turn of the servo.
     fn offset(&self, joint: usize, goal: f32) -> Option<i32> {
         let counter = &self.counters[joint];
         let turns = |position| floor(counter.count_at(position) + 0.5) & !i32::from(COUNTS - 1);
@@ -249,7 +254,8 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
         self.read_all().map_err(|failed| failed.error)
     }
 
-    /// The positions, or the joint whose servo did not reply; the first if the request could not be sent.
+    /// The positions, or the joint whose servo did not reply; the first if the request could not be
+    /// sent.
     fn read_all(&mut self) -> Result<[f32; N], JointError<FeetechError>> {
         let mut sent = self.request().and_then(|request| self.send(&request));
         let mut positions = [0.0; N];
@@ -272,7 +278,8 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
         self.send(&self.goal_positions(positions)?)
     }
 
-    /// Sets the duties of the joints, −1 to 1, in one packet that no servo replies to. NaN becomes zero duty.
+    /// Sets the duties of the joints, −1 to 1, in one packet that no servo replies to. NaN becomes
+    /// zero duty.
     ///
     /// Of the mapping only the direction applies: a duty is a share of the supply's voltage.
     ///
@@ -285,7 +292,8 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
     /// Switches the torque of all servos on or off, one after the other: each confirms it.
     ///
     /// # Errors
-    /// [`FeetechError`] of the first servo that did not; to switch off, the others are tried nevertheless.
+    /// [`FeetechError`] of the first servo that did not; to switch off, the others are tried
+    /// nevertheless.
     pub fn enable_torque(&mut self, is_on: bool) -> Result<(), FeetechError> {
         let mut result = Ok(());
         for joint in 0..N {

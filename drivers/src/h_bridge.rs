@@ -1,9 +1,11 @@
-//! H-bridges of which a PWM duty sets the torque of a current-controlled drive, or the voltage of a plain bridge.
+//! H-bridges of which a PWM duty sets the torque of a current-controlled drive, or the voltage of a
+//! plain bridge.
 //!
 //! # Source
-//! No data sheet: the two modes are those of bridges with the inputs PHASE and ENABLE. In sign and magnitude the PWM is
-//! at ENABLE and a pin at PHASE: the duty is the magnitude, the pin the sign, and zero torque is a duty of zero. In
-//! locked antiphase the PWM is at PHASE and drives both diagonals in turn: zero torque is a duty of 50 %.
+//! No data sheet: the two modes are those of bridges with the inputs PHASE and ENABLE. In sign and
+//! magnitude the PWM is at ENABLE and a pin at PHASE: the duty is the magnitude, the pin the sign,
+//! and zero torque is a duty of zero. In locked antiphase the PWM is at PHASE and drives both
+//! diagonals in turn: zero torque is a duty of 50 %.
 
 use core::fmt;
 
@@ -127,8 +129,9 @@ pub struct LockedAntiphase<Pwm> {
 impl<Pwm: SetDutyCycle> LockedAntiphase<Pwm> {
     /// A drive that delivers `full_scale` at a duty of 100 %.
     ///
-    /// The greatest duty is read once: a timer whose period changes needs a new drive. If it is odd, zero torque is
-    /// half a count below 50 %. The duty is not set: before the first torque it is that of the peripheral.
+    /// The greatest duty is read once: a timer whose period changes needs a new drive. If it is
+    /// odd, zero torque is half a count below 50 %. The duty is not set: before the first torque it
+    /// is that of the peripheral.
     pub fn new(pwm: Pwm, full_scale: FullScale, direction: Direction) -> Self {
         let scale = Scale::new(pwm.max_duty_cycle(), full_scale, direction);
         Self { pwm, scale }
@@ -144,8 +147,8 @@ impl<Pwm: SetDutyCycle> LockedAntiphase<Pwm> {
         (i32::from(self.scale.max >> 1)).wrapping_add(relative as i32) as u16
     }
 
-    /// Sets a duty of [`Self::duty`]. The two calls are separate, so that the arithmetic of all joints need not wait
-    /// for the peripherals.
+    /// Sets a duty of [`Self::duty`]. The two calls are separate, so that the arithmetic of all
+    /// joints need not wait for the peripherals.
     ///
     /// # Errors
     /// [`DriveError::Pwm`].
@@ -184,7 +187,8 @@ impl<Pwm: SetDutyCycle> JointDrive for LockedAntiphase<Pwm> {
     }
 }
 
-/// A drive with a PWM for the magnitude of the torque and a pin for its sign, high for torques above zero.
+/// A drive with a PWM for the magnitude of the torque and a pin for its sign, high for torques
+/// above zero.
 ///
 /// ```
 /// use embedded_hal_mock::eh1::{digital, pwm};
@@ -214,8 +218,8 @@ pub struct SignMagnitude<Pwm, Pin> {
 impl<Pwm: SetDutyCycle, Pin: OutputPin> SignMagnitude<Pwm, Pin> {
     /// A drive that delivers `full_scale` at a duty of 100 %.
     ///
-    /// The greatest duty is read once: a timer whose period changes needs a new drive. Nothing is set: before the first
-    /// torque, duty and sign are those of the peripherals.
+    /// The greatest duty is read once: a timer whose period changes needs a new drive. Nothing is
+    /// set: before the first torque, duty and sign are those of the peripherals.
     pub fn new(pwm: Pwm, pin: Pin, full_scale: FullScale, direction: Direction) -> Self {
         let scale = Scale::new(pwm.max_duty_cycle(), full_scale, direction);
         Self {
@@ -226,7 +230,8 @@ impl<Pwm: SetDutyCycle, Pin: OutputPin> SignMagnitude<Pwm, Pin> {
         }
     }
 
-    /// The sign and the duty of a torque, to the nearest, limited to the full scale; NaN becomes zero torque.
+    /// The sign and the duty of a torque, to the nearest, limited to the full scale; NaN becomes
+    /// zero torque.
     pub fn sign_and_duty(&self, torque: f32) -> (PinState, u16) {
         let share = self.scale.share(torque);
         let magnitude = share.unsigned_abs();
@@ -236,8 +241,8 @@ impl<Pwm: SetDutyCycle, Pin: OutputPin> SignMagnitude<Pwm, Pin> {
 
     /// Sets a torque in N·m, limited to the full scale; NaN becomes zero torque.
     ///
-    /// Zero torque is a duty of zero, with the sign unchanged. A change of sign first sets the duty to zero, so that
-    /// the magnitude of one sign is never applied with the other.
+    /// Zero torque is a duty of zero, with the sign unchanged. A change of sign first sets the duty
+    /// to zero, so that the magnitude of one sign is never applied with the other.
     ///
     /// # Errors
     /// [`DriveError`]. If the pin fails, the duty is zero.

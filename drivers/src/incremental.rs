@@ -1,13 +1,13 @@
 //! An incremental encoder with index: quadrature signals A and B, and Z once per turn.
 //!
 //! # Source
-//! No data sheet: the order of the four states of A and B is that of every quadrature encoder, and "forward" is A
-//! before B. The index is taken to be gated with A and B, one state wide; encoders with a wider one have
-//! [`IncrementalEncoder::with_index_width`].
+//! No data sheet: the order of the four states of A and B is that of every quadrature encoder, and
+//! "forward" is A before B. The index is taken to be gated with A and B, one state wide; encoders
+//! with a wider one have [`IncrementalEncoder::with_index_width`].
 //!
-//! After power-up the position is not known. The first index makes it known; each later one checks that the counts
-//! since then are whole turns, which finds counts that were lost or added by noise. The index is passed once in each turn
-//! of the encoder: where the joint can be says in which one.
+//! After power-up the position is not known. The first index makes it known; each later one checks
+//! that the counts since then are whole turns, which finds counts that were lost or added by noise.
+//! The index is passed once in each turn of the encoder: where the joint can be says in which one.
 
 use core::convert::Infallible;
 use core::fmt;
@@ -25,9 +25,10 @@ pub use decoder::{InvalidTransition, QuadratureDecoder};
 
 /// What counts the edges of A and B: a timer in encoder mode, or [`QuadratureDecoder`].
 ///
-/// A timer of fewer than 16 bits is extended by its implementation; of a longer one the lower 16 bits are returned.
-/// Between two readings it counts less than 2¹⁵: [`IncrementalEncoder`] refuses a joint that is faster, and takes counts for
-/// lost that a gap in the readings has let grow further.
+/// A timer of fewer than 16 bits is extended by its implementation; of a longer one the lower 16
+/// bits are returned. Between two readings it counts less than 2¹⁵: [`IncrementalEncoder`] refuses
+/// a joint that is faster, and takes counts for lost that a gap in the readings has let grow
+/// further.
 pub trait QuadratureCounter {
     /// The reason why counts were lost.
     type Error: fmt::Debug + fmt::Display;
@@ -35,7 +36,8 @@ pub trait QuadratureCounter {
     /// The present count, modulo 2¹⁶.
     ///
     /// # Errors
-    /// Counts may have been lost since the last call: the position is not known until the next index.
+    /// Counts may have been lost since the last call: the position is not known until the next
+    /// index.
     fn count(&mut self) -> Result<u16, Self::Error>;
 
     /// The count at the last index, if one has passed since the last call: most timers capture it.
@@ -50,14 +52,14 @@ pub enum IncrementalError<E> {
     Counter(E),
     /// The index has not been passed since power-up, or since the counter lost counts.
     NotReferenced,
-    /// The counts between two indices are not whole turns, but so many more or fewer. The position is referenced to
-    /// the new index.
+    /// The counts between two indices are not whole turns, but so many more or fewer. The position
+    /// is referenced to the new index.
     Index {
         /// Counts that were added (above zero) or lost.
         excess: i32,
     },
-    /// The counter can have wrapped, or lost counts, after the joint was placed near a position: an index does not say in
-    /// which turn it is, until [`IncrementalEncoder::place_near`].
+    /// The counter can have wrapped, or lost counts, after the joint was placed near a position: an
+    /// index does not say in which turn it is, until [`IncrementalEncoder::place_near`].
     LostTurn,
 }
 
@@ -111,10 +113,11 @@ pub struct IncrementalEncoder<Counter> {
 }
 
 impl<Counter: QuadratureCounter> IncrementalEncoder<Counter> {
-    /// An encoder with `resolution` counts per turn; the zero of `mapping` is the shaft's angle from the index.
+    /// An encoder with `resolution` counts per turn; the zero of `mapping` is the shaft's angle
+    /// from the index.
     ///
-    /// At the first index the joint is where the mapping says that it can be; one that is near a position was there at the
-    /// first reading.
+    /// At the first index the joint is where the mapping says that it can be; one that is near a
+    /// position was there at the first reading.
     ///
     /// # Errors
     /// [`MappingError::Step`]: the joint can move by 2¹⁵ counts in a tick.
@@ -142,8 +145,8 @@ impl<Counter: QuadratureCounter> IncrementalEncoder<Counter> {
         })
     }
 
-    /// The same encoder with an index that is `counts` wide instead of one state: its edge lies elsewhere when it is
-    /// passed in the other direction, and so much is not an error.
+    /// The same encoder with an index that is `counts` wide instead of one state: its edge lies
+    /// elsewhere when it is passed in the other direction, and so much is not an error.
     pub const fn with_index_width(mut self, counts: u16) -> Self {
         self.tolerance = counts;
         self
@@ -160,8 +163,8 @@ impl<Counter: QuadratureCounter> IncrementalEncoder<Counter> {
         Some((from_index as f32 - self.zero) * self.per_count)
     }
 
-    /// Takes the joint to be at `position` rad or m, which says in which turn it is at the next index. Ends
-    /// [`IncrementalError::LostTurn`].
+    /// Takes the joint to be at `position` rad or m, which says in which turn it is at the next
+    /// index. Ends [`IncrementalError::LostTurn`].
     ///
     /// # Errors
     /// [`MappingError::Range`]; nothing is changed.
@@ -206,7 +209,8 @@ impl<Counter: QuadratureCounter> IncrementalEncoder<Counter> {
         self.counter.index();
     }
 
-    /// Keeps the count of a continuous joint within a turn of the encoder: it does not grow with its turns.
+    /// Keeps the count of a continuous joint within a turn of the encoder: it does not grow with
+    /// its turns.
     fn unwind(&mut self) {
         if let (true, Some(reference)) = (self.mapping.is_circle(), self.reference) {
             let near = self.mapping.near_count(self.resolution.counts() as f32);
@@ -214,8 +218,8 @@ impl<Counter: QuadratureCounter> IncrementalEncoder<Counter> {
         }
     }
 
-    /// The count of an index at `index`, or whole turns beside it, from which the joint at `count` is `near` counts away, or
-    /// half a turn more or less.
+    /// The count of an index at `index`, or whole turns beside it, from which the joint at `count`
+    /// is `near` counts away, or half a turn more or less.
     fn placed(&self, index: i32, count: i32, near: i32) -> i32 {
         let turn = self.resolution.counts() as i32;
         let off = count.wrapping_sub(index).wrapping_sub(near);
@@ -285,7 +289,8 @@ impl<Counter: QuadratureCounter> JointEncoder for IncrementalEncoder<Counter> {
     }
 }
 
-/// A timer that cannot lose counts, as a function that reads its count and one that takes its captured index.
+/// A timer that cannot lose counts, as a function that reads its count and one that takes its
+/// captured index.
 impl<Count: FnMut() -> u16, Index: FnMut() -> Option<u16>> QuadratureCounter for (Count, Index) {
     type Error = Infallible;
 

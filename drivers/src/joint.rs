@@ -1,7 +1,8 @@
 //! The traits through which the control loop reads encoders and sets drives.
 //!
-//! Each has one trait for a joint ([`JointEncoder`], [`JointDrive`]), which an array of devices makes one for the robot
-//! ([`JointEncoders`], [`JointDrives`]). Devices that one transfer reads together implement the latter themselves.
+//! Each has one trait for a joint ([`JointEncoder`], [`JointDrive`]), which an array of devices
+//! makes one for the robot ([`JointEncoders`], [`JointDrives`]). Devices that one transfer reads
+//! together implement the latter themselves.
 
 use core::convert::Infallible;
 use core::error::Error;
@@ -42,8 +43,8 @@ pub trait EncoderType {
 
 /// The encoder of a joint.
 ///
-/// A reading has two steps, so that a loop can convert the angles of all joints at once after all transfers: on a
-/// Cortex-M4F the conversions then fill each other's latencies.
+/// A reading has two steps, so that a loop can convert the angles of all joints at once after all
+/// transfers: on a Cortex-M4F the conversions then fill each other's latencies.
 ///
 /// ```
 /// use core::convert::Infallible;
@@ -97,13 +98,15 @@ pub trait JointEncoders<const V: usize>: EncoderType {
     /// The joints' positions, rad or m, finite.
     ///
     /// # Errors
-    /// That of the first joint without a position. In an array all others have been read nevertheless.
+    /// That of the first joint without a position. In an array all others have been read
+    /// nevertheless.
     fn read(&mut self) -> Result<[f32; V], JointError<Self::Error>>;
 }
 
 /// The drive of a joint.
 ///
-/// A command has two steps, so that a loop can convert the torques of all joints before it accesses the first device.
+/// A command has two steps, so that a loop can convert the torques of all joints before it accesses
+/// the first device.
 ///
 /// ```
 /// use joint_drivers::{DriveFault, DriveFaultKind, JointDrive};
@@ -138,13 +141,15 @@ pub trait JointDrive {
     /// A torque in the device's own unit.
     type Setpoint: Copy + Default;
 
-    /// A torque of the joint, N·m or N, in the device's unit, within its range; that of zero torque for NaN.
+    /// A torque of the joint, N·m or N, in the device's unit, within its range; that of zero torque
+    /// for NaN.
     fn setpoint(&self, torque: f32) -> Self::Setpoint;
 
     /// Sets a torque.
     ///
     /// # Errors
-    /// The device did not accept it, is not ready, or reports a fault of its own: [`DriveFault::kind`] says which.
+    /// The device did not accept it, is not ready, or reports a fault of its own:
+    /// [`DriveFault::kind`] says which.
     fn set(&mut self, setpoint: Self::Setpoint) -> Result<(), Self::Error>;
 
     /// Sets a torque of the joint, N·m or N: both steps.
@@ -164,7 +169,8 @@ pub trait JointDrives<const V: usize> {
     /// Sets the torques of the joints, N·m or N.
     ///
     /// # Errors
-    /// Of the first joint that failed, else of the first that is not ready; the torques of all others are set.
+    /// Of the first joint that failed, else of the first that is not ready; the torques of all
+    /// others are set.
     fn set_torques(&mut self, torques: &[f32; V]) -> Result<(), JointError<Self::Error>>;
 }
 
@@ -183,7 +189,8 @@ impl DriveFault for Infallible {}
 pub enum DriveFaultKind {
     /// The drive may still apply an older torque: the brake at once, see [`Fault::Drive`].
     Failed,
-    /// The drive is not enabled, not commutated or without supply, which may pass: see [`Fault::NotReady`].
+    /// The drive is not enabled, not commutated or without supply, which may pass: see
+    /// [`Fault::NotReady`].
     NotReady,
 }
 
@@ -269,8 +276,8 @@ impl<D: JointDrive, const V: usize> JointDrives<V> for [D; V] {
     }
 }
 
-/// Reads the encoders after one that failed, and keeps its error: in a function of its own, so that a tick without errors
-/// keeps nothing for them.
+/// Reads the encoders after one that failed, and keeps its error: in a function of its own, so that
+/// a tick without errors keeps nothing for them.
 #[cold]
 #[inline(never)]
 fn sample_others<E: JointEncoder, const V: usize>(

@@ -1,5 +1,5 @@
-//! One control loop for encoders and drives of any kind, and drivers of common parts, on the traits of [`embedded_hal`],
-//! [`embedded_can`] and [`embedded_io`]: no heap, no panic and no `unsafe`.
+//! One control loop for encoders and drives of any kind, and drivers of common parts, on the traits
+//! of [`embedded_hal`], [`embedded_can`] and [`embedded_io`]: no heap, no panic and no `unsafe`.
 //!
 //! | what | is |
 //! |---|---|
@@ -9,13 +9,14 @@
 //! | [`Law`] | the model's torque |
 //! | [`Probe`] | sees the phases of a tick |
 //!
-//! Each driver has the zero, the direction and the resolution of its joint as parameters ([`JointMapping`],
-//! [`Resolution`]): it measures rad at the joint and commands N·m, V or a share of the full scale there. An encoder is told
-//! where its joint can be, too ([`JointRange`]): its count says only where it is within a turn.
+//! Each driver has the zero, the direction and the resolution of its joint as parameters
+//! ([`JointMapping`], [`Resolution`]): it measures rad at the joint and commands N·m, V or a share
+//! of the full scale there. An encoder is told where its joint can be, too ([`JointRange`]): its
+//! count says only where it is within a turn.
 //!
-//! The encoders and the H-bridges implement the traits of a joint, the servos that of all encoders. The controllers on CAN are
-//! both at once, on a bus that they share ([`CanJoints`]). Three half-bridges take a voltage and the servos a duty: they are
-//! no drives of torque.
+//! The encoders and the H-bridges implement the traits of a joint, the servos that of all encoders.
+//! The controllers on CAN are both at once, on a bus that they share ([`CanJoints`]). Three
+//! half-bridges take a voltage and the servos a duty: they are no drives of torque.
 //!
 //! | part | bus | measures or commands | module |
 //! |---|---|---|---|
@@ -28,8 +29,8 @@
 //! | ODrive | CAN | torque; position, velocity, torque, state and errors | [`odrive`] |
 //! | STS3215, six in the SO-101 | half-duplex UART | position or duty; position, 4096 counts per turn | [`feetech`] |
 //!
-//! What is common to them: a torque that is not a number becomes zero torque; errors are typed; no reading is NaN or
-//! infinite; input that is wrong leads to an error, never to a panic.
+//! What is common to them: a torque that is not a number becomes zero torque; errors are typed; no
+//! reading is NaN or infinite; input that is wrong leads to an error, never to a panic.
 //!
 //! ```
 //! use joint_drivers::{Direction, JointMapping, JointRange, as5600::As5600};
@@ -50,9 +51,10 @@
 //!
 //! # Cargo features
 //!
-//! - `async`, off by default: the encoders on a bus over [`embedded_hal_async`] and the servo bus over `embedded-io-async`,
-//!   for Embassy: traits of the same names in `asynch`, `ControlLoop::tick_async`, and `start_async`, `read_async`,
-//!   `positions_async` and others. They share the state and the decoding with the blocking form.
+//! - `async`, off by default: the encoders on a bus over [`embedded_hal_async`] and the servo bus
+//!   over `embedded-io-async`, for Embassy: traits of the same names in `asynch`,
+//!   `ControlLoop::tick_async`, and `start_async`, `read_async`, `positions_async` and others. They
+//!   share the state and the decoding with the blocking form.
 #![cfg_attr(
     not(any(test, feature = "async")),
     doc = "",

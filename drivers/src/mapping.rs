@@ -3,7 +3,8 @@
 use core::f32::consts::TAU;
 use core::fmt;
 
-/// The most that a zero may be in rad, and a ratio or its inverse: within it no conversion of a count overflows.
+/// The most that a zero may be in rad, and a ratio or its inverse: within it no conversion of a
+/// count overflows.
 const MOST: f32 = 1e6;
 
 /// The direction in which a joint turns while the angle of its sensor or motor increases.
@@ -38,9 +39,11 @@ pub enum MappingError {
     Counts,
     /// The quantity to convert, or its result, is not finite.
     NotFinite,
-    /// The range of the joint is not a number, has its ends in the wrong order, or is too many turns of the encoder away.
+    /// The range of the joint is not a number, has its ends in the wrong order, or is too many
+    /// turns of the encoder away.
     Range,
-    /// The range of the joint is longer than a turn of the encoder, which then does not say where the joint is.
+    /// The range of the joint is longer than a turn of the encoder, which then does not say where
+    /// the joint is.
     Turns,
     /// A turn of the encoder is not a whole number of turns of the continuous joint.
     Circle,
@@ -69,8 +72,9 @@ impl core::error::Error for MappingError {}
 
 /// Where a joint is zero, which way it turns, and how many turns of the shaft are one of the joint.
 ///
-/// With x of the shaft on which a sensor or motor sits, q of the joint, the zero x₀, the sign s and the ratio N:
-/// q = s (x − x₀) / N, q̇ = s ẋ / N, and the torque of the joint is s N times that of the shaft, without friction.
+/// With x of the shaft on which a sensor or motor sits, q of the joint, the zero x₀, the sign s and
+/// the ratio N: q = s (x − x₀) / N, q̇ = s ẋ / N, and the torque of the joint is s N times that of
+/// the shaft, without friction.
 ///
 /// ```
 /// use joint_drivers::{Direction, JointMapping, MappingError};
@@ -97,7 +101,8 @@ impl JointMapping {
         to_shaft: 1.0,
     };
 
-    /// A joint that is at zero while the shaft is at `zero` rad, and of which one turn is `ratio` turns of the shaft.
+    /// A joint that is at zero while the shaft is at `zero` rad, and of which one turn is `ratio`
+    /// turns of the shaft.
     ///
     /// # Errors
     /// [`MappingError::Zero`] and [`MappingError::Ratio`]: outside their ranges, or NaN.
@@ -243,7 +248,8 @@ impl Resolution {
 
     /// The angle in rad of a count, turns included.
     ///
-    /// Within two units in the last place of f32 up to 2²⁴ counts; beyond them the count is rounded as well.
+    /// Within two units in the last place of f32 up to 2²⁴ counts; beyond them the count is rounded
+    /// as well.
     #[inline(always)]
     pub fn angle(&self, counts: i32) -> f32 {
         counts as f32 * self.per_count

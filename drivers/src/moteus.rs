@@ -1,17 +1,19 @@
 //! moteus: torque and state over CAN FD.
 //!
 //! # Source
-//! mjbots/moteus, `docs/protocol/can.md` (identifiers, subframes, example) and `docs/protocol/registers.md` (registers,
-//! their integer mappings, fault codes), which earlier were sections A.1 and A.2 of `docs/reference.md`; section
-//! "Torque Control" of the latter.
+//! mjbots/moteus, `docs/protocol/can.md` (identifiers, subframes, example) and
+//! `docs/protocol/registers.md` (registers, their integer mappings, fault codes), which earlier
+//! were sections A.1 and A.2 of `docs/reference.md`; section "Torque Control" of the latter.
 //!
-//! A command has 24 bytes and its reply 20: the bus and the frame type must be CAN FD. A frame type of classic CAN
-//! refuses a command ([`CanError::Length`]). [`embedded_can::Frame`] does not say whether the data phase has its own
-//! bit rate: set that in the HAL (1 Mbit/s, data 5 Mbit/s from the factory). CAN FD has no lengths between 8, 12, 16,
-//! 20, 24, 32, 48 and 64: commands are padded by NOP (0x50). `can.prefix` of the controller must be 0.
+//! A command has 24 bytes and its reply 20: the bus and the frame type must be CAN FD. A frame type
+//! of classic CAN refuses a command ([`CanError::Length`]). [`embedded_can::Frame`] does not say
+//! whether the data phase has its own bit rate: set that in the HAL (1 Mbit/s, data 5 Mbit/s from
+//! the factory). CAN FD has no lengths between 8, 12, 16, 20, 24, 32, 48 and 64: commands are
+//! padded by NOP (0x50). `can.prefix` of the controller must be 0.
 //!
-//! After power-up a position is known within a turn of the shaft that the controller measures; then the controller counts its
-//! turns itself. The shaft of the mapping is that one: `motor_position.rotor_to_output_ratio` is 1.
+//! After power-up a position is known within a turn of the shaft that the controller measures; then
+//! the controller counts its turns itself. The shaft of the mapping is that one:
+//! `motor_position.rotor_to_output_ratio` is 1.
 
 use core::f32::consts::TAU;
 
@@ -59,8 +61,8 @@ pub struct State {
     pub velocity: f32,
     /// N·m.
     pub torque: f32,
-    /// The fault code, 32 and above in [`Mode::Fault`]; in other modes 96 and above name what limits the output, and 0
-    /// is nothing.
+    /// The fault code, 32 and above in [`Mode::Fault`]; in other modes 96 and above name what
+    /// limits the output, and 0 is nothing.
     pub fault: u8,
 }
 
@@ -91,8 +93,8 @@ pub struct Moteus {
 }
 
 impl Moteus {
-    /// The controller `id`, 1 to 127, that replies to the host `host`, 0 to 127, and delivers at most `most` N·m at the
-    /// joint.
+    /// The controller `id`, 1 to 127, that replies to the host `host`, 0 to 127, and delivers at
+    /// most `most` N·m at the joint.
     ///
     /// # Errors
     /// [`CanError::Node`], [`CanError::Torque`].
@@ -110,7 +112,8 @@ impl Moteus {
         })
     }
 
-    /// Takes the joint to be at `position` rad or m: the next reply is within half a turn of the shaft from there.
+    /// Takes the joint to be at `position` rad or m: the next reply is within half a turn of the
+    /// shaft from there.
     ///
     /// # Errors
     /// [`MappingError::Range`]; nothing is changed.
@@ -120,11 +123,13 @@ impl Moteus {
         Ok(())
     }
 
-    /// A torque in N·m at the joint, limited to the greatest, and a query of the state; NaN becomes zero torque.
+    /// A torque in N·m at the joint, limited to the greatest, and a query of the state; NaN becomes
+    /// zero torque.
     ///
-    /// Position mode with the scales of the gains kp and kd at 0, and the torque as feed-forward. The integral gain
-    /// `servo.pid_position.ki`, which these scales leave as it is, must be configured as 0. Without a further command
-    /// the controller enters [`Mode::Timeout`] after the time that it is configured with.
+    /// Position mode with the scales of the gains kp and kd at 0, and the torque as feed-forward.
+    /// The integral gain `servo.pid_position.ki`, which these scales leave as it is, must be
+    /// configured as 0. Without a further command the controller enters [`Mode::Timeout`] after the
+    /// time that it is configured with.
     ///
     /// # Errors
     /// [`CanError::Length`]: the frame type is not CAN FD.
@@ -146,7 +151,8 @@ impl Moteus {
         ])
     }
 
-    /// Stops the controller, which takes the power from the motor and clears faults, and queries the state.
+    /// Stops the controller, which takes the power from the motor and clears faults, and queries
+    /// the state.
     ///
     /// # Errors
     /// [`CanError::Length`]: the frame type is not CAN FD.
@@ -155,7 +161,8 @@ impl Moteus {
         self.frame(&[0x01, 0x00, 0, q0, q1, q2, q3, q4, q5, NOP, NOP, NOP])
     }
 
-    /// Queries the state without a command. The query alone fits into a frame of classic CAN; its reply does not.
+    /// Queries the state without a command. The query alone fits into a frame of classic CAN; its
+    /// reply does not.
     ///
     /// # Errors
     /// [`CanError::Length`].
@@ -163,8 +170,8 @@ impl Moteus {
         self.frame(&QUERY)
     }
 
-    /// The state in a reply, mapped to the joint; registers may have any of the four types and any order. In the first one the
-    /// joint is where the mapping says that it can be.
+    /// The state in a reply, mapped to the joint; registers may have any of the four types and any
+    /// order. In the first one the joint is where the mapping says that it can be.
     ///
     /// # Errors
     /// [`CanError`]: another node or host, a remote frame, a frame that is short or has an unknown subframe, a register

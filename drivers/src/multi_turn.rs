@@ -7,7 +7,8 @@ use dynamics_core::scalar::Real;
 use crate::encoder_mapping::{LostTurn, MOST_TURNS, floor};
 use crate::{EncoderMapping, MappingError};
 
-/// In place of the readings that are missing since the last one: it is unknown in which turn the joint is.
+/// In place of the readings that are missing since the last one: it is unknown in which turn the
+/// joint is.
 const LOST: u32 = u32::MAX;
 /// The same: each reading is placed anew.
 const CIRCLE: u32 = LOST - 1;
@@ -18,10 +19,11 @@ pub(crate) struct Before(i32);
 
 /// The position of a joint from an absolute encoder of BITS bits (1 to 16), turns included.
 ///
-/// The first reading is placed where the joint can be ([`JointRange`](crate::JointRange)); then the difference of two
-/// readings is the shorter rotation, so that the wrap from the last count to 0 is not a jump. The count itself wraps after
-/// 2³⁰ counts: 65,536 turns of 14 bits. A range of the joint that is longer than a turn but for two counts of BITS has
-/// two readings at its ends: with less than 12 bits leave more than that free.
+/// The first reading is placed where the joint can be ([`JointRange`](crate::JointRange)); then the
+/// difference of two readings is the shorter rotation, so that the wrap from the last count to 0 is
+/// not a jump. The count itself wraps after 2³⁰ counts: 65,536 turns of 14 bits. A range of the
+/// joint that is longer than a turn but for two counts of BITS has two readings at its ends: with
+/// less than 12 bits leave more than that free.
 ///
 /// ```
 /// use joint_drivers::{Direction, JointMapping, JointRange, LostTurn, MultiTurnEncoder};
@@ -44,8 +46,8 @@ pub struct MultiTurnEncoder<const BITS: u32> {
     /// The joint's zero in half counts, and its rad or m per half count.
     zero: f32,
     per_half: f32,
-    /// If each reading says by itself where the joint is: the place of a joint without a reading, as in `halves`, which
-    /// is odd. Else twice the number of readings that may be missing.
+    /// If each reading says by itself where the joint is: the place of a joint without a reading,
+    /// as in `halves`, which is odd. Else twice the number of readings that may be missing.
     near_or_most: i32,
 }
 
@@ -74,8 +76,9 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
 
     /// Takes a reading `raw`, of which the bits above BITS are ignored.
     ///
-    /// Call it only with readings that passed the encoder's own checks, once in each tick; for a tick without one call
-    /// [`Self::missed`]. Cost: 6 instructions, more only after a gap and for [`Continuous`](crate::JointRange::Continuous).
+    /// Call it only with readings that passed the encoder's own checks, once in each tick; for a
+    /// tick without one call [`Self::missed`]. Cost: 6 instructions, more only after a gap and for
+    /// [`Continuous`](crate::JointRange::Continuous).
     ///
     /// # Errors
     /// [`LostTurn`], until [`Self::place_near`].
@@ -85,7 +88,8 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         if missing == 0 { Ok(()) } else { self.examine() }
     }
 
-    /// Takes a reading, and returns what was before it, and 0 if it follows that: then it needs no [`Self::examine`].
+    /// Takes a reading, and returns what was before it, and 0 if it follows that: then it needs no
+    /// [`Self::examine`].
     #[inline(always)]
     pub(crate) fn follow(&mut self, raw: u16) -> (Before, u32) {
         let (before, missing) = (self.halves, self.missing);
@@ -111,7 +115,8 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         (halves << Self::SHIFT) >> Self::SHIFT
     }
 
-    /// Notes that so many readings failed or were not made, one in each tick: the joint may have moved on.
+    /// Notes that so many readings failed or were not made, one in each tick: the joint may have
+    /// moved on.
     #[cold]
     pub fn missed(&mut self, readings: u32) {
         if self.is_absolute() {
@@ -121,8 +126,9 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         }
     }
 
-    /// Takes the joint to be at `position` rad or m: the next reading is within half a turn of the encoder from there, and
-    /// ends [`LostTurn`]. A joint that every reading places by itself stays where it is.
+    /// Takes the joint to be at `position` rad or m: the next reading is within half a turn of the
+    /// encoder from there, and ends [`LostTurn`]. A joint that every reading places by itself stays
+    /// where it is.
     ///
     /// # Errors
     /// [`MappingError::Range`]: not finite, or more than 16,000 turns of the encoder away; nothing is changed.
@@ -140,8 +146,8 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         Ok(())
     }
 
-    /// Whether a reading after others that are missing says where the joint is: a function of its own, so that the usual
-    /// reading has no case for it.
+    /// Whether a reading after others that are missing says where the joint is: a function of its
+    /// own, so that the usual reading has no case for it.
     #[cold]
     #[inline(never)]
     fn examine(&mut self) -> Result<(), LostTurn> {
@@ -183,17 +189,19 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         self.halves >> (BITS + 1)
     }
 
-    /// The angle of the encoder's shaft in rad, turns included, without the mapping: 2π counts / 2^BITS.
+    /// The angle of the encoder's shaft in rad, turns included, without the mapping: 2π counts /
+    /// 2^BITS.
     ///
-    /// f32: within 1.5 units in the last place, so that adding the turns separately would not be more accurate; that
-    /// unit is 6·10⁻⁵ rad at 100 turns, a sixth of a 14-bit count. Cost: 2 flops.
+    /// f32: within 1.5 units in the last place, so that adding the turns separately would not be
+    /// more accurate; that unit is 6·10⁻⁵ rad at 100 turns, a sixth of a 14-bit count. Cost: 2
+    /// flops.
     #[inline(always)]
     pub fn angle<R: Real>(&self) -> R {
         angle::<R, BITS>(self.counts())
     }
 
-    /// The angle of the encoder's shaft in rad without whole turns, within ±π: as accurate after a million turns as in the
-    /// first.
+    /// The angle of the encoder's shaft in rad without whole turns, within ±π: as accurate after a
+    /// million turns as in the first.
     ///
     /// f32: within 1.5 units in the last place. Cost: 2 flops and 2 shifts.
     ///

@@ -1,17 +1,17 @@
 //! ODrive: torque and estimates over CAN, protocol CANSimple.
 //!
 //! # Source
-//! ODrive firmware 0.5, `docs/can-protocol.rst` and `docs/_static/can-protocol.csv` of odriverobotics/ODrive: the
-//! 11-bit identifier is node << 5 | command, with nodes up to 0x3F; all values are little-endian; a message is
-//! requested by a remote frame with its identifier. Units (rev, rev/s, N·m), states, modes and Get_Torques (0x1C),
-//! which 0.5 does not have: the CAN database of firmware 0.6.10, as odrive-can documents it ("odrive-cansimple-0.6.10
-//! interface").
+//! ODrive firmware 0.5, `docs/can-protocol.rst` and `docs/_static/can-protocol.csv` of
+//! odriverobotics/ODrive: the 11-bit identifier is node << 5 | command, with nodes up to 0x3F; all
+//! values are little-endian; a message is requested by a remote frame with its identifier. Units
+//! (rev, rev/s, N·m), states, modes and Get_Torques (0x1C), which 0.5 does not have: the CAN
+//! database of firmware 0.6.10, as odrive-can documents it ("odrive-cansimple-0.6.10 interface").
 //!
-//! After power-up the position of an axis with an absolute encoder is known within a turn of its motor; then the axis counts the
-//! turns itself.
+//! After power-up the position of an axis with an absolute encoder is known within a turn of its
+//! motor; then the axis counts the turns itself.
 //!
-//! Nodes with extended identifiers are not supported. Of the heartbeat only the errors and the state are decoded, which
-//! both versions have in the same place.
+//! Nodes with extended identifiers are not supported. Of the heartbeat only the errors and the
+//! state are decoded, which both versions have in the same place.
 
 use core::f32::consts::TAU;
 
@@ -79,7 +79,8 @@ pub enum Reply {
         /// rad/s.
         velocity: f32,
     },
-    /// Get_Torques, of firmware 0.6; firmware 0.5 has another message of this number, which it sends only on request.
+    /// Get_Torques, of firmware 0.6; firmware 0.5 has another message of this number, which it
+    /// sends only on request.
     Torques {
         /// The torque that the controller aims at, N·m.
         target: f32,
@@ -130,7 +131,8 @@ impl ODrive {
         })
     }
 
-    /// Takes the joint to be at `position` rad or m: the next estimate is within half a turn of the motor from there.
+    /// Takes the joint to be at `position` rad or m: the next estimate is within half a turn of the
+    /// motor from there.
     ///
     /// # Errors
     /// [`MappingError::Range`]; nothing is changed.
@@ -140,7 +142,8 @@ impl ODrive {
         Ok(())
     }
 
-    /// Set_Input_Torque: a torque in N·m at the joint, limited to the greatest; NaN becomes zero torque.
+    /// Set_Input_Torque: a torque in N·m at the joint, limited to the greatest; NaN becomes zero
+    /// torque.
     ///
     /// # Errors
     /// [`CanError::Length`].
@@ -183,8 +186,8 @@ impl ODrive {
         self.frame(CLEAR_ERRORS, &[0])
     }
 
-    /// A request of Get_Encoder_Estimates, which the axis also sends every 10 ms by itself if nothing else was
-    /// configured.
+    /// A request of Get_Encoder_Estimates, which the axis also sends every 10 ms by itself if
+    /// nothing else was configured.
     ///
     /// # Errors
     /// [`CanError::Length`].
@@ -200,11 +203,12 @@ impl ODrive {
         self.remote(GET_TORQUES)
     }
 
-    /// The estimate of a frame, mapped to the joint. In the first estimate the joint is where the mapping says that it can be.
+    /// The estimate of a frame, mapped to the joint. In the first estimate the joint is where the
+    /// mapping says that it can be.
     ///
     /// # Errors
-    /// [`CanError::Identifier`] for another node or message, [`CanError::Remote`], [`CanError::Short`],
-    /// [`CanError::NotFinite`].
+    /// [`CanError::Identifier`] for another node or message, [`CanError::Remote`],
+    /// [`CanError::Short`], [`CanError::NotFinite`].
     pub fn reply<F: Frame>(&mut self, frame: &F) -> Result<Reply, CanError> {
         let Id::Standard(id) = frame.id() else {
             return Err(CanError::Identifier);

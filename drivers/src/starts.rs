@@ -1,4 +1,5 @@
-//! Starts at random zeros, directions, ratios, ranges and turns, through every encoder, blocking and asynchronous.
+//! Starts at random zeros, directions, ratios, ranges and turns, through every encoder, blocking
+//! and asynchronous.
 
 use core::cell::Cell;
 use core::convert::Infallible;
@@ -106,7 +107,8 @@ impl Start {
         ((self.shaft(q) * counts as f64).round() as i64).rem_euclid(counts) as u16
     }
 
-    /// Whether a reading is the joint's position, within half a count of the rounding of so many per turn.
+    /// Whether a reading is the joint's position, within half a count of the rounding of so many
+    /// per turn.
     fn accepts(&self, read: f32, truth: f64, counts: f64) -> bool {
         let turn = TAU / f64::from(self.ratio);
         let mut off = f64::from(read) - truth;
@@ -299,7 +301,8 @@ fn a_servo_that_counts_turns_goes_on_from_its_count() {
     );
 }
 
-/// The position after an index of an encoder of 2000 counts, which the joint passes within a half turn from its start.
+/// The position after an index of an encoder of 2000 counts, which the joint passes within a half
+/// turn from its start.
 fn after_index(start: &Start) -> Option<(f32, f64)> {
     const TURN: f64 = 2000.0;
     let sign = f64::from(start.direction.sign());

@@ -1,15 +1,16 @@
 //! The duties of three half-bridges for a voltage along the d and q axes of a three-phase motor.
 //!
 //! # Source
-//! H. W. van der Broeck, H.-C. Skudelny, G. V. Stanke, "Analysis and realization of a pulsewidth modulator based on
-//! voltage space vectors", IEEE Trans. Ind. Appl. 24(1), 1988; in the form that adds −(max + min)/2 to the three
-//! phases, J. Holtz, "Pulsewidth modulation: a survey", IEEE Trans. Ind. Electron. 39(5), 1992. Transforms of constant
-//! amplitude:
+//! H. W. van der Broeck, H.-C. Skudelny, G. V. Stanke, "Analysis and realization of a pulsewidth
+//! modulator based on voltage space vectors", IEEE Trans. Ind. Appl. 24(1), 1988; in the form that
+//! adds −(max + min)/2 to the three phases, J. Holtz, "Pulsewidth modulation: a survey", IEEE
+//! Trans. Ind. Electron. 39(5), 1992. Transforms of constant amplitude:
 //!
 //! vα = v_d cos θ − v_q sin θ, vβ = v_d sin θ + v_q cos θ (inverse Park);
 //! v_a = vα, v_b, v_c = −vα/2 ± (√3/2) vβ (inverse Clarke).
 //!
-//! A current controller is not part of this module: its output is (v_d, v_q), of which v_q produces torque.
+//! A current controller is not part of this module: its output is (v_d, v_q), of which v_q produces
+//! torque.
 
 use core::fmt;
 
@@ -21,9 +22,11 @@ use crate::JointMapping;
 
 /// √3/2.
 const HALF_SQRT_3: f32 = 0.866_025_4;
-/// The longest voltage that three phases deliver in every direction, as a share of the supply: 1/√3.
+/// The longest voltage that three phases deliver in every direction, as a share of the supply:
+/// 1/√3.
 pub const LONGEST: f32 = 0.577_350_26;
-/// Beyond it a share of the supply is an error of the caller, not a voltage; its square does not overflow.
+/// Beyond it a share of the supply is an error of the caller, not a voltage; its square does not
+/// overflow.
 const ABSURD: f32 = 1e9;
 
 /// The duties of three phases, each 0 to 1.
@@ -40,7 +43,8 @@ const ABSURD: f32 = 1e9;
 pub struct Duties {
     /// Of phases a, b and c.
     pub phases: [f32; 3],
-    /// Whether the voltage was shortened to the longest that the supply delivers in every direction.
+    /// Whether the voltage was shortened to the longest that the supply delivers in every
+    /// direction.
     pub is_saturated: bool,
 }
 
@@ -51,12 +55,14 @@ impl Duties {
         is_saturated: false,
     };
 
-    /// The duties for `v_d` and `v_q` in V at an electrical angle in rad, from a supply of `v_dc` V.
+    /// The duties for `v_d` and `v_q` in V at an electrical angle in rad, from a supply of `v_dc`
+    /// V.
     ///
-    /// A vector longer than `v_dc`/√3 is shortened to that length; its direction is kept. If an input is not finite or
-    /// the supply is not above zero, the duties are [`Self::ZERO`]. Accuracy: 10⁻⁶ of the supply for electrical angles
-    /// up to 10⁴ rad; beyond 2·10⁵ rad the direction is meaningless. Cost: a sine and a cosine, about 25 flops and
-    /// two divisions; Newton's iteration for 1/√x when it saturates.
+    /// A vector longer than `v_dc`/√3 is shortened to that length; its direction is kept. If an
+    /// input is not finite or the supply is not above zero, the duties are [`Self::ZERO`].
+    /// Accuracy: 10⁻⁶ of the supply for electrical angles up to 10⁴ rad; beyond 2·10⁵ rad the
+    /// direction is meaningless. Cost: a sine and a cosine, about 25 flops and two divisions;
+    /// Newton's iteration for 1/√x when it saturates.
     pub fn new(v_d: f32, v_q: f32, electrical_angle: f32, v_dc: f32) -> Self {
         let (mut d, mut q) = (v_d / v_dc, v_q / v_dc);
         let is_voltage = d.abs() <= ABSURD && q.abs() <= ABSURD;
@@ -130,9 +136,10 @@ pub struct ThreePhase<Pwm> {
 impl<Pwm: SetDutyCycle> ThreePhase<Pwm> {
     /// The half-bridges of phases a, b and c.
     ///
-    /// `commutation` maps the angle of the rotor to the electrical angle: its zero is the angle at which the d axis
-    /// lies along phase a, its ratio is one divided by the pole pairs, and its direction is reverse if the phases are
-    /// in the opposite order. The greatest duties are read once.
+    /// `commutation` maps the angle of the rotor to the electrical angle: its zero is the angle at
+    /// which the d axis lies along phase a, its ratio is one divided by the pole pairs, and its
+    /// direction is reverse if the phases are in the opposite order. The greatest duties are read
+    /// once.
     pub fn new(pwms: [Pwm; 3], commutation: JointMapping) -> Self {
         let max = pwms.each_ref().map(SetDutyCycle::max_duty_cycle);
         Self {
@@ -142,10 +149,11 @@ impl<Pwm: SetDutyCycle> ThreePhase<Pwm> {
         }
     }
 
-    /// Sets `v_d` and `v_q` in V while the rotor is at `angle` rad and the supply at `v_dc` V, as [`Duties::new`];
-    /// whether the voltage was shortened.
+    /// Sets `v_d` and `v_q` in V while the rotor is at `angle` rad and the supply at `v_dc` V, as
+    /// [`Duties::new`]; whether the voltage was shortened.
     ///
-    /// The angle is that within one turn of the rotor: over many turns f32 loses the electrical angle.
+    /// The angle is that within one turn of the rotor: over many turns f32 loses the electrical
+    /// angle.
     ///
     /// # Errors
     /// [`PhaseError`]; all phases that accept it are then set to 50 %, no voltage.

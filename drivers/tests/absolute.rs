@@ -26,7 +26,8 @@ fn restart() -> Vec<spi::Transaction<u8>> {
 
 #[test]
 fn the_as5047p_is_commanded_as_its_data_sheet_says() {
-    // Read ANGLECOM: bits 15 (parity of 15 ones) and 14 (read) and the address 0x3FFF. Read ERRFL: 0x4001 is even.
+    // Read ANGLECOM: bits 15 (parity of 15 ones) and 14 (read) and the address 0x3FFF. Read ERRFL:
+    // 0x4001 is even.
     assert_eq!((READ_ANGLE, READ_ERRORS), (0xffff, 0x4001));
     let mut encoder = As5047p::new(
         spi::Mock::new(&restart()),

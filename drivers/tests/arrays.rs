@@ -1,4 +1,5 @@
-//! Devices through the traits by which a loop reads and sets all joints, and the ends of their ranges.
+//! Devices through the traits by which a loop reads and sets all joints, and the ends of their
+//! ranges.
 
 use embedded_can::{ExtendedId, Frame, StandardId};
 use embedded_hal_mock::eh1::{digital, i2c, pwm};

@@ -63,7 +63,8 @@ fn near(a: f32, b: f32) -> bool {
 #[test]
 fn odrive_commands_are_the_protocols_golden_frames() {
     let axis = ODrive::new(1, 100.0, near_zero(JointMapping::IDENTITY)).unwrap();
-    // The identifier of axis 1, command 0x0C, is 0x2C in the document: commands of axis 1 begin at 0x20.
+    // The identifier of axis 1, command 0x0C, is 0x2C in the document: commands of axis 1 begin at
+    // 0x20.
     let golden: [(Result<ClassicFrame, _>, u16, &[u8]); 7] = [
         (axis.set_torque(1.5), 0x2e, &[0x00, 0x00, 0xc0, 0x3f]),
         (axis.set_torque(-0.1), 0x2e, &[0xcd, 0xcc, 0xcc, 0xbd]),

@@ -13,7 +13,8 @@ use joint_drivers::{Direction, JointMapping, JointRange};
 
 use super::near_zero;
 
-/// The mock as a port of `embedded-io`, of which some bytes are there before the first packet is sent.
+/// The mock as a port of `embedded-io`, of which some bytes are there before the first packet is
+/// sent.
 struct Port {
     mock: Mock<u8>,
     stale: usize,

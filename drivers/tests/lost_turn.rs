@@ -144,7 +144,8 @@ const LOST: [(u32, bool); 8] = [
     (40, true),
 ];
 
-/// The distance of the joint from its measured position at the end, the modes of all ticks, and the last fault.
+/// The distance of the joint from its measured position at the end, the modes of all ticks, and the
+/// last fault.
 fn alone(lost: u32, category: StopCategory<f32, 1>) -> (f64, [u32; 3], Option<Fault>) {
     let joint = Joint::default();
     joint.qd.set(2.0);

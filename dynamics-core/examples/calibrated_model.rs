@@ -1,4 +1,5 @@
-//! A calibrated model: identified masses and inertias, from flash, in place of those of the data sheet.
+//! A calibrated model: identified masses and inertias, from flash, in place of those of the data
+//! sheet.
 //!
 //! `cargo run -p dynamics-core --example calibrated_model`
 
@@ -10,7 +11,8 @@ use dynamics_core::{robots::Ur5e, state::State};
 
 const UPPER_ARM: usize = Ur5e::MODEL.body("upper_arm");
 
-/// The arm with identified inertias, in the frames of the description (those of a URDF); built once, at start.
+/// The arm with identified inertias, in the frames of the description (those of a URDF); built
+/// once, at start.
 ///
 /// The feature `serde` reads `BodyInertia` from flash.
 fn calibrated(upper_arm: BodyInertia<f32>) -> Result<Calibrated<Ur5e, f32, 6, 6, 6>, ModelError> {
@@ -30,7 +32,8 @@ fn main() -> Result<(), ModelError> {
     for added in [0.0, 0.2, 0.4] {
         let mass = described.mass + added;
         let arm = calibrated(BodyInertia { mass, ..described })?;
-        // In every tick: the textbook algorithm. The engine's numbers are constants of the machine code.
+        // In every tick: the textbook algorithm. The engine's numbers are constants of the machine
+        // code.
         let tau = rnea(&arm, &state, &RIGID_BODY);
         println!("{added:26.1} | {:8.3}", tau[1]);
         assert!(tau[1].abs() > last);

@@ -1,4 +1,5 @@
-//! Computed torque: feedback as an acceleration, so that the same gains are right in every configuration.
+//! Computed torque: feedback as an acceleration, so that the same gains are right in every
+//! configuration.
 //!
 //! `cargo run -p dynamics-core --example computed_torque`
 
@@ -11,7 +12,8 @@ const TICK: f32 = 1e-3;
 
 /// The torques that let each joint follow its reference as a damped oscillator, N·m.
 ///
-/// On a microcontroller, `Engine` in place of `Core` takes a fraction of the cycles for the same result.
+/// On a microcontroller, `Engine` in place of `Core` takes a fraction of the cycles for the same
+/// result.
 fn control(reference: &State<f32, 3, 3>, q: &[f32; 3], qd: &[f32; 3]) -> [f32; 3] {
     let (omega, zeta) = (30.0, 1.0); // rad/s, and no overshoot
     let mut wanted = State {

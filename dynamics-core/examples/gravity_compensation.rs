@@ -1,4 +1,5 @@
-//! Gravity compensation: the torques that support an arm's own weight, so that it can be guided by hand.
+//! Gravity compensation: the torques that support an arm's own weight, so that it can be guided by
+//! hand.
 //!
 //! `cargo run -p dynamics-core --example gravity_compensation`
 

@@ -6,7 +6,8 @@ use dynamics_core::effects::{Effect, JointState, RIGID_BODY, TorqueDerivatives};
 use dynamics_core::scalar::Real;
 use dynamics_core::{Core, Engine, robots::Ur5e, state::State};
 
-/// A gas spring between the base and a crank on the shoulder: it pushes with a constant force at the lever r cos q.
+/// A gas spring between the base and a crank on the shoulder: it pushes with a constant force at
+/// the lever r cos q.
 #[derive(Clone, Copy)]
 struct GasSpring<R> {
     /// Force, N.

@@ -8,8 +8,8 @@ use dynamics_core::{Core, Engine, state::State};
 
 /// A lifting column, and a shoulder and an elbow with vertical axes, as in a SCARA.
 ///
-/// The numbers of `Robot<3, 3, 3>`: bodies, position coordinates and velocity coordinates. The last two differ only for
-/// robots with spherical or free joints, whose attitude is a quaternion.
+/// The numbers of `Robot<3, 3, 3>`: bodies, position coordinates and velocity coordinates. The last
+/// two differ only for robots with spherical or free joints, whose attitude is a quaternion.
 struct Scara;
 impl Robot<3, 3, 3> for Scara {
     const MODEL: ArmModel<f64, 3> = Model::new("scara", [COLUMN, UPPER_ARM, FOREARM]);
@@ -24,8 +24,8 @@ const UPPER_ARM: Body = Body::new("upper arm", 0, Joint::revolute(Z))
     .mass(2.0)
     .com([0.12, 0.0, 0.0]) // in the body's own frame
     .inertia([0.002, 0.0, 0.0, 0.012, 0.0, 0.012]); // xx xy xz yy yz zz about the centre of mass
-/// Mounted upside down, half a turn about x. A URDF writes 3.14159, whose sine is not zero: quarter turns give exact
-/// zeros, whose products the engine omits.
+/// Mounted upside down, half a turn about x. A URDF writes 3.14159, whose sine is not zero: quarter
+/// turns give exact zeros, whose products the engine omits.
 const FOREARM: Body = Body::new("forearm", 1, Joint::revolute(Z))
     .xyz([0.25, 0.0, 0.0])
     .quarter_turns([2, 0, 0])

@@ -1,4 +1,5 @@
-//! A payload that is known only at run time: the load of a gripper, on the body that the type names.
+//! A payload that is known only at run time: the load of a gripper, on the body that the type
+//! names.
 //!
 //! `cargo run -p dynamics-core --example payload`
 
@@ -6,7 +7,8 @@ use dynamics_core::effects::{InvalidPayload, Payload, RIGID_BODY};
 use dynamics_core::model::{BodyInertia, Problem, Robot};
 use dynamics_core::{Engine, robots::Ur5e, state::State};
 
-/// Its mass, centre of mass and inertia are in the wrist's frame. A name that no body has does not compile.
+/// Its mass, centre of mass and inertia are in the wrist's frame. A name that no body has does not
+/// compile.
 type OnWrist = Payload<f32, { Ur5e::MODEL.body("wrist_3") }>;
 
 fn main() -> Result<(), InvalidPayload> {
@@ -19,7 +21,8 @@ fn main() -> Result<(), InvalidPayload> {
     assert_eq!(problem(-1.0), Err(Problem::Mass(-1.0)));
     assert_eq!(problem(f32::NAN), Err(Problem::NotFinite));
 
-    // The gripper is always present, and the load is added to it; a load without mass has no effect.
+    // The gripper is always present, and the load is added to it; a load without mass has no
+    // effect.
     let gripper = OnWrist::from_inertia(BodyInertia {
         mass: 0.9,
         com: [0.0, 0.0, 0.06],

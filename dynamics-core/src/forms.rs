@@ -1,8 +1,8 @@
 //! The choice of a form: which code computes inverse dynamics, M and forward dynamics of a robot.
 //!
-//! The textbook's passes ([`algorithms`]) take every tree and joint. Chains have passes of their own
-//! ([`chains`]), and a model whose joints are known at run time to be all revolute, or revolute and
-//! fixed, is seen through a view whose code asks for no other kind. The choice changes neither
+//! The textbook's passes ([`algorithms`]) take every tree and joint. Chains have passes of their
+//! own ([`chains`]), and a model whose joints are known at run time to be all revolute, or revolute
+//! and fixed, is seen through a view whose code asks for no other kind. The choice changes neither
 //! signature nor meaning; what the compiler knows of a robot leaves one form in the machine code.
 
 use core::borrow::Borrow;
@@ -17,8 +17,9 @@ use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, entry};
 
-/// `$chain` if the robot is seen as a chain of revolute joints, where `$views` allows it, or is a chain by its
-/// type, where `$chains` says so; else `$tree`. Both see the robot as `$robot`; `$viewed` is whether it is a view.
+/// `$chain` if the robot is seen as a chain of revolute joints, where `$views` allows it, or is a
+/// chain by its type, where `$chains` says so; else `$tree`. Both see the robot as `$robot`;
+/// `$viewed` is whether it is a view.
 macro_rules! by_form {
     (
         $robot:ident: $D:ident, $viewed:ident;
@@ -53,8 +54,8 @@ macro_rules! by_form {
 ///
 /// A non-finite input gives a non-finite output, which the safety gate of `motion-control` rejects.
 ///
-/// The velocities and accelerations follow from the base to the tips, with a₀ = −g, the forces from the tips to the
-/// base:
+/// The velocities and accelerations follow from the base to the tips, with a₀ = −g, the forces from
+/// the tips to the base:
 ///
 /// ```text
 /// v_i = ⁱX_λ(i) v_λ(i) + S_i q̇_i                                   (3)
@@ -106,9 +107,11 @@ where
     )
 }
 
-/// The joint-space inertia matrix M(q), kg·m² between revolute joints, kg between prismatic ones, kg·m mixed.
+/// The joint-space inertia matrix M(q), kg·m² between revolute joints, kg between prismatic ones,
+/// kg·m mixed.
 ///
-/// Of the effects, armatures, rotors and payloads are part of M. A non-finite input gives a non-finite output.
+/// Of the effects, armatures, rotors and payloads are part of M. A non-finite input gives a
+/// non-finite output.
 ///
 /// ```text
 /// Iᶜ_i = I_i + Σ_{λ(j)=i} ʲX_iᵀ Iᶜ_j ʲX_i      M_ij = M_ji = S_iᵀ ʲX_iᵀ Iᶜ_j S_j
@@ -117,10 +120,12 @@ where
 /// where joint i is joint j or one of its ancestors.
 ///
 /// # Shape
-/// V × V, symmetric; an entry between joints of which neither is an ancestor of the other is exactly zero.
+/// V × V, symmetric; an entry between joints of which neither is an ancestor of the other is
+/// exactly zero.
 ///
 /// # Cost
-/// For B revolute joints some 190 B flops, and 40 for each pair of a joint and its ancestor: B² / 2 pairs on a chain.
+/// For B revolute joints some 190 B flops, and 40 for each pair of a joint and its ancestor: B² / 2
+/// pairs on a chain.
 ///
 /// # Source
 /// Walker & Orin (1982); RBDA (2008), table 6.2.
@@ -158,12 +163,13 @@ where
     )
 }
 
-/// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², under the effects of the scene.
+/// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², under the effects of the
+/// scene.
 ///
 /// `state.qdd` is not read.
 ///
-/// Velocities as in [`rnea`](super::rnea()), then the articulated bodies from the tips to the base, then the
-/// accelerations from the base, with a₀ = −g, to the tips:
+/// Velocities as in [`rnea`](crate::algorithms::rnea()), then the articulated bodies from the tips
+/// to the base, then the accelerations from the base, with a₀ = −g, to the tips:
 ///
 /// ```text
 /// c_i  = S̊_i q̇_i + v_i × S_i q̇_i
@@ -180,8 +186,9 @@ where
 /// V.
 ///
 /// # Cost
-/// O(B): some 590 flops for each revolute joint; of a chain some 530, and 440 if each link is turned from its parent about x and
-/// shifted along x and along its own axis, as Denavit & Hartenberg's parameters say.
+/// O(B): some 590 flops for each revolute joint; of a chain some 530, and 440 if each link is
+/// turned from its parent about x and shifted along x and along its own axis, as Denavit &
+/// Hartenberg's parameters say.
 ///
 /// # Source
 /// Featherstone (1983); RBDA (2008), table 7.1; of these chains McMillan & Orin (1995).
@@ -194,11 +201,12 @@ where
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names the outermost coordinate that moves no inertia when its descendants are free (a
-/// massless last link without rotor inertia, a joint on the axis of another with no inertia between them, a massless
-/// wrist in gimbal lock), or whose inertia is NaN: its pivot does not exceed eight roundings of the largest inertia
-/// that its descendants, stretched out, could have about it. For four or more joints without inertia whose axes meet in
-/// one point, the rounding error may be larger.
+/// [`NotPositiveDefinite`] names the outermost coordinate that moves no inertia when its
+/// descendants are free (a massless last link without rotor inertia, a joint on the axis of another
+/// with no inertia between them, a massless wrist in gimbal lock), or whose inertia is NaN: its
+/// pivot does not exceed eight roundings of the largest inertia that its descendants, stretched
+/// out, could have about it. For four or more joints without inertia whose axes meet in one point,
+/// the rounding error may be larger.
 #[doc(alias = "articulated-body inertia")]
 #[doc(alias = "ABI")]
 #[doc(alias = "forward dynamics")]

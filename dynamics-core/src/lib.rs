@@ -32,8 +32,9 @@
 //! Cargo features, off by default, neither of which changes a number:
 //!
 //! - `defmt`: `defmt::Format` for what firmware logs: errors, states, motions, forces, advice.
-//! - `serde`: `Serialize` and `Deserialize` for what firmware keeps in flash: joint limits, states, inertias, friction and other
-//!   effects. Types that a constructor checks are built from these by that constructor.
+//! - `serde`: `Serialize` and `Deserialize` for what firmware keeps in flash: joint limits, states,
+//!   inertias, friction and other effects. Types that a constructor checks are built from these by
+//!   that constructor.
 //!
 //! `examples/` in the crate has a file for each use.
 //!
@@ -74,8 +75,8 @@ pub use algorithms::{Ltdl, MassMatrix};
 pub use engine::Engine;
 pub use textbook::Core;
 
-/// The vectors and matrices of the public API. Depend on them through this re-export: another minor version of glam
-/// has other types.
+/// The vectors and matrices of the public API. Depend on them through this re-export: another minor
+/// version of glam has other types.
 ///
 /// ```
 /// use dynamics_core::effects::GravityVector;

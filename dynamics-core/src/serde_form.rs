@@ -1,8 +1,9 @@
 //! serde's traits for the types that firmware stores in flash, for the feature `serde`.
 //!
-//! A field at a time, under its name, arrays as tuples of their length. Only types whose fields are public have them,
-//! and limits that their check rejects are not read. Types that a constructor checks (models, trajectories,
-//! supervisors, payloads) have no `Deserialize`: the constructor builds them from these.
+//! A field at a time, under its name, arrays as tuples of their length. Only types whose fields are
+//! public have them, and limits that their check rejects are not read. Types that a constructor
+//! checks (models, trajectories, supervisors, payloads) have no `Deserialize`: the constructor
+//! builds them from these.
 //!
 //! Public, and hidden, for the crates of this project whose structs have the same form.
 
@@ -123,8 +124,8 @@ impl<R: Real, const H: usize, const N: usize> Form<Array<Array<R, H>, N>> for [[
     }
 }
 
-/// The traits of a struct, by a twin whose arrays are [`Array`]s. A field that is missing here does not compile. What
-/// its `check` refuses is not read.
+/// The traits of a struct, by a twin whose arrays are [`Array`]s. A field that is missing here does
+/// not compile. What its `check` refuses is not read.
 #[macro_export]
 #[doc(hidden)]
 #[allow(
@@ -224,7 +225,8 @@ macro_rules! per_joint {
 
 per_joint!(Viscous, Armature, ConstantTorque);
 
-/// Ten numbers, so that what is read is symmetric: the rotational inertia is xx, xy, xz, yy, yz, zz.
+/// Ten numbers, so that what is read is symmetric: the rotational inertia is xx, xy, xz, yy, yz,
+/// zz.
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "SpatialInertia", deny_unknown_fields)]
 struct TenNumbers<R> {

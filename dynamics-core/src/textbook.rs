@@ -17,8 +17,8 @@ use crate::state::{Configuration, JointTrig, RobotState};
 
 /// The textbook algorithms for the robot `T`; sines and cosines by the kernel `K`.
 ///
-/// Each function is that of [`crate::algorithms`] for [`Static<T, K>`](Static), compiled once and never inlined; call
-/// those that are not listed here with `&Static::<T>::NEW`.
+/// Each function is that of [`crate::algorithms`] for [`Static<T, K>`](Static), compiled once and
+/// never inlined; call those that are not listed here with `&Static::<T>::NEW`.
 ///
 /// ```
 /// use dynamics_core::{Core, algorithms, effects::RIGID_BODY, model::Static, robots::Ur5e, state::State};
@@ -94,7 +94,8 @@ impl<T, K> Core<T, K> {
         algorithms::forward_dynamics(&Static::<T, K>::NEW, state, tau, effects)
     }
 
-    /// Torques and accelerations, one of them given for each joint, see [`algorithms::hybrid_dynamics`].
+    /// Torques and accelerations, one of them given for each joint, see
+    /// [`algorithms::hybrid_dynamics`].
     ///
     /// # Errors
     /// [`NotPositiveDefinite`] names a joint of given torque that moves no inertia.

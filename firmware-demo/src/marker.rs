@@ -5,8 +5,8 @@
 //! `cycle-meter` counts between a region's two markers; without it, and on a
 //! host, they do nothing at all.
 //!
-//! Region k opens with `dbg #2k` and closes with `dbg #2k+1`. Processors without `DBG`, those of ARMv6-M and RISC-V, have no
-//! markers.
+//! Region k opens with `dbg #2k` and closes with `dbg #2k+1`. Processors without `DBG`, those of
+//! ARMv6-M and RISC-V, have no markers.
 //!
 //! A marker keeps accesses to memory on their side of it, but not arithmetic on
 //! values in registers, which the compiler may move across: measure a call of an

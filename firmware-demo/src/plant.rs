@@ -1,5 +1,5 @@
-//! Simulated robots on the wires: forward dynamics under the scene's effects at a finer step than the tick,
-//! outside the measured regions.
+//! Simulated robots on the wires: forward dynamics under the scene's effects at a finer step than
+//! the tick, outside the measured regions.
 
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::Effect;
@@ -20,7 +20,8 @@ pub use clustered::ClusterPlant;
 pub use flexible::FlexiblePlant;
 pub use servos::ServoPlant;
 
-/// A simulated robot of which N joints are driven and have encoders; `X` is the state of its environment.
+/// A simulated robot of which N joints are driven and have encoders; `X` is the state of its
+/// environment.
 pub trait Simulated<X, const N: usize> {
     /// Why a step has no result: its forward dynamics have none.
     type Error;
@@ -28,7 +29,8 @@ pub trait Simulated<X, const N: usize> {
     /// The positions that the encoders measure, rad or m.
     fn encoder_positions(&self) -> [f32; N];
 
-    /// The true positions of the driven joints, rad or m; an encoder may sit on the other side of a spring.
+    /// The true positions of the driven joints, rad or m; an encoder may sit on the other side of a
+    /// spring.
     fn actual(&self) -> [f32; N] {
         self.encoder_positions()
     }
@@ -48,7 +50,8 @@ pub struct Rig<P, const N: usize> {
 }
 
 impl<P, const N: usize> Rig<P, N> {
-    /// A robot whose drives deliver `full_scale` at full duty and whose positions the encoders measure.
+    /// A robot whose drives deliver `full_scale` at full duty and whose positions the encoders
+    /// measure.
     pub fn new<X>(plant: P, full_scale: [f32; N], wires: &Wires<N>) -> Self
     where
         P: Simulated<X, N>,
@@ -57,8 +60,8 @@ impl<P, const N: usize> Rig<P, N> {
         Self { plant, full_scale }
     }
 
-    /// Moves on by `steps` steps of `h` seconds under the duties of now, and shows the encoders where the
-    /// robot is; `environment` gives the environment at a step.
+    /// Moves on by `steps` steps of `h` seconds under the duties of now, and shows the encoders
+    /// where the robot is; `environment` gives the environment at a step.
     ///
     /// # Errors
     /// As forward dynamics.
@@ -140,8 +143,8 @@ where
     }
 }
 
-/// A robot whose first body floats free and on which nothing acts from outside: started at rest, it keeps a
-/// momentum of zero.
+/// A robot whose first body floats free and on which nothing acts from outside: started at rest, it
+/// keeps a momentum of zero.
 #[derive(Debug)]
 pub struct Floating<T, E, X, const B: usize, const Q: usize, const V: usize>(
     pub Plant<T, E, X, B, Q, V>,

@@ -20,7 +20,8 @@ pub const RECORD: u8 = 6;
 /// Code with interrupts masked, in firmware that measures it.
 pub const MASKED: u8 = 7;
 
-/// Puts the markers of the regions around the phases of a tick, and passes them on to another probe.
+/// Puts the markers of the regions around the phases of a tick, and passes them on to another
+/// probe.
 #[derive(Debug)]
 pub struct Marked<P = ()>(pub P);
 

@@ -1,7 +1,9 @@
-//! The control loop of a scene without a simulated robot: the encoders show the reference of each tick, quantised, and
-//! a digest of the commanded torques says whether two processors compute the same bits.
+//! The control loop of a scene without a simulated robot: the encoders show the reference of each
+//! tick, quantised, and a digest of the commanded torques says whether two processors compute the
+//! same bits.
 //!
-//! Nothing here depends on a processor: `cores` runs it on the cores of QEMU, and firmware of a board can do so too.
+//! Nothing here depends on a processor: `cores` runs it on the cores of QEMU, and firmware of a
+//! board can do so too.
 
 use core::fmt;
 
@@ -93,8 +95,8 @@ where
         marked_tick::<Full<S, B, Q, V>, _, _, N>(&mut self.control, &self.reference, &environment)
     }
 
-    /// Runs so many ticks, each by `tick` (which calls [`Self::tick`] and may measure it): the digest of the bits of
-    /// every commanded torque.
+    /// Runs so many ticks, each by `tick` (which calls [`Self::tick`] and may measure it): the
+    /// digest of the bits of every commanded torque.
     ///
     /// # Errors
     /// A tick with a fault, or under another law than the full one.

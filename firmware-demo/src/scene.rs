@@ -1,5 +1,6 @@
-//! A scene: one trajectory run under several laws, on a plant that the controller knows exactly and on one that it
-//! does not, with the tracking errors of each, and then without each of its effects in turn.
+//! A scene: one trajectory run under several laws, on a plant that the controller knows exactly and
+//! on one that it does not, with the tracking errors of each, and then without each of its effects
+//! in turn.
 
 use dynamics_core::Core;
 use dynamics_core::effects::Effect;
@@ -39,8 +40,8 @@ pub use firmware::{
 pub use noise::Noise;
 pub use run::{Full, Less, Name, PdOnly, PlantModel, Run};
 
-/// The data sheet of a scene: a robot of B bodies, Q position and V velocity coordinates whose last N joints
-/// are driven.
+/// The data sheet of a scene: a robot of B bodies, Q position and V velocity coordinates whose last
+/// N joints are driven.
 pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     Sized + 'static
 {
@@ -49,17 +50,20 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     type Effects: Effects<Self, B, Q, V, N>;
     /// The reference of the driven joints.
     type Reference: Reference<f32, N> + Send;
-    /// The surroundings that act on the robot; the controller knows them by other sensors than the encoders.
+    /// The surroundings that act on the robot; the controller knows them by other sensors than the
+    /// encoders.
     type Environment;
     type Plant: Simulated<Self::Environment, N> + Send;
 
     /// The name on the command line.
     const NAME: &'static str;
-    /// The largest error of a joint, under feed-forward by all effects on the exact plant, rad or m.
+    /// The largest error of a joint, under feed-forward by all effects on the exact plant, rad or
+    /// m.
     const BOUND: f32;
     /// The effects at the start.
     const EFFECTS: Self::Effects;
-    /// Whether the environment leaves the effects as they are: their numbers are then known while compiling.
+    /// Whether the environment leaves the effects as they are: their numbers are then known while
+    /// compiling.
     const CONSTANT_EFFECTS: bool = size_of::<Self::Environment>() == 0;
     /// The pose whose M sets the gains: only the default of [`Scene::inertia`] reads it.
     const GAIN_POSE: [f32; Q] = [0.0; Q];
@@ -69,7 +73,8 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     const RESOLUTION: f32 = RESOLUTION;
     /// Steps of the simulated robot in a tick.
     const STEPS: u32 = STEPS;
-    /// The name of that pose; a name that ends in `inertia` says what [`Scene::inertia`] is instead.
+    /// The name of that pose; a name that ends in `inertia` says what [`Scene::inertia`] is
+    /// instead.
     const GAIN_POSE_NAME: &'static str;
 
     /// The runs of every scene.
@@ -138,8 +143,9 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
         Gains::from_inertia(&Self::inertia(environment), OMEGA_N, ZETA)
     }
 
-    /// Detectors beside the supervisor, for a loop that is to have them: ten steps of an encoder without a change of its
-    /// position, twice the speed limit from one reference to the next, torques at their limits for 50 ticks.
+    /// Detectors beside the supervisor, for a loop that is to have them: ten steps of an encoder
+    /// without a change of its position, twice the speed limit from one reference to the next,
+    /// torques at their limits for 50 ticks.
     fn detectors() -> Detectors<f32, N> {
         let limits = Self::limits();
         Detectors {
@@ -149,8 +155,8 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
         }
     }
 
-    /// The loop on some devices, with the gains of [`Scene::gains`], and [`Scene::detectors`] or `()`. Encoders and drives
-    /// have the joints' own zero and direction.
+    /// The loop on some devices, with the gains of [`Scene::gains`], and [`Scene::detectors`] or
+    /// `()`. Encoders and drives have the joints' own zero and direction.
     ///
     /// # Errors
     /// [`SetupError`]: a limit of torque or speed of the scene is not above zero.
@@ -167,8 +173,8 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     }
 }
 
-/// A robot at rest at q: the scene's, or one whose masses the controller does not know, nor of the effects what
-/// `disturb` changes.
+/// A robot at rest at q: the scene's, or one whose masses the controller does not know, nor of the
+/// effects what `disturb` changes.
 pub fn rigid<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
     q: [f32; Q],
     noise: Option<&mut Noise>,
@@ -186,7 +192,8 @@ where
     Plant::new(robot, effects, q, S::apply)
 }
 
-/// A trajectory through way-points within the limits' speeds and these accelerations, rad/s² or m/s².
+/// A trajectory through way-points within the limits' speeds and these accelerations, rad/s² or
+/// m/s².
 ///
 /// # Errors
 /// Way-points that the limits do not allow.

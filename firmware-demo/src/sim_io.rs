@@ -1,5 +1,6 @@
-//! The wires of a simulated robot: encoders that quantise and drives that know only their duty, behind the
-//! same `embedded-hal` traits as the real ones. Their transfers are inside the measured regions.
+//! The wires of a simulated robot: encoders that quantise and drives that know only their duty,
+//! behind the same `embedded-hal` traits as the real ones. Their transfers are inside the measured
+//! regions.
 
 use core::convert::Infallible;
 use core::sync::atomic::{AtomicU16, AtomicU32, Ordering::Relaxed};
@@ -36,7 +37,8 @@ impl<const N: usize> Wires<N> {
         }
     }
 
-    /// Lets joint j's encoder find an error: its answers carry the error flag until its error register is read.
+    /// Lets joint j's encoder find an error: its answers carry the error flag until its error
+    /// register is read.
     pub fn flag(&self, j: usize) {
         let encoder = &self.encoders[j];
         encoder.store(encoder.load(Relaxed) | FLAG, Relaxed);

@@ -70,8 +70,8 @@ fn start(app: Ticked, peripherals: &mut cortex_m::Peripherals, microseconds: u32
     timer.enable_interrupt();
 }
 
-/// Runs a scene on these wires to its end, its state and queue where `place` and the caller put them, and
-/// leaves the emulator.
+/// Runs a scene on these wires to its end, its state and queue where `place` and the caller put
+/// them, and leaves the emulator.
 pub fn scene<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
     wires: &'static Wires<N>,
     queue: Option<&'static mut Queue<Record<N>, QUEUE>>,
@@ -95,7 +95,8 @@ where
     }
 }
 
-/// Starts the interrupt, logs what it reports until the last run has ended, and leaves the emulator.
+/// Starts the interrupt, logs what it reports until the last run has ended, and leaves the
+/// emulator.
 fn run<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
     app: &'static mut App<S, B, Q, V, N>,
     mut records: Consumer<'static, Record<N>>,
@@ -201,8 +202,9 @@ impl defmt::Format for Words<'_> {
     }
 }
 
-/// The `main` of a scene: its type in [`scenes`](crate::scenes), and how many bodies, position coordinates,
-/// velocity coordinates and driven joints its robot has. What lives as long as the firmware lies in statics.
+/// The `main` of a scene: its type in [`scenes`](crate::scenes), and how many bodies, position
+/// coordinates, velocity coordinates and driven joints its robot has. What lives as long as the
+/// firmware lies in statics.
 #[macro_export]
 macro_rules! scene_main {
     ($module:ident::$scene:ident, $B:literal, $Q:literal, $V:literal, $N:literal) => {

@@ -1,4 +1,5 @@
-//! Ways that arms go, for the laboratory, for tests and for several scenes; what one scene alone uses is in its file.
+//! Ways that arms go, for the laboratory, for tests and for several scenes; what one scene alone
+//! uses is in its file.
 
 use core::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -49,7 +50,8 @@ pub const SO101_START: [f32; 6] = [0.0, -1.2, 1.2, 0.8, 0.0, 0.2];
 /// The folded posture of the space arm, rad.
 pub const STOWED: [f32; 6] = [0.0, -1.2, 2.4, -1.2, 0.0, 0.0];
 
-/// The configuration in which the steps of a humanoid's leg begin and end: knee, pitch and roll of the ankle, rad.
+/// The configuration in which the steps of a humanoid's leg begin and end: knee, pitch and roll of
+/// the ankle, rad.
 pub const MID_STANCE: [f32; 3] = [0.3, -0.15, 0.0];
 
 pub const fn stop<const N: usize>(q: [f32; N], ticks: u32) -> WayPoint<f32, N> {

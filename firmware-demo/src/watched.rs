@@ -37,7 +37,8 @@ pub trait Timer {
     fn count() -> u32;
 }
 
-/// A scene at work under the feed-forward of all its effects, on the plant that its controller knows exactly.
+/// A scene at work under the feed-forward of all its effects, on the plant that its controller
+/// knows exactly.
 pub struct Watched<
     S: Scene<B, Q, V, N>,
     T,
@@ -117,7 +118,8 @@ where
         self.elapsed.store(count.wrapping_add(1), Relaxed);
     }
 
-    /// Puts robot and loop back to the start of the trajectory. They started before: the limits are the same.
+    /// Puts robot and loop back to the start of the trajectory. They started before: the limits are
+    /// the same.
     fn restart(&mut self) {
         if let Ok(started) = at_start::<S, B, Q, V, N>(&self.reference, self.wires) {
             (self.rig, self.control) = started;
@@ -159,7 +161,8 @@ where
     start::<S, _, B, Q, V, N>(reference, wires, PlantModel::Exact, S::detectors())
 }
 
-/// One tick, recorded with the counts of the timer. Reading the timer adds to the tick what six loads from a device take.
+/// One tick, recorded with the counts of the timer. Reading the timer adds to the tick what six
+/// loads from a device take.
 #[inline(never)]
 fn timed_tick<S, T, const B: usize, const Q: usize, const V: usize, const N: usize>(
     control: &mut SimLoop<N, Detectors<f32, N>>,

@@ -1,5 +1,5 @@
-//! An arm under the library's motion controller, of whose inputs a case may spoil any, on a plant whose time need not be
-//! the controller's.
+//! An arm under the library's motion controller, of whose inputs a case may spoil any, on a plant
+//! whose time need not be the controller's.
 
 use crate::measured::larger;
 use dynamics_core::algorithms::{crba, rnea};
@@ -72,7 +72,8 @@ pub struct Bench<R: Real> {
 }
 
 impl<R: Real> Bench<R> {
-    /// An arm at home that is to move all its joints by `step` rad in `ticks`, to wait as long, and to come back.
+    /// An arm at home that is to move all its joints by `step` rad in `ticks`, to wait as long, and
+    /// to come back.
     pub fn new(step: f64, ticks: u32) -> Self {
         let of = |x: [f64; 6]| x.map(R::from_f64);
         let stop = |q, ticks| WayPoint {
@@ -130,7 +131,8 @@ impl<R: Real> Bench<R> {
         self.tick_of(Ok(&q), poison)
     }
 
-    /// A tick that comes after so many missed ones, which a timer has counted: time goes on, and what is expected.
+    /// A tick that comes after so many missed ones, which a timer has counted: time goes on, and
+    /// what is expected.
     pub fn late_tick(&mut self, missed: u32) -> Command<R, 6> {
         self.controller.missed(missed, &self.trajectory);
         self.tick(None)
@@ -175,7 +177,8 @@ impl<R: Real> Bench<R> {
         self.controller.reset(&self.trajectory)
     }
 
-    /// The arm moves on by `seconds` under the last command, in steps of a quarter of a tick or less.
+    /// The arm moves on by `seconds` under the last command, in steps of a quarter of a tick or
+    /// less.
     pub fn advance(&mut self, seconds: f64) {
         if self.brake {
             self.arm.qd = [R::ZERO; 6];
@@ -189,7 +192,8 @@ impl<R: Real> Bench<R> {
         }
     }
 
-    /// The largest |τ| of the last command relative to what is allowed; infinite if one is no number.
+    /// The largest |τ| of the last command relative to what is allowed; infinite if one is no
+    /// number.
     pub fn effort(&self) -> f64 {
         let share = |(tau, most): (&R, f64)| tau.to_f64().abs() / most;
         let shares = self.command.iter().zip(TORQUE).map(share);

@@ -20,8 +20,8 @@ pub struct Body {
     pub parent: i64,
     /// The joint's kind in small letters.
     pub joint: String,
-    /// The joint's unit axis in the body's frame, a universal joint's first one at q = 0; zero if it
-    /// has none.
+    /// The joint's unit axis in the body's frame, a universal joint's first one at q = 0; zero if
+    /// it has none.
     pub axis: [f64; 3],
     /// A universal joint's second unit axis in the body's frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -77,7 +77,8 @@ impl Belt {
     /// m/s.
     pub const SPEED: f64 = 0.1;
 
-    /// The limit cycle of 15 s in steps of 50 µs, in the frame of the belt: the spring's end moves away.
+    /// The limit cycle of 15 s in steps of 50 µs, in the frame of the belt: the spring's end moves
+    /// away.
     pub fn run<R: Real>(&self) -> Cycle {
         let (of, h) = (R::from_f64, 5e-5);
         let spring = Spring {

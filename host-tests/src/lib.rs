@@ -16,7 +16,8 @@ pub mod tolerances;
 pub mod trees;
 pub mod widen;
 
-/// Numbers of states, runs or ticks, or bounds of them: those of an everyday run, or with the feature `full` the second ones.
+/// Numbers of states, runs or ticks, or bounds of them: those of an everyday run, or with the
+/// feature `full` the second ones.
 pub const fn everyday_or_full<T: Copy>(everyday: T, full: T) -> T {
     if cfg!(feature = "full") {
         full

@@ -1,4 +1,5 @@
-//! Tables of the guide that tests write: what is between `<!-- NAME:begin -->` and `<!-- NAME:end -->` of a page.
+//! Tables of the guide that tests write: what is between `<!-- NAME:begin -->` and
+//! `<!-- NAME:end -->` of a page.
 
 use std::path::PathBuf;
 

@@ -17,8 +17,8 @@ pub fn within<const N: usize>(rng: &mut TestRng, bound: f64) -> [f64; N] {
     core::array::from_fn(|_| rng.random_range(-bound..bound))
 }
 
-/// Mass, centre of mass and inertia about it of six points, each of a mass and at a place: nothing that could
-/// not be a body's.
+/// Mass, centre of mass and inertia about it of six points, each of a mass and at a place: nothing
+/// that could not be a body's.
 pub fn six_points(mut point: impl FnMut() -> (f64, [f64; 3])) -> (f64, [f64; 3], [f64; 6]) {
     let (mut mass, mut moment, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);
     for _ in 0..6 {

@@ -7,9 +7,9 @@ use serde::Deserialize;
 /// The recorded answers for one robot; every row of an array is a state.
 ///
 /// Coordinates, their order and all spatial vectors are the library's: angular before linear, a
-/// joint's velocity in its body's frame. A matrix of six rows is listed by columns, a symmetric one as
-/// its upper triangle by rows. "The tip" is the last body. From `wrenches` on there are rows only for
-/// the first states: [`Recording::first_states`].
+/// joint's velocity in its body's frame. A matrix of six rows is listed by columns, a symmetric one
+/// as its upper triangle by rows. "The tip" is the last body. From `wrenches` on there are rows
+/// only for the first states: [`Recording::first_states`].
 #[derive(Debug, Deserialize)]
 pub struct Recording {
     pub robot: String,
@@ -19,7 +19,8 @@ pub struct Recording {
     pub full_scale: FullScale,
     /// The largest condition number κ(M) over the states.
     pub condition: f64,
-    /// Rotor inertia at every velocity coordinate; 0 at joints of several degrees of freedom, kg·m².
+    /// Rotor inertia at every velocity coordinate; 0 at joints of several degrees of freedom,
+    /// kg·m².
     pub armature: Vec<f64>,
     /// Positions, exactly representable in f32 like all inputs, but for unit quaternions.
     pub q: Vec<Vec<f64>>,
@@ -38,7 +39,8 @@ pub struct Recording {
     /// M of the first states.
     pub mass_matrix: Vec<Vec<f64>>,
 
-    /// Input: the wrench of the environment on every body, about its origin in its own frame, by bodies.
+    /// Input: the wrench of the environment on every body, about its origin in its own frame, by
+    /// bodies.
     pub wrenches: Vec<Vec<f64>>,
     /// Input: spatial velocity of the base in its own frame, which is the world's at that moment.
     pub base_velocity: Vec<Vec<f64>>,
@@ -139,7 +141,8 @@ pub fn load(name: &str) -> Recording {
     read(name)
 }
 
-/// Torques of some recorded states in 50 digits, rounded to f64: what `host-tests/oracle/precise.py` wrote.
+/// Torques of some recorded states in 50 digits, rounded to f64: what
+/// `host-tests/oracle/precise.py` wrote.
 #[derive(Debug, Deserialize)]
 pub struct Precise {
     /// The indices of the states in the robots' recordings.

@@ -594,7 +594,8 @@ impl Errors {
         }
     }
 
-    /// The largest error of a quantity relative to its full scale, if it was compared in this scalar.
+    /// The largest error of a quantity relative to its full scale, if it was compared in this
+    /// scalar.
     pub fn of(&self, quantity: &str, scalar: &str) -> Option<f64> {
         let row = self
             .rows

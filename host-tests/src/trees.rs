@@ -1,8 +1,8 @@
-//! Two trees that mix every kind of joint: each kind at a root, in the middle and at a leaf, with general
-//! axes, placements and inertias.
+//! Two trees that mix every kind of joint: each kind at a root, in the middle and at a leaf, with
+//! general axes, placements and inertias.
 //!
-//! The numbers are drawn while compiling from a fixed seed, on a grid that f32 represents; every inertia
-//! is that of a real distribution of mass.
+//! The numbers are drawn while compiling from a fixed seed, on a grid that f32 represents; every
+//! inertia is that of a real distribution of mass.
 
 use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
 
@@ -23,7 +23,8 @@ impl Draw {
         Self(tree << 32 | body << 16 | 0x2024)
     }
 
-    /// A number in [-1, 1) on a grid of 1/128: the mixing function of splitmix64 (Steele, Lea, Flood 2014).
+    /// A number in [-1, 1) on a grid of 1/128: the mixing function of splitmix64 (Steele, Lea,
+    /// Flood 2014).
     const fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);

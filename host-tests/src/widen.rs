@@ -4,8 +4,9 @@ use glam::{DMat3, DQuat, Mat3};
 
 use dynamics_core::model::{Link, Model};
 
-/// The model rounded to f32 and widened again: f32's numbers, but for rotations, which are made rotations
-/// again. One that is not orthonormal is not the same in every algorithm: they go by it and by its transpose.
+/// The model rounded to f32 and widened again: f32's numbers, but for rotations, which are made
+/// rotations again. One that is not orthonormal is not the same in every algorithm: they go by it
+/// and by its transpose.
 pub fn widened<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
 ) -> Model<f64, B, Q, V> {

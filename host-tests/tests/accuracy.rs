@@ -1,5 +1,5 @@
-//! The ways to compute that `cargo xtask accuracy` compares: that there are enough of them, each once, and that the
-//! default and its oracle are as good as the report says.
+//! The ways to compute that `cargo xtask accuracy` compares: that there are enough of them, each
+//! once, and that the default and its oracle are as good as the report says.
 
 use std::collections::BTreeSet;
 
@@ -71,8 +71,8 @@ fn every_simulation_configuration_occurs_once() {
     assert!(names.0.iter().any(|name| name == "default"));
 }
 
-/// Over the states recorded of a robot whose first coordinates are T's: the largest errors of `run` and of our f64,
-/// relative to full scale.
+/// Over the states recorded of a robot whose first coordinates are T's: the largest errors of `run`
+/// and of our f64, relative to full scale.
 fn recorded<T: Robot<B, N, N>, const B: usize, const N: usize>(
     name: &str,
     run: impl Fn(&State<f32, N, N>) -> [f32; N],

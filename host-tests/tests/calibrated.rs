@@ -1,4 +1,5 @@
-//! Calibration in the frames of the description: numbers that the description was made from give the same model.
+//! Calibration in the frames of the description: numbers that the description was made from give
+//! the same model.
 
 use dynamics_core::algorithms::{aba, forward_dynamics, rnea};
 use dynamics_core::effects::RIGID_BODY;

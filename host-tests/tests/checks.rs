@@ -1,5 +1,6 @@
-//! The comparisons of errors with bounds fail when they must: the tables of tolerances and of hard cases; the compiler refuses what
-//! is wrong, at the line of its user; and no algorithm has a second name.
+//! The comparisons of errors with bounds fail when they must: the tables of tolerances and of hard
+//! cases; the compiler refuses what is wrong, at the line of its user; and no algorithm has a
+//! second name.
 
 #[path = "checks/mistakes.rs"]
 mod mistakes;

@@ -1,5 +1,5 @@
-//! Claims about the scenes with closed loops, `parallel_ankle` and `delta_pick`: their references, and what happens where
-//! a loop does not close.
+//! Claims about the scenes with closed loops, `parallel_ankle` and `delta_pick`: their references,
+//! and what happens where a loop does not close.
 
 use crate::common::{Verdict, Worst};
 use dynamics_core::clusters::{ClusterProblem, Clustered};

@@ -59,7 +59,8 @@ struct Errors {
     swing: f64,
 }
 
-/// Three seconds along a loop on the wall; `posture` is a torque on all joints, applied in the null space.
+/// Three seconds along a loop on the wall; `posture` is a torque on all joints, applied in the null
+/// space.
 fn run(posture: f64) -> Errors {
     let robot = &Panda::MODEL;
     let mut arm = State::at([0.3, -0.4, 0.2, -2.0, 0.3, 1.9, 0.5]);

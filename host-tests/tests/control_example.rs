@@ -1,5 +1,5 @@
-//! The control loop in the documentation of `motion_control`, on a simulated arm: it keeps what the firmware's
-//! loop promises.
+//! The control loop in the documentation of `motion_control`, on a simulated arm: it keeps what the
+//! firmware's loop promises.
 
 use dynamics_core::model::Static;
 use dynamics_core::robots::Ur5e;

@@ -1,4 +1,5 @@
-//! Claims about single parts of the control layer: what they forget, and what they keep to second order.
+//! Claims about single parts of the control layer: what they forget, and what they keep to second
+//! order.
 
 use dynamics_core::Core;
 use dynamics_core::effects::RIGID_BODY;

@@ -1,4 +1,5 @@
-//! C(q, q̇) as a matrix and by the RNEA of two velocities: laws on trees with joints of every kind, and on arms.
+//! C(q, q̇) as a matrix and by the RNEA of two velocities: laws on trees with joints of every kind,
+//! and on arms.
 
 use crate::common::*;
 use dynamics_core::algorithms::{
@@ -164,7 +165,8 @@ fn the_laws_find_wrong_coriolis_matrices() {
         ..RIGHT
     };
     assert_eq!(broken(&times_transposed)[..4], [true; 4]);
-    // The symmetric form differs from C only where the velocities are no derivatives of coordinates.
+    // The symmetric form differs from C only where the velocities are no derivatives of
+    // coordinates.
     let no_bracket = Under {
         product: &|tree, state, y, scene| {
             let [xy, yx] = [(state.qd, *y), (*y, state.qd)]

@@ -27,7 +27,8 @@ impl Dynamics<f64, 1, 1> for Mass {
     }
 }
 
-/// Energy that is short by 2x of itself comes back but for x³, as a speed that is corrected to second order leaves it.
+/// Energy that is short by 2x of itself comes back but for x³, as a speed that is corrected to
+/// second order leaves it.
 #[test]
 fn a_step_brings_lost_energy_back_to_third_order() {
     let at = |energy: f64| State {

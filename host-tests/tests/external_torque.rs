@@ -14,7 +14,8 @@ use motion_control::{
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
-/// A wrench, a couple in N·m and a force in N, and the torques that it has about joints whose motions are `jacobian`.
+/// A wrench, a couple in N·m and a force in N, and the torques that it has about joints whose
+/// motions are `jacobian`.
 fn pushed<R: Real, const N: usize>(jacobian: &[Motion<R>; N], push: [f64; 6]) -> [R; N] {
     let [a, b, c, x, y, z] = push.map(R::from_f64);
     let push = Force::new(R::Vec3::new(a, b, c), R::Vec3::new(x, y, z));
@@ -35,7 +36,8 @@ fn six<R: Real>(f: Force<R>) -> [f64; 6] {
     core::array::from_fn(|i| if i < 3 { a[i] } else { b[i - 3] })
 }
 
-/// The largest error of the force over random postures away from singular ones, N, of forces of up to 50 N along each axis.
+/// The largest error of the force over random postures away from singular ones, N, of forces of up
+/// to 50 N along each axis.
 fn worst_force<R: Real, T: Robot<N, N, N>, const N: usize>() -> f64 {
     let mut rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
     let (mut worst, mut postures) = (0.0_f64, 0);
@@ -172,7 +174,8 @@ fn a_wrench_without_torque_is_estimated_as_zero() {
     }
 }
 
-/// The largest force that f32 finds where a push of 1 N acts, at 2,000 postures each with two axes of the wrist on one line.
+/// The largest force that f32 finds where a push of 1 N acts, at 2,000 postures each with two axes
+/// of the wrist on one line.
 fn largest_in_f32(noise: f64, couple: f64) -> f64 {
     let mut rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
     let mut largest = 0.0_f64;

@@ -1,5 +1,5 @@
-//! Poses, velocities, accelerations, Jacobians, energies and momenta: closed forms, and laws that hold for every
-//! tree and joint.
+//! Poses, velocities, accelerations, Jacobians, energies and momenta: closed forms, and laws that
+//! hold for every tree and joint.
 
 use crate::common::*;
 use dynamics_core::algorithms::{

@@ -1,4 +1,5 @@
-//! The tests of the library on the host, in one program: each robot, scalar and scene is compiled once for all of them.
+//! The tests of the library on the host, in one program: each robot, scalar and scene is compiled
+//! once for all of them.
 
 mod common;
 

@@ -65,7 +65,8 @@ fn a_step_along_the_difference_arrives() {
         let mut there = integrate(&tree, &from, &difference(&tree, &from, &to));
         for link in &tree.links {
             match link.joint.kind {
-                // A turn without end arrives at the same place, a quaternion at itself or its negative.
+                // A turn without end arrives at the same place, a quaternion at itself or its
+                // negative.
                 JointKind::Continuous | JointKind::Planar => {
                     let turn = (there[link.idx_q] - to[link.idx_q]) / core::f64::consts::TAU;
                     there[link.idx_q] -= turn.round() * core::f64::consts::TAU;
@@ -85,8 +86,9 @@ fn a_step_along_the_difference_arrives() {
     check::<f64>("step along a difference", worst);
 }
 
-/// The velocity of the manifold is that of the dynamics: kinetic energy from ½ q̇ᵀ M q̇ does not change
-/// while no force acts, when q moves by `integrate` and q̇ by the accelerations of free motion.
+/// The velocity of the manifold is that of the dynamics: kinetic energy from ½ q̇ᵀ M q̇ does not
+/// change while no force acts, when q moves by `integrate` and q̇ by the accelerations of free
+/// motion.
 #[test]
 fn velocities_of_steps_are_those_of_the_dynamics() {
     let (rng, mut worst) = (&mut random_numbers(), 0.0_f64);
@@ -161,7 +163,8 @@ fn a_drifting_quaternion_costs_what_is_stated() {
         };
         let tau = rnea(&ball, &stretched, &RIGID_BODY);
         let error = largest(tau.iter().zip(exact).map(|(a, b)| a - b));
-        // An attitude that is longer by 3ε²/8 turns coordinates by twice that; gravity's moment is 7.3 N·m.
+        // An attitude that is longer by 3ε²/8 turns coordinates by twice that; gravity's moment is
+        // 7.3 N·m.
         let bound = 2.0 * 0.375 * epsilon * epsilon * 8.0;
         measured::within(&format!("torque at {epsilon}, N·m"), error, bound);
     }

@@ -1,4 +1,5 @@
-//! Robots whose bodies on fixed joints are parts of others compute what the same robots compute without.
+//! Robots whose bodies on fixed joints are parts of others compute what the same robots compute
+//! without.
 
 use crate::common::{Worst, six};
 use dynamics_core::algorithms::{aba, crba, frame::Local, jacobian, kinematics, rnea};

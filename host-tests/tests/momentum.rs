@@ -141,7 +141,8 @@ type Scene = (
     (Payload<f64, { B - 1 }>, MovingBase<f64>),
 );
 
-/// On trees of every joint, by a payload, armatures and a base that moves: ṗ, and the torque with Cᵀ q̇.
+/// On trees of every joint, by a payload, armatures and a base that moves: ṗ, and the torque with
+/// Cᵀ q̇.
 fn rate_of_momentum(law: Law<'_>) -> Worst {
     let mut worst = Worst::default();
     for (i, (tree, state)) in trees(false).enumerate() {
@@ -213,7 +214,8 @@ fn a_wrong_sign_child_or_armature_is_found() {
     }
 }
 
-/// Drags every body through the air, against its velocity and that of the base, and pulls it to a point.
+/// Drags every body through the air, against its velocity and that of the base, and pulls it to a
+/// point.
 struct Air;
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Air {
@@ -265,7 +267,8 @@ fn generalised_momentum_changes_by_motor_torque_and_drift() {
     verdict.speak();
 }
 
-/// df/dq of a trigonometric polynomial of second degree, without truncation: it is spanned by four values.
+/// df/dq of a trigonometric polynomial of second degree, without truncation: it is spanned by four
+/// values.
 fn slope_of_turn<const N: usize>(f: impl Fn(f64) -> [f64; N]) -> [f64; N] {
     let [a, b] = [FRAC_PI_2, FRAC_PI_4].map(|by| {
         let (ahead, behind) = (f(by), f(-by));

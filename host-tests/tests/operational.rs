@@ -1,5 +1,5 @@
-//! Operational space: two ways to Λ⁻¹, what Λ and its inverse are for, no jump at singular poses, and control of
-//! motion and force with them.
+//! Operational space: two ways to Λ⁻¹, what Λ and its inverse are for, no jump at singular poses,
+//! and control of motion and force with them.
 
 use crate::common::*;
 use dynamics_core::algorithms::{
@@ -119,7 +119,8 @@ fn inverses<T: Robot<N, N, N>, const N: usize, const M: usize>(
             worst[0].see(task.inertia.map(|row| dot(&row, &task.mobility[i])), one);
             worst[1].see(inverse.map(|column| dot(&column, &task.jacobian[i])), one);
         }
-        // Torques that the task does not feel: no acceleration, nor any effect of the free part twice.
+        // Torques that the task does not feel: no acceleration, nor any effect of the free part
+        // twice.
         let tau: [f64; N] = rng.vector(30.0);
         let felt = |tau: &[f64; N]| task.response.map(|response| dot(&response, tau));
         let all = felt(&tau)

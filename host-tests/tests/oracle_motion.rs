@@ -24,7 +24,8 @@ fn worst(rows: &[Vec<f64>]) -> Worst {
     }
 }
 
-/// The largest error of each quantity in each scalar, over all robots and relative to the robot's full scale.
+/// The largest error of each quantity in each scalar, over all robots and relative to the robot's
+/// full scale.
 #[derive(Default)]
 struct Most(BTreeMap<(&'static str, &'static str), f64>);
 

@@ -1,4 +1,5 @@
-//! The law of Slotine & Li: the energy of s changes by its damping alone, and tracking on a simulated arm.
+//! The law of Slotine & Li: the energy of s changes by its damping alone, and tracking on a
+//! simulated arm.
 
 use crate::common::*;
 use dynamics_core::algorithms::{aba, crba, rnea};
@@ -131,7 +132,8 @@ fn reference(t: f64) -> State<f64, 6, 6> {
     }
 }
 
-/// The run of an arm under the law: its state at the end, the tracking error and the energy of s over time.
+/// The run of an arm under the law: its state at the end, the tracking error and the energy of s
+/// over time.
 struct Run {
     end: State<f64, 6, 6>,
     errors: Vec<f64>,
@@ -220,7 +222,8 @@ fn tracking_with_wrong_inertias_converges_to_the_stated_error() {
     let (arm, model) = (Ur5e::MODEL, off_by_20_percent(&Ur5e::MODEL));
     let Run { end, errors, .. } = run(&arm, &model, 6000);
     let most = |errors: &[f64]| errors.iter().copied().fold(0.0, f64::max);
-    // It starts with 0.2 rad; the second swing of 4 rad/s and 0.8 rad is tracked within a tenth of that.
+    // It starts with 0.2 rad; the second swing of 4 rad/s and 0.8 rad is tracked within a tenth of
+    // that.
     assert!(
         most(&errors[1570..3140]) < 0.02,
         "{}",

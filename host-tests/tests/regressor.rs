@@ -29,7 +29,8 @@ fn recorded<const B: usize, const V: usize>(r: &Recording, state: usize) -> Y<B,
     core::array::from_fn(|k| core::array::from_fn(|i| rows[k * B + i]))
 }
 
-/// The largest error of a parameter's entries relative to their full scale over the recorded states.
+/// The largest error of a parameter's entries relative to their full scale over the recorded
+/// states.
 fn error<const B: usize, const V: usize>(r: &Recording, got: impl Fn(usize) -> Y<B, V>) -> f64 {
     let mut worst = [(); 10].map(|()| Worst::default());
     for i in 0..r.regressor.len() {

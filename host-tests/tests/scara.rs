@@ -1,5 +1,5 @@
-//! The scene `scara_table`'s machine: three vertical axes have a closed planar form, and gravity does no work
-//! on them.
+//! The scene `scara_table`'s machine: three vertical axes have a closed planar form, and gravity
+//! does no work on them.
 
 use dynamics_core::effects::{Coriolis, Gravity, GravityVector, Inertia, RIGID_BODY};
 use dynamics_core::model::Robot;
@@ -25,7 +25,8 @@ fn random_states<R: Real>() -> impl Iterator<Item = State<R, 3, 3>> {
 }
 
 /// In angles ψ from the base to each link's centre of mass Lagrange's equations are
-/// `Q_i = Σ_j D_ij (cos(ψ_j − ψ_i) ψ̈_j − sin(ψ_j − ψ_i) ψ̇_j²)` with a constant D, and `τ_i = Σ_{j ≥ i} Q_j`.
+/// `Q_i = Σ_j D_ij (cos(ψ_j − ψ_i) ψ̈_j − sin(ψ_j − ψ_i) ψ̇_j²)` with a constant D, and
+/// `τ_i = Σ_{j ≥ i} Q_j`.
 fn planar(s: &State<f64, 3, 3>) -> [f64; 3] {
     // The centres of arm and forearm lie on their links: ψ is then as q for them.
     let [arm, forearm, quill] = &Scara::MODEL.links;
@@ -79,7 +80,8 @@ fn a_scara_has_its_planar_form() {
     holds::<f32>("f32");
 }
 
-/// Not nearly: to the last bit, in core and engine, and also where the direction is known at run time only.
+/// Not nearly: to the last bit, in core and engine, and also where the direction is known at run
+/// time only.
 #[test]
 fn gravity_adds_nothing_to_vertical_axes() {
     fn holds<R: Real>() {

@@ -1,4 +1,5 @@
-//! Near and at singular poses: the damping is as documented, and nothing jumps along a path through them.
+//! Near and at singular poses: the damping is as documented, and nothing jumps along a path through
+//! them.
 
 use crate::common::*;
 use dynamics_core::algorithms::{
@@ -36,7 +37,8 @@ fn spectral<const M: usize>(rows: &[[f64; M]; M], values: [f64; M]) -> [[f64; M]
     })
 }
 
-/// Matrices of known eigenvalues, from equal ones to 10⁻¹², some zero, against what the damping promises.
+/// Matrices of known eigenvalues, from equal ones to 10⁻¹², some zero, against what the damping
+/// promises.
 fn eigen<R: Real, const M: usize>(worst: &mut Worst) {
     let mut rng = Rng::new(17);
     for round in 0..300 {
@@ -85,8 +87,8 @@ fn eigenvalues_are_damped_as_the_law_says_whatever_their_spread() {
     verdict.speak();
 }
 
-/// The largest first and second differences of Λ on a path from −1 to 1 in n steps, and whether it was damped
-/// at the ends and in the middle.
+/// The largest first and second differences of Λ on a path from −1 to 1 in n steps, and whether it
+/// was damped at the ends and in the middle.
 fn sweep<const M: usize, const N: usize>(
     n: usize,
     task: &impl Fn(f64) -> OperationalSpace<f64, M, N>,
@@ -111,8 +113,8 @@ fn sweep<const M: usize, const N: usize>(
     (most, damped)
 }
 
-/// Halving the step halves the differences of a function without jumps and quarters the second differences of one
-/// whose slope has none; a jump would leave them at 1 and at ½.
+/// Halving the step halves the differences of a function without jumps and quarters the second
+/// differences of one whose slope has none; a jump would leave them at 1 and at ½.
 fn is_smooth<const M: usize, const N: usize>(
     what: &str,
     task: impl Fn(f64) -> OperationalSpace<f64, M, N>,

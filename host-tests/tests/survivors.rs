@@ -1,5 +1,5 @@
-//! Terms whose loss no other test noticed: slopes that implicit steps use, momenta with a payload or on a moving base,
-//! the tolerance of a payload's check.
+//! Terms whose loss no other test noticed: slopes that implicit steps use, momenta with a payload
+//! or on a moving base, the tolerance of a payload's check.
 
 use dynamics_core::algorithms::{
     base_velocity_from_momentum, centroidal_matrix, centroidal_momentum, cholesky, crba, ltdl,
@@ -97,8 +97,8 @@ fn slopes_of_the_stops_are_those_of_their_torque() {
         damping: 50.0,
         damping_depth: Width::f64(1e-3),
     };
-    // Deep enough that the damping no longer grows with the depth; within, at both ends, and pulled out of one so
-    // fast that the stop has let go.
+    // Deep enough that the damping no longer grows with the depth; within, at both ends, and pulled
+    // out of one so fast that the stop has let go.
     for state in [
         at(0.0, 2.0),
         at(1.5, 0.3),
@@ -313,19 +313,22 @@ fn a_state_is_finite_if_all_its_numbers_are() {
     }
 }
 
-/// The bound of a pivot is 32 roundings of what it is the difference of: here the difference is 48 roundings of 1.
+/// The bound of a pivot is 32 roundings of what it is the difference of: here the difference is 48
+/// roundings of 1.
 const SMALL: f64 = 48.0 * f64::EPSILON;
 
 #[test]
 fn a_pivot_inherits_errors_only_within_its_joint() {
-    // M is I: 1 − b² is left of the first coordinate once the second is free, both with the error of a 1.
+    // M is I: 1 − b² is left of the first coordinate once the second is free, both with the error
+    // of a 1.
     let b = (1.0 - SMALL).sqrt();
     let rod = Body::new("rod", BASE, Joint::spherical()).mass(1.0);
     let ball = Model::<f64, 1, 4, 3>::new("ball", [rod.inertia([1.0, b, 0.0, 1.0, 0.0, 2.0])]);
     let m = crba(&ball, &neutral(&ball), &Inertia);
     assert!(ltdl(&ball, &m).is_err());
     assert!(cholesky(&ball, &m).is_err());
-    // Two joints on one axis, the inner body of inertia SMALL, and a joint of several coordinates elsewhere.
+    // Two joints on one axis, the inner body of inertia SMALL, and a joint of several coordinates
+    // elsewhere.
     let wheel = |name, parent, inertia| {
         let x = [inertia, 0.0, 0.0, 1.0, 0.0, 1.0];
         Body::new(name, parent, Joint::revolute([1.0, 0.0, 0.0]))

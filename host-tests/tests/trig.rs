@@ -143,7 +143,8 @@ fn digest<R: Real>(pair: impl Fn(R) -> (R, R), range: f64) -> u64 {
     })
 }
 
-/// Results within range are part of what a release promises: host and target, this version and the last.
+/// Results within range are part of what a release promises: host and target, this version and the
+/// last.
 #[test]
 fn sines_within_range_keep_their_recorded_bits() {
     let digests = [

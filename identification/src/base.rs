@@ -1,8 +1,9 @@
 //! Base parameters: the combinations of parameters that the torques of an arm depend on.
 //!
-//! Of the columns Y = [Y_s Y_d] with Y_d = Y_s K, torques need those of the selection alone, and what they multiply are the base
-//! parameters β = θ_s + K θ_d: Gautier, "Numerical calculation of the base inertial parameters of robots" (1991). The selection
-//! takes columns in their order, so that a parameter that cannot be distinguished is a part of those of bodies nearer to the base.
+//! Of the columns Y = [Y_s Y_d] with Y_d = Y_s K, torques need those of the selection alone, and
+//! what they multiply are the base parameters β = θ_s + K θ_d: Gautier, "Numerical calculation of
+//! the base inertial parameters of robots" (1991). The selection takes columns in their order, so
+//! that a parameter that cannot be distinguished is a part of those of bodies nearer to the base.
 
 use dynamics_core::effects::{Effect, Width};
 use dynamics_core::model::RobotModel;
@@ -12,7 +13,8 @@ use nalgebra::{DMatrix, DVector};
 use crate::columns::{OF_JOINT, columns};
 use crate::{ExcitationLimits, Parameter};
 
-/// States whose columns decide which parameters are independent: three rows for each parameter of any arm here.
+/// States whose columns decide which parameters are independent: three rows for each parameter of
+/// any arm here.
 const STATES: usize = 400;
 /// A column is a combination of others if these leave less than this share of it,
 const INDEPENDENT: f64 = 1e-8;
@@ -21,10 +23,12 @@ const EFFECT: f64 = 1e-11;
 /// Factors of combinations below this are rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// An arm with its base parameters: friction, armatures and offsets of the joints and what of the bodies is distinguishable.
+/// An arm with its base parameters: friction, armatures and offsets of the joints and what of the
+/// bodies is distinguishable.
 ///
-/// The model of the torques, linear in the parameters: rigid bodies under the effects of the scene, and of each joint viscous
-/// and Coulomb friction with a smooth sign, the armature, and the offset of its torque.
+/// The model of the torques, linear in the parameters: rigid bodies under the effects of the scene,
+/// and of each joint viscous and Coulomb friction with a smooth sign, the armature, and the offset
+/// of its torque.
 ///
 /// # Example
 /// ```
@@ -53,7 +57,8 @@ pub struct BaseModel<D, E, const B: usize, const V: usize> {
     selected: Vec<usize>,
     /// K_β, by base parameters and all parameters.
     pub(crate) grouping: DMatrix<f64>,
-    /// The root mean square of each selected column over states within the limits, relative to the joints' torques.
+    /// The root mean square of each selected column over states within the limits, relative to the
+    /// joints' torques.
     pub(crate) scale: DVector<f64>,
 }
 
@@ -64,7 +69,8 @@ where
 {
     /// The parameters that are independent in motions within the limits.
     ///
-    /// Its bodies' own numbers only matter for the torques of an excitation: the base parameters depend on the geometry.
+    /// Its bodies' own numbers only matter for the torques of an excitation: the base parameters
+    /// depend on the geometry.
     ///
     /// # Panics
     /// If the limits are [impossible](ExcitationLimits::are_possible).
@@ -122,8 +128,9 @@ where
         self.selected.len()
     }
 
-    /// The root mean square of the column of each base parameter over random states within the limits, each row relative to the
-    /// torque of its joint: what [`Self::condition`] divides the columns by.
+    /// The root mean square of the column of each base parameter over random states within the
+    /// limits, each row relative to the torque of its joint: what [`Self::condition`] divides the
+    /// columns by.
     #[must_use]
     pub fn scales(&self) -> Vec<f64> {
         self.scale.iter().copied().collect()
@@ -143,7 +150,8 @@ where
         self.rows(state).map(dot)
     }
 
-    /// The base parameters of a set of all parameters, ten of each body and [`OfJoint`](crate::OfJoint) of each joint.
+    /// The base parameters of a set of all parameters, ten of each body and
+    /// [`OfJoint`](crate::OfJoint) of each joint.
     #[must_use]
     pub fn of_all(&self, bodies: &[[f64; 10]; B], joints: &[[f64; 4]; V]) -> Vec<f64> {
         let all = bodies.as_flattened().iter().chain(joints.as_flattened());
@@ -151,7 +159,8 @@ where
         (&self.grouping * all).iter().copied().collect()
     }
 
-    /// The parameters that a base parameter is the sum of, with their factors: the selected one with the factor 1 first.
+    /// The parameters that a base parameter is the sum of, with their factors: the selected one
+    /// with the factor 1 first.
     #[must_use]
     pub fn terms(&self, base: usize) -> Vec<(f64, Parameter)> {
         let own = self.selected[base];
@@ -181,8 +190,9 @@ where
         }
     }
 
-    /// The condition number of the regressor of states, each column relative to its root mean square over random states within
-    /// the limits, each row to the torque of its joint: √(λ_max/λ_min) of the sum of the squares. Infinite if rank is lost.
+    /// The condition number of the regressor of states, each column relative to its root mean
+    /// square over random states within the limits, each row to the torque of its joint:
+    /// √(λ_max/λ_min) of the sum of the squares. Infinite if rank is lost.
     #[must_use]
     pub fn condition<'a>(&self, states: impl IntoIterator<Item = &'a State<f64, V, V>>) -> f64 {
         let mut rows = Vec::new();
@@ -201,7 +211,8 @@ where
     }
 }
 
-/// The columns that are independent of those before them, and an orthonormal base of what they span: Gram–Schmidt, twice.
+/// The columns that are independent of those before them, and an orthonormal base of what they
+/// span: Gram–Schmidt, twice.
 fn independent(rows: &DMatrix<f64>, norms: &DVector<f64>) -> (Vec<usize>, DMatrix<f64>) {
     let (mut selected, mut base) = (Vec::new(), Vec::<DVector<f64>>::new());
     for (at, column) in rows.column_iter().enumerate() {

@@ -1,9 +1,11 @@
 //! Weighted least squares of a recording.
 //!
-//! Both sides of τ(t) = Y(q, q̇, q̈) β are projected on the same harmonics 0 to H of the excitation: q, q̇ and q̈ are those of the
-//! series of H harmonics that is nearest to the positions, τ and the columns of Y are projected on an orthonormal base of these
-//! harmonics. What the positions lack of faster motion is in neither. This is the parallel filter of Gautier, "Dynamic identification
-//! of robots with power model" (1997), with a filter that has neither delay nor transients as the motion is periodic.
+//! Both sides of τ(t) = Y(q, q̇, q̈) β are projected on the same harmonics 0 to H of the
+//! excitation: q, q̇ and q̈ are those of the series of H harmonics that is nearest to the
+//! positions, τ and the columns of Y are projected on an orthonormal base of these harmonics. What
+//! the positions lack of faster motion is in neither. This is the parallel filter of Gautier,
+//! "Dynamic identification of robots with power model" (1997), with a filter that has neither delay
+//! nor transients as the motion is periodic.
 
 use std::f64::consts::TAU;
 
@@ -22,15 +24,18 @@ const FINAL: f64 = 1e-4;
 /// How a recording is evaluated.
 ///
 /// # Example
-/// An identification of the pendulum's friction, offset and inertias is in the documentation of [the crate](crate).
+/// An identification of the pendulum's friction, offset and inertias is in the documentation of
+/// [the crate](crate).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Batch {
-    /// The highest harmonic of the period that is used, H: enough for the reversals of friction, some 20 Hz.
+    /// The highest harmonic of the period that is used, H: enough for the reversals of friction,
+    /// some 20 Hz.
     pub harmonics: usize,
-    /// The time by which a torque is later than the position of the same sample, s: half a tick for a torque that was commanded
-    /// at the sample and is held for a tick.
+    /// The time by which a torque is later than the position of the same sample, s: half a tick for
+    /// a torque that was commanded at the sample and is held for a tick.
     pub delay: f64,
-    /// The greatest condition number at which all parameters are determined: [`BaseModel::condition`] with the estimated noise.
+    /// The greatest condition number at which all parameters are determined:
+    /// [`BaseModel::condition`] with the estimated noise.
     pub most: f64,
 }
 
@@ -50,20 +55,24 @@ impl Batch {
         }
     }
 
-    /// The base parameters of an arm with their covariance, by least squares with the weights 1/σ of the noise of each joint.
+    /// The base parameters of an arm with their covariance, by least squares with the weights 1/σ
+    /// of the noise of each joint.
     ///
-    /// σ² = s₀ + s₁ (h/H)⁴ in harmonic h is that of torques and of accelerations from noisy positions. Both are estimated of each joint
-    /// from the residuals, and iterated with the weights. The covariance is that of these weights under the mean squares of the
-    /// residuals of each harmonic and ten on either side: noise may have any colour, but for what changes within some 4 Hz.
+    /// σ² = s₀ + s₁ (h/H)⁴ in harmonic h is that of torques and of accelerations from noisy
+    /// positions. Both are estimated of each joint from the residuals, and iterated with the
+    /// weights. The covariance is that of these weights under the mean squares of the residuals of
+    /// each harmonic and ten on either side: noise may have any colour, but for what changes within
+    /// some 4 Hz.
     ///
     /// # Errors
-    /// [`IdentificationError::RankDeficient`] names the parameters that the motion does not show, [`IdentificationError::Harmonics`]
-    /// those that are possible.
+    /// [`IdentificationError::RankDeficient`] names the parameters that the motion does not show,
+    /// [`IdentificationError::Harmonics`] those that are possible.
     ///
     /// # Source
-    /// Swevers et al. (1997), section III; Gautier & Poignet, "Extended Kalman filtering and weighted least squares dynamic
-    /// identification of robot" (2001), section 3; the covariance after White, "A heteroskedasticity-consistent covariance matrix
-    /// estimator" (1980), with mean squares of bands in place of those of single rows.
+    /// Swevers et al. (1997), section III; Gautier & Poignet, "Extended Kalman filtering and
+    /// weighted least squares dynamic identification of robot" (2001), section 3; the covariance
+    /// after White, "A heteroskedasticity-consistent covariance matrix estimator" (1980), with mean
+    /// squares of bands in place of those of single rows.
     pub fn identify<D, E, const B: usize, const V: usize>(
         &self,
         arm: &BaseModel<D, E, B, V>,

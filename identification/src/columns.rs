@@ -25,7 +25,8 @@ pub enum Parameter {
     Body {
         /// The body.
         body: usize,
-        /// Its place in the order of [`SpatialInertia::parameters`](dynamics_core::spatial::SpatialInertia::parameters).
+        /// Its place in the order of
+        /// [`SpatialInertia::parameters`](dynamics_core::spatial::SpatialInertia::parameters).
         place: usize,
     },
     /// A parameter of a joint.
@@ -100,7 +101,8 @@ impl fmt::Display for Parameter {
     }
 }
 
-/// The torque of each joint per unit of each parameter: the regressor of the bodies, and q̇, s(q̇/w), q̈ and 1 of each joint.
+/// The torque of each joint per unit of each parameter: the regressor of the bodies, and q̇,
+/// s(q̇/w), q̈ and 1 of each joint.
 pub(crate) fn columns<D, E, const B: usize, const V: usize>(
     robot: &D,
     scene: &E,

@@ -48,7 +48,8 @@ pub enum IdentificationError {
         /// The most.
         most: usize,
     },
-    /// The motion does not show all base parameters: the condition number exceeds the greatest one that is allowed.
+    /// The motion does not show all base parameters: the condition number exceeds the greatest one
+    /// that is allowed.
     #[error("the motion shows {rank} independent directions only; undetermined: {}", parameters.join("; "))]
     RankDeficient {
         /// The number of directions that the motion shows.
@@ -74,7 +75,8 @@ pub enum IdentificationError {
         /// Its duration, s.
         seconds: f64,
     },
-    /// A body of the nominal model has a pseudo-inertia that is not positive definite, and is not without mass either.
+    /// A body of the nominal model has a pseudo-inertia that is not positive definite, and is not
+    /// without mass either.
     #[error("body {body}: its nominal pseudo-inertia is not positive definite")]
     ImpossibleBody {
         /// The body.

@@ -5,8 +5,8 @@ use std::fmt::{Display, Write as _};
 use crate::FourierMotion;
 
 impl<const V: usize> FourierMotion<V> {
-    /// The coefficients as CSV: joint, harmonic, sine, cosine; those of harmonic 0 are the centre, as a cosine, and the period is
-    /// in the first line.
+    /// The coefficients as CSV: joint, harmonic, sine, cosine; those of harmonic 0 are the centre,
+    /// as a cosine, and the period is in the first line.
     ///
     /// ```
     /// use identification::FourierMotion;
@@ -28,8 +28,8 @@ impl<const V: usize> FourierMotion<V> {
         csv
     }
 
-    /// A Rust file for firmware: a `Reference` in f32 with these coefficients as constants, without heap or table, for a tick of
-    /// this length, s, and this many periods.
+    /// A Rust file for firmware: a `Reference` in f32 with these coefficients as constants, without
+    /// heap or table, for a tick of this length, s, and this many periods.
     ///
     /// A tick takes one sine and cosine and some 12 V + 6 flops for each harmonic.
     ///

@@ -1,10 +1,12 @@
-//! Weighted least squares of the ticks of any motion, with the nominal model for what the motion does not show.
+//! Weighted least squares of the ticks of any motion, with the nominal model for what the motion
+//! does not show.
 //!
-//! Positions are differentiated by a filter without delay, and torques and the columns of Y pass the same filter, so that neither
-//! has what the other lacks: Gautier, "Dynamic identification of robots with power model" (1997), the parallel filter. A motion that
-//! does not repeat shows less than an excitation does; each base parameter therefore has a prior, the nominal value with a deviation
-//! by which its torque would be a stated share of the joint's. Parameters whose deviation the recording hardly reduces are not
-//! determined, and are named.
+//! Positions are differentiated by a filter without delay, and torques and the columns of Y pass
+//! the same filter, so that neither has what the other lacks: Gautier, "Dynamic identification of
+//! robots with power model" (1997), the parallel filter. A motion that does not repeat shows less
+//! than an excitation does; each base parameter therefore has a prior, the nominal value with a
+//! deviation by which its torque would be a stated share of the joint's. Parameters whose deviation
+//! the recording hardly reduces are not determined, and are named.
 
 use dynamics_core::effects::{Effect, smooth_sign};
 use dynamics_core::model::RobotModel;
@@ -71,8 +73,9 @@ pub struct Fit {
     pub cutoff: f64,
     /// As [`Batch::delay`](crate::Batch::delay), s.
     pub delay: f64,
-    /// The standard deviation of each base parameter before the recording is known, by the torque that it makes: the root mean square
-    /// over motions within the limits, as a share of the joint's torque.
+    /// The standard deviation of each base parameter before the recording is known, by the torque
+    /// that it makes: the root mean square over motions within the limits, as a share of the
+    /// joint's torque.
     pub prior: f64,
 }
 
@@ -85,12 +88,13 @@ pub struct Fitted<const V: usize> {
     pub deviations: Vec<f64>,
     /// Their standard deviations without the recording.
     pub prior: Vec<f64>,
-    /// The standard deviation of what the estimate does not explain, of the filtered torque, N·m or N.
+    /// The standard deviation of what the estimate does not explain, of the filtered torque, N·m or
+    /// N.
     pub noise: [f64; V],
     /// The condition number of the regressor of the motion: [`BaseModel::condition`].
     pub condition: f64,
-    /// The frictions μ₁ and μ₂ of [`LoadFriction`](dynamics_core::effects::LoadFriction), if they are a part of the model, and their
-    /// standard deviations.
+    /// The frictions μ₁ and μ₂ of [`LoadFriction`](dynamics_core::effects::LoadFriction), if they
+    /// are a part of the model, and their standard deviations.
     pub gears: Option<[[[f64; 2]; 2]; V]>,
     /// S of the covariance SᵀS of the base parameters, given the friction of the gears.
     root: DMatrix<f64>,
@@ -125,8 +129,9 @@ impl Fit {
         }
     }
 
-    /// The base parameters by a recording and a `nominal` set of them, of which those that are `known` stay as they are. With the
-    /// `gears` of the nominal model, their friction is found as well.
+    /// The base parameters by a recording and a `nominal` set of them, of which those that are
+    /// `known` stay as they are. With the `gears` of the nominal model, their friction is found as
+    /// well.
     ///
     /// # Errors
     /// [`IdentificationError::Cutoff`] and [`IdentificationError::TooShort`].
@@ -135,9 +140,10 @@ impl Fit {
     /// If there are not as many nominal or known parameters as the arm has.
     ///
     /// # Source
-    /// The weights as in Gautier & Poignet, "Extended Kalman filtering and weighted least squares dynamic identification of robot"
-    /// (2001), section 3; the variance of a mean of correlated residuals after Newey & West, "A simple, positive semi-definite,
-    /// heteroskedasticity and autocorrelation consistent covariance matrix" (1987).
+    /// The weights as in Gautier & Poignet, "Extended Kalman filtering and weighted least squares
+    /// dynamic identification of robot" (2001), section 3; the variance of a mean of correlated
+    /// residuals after Newey & West, "A simple, positive semi-definite, heteroskedasticity and
+    /// autocorrelation consistent covariance matrix" (1987).
     pub fn identify<D, E, const B: usize, const V: usize>(
         &self,
         arm: &BaseModel<D, E, B, V>,
@@ -270,7 +276,8 @@ impl Fit {
         })
     }
 
-    /// The rows of the base parameters, and of the gears' friction under the torques that the estimate implies.
+    /// The rows of the base parameters, and of the gears' friction under the torques that the
+    /// estimate implies.
     fn columns<D, E, const B: usize, const V: usize>(
         &self,
         filters: &Filters,
@@ -398,7 +405,8 @@ impl<const V: usize> Fitted<V> {
     /// As [`Identified::physical`](crate::Identified::physical).
     ///
     /// # Errors
-    /// [`IdentificationError::ImpossibleBody`] names a nominal body without a positive definite pseudo-inertia.
+    /// [`IdentificationError::ImpossibleBody`] names a nominal body without a positive definite
+    /// pseudo-inertia.
     pub fn physical<D, E, const B: usize>(
         &self,
         arm: &BaseModel<D, E, B, V>,

@@ -12,12 +12,13 @@ use motion_control::Reference;
 /// q_j(t) = c_j + Σ_{h=1..H} (a_jh sin(h ω t) + b_jh cos(h ω t))      ω = 2π / T
 /// ```
 ///
-/// Its velocity and acceleration are derivatives of the same coefficients, so that a series that is fitted to measured positions
-/// gives both without a difference of measurements.
+/// Its velocity and acceleration are derivatives of the same coefficients, so that a series that is
+/// fitted to measured positions gives both without a difference of measurements.
 ///
 /// # Source
-/// Swevers, Ganseman, Tükel, de Schutter & Van Brussel, "Optimal robot excitation and identification" (1997), (5) to (7), with
-/// amplitudes of positions in place of those of velocities.
+/// Swevers, Ganseman, Tükel, de Schutter & Van Brussel, "Optimal robot excitation and
+/// identification" (1997), (5) to (7), with amplitudes of positions in place of those of
+/// velocities.
 ///
 /// # Example
 /// ```
@@ -66,7 +67,8 @@ impl<const V: usize> FourierMotion<V> {
         state
     }
 
-    /// The series of `harmonics` harmonics that is nearest to positions at equal intervals of one period: least squares.
+    /// The series of `harmonics` harmonics that is nearest to positions at equal intervals of one
+    /// period: least squares.
     ///
     /// With n positions the noise of each coefficient is √(2/n) times that of a position.
     ///
@@ -104,7 +106,8 @@ impl<const V: usize> FourierMotion<V> {
         }
     }
 
-    /// The same motion as a reference of a controller: this many periods in ticks of this length, s, at rest at the end.
+    /// The same motion as a reference of a controller: this many periods in ticks of this length,
+    /// s, at rest at the end.
     ///
     /// ```
     /// use motion_control::Reference;

@@ -17,11 +17,11 @@ use crate::FourierMotion;
 pub struct Identified<const V: usize> {
     /// The base parameters, in the order of [`BaseModel`](crate::BaseModel).
     pub base: Vec<f64>,
-    /// Their standard deviations: within twice these of the true value are 95.4 % of the parameters, if the model is that
-    /// of the arm and the noise is normal.
+    /// Their standard deviations: within twice these of the true value are 95.4 % of the
+    /// parameters, if the model is that of the arm and the noise is normal.
     pub deviations: Vec<f64>,
-    /// The standard deviation of what the estimate does not explain, by harmonics from 0 to H and joints: of the torque of one
-    /// sample, N·m or N, if all harmonics had as much.
+    /// The standard deviation of what the estimate does not explain, by harmonics from 0 to H and
+    /// joints: of the torque of one sample, N·m or N, if all harmonics had as much.
     pub noise: Vec<[f64; V]>,
     /// The condition number of the regressor with rows relative to this noise.
     pub condition: f64,

@@ -1,4 +1,5 @@
-//! Batch identification of an arm's parameters, on the host: inertias, frictions, armatures and offsets from one recording.
+//! Batch identification of an arm's parameters, on the host: inertias, frictions, armatures and
+//! offsets from one recording.
 //!
 //! | step | here |
 //! |---|---|
@@ -13,14 +14,17 @@
 //! The recursive estimator for the tick is `motion_control::ParameterEstimator`.
 //!
 //! # Why the motion is periodic
-//! Encoders measure positions only, and differences of their steps are useless as accelerations. A periodic motion is a Fourier series
-//! in steady state: fitted to all samples of all periods it has the velocity and the acceleration as exact derivatives, with the noise of
-//! n positions reduced by √(2/n) a coefficient. Noise in the regressor, which biases least squares, is then negligible. Torques are
-//! projected on the same harmonics, so that what the series lacks of faster motion is missing from both sides.
+//! Encoders measure positions only, and differences of their steps are useless as accelerations. A
+//! periodic motion is a Fourier series in steady state: fitted to all samples of all periods it has
+//! the velocity and the acceleration as exact derivatives, with the noise of n positions reduced by
+//! √(2/n) a coefficient. Noise in the regressor, which biases least squares, is then negligible.
+//! Torques are projected on the same harmonics, so that what the series lacks of faster motion is
+//! missing from both sides.
 //!
 //! # Assumptions
-//! The noise of the torque of a joint is independent of that of other joints and, within bands of harmonics, of the motion; it need not
-//! be white. The motion repeats: the first period is not recorded. The geometry is exact.
+//! The noise of the torque of a joint is independent of that of other joints and, within bands of
+//! harmonics, of the motion; it need not be white. The motion repeats: the first period is not
+//! recorded. The geometry is exact.
 //!
 //! # Example
 //! ```

@@ -28,8 +28,8 @@ pub struct ExcitationLimits<const V: usize> {
     pub velocity: [f64; V],
     /// Greatest |q̈|, rad/s² or m/s².
     pub acceleration: [f64; V],
-    /// Greatest torque of the nominal rigid bodies, N·m or N, without friction and armatures. The rows of each joint are relative to
-    /// it before their noise is known.
+    /// Greatest torque of the nominal rigid bodies, N·m or N, without friction and armatures. The
+    /// rows of each joint are relative to it before their noise is known.
     pub torque: [f64; V],
 }
 
@@ -45,12 +45,14 @@ impl<const V: usize> ExcitationLimits<V> {
                 .all(positive)
     }
 
-    /// The motion of this form that begins at rest and reaches at least one limit of each joint but exceeds none.
+    /// The motion of this form that begins at rest and reaches at least one limit of each joint but
+    /// exceeds none.
     ///
-    /// The form has any amplitudes, of which those of the motion are the nearest that start without velocity and acceleration, times
-    /// a factor; `place` from 0 to 1 selects where the swing is within the room that the positions leave. A joint whose form is zero
-    /// rests in the middle. Between samples a trigonometric polynomial of degree H exceeds the largest of m > 2 H samples by no
-    /// more than the factor 1/cos(πH/m): Ehlich & Zeller (1964).
+    /// The form has any amplitudes, of which those of the motion are the nearest that start without
+    /// velocity and acceleration, times a factor; `place` from 0 to 1 selects where the swing is
+    /// within the room that the positions leave. A joint whose form is zero rests in the middle.
+    /// Between samples a trigonometric polynomial of degree H exceeds the largest of m > 2 H
+    /// samples by no more than the factor 1/cos(πH/m): Ehlich & Zeller (1964).
     pub(crate) fn fill(&self, form: &FourierMotion<V>, place: &[f64; V]) -> FourierMotion<V> {
         let mut motion = FourierMotion {
             centre: [0.0; V],

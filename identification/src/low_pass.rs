@@ -1,8 +1,9 @@
 //! A low-pass filter without delay, and the derivatives of what it lets pass.
 //!
-//! The samples are convolved with a Gaussian and with its derivatives, so that velocity and acceleration are those of the filtered
-//! position exactly: Canny, "A computational approach to edge detection" (1986), section IV; as a filter it needs the samples of
-//! both sides and is for recordings only.
+//! The samples are convolved with a Gaussian and with its derivatives, so that velocity and
+//! acceleration are those of the filtered position exactly: Canny, "A computational approach to
+//! edge detection" (1986), section IV; as a filter it needs the samples of both sides and is for
+//! recordings only.
 
 use std::f64::consts::{LN_2, TAU};
 
@@ -23,7 +24,8 @@ impl LowPass {
         LN_2.sqrt() / (TAU * cutoff)
     }
 
-    /// A filter of this standard deviation, in ticks, whose output is that of a time `delay` ticks after the middle sample.
+    /// A filter of this standard deviation, in ticks, whose output is that of a time `delay` ticks
+    /// after the middle sample.
     pub fn new(width: f64, delay: f64) -> Self {
         let reach = (REACH * width + delay.abs()).ceil() as usize;
         let x = |i: usize| i as f64 - reach as f64 - delay;

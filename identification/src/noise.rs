@@ -2,15 +2,17 @@
 
 use crate::solved::Solved;
 
-/// The least noise relative to a joint's torque: without any, as of a simulation, weights are finite.
+/// The least noise relative to a joint's torque: without any, as of a simulation, weights are
+/// finite.
 const LEAST: f64 = 1e-9;
-/// No harmonic has less than this share of the mean square of all: more weight than that would be no gain.
+/// No harmonic has less than this share of the mean square of all: more weight than that would be
+/// no gain.
 const SHARE: f64 = 0.01;
 /// Harmonics before and after one of which the squares of residuals are averaged.
 const WINDOW: usize = 10;
 
-/// The variance σ² = s₀ + s₁ (h/H)⁴ of each joint in harmonic h, of the mean period: of torques, and of accelerations from noisy
-/// positions, which grow with h².
+/// The variance σ² = s₀ + s₁ (h/H)⁴ of each joint in harmonic h, of the mean period: of torques,
+/// and of accelerations from noisy positions, which grow with h².
 pub(crate) struct Noise<const V: usize> {
     squares: [[f64; 2]; V],
     harmonics: usize,
@@ -43,8 +45,9 @@ impl<const V: usize> Noise<V> {
 
     /// To what residuals imply, and returns the largest relative change of a joint's noise.
     ///
-    /// The expected square of a residual is σ² (1 − leverage), its variance 2 σ⁴ (1 − leverage)²: weighted least squares of the
-    /// squares by both components, neither of which is negative. An iteration of this is Fisher's scoring.
+    /// The expected square of a residual is σ² (1 − leverage), its variance 2 σ⁴ (1 − leverage)²:
+    /// weighted least squares of the squares by both components, neither of which is negative. An
+    /// iteration of this is Fisher's scoring.
     pub(crate) fn update(&mut self, solved: &Solved, torques: &[f64; V]) -> f64 {
         let mut change = 0.0_f64;
         for (j, torque) in torques.iter().enumerate() {

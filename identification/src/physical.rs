@@ -1,11 +1,13 @@
 //! Parameters of all bodies and joints that are possible and nearest to an estimate.
 //!
-//! The pseudo-inertia of a body J = L X Lᵀ, with that of the nominal body L Lᵀ, is positive definite if X is. X is 1 at the nominal
-//! model, and the norm of its change is the affine-invariant metric there: Lee, Wensing & Park, "Geometric robot dynamic identification:
-//! a convex programming approach" (2020). What is minimised is convex: the squares of the estimate's errors relative to its covariance
-//! and of the changes relative to their stated size, over X ⪰ margin and joints' parameters ≥ margin (Sousa & Cortesão, "Physical
-//! feasibility of robot base inertial parameter identification: a linear matrix inequality approach", 2014). By the alternating
-//! direction method of multipliers: Boyd et al. (2011), (3.2) to (3.4).
+//! The pseudo-inertia of a body J = L X Lᵀ, with that of the nominal body L Lᵀ, is positive
+//! definite if X is. X is 1 at the nominal model, and the norm of its change is the
+//! affine-invariant metric there: Lee, Wensing & Park, "Geometric robot dynamic identification: a
+//! convex programming approach" (2020). What is minimised is convex: the squares of the estimate's
+//! errors relative to its covariance and of the changes relative to their stated size, over X ⪰
+//! margin and joints' parameters ≥ margin (Sousa & Cortesão, "Physical feasibility of robot base
+//! inertial parameter identification: a linear matrix inequality approach", 2014). By the
+//! alternating direction method of multipliers: Boyd et al. (2011), (3.2) to (3.4).
 
 use dynamics_core::effects::Effect;
 use dynamics_core::model::RobotModel;
@@ -14,11 +16,12 @@ use nalgebra::{DMatrix, DVector, Matrix4};
 use crate::columns::OF_JOINT;
 use crate::{BaseModel, IdentificationError, Identified};
 
-/// The share of the nominal pseudo-inertia and friction that remains in all directions: more than that of
-/// [`PhysicalParameters`](motion_control::PhysicalParameters), so that rounding to f32 leaves a set possible.
+/// The share of the nominal pseudo-inertia and friction that remains in all directions: more than
+/// that of [`PhysicalParameters`](motion_control::PhysicalParameters), so that rounding to f32
+/// leaves a set possible.
 const MARGIN: f64 = 0.06;
-/// No base parameter counts as known better than to this share of its nominal deviation: without noise, in a simulation, rounding would
-/// decide.
+/// No base parameter counts as known better than to this share of its nominal deviation: without
+/// noise, in a simulation, rounding would decide.
 const LEAST: f64 = 1e-5;
 const STEPS: usize = 20_000;
 /// The change of a step, in relative units, from which on the set is final.
@@ -26,27 +29,32 @@ const FINAL: f64 = 1e-9;
 /// Offsets may be this times the torque of a joint.
 const OFFSETS: f64 = 0.1;
 
-/// Parameters that an arm can have: its bodies' pseudo-inertias are positive definite and its frictions positive.
+/// Parameters that an arm can have: its bodies' pseudo-inertias are positive definite and its
+/// frictions positive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhysicalSet<const B: usize, const V: usize> {
-    /// Ten parameters of each body, as [`inertial_parameters`](dynamics_core::algorithms::inertial_parameters).
+    /// Ten parameters of each body, as
+    /// [`inertial_parameters`](dynamics_core::algorithms::inertial_parameters).
     pub bodies: [[f64; 10]; B],
     /// Those of each joint, in the order of [`OfJoint`](crate::OfJoint).
     pub joints: [[f64; 4]; V],
-    /// The root mean square of the differences from the estimate, in standard deviations: far above one if no possible arm has the
-    /// estimate, for example because the friction of the model is another one than the arm's.
+    /// The root mean square of the differences from the estimate, in standard deviations: far above
+    /// one if no possible arm has the estimate, for example because the friction of the model is
+    /// another one than the arm's.
     pub misfit: f64,
 }
 
 impl<const V: usize> Identified<V> {
-    /// The possible parameters that agree best with the estimate and with nominal ones, if each nominal number has this relative
-    /// standard deviation: the most probable set.
+    /// The possible parameters that agree best with the estimate and with nominal ones, if each
+    /// nominal number has this relative standard deviation: the most probable set.
     ///
-    /// What the motion does not distinguish remains as near to the nominal numbers as the estimate allows. A body without mass and a
-    /// viscous friction, a Coulomb friction or an armature of zero remains so; an offset is free.
+    /// What the motion does not distinguish remains as near to the nominal numbers as the estimate
+    /// allows. A body without mass and a viscous friction, a Coulomb friction or an armature of
+    /// zero remains so; an offset is free.
     ///
     /// # Errors
-    /// [`IdentificationError::ImpossibleBody`] names a nominal body without a positive definite pseudo-inertia.
+    /// [`IdentificationError::ImpossibleBody`] names a nominal body without a positive definite
+    /// pseudo-inertia.
     pub fn physical<D, E, const B: usize>(
         &self,
         arm: &BaseModel<D, E, B, V>,
@@ -167,7 +175,8 @@ fn parameters(j: &Matrix4<f64>) -> [f64; 10] {
     ]
 }
 
-/// The places of the ten numbers of a symmetric X: those off the diagonal are times √2, so that the norms are the same.
+/// The places of the ten numbers of a symmetric X: those off the diagonal are times √2, so that the
+/// norms are the same.
 const PLACES: [(usize, usize); 10] = [
     (0, 0),
     (1, 1),
@@ -194,7 +203,8 @@ fn numbers(matrix: &Matrix4<f64>) -> [f64; 10] {
     PLACES.map(|(i, j)| matrix[(i, j)] * if i == j { 1.0 } else { 2.0_f64.sqrt() })
 }
 
-/// The parameters per unit of x: of each body L X Lᵀ, of each joint its nominal number, of an offset a share of the torque.
+/// The parameters per unit of x: of each body L X Lᵀ, of each joint its nominal number, of an
+/// offset a share of the torque.
 fn units<const B: usize, const V: usize>(
     roots: &[Option<Matrix4<f64>>; B],
     joints: &[[f64; 4]; V],

@@ -4,7 +4,8 @@ use crate::IdentificationError;
 
 /// Positions and torques of V joints at equal intervals, of whole periods of a motion that repeats.
 ///
-/// The first period after the start does not belong to it: until transients have decayed the motion does not repeat.
+/// The first period after the start does not belong to it: until transients have decayed the motion
+/// does not repeat.
 ///
 /// ```
 /// use identification::{IdentificationError, Recording};
@@ -24,11 +25,12 @@ pub struct Recording<const V: usize> {
 }
 
 impl<const V: usize> Recording<V> {
-    /// Positions, rad or m, and torques, N·m or N, with this many samples in `each` period, and this interval between them, s.
+    /// Positions, rad or m, and torques, N·m or N, with this many samples in `each` period, and
+    /// this interval between them, s.
     ///
     /// # Errors
-    /// [`IdentificationError`] if there are not as many positions as torques, if they are not of whole periods, or if a number is
-    /// not finite.
+    /// [`IdentificationError`] if there are not as many positions as torques, if they are not of
+    /// whole periods, or if a number is not finite.
     pub fn try_new(
         positions: Vec<[f64; V]>,
         torques: Vec<[f64; V]>,

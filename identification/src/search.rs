@@ -1,4 +1,5 @@
-//! The excitation whose regressor has the least condition number: random restarts and a local search.
+//! The excitation whose regressor has the least condition number: random restarts and a local
+//! search.
 
 use dynamics_core::algorithms::rnea;
 use dynamics_core::effects::Effect;
@@ -8,14 +9,16 @@ use crate::{BaseModel, FourierMotion};
 
 /// How an excitation is searched.
 ///
-/// From the best of some random series of each start, random changes of all amplitudes that reduce the condition number are kept;
-/// their size follows the one-fifth rule. Every motion that is tried uses the limits fully, so that the condition number compares
-/// forms. The same seed gives the same motion.
+/// From the best of some random series of each start, random changes of all amplitudes that reduce
+/// the condition number are kept; their size follows the one-fifth rule. Every motion that is tried
+/// uses the limits fully, so that the condition number compares forms. The same seed gives the same
+/// motion.
 ///
 /// # Source
-/// Swevers et al. (1997), section IV, with the condition number of the regressor with scaled columns, after Gautier & Khalil,
-/// "Exciting trajectories for the identification of base inertial parameters of robots" (1992); Rechenberg's one-fifth rule in
-/// the form of Kern et al., "Learning probability distributions in continuous evolutionary algorithms" (2004).
+/// Swevers et al. (1997), section IV, with the condition number of the regressor with scaled
+/// columns, after Gautier & Khalil, "Exciting trajectories for the identification of base inertial
+/// parameters of robots" (1992); Rechenberg's one-fifth rule in the form of Kern et al., "Learning
+/// probability distributions in continuous evolutionary algorithms" (2004).
 ///
 /// # Example
 /// ```
@@ -84,8 +87,8 @@ struct Form<const V: usize> {
 impl Search {
     /// The best motion; `None` if no motion that was tried keeps the torques' limits and is clear.
     ///
-    /// `clear` says whether a configuration is allowed beyond the limits of the joints, such as clear of the table. `report` is called
-    /// after each motion that was tried.
+    /// `clear` says whether a configuration is allowed beyond the limits of the joints, such as
+    /// clear of the table. `report` is called after each motion that was tried.
     ///
     /// # Panics
     /// With fewer than three harmonics, which leave no motion that starts at rest.

@@ -2,9 +2,11 @@
 
 use crate::IdentificationError;
 
-/// Positions and torques of V joints in consecutive ticks, of one or several uninterrupted stretches of any motion.
+/// Positions and torques of V joints in consecutive ticks, of one or several uninterrupted
+/// stretches of any motion.
 ///
-/// The motion need not repeat; that of a [`Recording`](crate::Recording) does, whose evaluation is the more exact one.
+/// The motion need not repeat; that of a [`Recording`](crate::Recording) does, whose evaluation is
+/// the more exact one.
 ///
 /// ```
 /// use identification::{IdentificationError, TickRecording};
@@ -37,7 +39,8 @@ impl<const V: usize> TickRecording<V> {
     /// Positions, rad or m, and torques, N·m or N, of each stretch, in ticks of this length, s.
     ///
     /// # Errors
-    /// [`IdentificationError`] if a stretch has not as many positions as torques, or if a number is not finite.
+    /// [`IdentificationError`] if a stretch has not as many positions as torques, or if a number is
+    /// not finite.
     pub fn try_new(stretches: Vec<Samples<V>>, tick: f64) -> Result<Self, IdentificationError> {
         if !(tick > 0.0 && tick.is_finite()) {
             return Err(IdentificationError::Interval);
@@ -103,7 +106,8 @@ impl<const V: usize> TickRecording<V> {
         self.tick
     }
 
-    /// The least and the greatest position of each joint, rad or m, and its greatest torque, N·m or N.
+    /// The least and the greatest position of each joint, rad or m, and its greatest torque, N·m or
+    /// N.
     #[must_use]
     pub fn extremes(&self) -> [[f64; 3]; V] {
         let mut found = [[f64::INFINITY, f64::NEG_INFINITY, 0.0_f64]; V];
@@ -117,7 +121,8 @@ impl<const V: usize> TickRecording<V> {
         found
     }
 
-    /// The greatest speed and acceleration of each joint, by differences over 20 ticks, rad/s and rad/s², or with m.
+    /// The greatest speed and acceleration of each joint, by differences over 20 ticks, rad/s and
+    /// rad/s², or with m.
     #[must_use]
     pub fn rates(&self) -> [[f64; V]; 2] {
         const APART: usize = 20;

@@ -1,4 +1,5 @@
-//! Puts the oracle's recorded states and torques (inputs only) where `recorded` and `hard` include them.
+//! Puts the oracle's recorded states and torques (inputs only) where `recorded` and `hard` include
+//! them.
 
 use std::fmt::Write;
 use std::{env, error::Error, fs, path::PathBuf};

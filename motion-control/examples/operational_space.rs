@@ -12,10 +12,12 @@ use motion_control::{TaskCommand, TaskFrame, hybrid_motion_force};
 
 const HAND: usize = 5; // the last of the UR5e's six bodies
 
-/// The torques of a tick: motion along x and y, a force along z, and the joints' remaining motion damped, N·m.
+/// The torques of a tick: motion along x and y, a force along z, and the joints' remaining motion
+/// damped, N·m.
 fn control(arm: &State<f32, 6, 6>) -> Result<[f32; 6], NotPositiveDefinite> {
     let directions = TaskFrame::BASE.place(); // x, y and z of the hand's origin, in the base's axes
-    // Near a singular configuration the inertia of the task is damped; it is finite in every configuration.
+    // Near a singular configuration the inertia of the task is damped; it is finite in every
+    // configuration.
     let damping = Damping::relative(1e-3);
     let (arm_model, hand) = (&Ur5e::MODEL_F32, (HAND, frame::LocalWorldAligned));
     let task = operational_space(arm_model, &arm.q, hand, &directions, &RIGID_BODY, damping)?;

@@ -1,5 +1,5 @@
-//! Motion control of robot arms on a microcontroller: reference, estimate, control law, and the safety gate that every
-//! command passes; in f32 or f64, with no heap, no panic and no `unsafe`.
+//! Motion control of robot arms on a microcontroller: reference, estimate, control law, and the
+//! safety gate that every command passes; in f32 or f64, with no heap, no panic and no `unsafe`.
 //!
 //! | item | purpose | memory |
 //! |---|---|---|
@@ -33,31 +33,31 @@
 //! | [`Circles`], [`OnCircles`] | which joints are points on a circle: the short way, at any number of turns | none |
 //! | [`BackOff`] | the return of an arm that is beyond its bounds | how far it has come back |
 //!
-//! Types with a configuration struct have a `try_new`, which checks the struct, and a `new` for constants, which does
-//! not.
+//! Types with a configuration struct have a `try_new`, which checks the struct, and a `new` for
+//! constants, which does not.
 //!
-//! Time is counted in integer ticks of one nominal length; nothing divides by a measured interval. Items without memory
-//! give the same bits for the same inputs at any time; items with memory never store a value that they reject. None of
-//! them panics or returns NaN.
+//! Time is counted in integer ticks of one nominal length; nothing divides by a measured interval.
+//! Items without memory give the same bits for the same inputs at any time; items with memory never
+//! store a value that they reject. None of them panics or returns NaN.
 //!
-//! Cargo features, off by default, neither of which changes a number: `defmt` for faults, modes, status, commands and errors;
-//! `serde` for limits, gains, configurations and way-points.
+//! Cargo features, off by default, neither of which changes a number: `defmt` for faults, modes,
+//! status, commands and errors; `serde` for limits, gains, configurations and way-points.
 //!
 //! The control loop of an arm:
 //!
 //! ```
 #![doc = include_str!("example.rs")]
 //!
-//! let stop = |q, ticks| WayPoint { q, qd: [0.0; 6], ticks };
-//! let (home, away) = ([0.0, -1.57, 1.57, -1.57, -1.57, 0.0], [1.0, -1.2, 1.4, -1.57, -1.57, 0.0]);
-//! let speeds = [MotionLimits { velocity: 3.0, acceleration: 10.0 }; 6];
-//! let trajectory = Trajectory::new(&[stop(home, 0), stop(away, 1000)], TICK, &speeds)?;
-//! let torque = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];
-//! let limits = SafetyLimits { torque, rate: torque, speed: [3.2; 6], lower: [-6.3; 6], upper: [6.3; 6] };
+//! let stop = |q, ticks| WayPoint { q, qd: [0.0; 6], ticks }; let (home, away) = ([0.0, -1.57,
+//! 1.57, -1.57, -1.57, 0.0], [1.0, -1.2, 1.4, -1.57, -1.57, 0.0]); let speeds = [MotionLimits {
+//! velocity: 3.0, acceleration: 10.0 }; 6]; let trajectory = Trajectory::new(&[stop(home, 0),
+//! stop(away, 1000)], TICK, &speeds)?; let torque = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0]; let
+//! limits = SafetyLimits { torque, rate: torque, speed: [3.2; 6], lower: [-6.3; 6], upper: [6.3; 6]
+//! };
 //!
-//! let (mut controller, gains) = (controller(limits)?, gains(&home));
-//! // Each tick: from what the encoders latched in the tick before to what goes to drives and brake.
-//! for measured in [Ok(&home), Ok(&home), Err(Fault::Encoder { joint: 2 })] {
+//! let (mut controller, gains) = (controller(limits)?, gains(&home)); // Each tick: from what the
+//! encoders latched in the tick before to what goes to drives and brake. for measured in
+//! [Ok(&home), Ok(&home), Err(Fault::Encoder { joint: 2 })] {
 //!     let command = controller.tick(measured, &trajectory, |reference, estimate| {
 //!         law(&gains, reference, estimate)
 //!     });

@@ -1,5 +1,5 @@
-//! serde's traits for the configurations that firmware stores in flash, for the feature `serde`: their form is that of
-//! dynamics-core's.
+//! serde's traits for the configurations that firmware stores in flash, for the feature `serde`:
+//! their form is that of dynamics-core's.
 
 use dynamics_core::scalar::Real;
 use dynamics_core::serde_form::{Array, Form};

@@ -175,8 +175,8 @@ fn within_half_a_turn(angle: f64) -> f64 {
     sin.atan2(cos)
 }
 
-/// The places of the positions of a robot's joints, of kinds and limits; and the velocities that are
-/// rates of attitudes.
+/// The places of the positions of a robot's joints, of kinds and limits; and the velocities that
+/// are rates of attitudes.
 pub fn of_joints(
     joints: impl Iterator<Item = (JointKind, [f64; 4])>,
 ) -> (Vec<Position>, Vec<Position>) {

@@ -10,8 +10,9 @@ use robot_dynamics_kernels::spec::{BodyRef, Spec};
 
 /// Effects that act together on a robot.
 ///
-/// An effect such as ``Gravity()`` is a scene of one; ``a + b`` has the effects of both. A function that takes a scene
-/// takes a tuple of scenes, too. Two effects of a kind that cannot mean two things are refused, as in the library.
+/// An effect such as ``Gravity()`` is a scene of one; ``a + b`` has the effects of both. A function
+/// that takes a scene takes a tuple of scenes, too. Two effects of a kind that cannot mean two
+/// things are refused, as in the library.
 #[pyclass(frozen, module = "robot_dynamics", name = "Scene", eq)]
 #[derive(Clone, PartialEq)]
 pub struct PyScene {
@@ -165,7 +166,8 @@ fn body(py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<BodyRef> {
     })
 }
 
-/// Refuses numbers that are not finite: a scene is a constant, and NaN in it would be in every result.
+/// Refuses numbers that are not finite: a scene is a constant, and NaN in it would be in every
+/// result.
 fn finite(py: Python<'_>, scene: PyScene, values: &[&[f64]]) -> PyResult<PyScene> {
     if values.iter().all(|list| list.iter().all(|x| x.is_finite())) {
         return Ok(scene);
@@ -230,8 +232,8 @@ fn coriolis() -> PyScene {
     PyScene::of(Spec::Coriolis)
 }
 
-/// A base that moves: spatial velocity (rad/s, m/s) and acceleration (rad/s², m/s²), angular part first, at its origin
-/// and in its axes.
+/// A base that moves: spatial velocity (rad/s, m/s) and acceleration (rad/s², m/s²), angular part
+/// first, at its origin and in its axes.
 #[pyfunction(name = "MovingBase")]
 #[pyo3(signature = (velocity, acceleration))]
 fn moving_base(
@@ -256,7 +258,8 @@ fn viscous(
     finite(py, scene, &[&coefficients])
 }
 
-/// Dry friction: the torque of each velocity coordinate, N·m or N, which is full beyond the speed ``width``, rad/s or m/s.
+/// Dry friction: the torque of each velocity coordinate, N·m or N, which is full beyond the speed
+/// ``width``, rad/s or m/s.
 #[pyfunction(name = "Coulomb")]
 fn coulomb(
     py: Python<'_>,
@@ -288,7 +291,8 @@ fn asymmetric_coulomb(
     finite(py, scene, &[&forward, &backward])
 }
 
-/// The excess of friction at low speed, N·m or N, which falls with the speed ``stribeck_speed``; widths rad/s or m/s.
+/// The excess of friction at low speed, N·m or N, which falls with the speed ``stribeck_speed``;
+/// widths rad/s or m/s.
 #[pyfunction(name = "Stribeck")]
 fn stribeck(
     py: Python<'_>,
@@ -305,8 +309,9 @@ fn stribeck(
     finite(py, scene, &[&excess])
 }
 
-/// The LuGre model at a given deflection of its bristles, rad or m: stiffness, damping, viscous, sliding and excess of
-/// each velocity coordinate. The bristles stand still here; a simulation advances them.
+/// The LuGre model at a given deflection of its bristles, rad or m: stiffness, damping, viscous,
+/// sliding and excess of each velocity coordinate. The bristles stand still here; a simulation
+/// advances them.
 #[pyfunction(name = "Lugre")]
 #[allow(
     clippy::too_many_arguments,
@@ -331,7 +336,8 @@ fn lugre(
     finite(py, scene, &values.each_ref().map(Vec::as_slice))
 }
 
-/// Friction of gears that grows with the load: the factors when driving and when driven, and a width, rad/s or m/s.
+/// Friction of gears that grows with the load: the factors when driving and when driven, and a
+/// width, rad/s or m/s.
 #[pyfunction(name = "LoadFriction")]
 fn load_friction(
     py: Python<'_>,
@@ -362,8 +368,8 @@ fn spring(
     finite(py, scene, &[&stiffness, &rest])
 }
 
-/// Stops at both ends of each joint: positions rad or m, stiffness N·m/rad, damping N·m·s/rad from a depth of
-/// ``damping_depth`` rad on.
+/// Stops at both ends of each joint: positions rad or m, stiffness N·m/rad, damping N·m·s/rad from
+/// a depth of ``damping_depth`` rad on.
 #[pyfunction(name = "EndStops")]
 fn end_stops(
     py: Python<'_>,
@@ -427,10 +433,12 @@ fn armature(py: Python<'_>, #[pyo3(from_py_with = wanted)] inertia: Vec<f64>) ->
     )
 }
 
-/// Rotors that spin on the links before their joints: moment of inertia of each about its axis, kg·m², and the ratio of
-/// its gear, rad of the rotor per rad or m of the joint, negative for the opposite sense; zeros where there is none.
+/// Rotors that spin on the links before their joints: moment of inertia of each about its axis,
+/// kg·m², and the ratio of its gear, rad of the rotor per rad or m of the joint, negative for the
+/// opposite sense; zeros where there is none.
 ///
-/// `Armature` of I ρ² has their inertia at the joints alone. `centroidal_matrix` and `osim_inverse` do not take them.
+/// `Armature` of I ρ² has their inertia at the joints alone. `centroidal_matrix` and `osim_inverse`
+/// do not take them.
 #[pyfunction(name = "GyroscopicRotors")]
 fn gyroscopic_rotors(
     py: Python<'_>,
@@ -444,7 +452,8 @@ fn gyroscopic_rotors(
     finite(py, scene, &[&inertia, &ratio])
 }
 
-/// A load on a body: mass kg, centre of mass m in the body's frame, inertia about it (xx, xy, xz, yy, yz, zz) kg·m².
+/// A load on a body: mass kg, centre of mass m in the body's frame, inertia about it (xx, xy, xz,
+/// yy, yz, zz) kg·m².
 #[pyfunction(name = "Payload")]
 #[pyo3(signature = (body, mass, com = [0.0; 3], inertia = [0.0; 6]))]
 fn payload(

@@ -23,11 +23,12 @@ fn refused(py: Python<'_>, link: &str, mode: usize, problem: &str) -> PyErr {
         .build()
 }
 
-/// One assumed mode of a link: a displacement φ(r) η of every point r, in the frame of the link's joint, with which it
-/// is clamped there.
+/// One assumed mode of a link: a displacement φ(r) η of every point r, in the frame of the link's
+/// joint, with which it is clamped there.
 ///
-/// ``momentum``: ∫ φ dm; ``moments``: ∫ φ rᵀ dm by rows of φ; ``shift`` and ``turn``: φ and the rotation ½ curl φ at the
-/// link's end. φ has no unit where η is in m, and m/rad where it is in rad; masses in kg.
+/// ``momentum``: ∫ φ dm; ``moments``: ∫ φ rᵀ dm by rows of φ; ``shift`` and ``turn``: φ and the
+/// rotation ½ curl φ at the link's end. φ has no unit where η is in m, and m/rad where it is in
+/// rad; masses in kg.
 #[pyclass(frozen, module = "robot_dynamics", name = "Mode")]
 #[derive(Clone)]
 pub struct PyMode(Mode);
@@ -50,9 +51,9 @@ impl PyMode {
     }
 }
 
-/// A link that bends: its body by name or number, its end in the frame of its joint, m, on which its children stand,
-/// up to 6 modes, and of each pair of modes the products ∫ φ φᵀ dm (n, n, 3, 3), stiffness, N/m or N·m/rad, and damping,
-/// N·s/m or N·m·s/rad, each (n, n).
+/// A link that bends: its body by name or number, its end in the frame of its joint, m, on which
+/// its children stand, up to 6 modes, and of each pair of modes the products ∫ φ φᵀ dm (n, n, 3,
+/// 3), stiffness, N/m or N·m/rad, and damping, N·s/m or N·m·s/rad, each (n, n).
 #[pyclass(frozen, module = "robot_dynamics", name = "FlexibleLink")]
 pub struct PyFlexibleLink {
     body: Py<PyAny>,
@@ -92,9 +93,9 @@ impl PyFlexibleLink {
     }
 }
 
-/// A uniform beam along x: length, m, and mass per length, kg/m; bending stiffness in the planes of y and z and torsion
-/// stiffness, N·m²; the sections' second moments of mass, kg·m; a tip's mass, kg, and inertia, kg·m²; the damping ratio
-/// of its modes.
+/// A uniform beam along x: length, m, and mass per length, kg/m; bending stiffness in the planes of
+/// y and z and torsion stiffness, N·m²; the sections' second moments of mass, kg·m; a tip's mass,
+/// kg, and inertia, kg·m²; the damping ratio of its modes.
 #[pyclass(frozen, module = "robot_dynamics", name = "Beam")]
 pub struct PyBeam(Beam);
 
@@ -136,8 +137,8 @@ impl PyBeam {
         self.0.inertia()
     }
 
-    /// The link of a body with modes by their shapes, such as ``[("bend_z", 1), ("twist", 1)]``: "bend_y", "bend_z" or
-    /// "twist", counted from 1.
+    /// The link of a body with modes by their shapes, such as ``[("bend_z", 1), ("twist", 1)]``:
+    /// "bend_y", "bend_z" or "twist", counted from 1.
     fn link(
         &self,
         py: Python<'_>,
@@ -160,9 +161,11 @@ impl PyBeam {
     }
 }
 
-/// A robot with links that bend, of up to 8 modes in all. The links' stiffness and damping act in every scene.
+/// A robot with links that bend, of up to 8 modes in all. The links' stiffness and damping act in
+/// every scene.
 ///
-/// Shapes: nm is the number of modes, in the order of the bodies. η of a mode is in m or rad, as its shape is scaled.
+/// Shapes: nm is the number of modes, in the order of the bodies. η of a mode is in m or rad, as
+/// its shape is scaled.
 #[pyclass(frozen, module = "robot_dynamics", name = "FlexibleRobot")]
 pub struct PyFlexibleRobot {
     robot: Py<Robot>,
@@ -228,8 +231,9 @@ impl PyFlexibleRobot {
         self.modes.count
     }
 
-    /// Inverse dynamics: the torques of the joints (…, nv), N·m or N, and the forces on the modes (…, nm), N or N·m,
-    /// which are zero where the modes move freely; q (…, nq), q̇ and q̈ (…, nv), η, η̇ and η̈ (…, nm).
+    /// Inverse dynamics: the torques of the joints (…, nv), N·m or N, and the forces on the modes
+    /// (…, nm), N or N·m, which are zero where the modes move freely; q (…, nq), q̇ and q̈ (…, nv),
+    /// η, η̇ and η̈ (…, nm).
     #[pyo3(signature = (q, qd, qdd, eta, etad, etadd, effects = None))]
     #[allow(clippy::too_many_arguments, reason = "the state of joints and modes")]
     fn rnea<'py>(
@@ -262,8 +266,8 @@ impl PyFlexibleRobot {
         )
     }
 
-    /// The inertia of joints and modes in blocks: of joints (…, nv, nv), between modes and joints (…, nm, nv), and of
-    /// modes (…, nm, nm), kg, kg·m or kg·m²; q (…, nq), η (…, nm).
+    /// The inertia of joints and modes in blocks: of joints (…, nv, nv), between modes and joints
+    /// (…, nm, nv), and of modes (…, nm, nm), kg, kg·m or kg·m²; q (…, nq), η (…, nm).
     #[pyo3(signature = (q, eta, effects = None))]
     fn crba<'py>(
         &self,
@@ -279,8 +283,8 @@ impl PyFlexibleRobot {
         self.several(py, which, effects, &[of.q(q), self.m("eta", eta)], results)
     }
 
-    /// The natural frequencies of the modes with the joints clamped (…, nm), rad/s, in ascending order; q (…, nq),
-    /// η (…, nm).
+    /// The natural frequencies of the modes with the joints clamped (…, nm), rad/s, in ascending
+    /// order; q (…, nq), η (…, nm).
     #[pyo3(signature = (q, eta, effects = None))]
     fn frequencies<'py>(
         &self,
@@ -296,8 +300,8 @@ impl PyFlexibleRobot {
         found.get_item(0)
     }
 
-    /// Forward dynamics: q̈ (…, nv), rad/s² or m/s², and η̈ (…, nm), m/s² or rad/s², for q (…, nq), q̇ and τ (…, nv), η
-    /// and η̇ (…, nm).
+    /// Forward dynamics: q̈ (…, nv), rad/s² or m/s², and η̈ (…, nm), m/s² or rad/s², for q (…, nq),
+    /// q̇ and τ (…, nv), η and η̇ (…, nm).
     #[pyo3(signature = (q, qd, tau, eta, etad, effects = None))]
     #[allow(clippy::too_many_arguments, reason = "the state of joints and modes")]
     fn forward_dynamics<'py>(
@@ -328,8 +332,8 @@ impl PyFlexibleRobot {
         )
     }
 
-    /// η̈ (…, nm), m/s² or rad/s², along a motion of the joints, q (…, nq), q̇ and q̈ (…, nv), whatever torques it takes;
-    /// η and η̇ (…, nm).
+    /// η̈ (…, nm), m/s² or rad/s², along a motion of the joints, q (…, nq), q̇ and q̈ (…, nv),
+    /// whatever torques it takes; η and η̇ (…, nm).
     #[pyo3(signature = (q, qd, qdd, eta, etad, effects = None))]
     #[allow(clippy::too_many_arguments, reason = "the state of joints and modes")]
     fn modal_dynamics<'py>(
@@ -371,8 +375,9 @@ impl PyFlexibleRobot {
         found.get_item(0)
     }
 
-    /// A tick of feed-forward of h seconds: the torques (…, nv), N·m or N, at which the joints' motion is a reference, q
-    /// (…, nq), q̇ and q̈ (…, nv), and η, η̇ and η̈ (…, nm) of the modes after it, from those before.
+    /// A tick of feed-forward of h seconds: the torques (…, nv), N·m or N, at which the joints'
+    /// motion is a reference, q (…, nq), q̇ and q̈ (…, nv), and η, η̇ and η̈ (…, nm) of the modes
+    /// after it, from those before.
     #[pyo3(signature = (q, qd, qdd, eta, etad, etadd, h, effects = None))]
     #[allow(clippy::too_many_arguments, reason = "the state of joints and modes")]
     fn tick<'py>(

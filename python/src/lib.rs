@@ -1,4 +1,5 @@
-//! The extension module `robot_dynamics._native`: the algorithms of `dynamics-core` over numpy's arrays.
+//! The extension module `robot_dynamics._native`: the algorithms of `dynamics-core` over numpy's
+//! arrays.
 
 mod angles;
 mod arrays;

@@ -77,10 +77,11 @@ fn branch(positive: bool) -> Branch {
     }
 }
 
-/// A planar four-bar: the lengths, m, of ground, crank, coupler and rocker; the coordinates are the angles of crank,
-/// coupler on the crank, and rocker. ``positive``: of the two ways to assemble it, that in which the coupler's joint on
-/// the rocker is to the left of the line from the crank's end to the rocker's joint. ``zeros``, rad: the angle of each
-/// link at q = 0 from the ground, and of the coupler from the crank.
+/// A planar four-bar: the lengths, m, of ground, crank, coupler and rocker; the coordinates are the
+/// angles of crank, coupler on the crank, and rocker. ``positive``: of the two ways to assemble it,
+/// that in which the coupler's joint on the rocker is to the left of the line from the crank's end
+/// to the rocker's joint. ``zeros``, rad: the angle of each link at q = 0 from the ground, and of
+/// the coupler from the crank.
 #[pyfunction(name = "FourBar")]
 #[pyo3(signature = (ground, crank, coupler, rocker, positive = true, zeros = [0.0; 3]))]
 fn four_bar(
@@ -99,8 +100,8 @@ fn four_bar(
     })
 }
 
-/// A planar five-bar: the distance of the cranks, m, and the lengths of crank and rod of each; the coordinates are the
-/// angles of crank, rod, other crank and other rod.
+/// A planar five-bar: the distance of the cranks, m, and the lengths of crank and rod of each; the
+/// coordinates are the angles of crank, rod, other crank and other rod.
 #[pyfunction(name = "FiveBar")]
 #[pyo3(signature = (ground, first, second, positive = true, zeros = [0.0; 4]))]
 fn five_bar(
@@ -118,7 +119,8 @@ fn five_bar(
     })
 }
 
-/// A differential of two motors: half the sum and half the difference of their angles, over the two ratios.
+/// A differential of two motors: half the sum and half the difference of their angles, over the two
+/// ratios.
 #[pyfunction(name = "Differential")]
 fn differential(
     py: Python<'_>,
@@ -129,7 +131,8 @@ fn differential(
     })
 }
 
-/// A belt or gear: the driven angle as a polynomial of the driving one, up to 8 coefficients from the constant on.
+/// A belt or gear: the driven angle as a polynomial of the driving one, up to 8 coefficients from
+/// the constant on.
 #[pyfunction(name = "Belt")]
 fn belt(
     py: Python<'_>,
@@ -146,8 +149,9 @@ fn belt(
 /// Three points, a length and a sign.
 type RodNumbers = ([f64; 3], [f64; 3], [f64; 3], f64, bool);
 
-/// An ankle of pitch and roll that two cranks drive by rods. Of each rod: the joint of its crank, the crank's end and
-/// the rod's end on the foot, m, its length, m, and whether its root is positive.
+/// An ankle of pitch and roll that two cranks drive by rods. Of each rod: the joint of its crank,
+/// the crank's end and the rod's end on the foot, m, its length, m, and whether its root is
+/// positive.
 #[pyfunction(name = "ParallelAnkle")]
 fn parallel_ankle(
     py: Python<'_>,
@@ -195,11 +199,11 @@ fn stewart(
     })
 }
 
-/// A robot with linkages: ``linkages`` has of each a name, the linkage, and the velocity coordinates that it drives, or
-/// their joints, in the linkage's order.
+/// A robot with linkages: ``linkages`` has of each a name, the linkage, and the velocity
+/// coordinates that it drives, or their joints, in the linkage's order.
 ///
-/// y has, in the order of the bodies, the coordinates in no linkage, and the independent ones of each linkage in the
-/// place of its first body. Shapes: py is the number of y, ny that of ẏ.
+/// y has, in the order of the bodies, the coordinates in no linkage, and the independent ones of
+/// each linkage in the place of its first body. Shapes: py is the number of y, ny that of ẏ.
 #[pyclass(frozen, module = "robot_dynamics", name = "Linkages")]
 pub struct PyLinkages {
     robot: Py<Robot>,
@@ -299,8 +303,9 @@ impl PyLinkages {
         self.linkages.sizes[1]
     }
 
-    /// The motion of the tree: q (…, nq), q̇ and q̈ (…, nv), rad and m, G (…, nv, ny) with q̇ = G ẏ, and whether a linkage
-    /// is near a singularity, where G is damped, (…), 1 or 0; y (…, py), ẏ and ÿ (…, ny).
+    /// The motion of the tree: q (…, nq), q̇ and q̈ (…, nv), rad and m, G (…, nv, ny) with q̇ = G
+    /// ẏ, and whether a linkage is near a singularity, where G is damped, (…), 1 or 0; y (…, py), ẏ
+    /// and ÿ (…, ny).
     ///
     /// Raises LinkageError with the linkage whose links do not reach each other.
     fn motion<'py>(
@@ -322,7 +327,8 @@ impl PyLinkages {
         PyTuple::new(py, self.all(py, which, &[], &given, results)?)
     }
 
-    /// Inverse dynamics: the torques at the independent coordinates (…, ny), N·m or N, for y (…, py), ẏ and ÿ (…, ny).
+    /// Inverse dynamics: the torques at the independent coordinates (…, ny), N·m or N, for y (…,
+    /// py), ẏ and ÿ (…, ny).
     ///
     /// Raises LinkageError. Scenes have Inertia and Coriolis, and no friction of gears.
     #[pyo3(signature = (y, yd, ydd, effects = None))]
@@ -343,8 +349,8 @@ impl PyLinkages {
         Ok(found.swap_remove(0))
     }
 
-    /// Forward dynamics: ÿ (…, ny), rad/s² or m/s², for y (…, py), ẏ and the torques at the independent coordinates
-    /// (…, ny), N·m or N.
+    /// Forward dynamics: ÿ (…, ny), rad/s² or m/s², for y (…, py), ẏ and the torques at the
+    /// independent coordinates (…, ny), N·m or N.
     ///
     /// Raises LinkageError. Scenes have Inertia and Coriolis, and no friction of gears.
     #[pyo3(signature = (y, yd, tau, effects = None))]

@@ -17,11 +17,12 @@ use crate::error::{Exception, wanted};
 use crate::request::Request;
 use crate::robot::{Array, Robot, argument};
 
-/// A joint that closes a loop: its name, its kind, the two bodies by name or number, None being the base, the frames on
-/// them, and its axis in these frames.
+/// A joint that closes a loop: its name, its kind, the two bodies by name or number, None being the
+/// base, the frames on them, and its axis in these frames.
 ///
-/// ``kind``: "revolute", "prismatic", "cylindrical", "planar", "spherical" or "fixed". ``xyz``, m, and ``rpy``, rad, are
-/// of the frames in those of the bodies; where the loop is closed, they differ by a motion of the joint.
+/// ``kind``: "revolute", "prismatic", "cylindrical", "planar", "spherical" or "fixed". ``xyz``, m,
+/// and ``rpy``, rad, are of the frames in those of the bodies; where the loop is closed, they
+/// differ by a motion of the joint.
 #[pyclass(frozen, module = "robot_dynamics", name = "LoopJoint")]
 pub struct PyLoopJoint {
     name: String,
@@ -81,10 +82,11 @@ fn refused(py: Python<'_>, name: &str, text: String) -> PyErr {
 
 /// A robot with kinematic loops, of any joints.
 ///
-/// ``joints`` close the loops: those of the MJCF's ``connect`` and ``weld`` if none are given. ``actuated`` has the
-/// velocity coordinates with a motor, or the names of their joints: those of the file, or all, if none are given. Within
-/// ``damped_below`` of a dead point of the motors torques are damped. Shapes: nl is the number of directions that the
-/// loops constrain, na that of actuated coordinates.
+/// ``joints`` close the loops: those of the MJCF's ``connect`` and ``weld`` if none are given.
+/// ``actuated`` has the velocity coordinates with a motor, or the names of their joints: those of
+/// the file, or all, if none are given. Within ``damped_below`` of a dead point of the motors
+/// torques are damped. Shapes: nl is the number of directions that the loops constrain, na that of
+/// actuated coordinates.
 #[pyclass(frozen, module = "robot_dynamics", name = "Loops")]
 pub struct PyLoops {
     robot: Py<Robot>,
@@ -212,8 +214,8 @@ impl PyLoops {
         self.loops.rows
     }
 
-    /// q (…, nq) near a guess q (…, nq), rad and m, at which all loops are closed. ``moving``: "passive" coordinates,
-    /// or "all".
+    /// q (…, nq) near a guess q (…, nq), rad and m, at which all loops are closed. ``moving``:
+    /// "passive" coordinates, or "all".
     ///
     /// Raises LoopOpen with the loop that stays open.
     #[pyo3(signature = (q, moving = "passive"))]
@@ -238,9 +240,10 @@ impl PyLoops {
         Ok(found.swap_remove(0))
     }
 
-    /// The constraints K q̈ = k at q (…, nq) and q̇ (…, nv): K (…, nl, nv), k (…, nl), rad/s² and m/s², and the errors
-    /// of position, rad and m, and velocity K q̇, rad/s and m/s, each (…, nl). Rows of a loop are those of rotations
-    /// before those of translations, along the successor's frame.
+    /// The constraints K q̈ = k at q (…, nq) and q̇ (…, nv): K (…, nl, nv), k (…, nl), rad/s² and
+    /// m/s², and the errors of position, rad and m, and velocity K q̇, rad/s and m/s, each (…, nl).
+    /// Rows of a loop are those of rotations before those of translations, along the successor's
+    /// frame.
     fn constraints<'py>(
         &self,
         py: Python<'py>,
@@ -257,8 +260,8 @@ impl PyLoops {
         )
     }
 
-    /// G (…, nv, na) with q̇ = G ẏ of the rates ẏ of the motors, at q (…, nq) of closed loops, and the number of degrees
-    /// of freedom (…). Columns of motors that are redundant are zero.
+    /// G (…, nv, na) with q̇ = G ẏ of the rates ẏ of the motors, at q (…, nq) of closed loops, and
+    /// the number of degrees of freedom (…). Columns of motors that are redundant are zero.
     ///
     /// Raises LoopOpen, and UnderActuated where a coordinate moves with all motors held.
     fn coordinate_map<'py>(
@@ -272,19 +275,21 @@ impl PyLoops {
         PyTuple::new(py, self.all(py, which, &[], &[of.q(q)], results)?)
     }
 
-    /// The numbers of degrees of freedom at q (…, nq) of closed loops, and at configurations near by, each (…): they
-    /// differ at a change point.
+    /// The numbers of degrees of freedom at q (…, nq) of closed loops, and at configurations near
+    /// by, each (…): they differ at a change point.
     fn mobility<'py>(&self, py: Python<'py>, q: &Array<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let (loops, of) = (&self.loops, self.robot.get());
         let which = Which::MobilityOf { loops };
         PyTuple::new(py, self.all(py, which, &[], &[of.q(q)], &[&[], &[]])?)
     }
 
-    /// Inverse dynamics: the torques of the motors (…, na), N·m or N, q̇ and q̈ of all coordinates (…, nv), the forces λ
-    /// of the loops (…, nl), N·m and N, and how many motors are redundant (…), −1 where they are near a dead point and
-    /// torques are damped; for q (…, nq) of closed loops, and the rates and accelerations of the motors, (…, na).
+    /// Inverse dynamics: the torques of the motors (…, na), N·m or N, q̇ and q̈ of all coordinates
+    /// (…, nv), the forces λ of the loops (…, nl), N·m and N, and how many motors are redundant
+    /// (…), −1 where they are near a dead point and torques are damped; for q (…, nq) of closed
+    /// loops, and the rates and accelerations of the motors, (…, na).
     ///
-    /// Raises LoopOpen, UnderActuated and NotFinite. Scenes have Inertia and Coriolis, and no friction of gears.
+    /// Raises LoopOpen, UnderActuated and NotFinite. Scenes have Inertia and Coriolis, and no
+    /// friction of gears.
     #[pyo3(signature = (q, yd, ydd, effects = None))]
     fn inverse_dynamics<'py>(
         &self,
@@ -304,11 +309,13 @@ impl PyLoops {
         PyTuple::new(py, self.all(py, which, &effects, &given, results)?)
     }
 
-    /// Forward dynamics: q̈ (…, nv), rad/s² or m/s², the forces λ of the loops (…, nl), N·m and N, and the rank of K (…);
-    /// for q (…, nq), q̇ (…, nv) and the torques of the motors (…, na), N·m or N. ``stabilisation``: of errors of
-    /// position, 1/s², and of velocity, 1/s, K q̈ = k − velocity K q̇ − position φ.
+    /// Forward dynamics: q̈ (…, nv), rad/s² or m/s², the forces λ of the loops (…, nl), N·m and N,
+    /// and the rank of K (…); for q (…, nq), q̇ (…, nv) and the torques of the motors (…, na), N·m
+    /// or N. ``stabilisation``: of errors of position, 1/s², and of velocity, 1/s, K q̈ = k −
+    /// velocity K q̇ − position φ.
     ///
-    /// Raises NotPositiveDefinite and NotFinite. Scenes have Inertia and Coriolis, and no friction of gears.
+    /// Raises NotPositiveDefinite and NotFinite. Scenes have Inertia and Coriolis, and no friction
+    /// of gears.
     #[pyo3(signature = (q, qd, tau, effects = None, stabilisation = [0.0, 0.0]))]
     fn forward_dynamics<'py>(
         &self,

@@ -1,4 +1,5 @@
-//! A robot as Python sees it: where it comes from, and what it is. What it computes is in the files of its own folder.
+//! A robot as Python sees it: where it comes from, and what it is. What it computes is in the files
+//! of its own folder.
 
 mod drivetrain;
 mod dynamics;
@@ -36,17 +37,17 @@ use said::Said;
 
 /// A robot: a tree of bodies on joints.
 ///
-/// ``Robot("ur5e")`` is a robot of the library, `robots()` lists their names; `Robot.from_file` and `Robot.from_text`
-/// read URDF and MJCF. Units are SI: rad, m, kg, N·m, N.
+/// ``Robot("ur5e")`` is a robot of the library, `robots()` lists their names; `Robot.from_file` and
+/// `Robot.from_text` read URDF and MJCF. Units are SI: rad, m, kg, N·m, N.
 ///
-/// Every method takes arrays of one state, such as q of shape (nq,), or of many, with any leading axes: (n, nq). All
-/// arrays of a call are float32 or all are float64, and so is the result; lists have the type of the arrays beside
-/// them, else float64. In float32 the results have the bits of the same algorithm (`Core`) in firmware. Batches
-/// release Python's lock and use all cores.
+/// Every method takes arrays of one state, such as q of shape (nq,), or of many, with any leading
+/// axes: (n, nq). All arrays of a call are float32 or all are float64, and so is the result; lists
+/// have the type of the arrays beside them, else float64. In float32 the results have the bits of
+/// the same algorithm (`Core`) in firmware. Batches release Python's lock and use all cores.
 ///
-/// q has the coordinates of each joint in the order of the bodies: an angle or a length; of a ball joint a quaternion
-/// (x, y, z, w), of a free joint that and then the position; q̇ of a free joint has the angular velocity first, both in
-/// the body's axes.
+/// q has the coordinates of each joint in the order of the bodies: an angle or a length; of a ball
+/// joint a quaternion (x, y, z, w), of a free joint that and then the position; q̇ of a free joint
+/// has the angular velocity first, both in the body's axes.
 ///
 /// Angles may have any size. Sines are computed to ±10⁴ rad in float32 and to ±10⁵ rad in float64
 /// (``form="engine"``: ±100 rad in float32 for joints whose limits are within ±4π); of an angle
@@ -346,7 +347,8 @@ pub fn argument<'a, 'py>(
     }
 }
 
-/// The methods of the files below: an algorithm, effects, arguments, and the shape of a row of each result.
+/// The methods of the files below: an algorithm, effects, arguments, and the shape of a row of each
+/// result.
 impl Robot {
     /// The configuration, an argument.
     pub fn q<'a, 'py>(&'a self, given: &'a Array<'py>) -> Argument<'a, 'py> {
@@ -467,9 +469,10 @@ impl Robot {
 
     /// A robot from a URDF or MJCF.
     ///
-    /// base: the link that stands still, else the root; tip: only the joints up to this link move; joints: only these
-    /// move; without: links that are left out with all that they carry; lock: positions (rad, m) of joints that stand
-    /// still; free_base: the base is free; exact: right angles and zeros in place of their roundings.
+    /// base: the link that stands still, else the root; tip: only the joints up to this link move;
+    /// joints: only these move; without: links that are left out with all that they carry; lock:
+    /// positions (rad, m) of joints that stand still; free_base: the base is free; exact: right
+    /// angles and zeros in place of their roundings.
     #[staticmethod]
     #[pyo3(signature = (path, *, base = None, tip = None, joints = Vec::new(), without = Vec::new(), lock = None, free_base = false, exact = true))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
@@ -501,8 +504,8 @@ impl Robot {
         Self::read(py, py.detach(|| source::read(&path)), &selection, numbers)
     }
 
-    /// A robot from the text of a URDF or MJCF; the files that an MJCF includes are in ``folder``. The keywords are
-    /// those of `from_file`.
+    /// A robot from the text of a URDF or MJCF; the files that an MJCF includes are in ``folder``.
+    /// The keywords are those of `from_file`.
     #[staticmethod]
     #[pyo3(signature = (text, folder = PathBuf::from("."), *, base = None, tip = None, joints = Vec::new(), without = Vec::new(), lock = None, free_base = false, exact = true))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
@@ -656,7 +659,8 @@ impl Robot {
         Ok(found)
     }
 
-    /// The longest tick of the robot's scene on a Cortex-M4F, cycles: encoders, reference, dynamics, safety and drives.
+    /// The longest tick of the robot's scene on a Cortex-M4F, cycles: encoders, reference,
+    /// dynamics, safety and drives.
     ///
     /// Raises NotRecorded for a robot without a scene.
     fn scene_cycles(&self, py: Python<'_>) -> PyResult<u64> {

@@ -62,12 +62,13 @@ pub const FAR_GYRATION: f64 = 2.0;
 /// The longest time for a joint's range at its limit of speed without a word, s.
 const SLOWEST: f64 = 600.0;
 
-/// How many times the torque that a robot needs a limit may be without a word: legs that carry a body need more than when they hang
-/// from it.
+/// How many times the torque that a robot needs a limit may be without a word: legs that carry a
+/// body need more than when they hang from it.
 const MOST_LIMIT: f64 = 30.0;
 
-/// The advice on limits of torque that are far above what the robot needs at the states of a check, of which each joint's is
-/// compared with its limit; none if the limit of one joint, the most loaded, is near enough.
+/// The advice on limits of torque that are far above what the robot needs at the states of a check,
+/// of which each joint's is compared with its limit; none if the limit of one joint, the most
+/// loaded, is near enough.
 pub fn needless_torque(tree: &Tree, checked: &Checked) -> Option<Advice> {
     let mut most = vec![0.0_f64; tree.coordinates()[1]];
     let (mut speed, mut acceleration) = (0.0_f64, 0.0_f64);

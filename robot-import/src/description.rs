@@ -1,4 +1,5 @@
-//! A robot as its file describes it: links, joints and loops, in SI units, before anything is merged.
+//! A robot as its file describes it: links, joints and loops, in SI units, before anything is
+//! merged.
 
 use dynamics_core::glam::{DMat3, DVec3};
 
@@ -29,7 +30,8 @@ pub struct Description {
     pub joints: Vec<Joint>,
     /// Joints that close loops.
     pub loops: Vec<Loop>,
-    /// Notes on what the import leaves out, and on what it takes other than XML does, a sentence each.
+    /// Notes on what the import leaves out, and on what it takes other than XML does, a sentence
+    /// each.
     pub notes: Vec<String>,
     /// The files that it includes.
     pub files: Vec<std::path::PathBuf>,
@@ -276,8 +278,8 @@ pub(crate) fn index_of<'a>(
     .into())
 }
 
-/// The name that differs by the fewest letters, if that is at most a third of them; otherwise the one with the longest common
-/// beginning, if that is more than one letter.
+/// The name that differs by the fewest letters, if that is at most a third of them; otherwise the
+/// one with the longest common beginning, if that is more than one letter.
 pub(crate) fn most_similar<'a>(
     name: &str,
     names: impl Iterator<Item = &'a str> + Clone,
@@ -296,7 +298,8 @@ pub(crate) fn most_similar<'a>(
     like.filter(|other| shared(other) > 1)
 }
 
-/// By how many letters that are inserted, left out, replaced or exchanged with the next one two names differ.
+/// By how many letters that are inserted, left out, replaced or exchanged with the next one two
+/// names differ.
 fn edits(a: &str, b: &str) -> usize {
     let letters = |text: &str| -> Vec<char> {
         let lower = text.chars().map(|letter| letter.to_ascii_lowercase());

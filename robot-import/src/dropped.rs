@@ -8,8 +8,8 @@ use crate::description::{Description, shortened};
 use crate::number::tidy;
 use crate::selection::{Selected, Selection};
 
-/// The links that a selection leaves out, with their mass, and the direction of gravity on a base that is not the root: a
-/// sentence each.
+/// The links that a selection leaves out, with their mass, and the direction of gravity on a base
+/// that is not the root: a sentence each.
 pub fn dropped(robot: &Description, selection: &Selection, selected: &Selected) -> Vec<String> {
     let mut joint_of = vec![None; robot.links.len()];
     for (j, joint) in robot.joints.iter().enumerate() {
@@ -33,7 +33,8 @@ pub fn dropped(robot: &Description, selection: &Selection, selected: &Selected) 
     notes
 }
 
-/// The outermost link of `--without` between a link and the base; none if the link is not below the base.
+/// The outermost link of `--without` between a link and the base; none if the link is not below the
+/// base.
 fn without(
     robot: &Description,
     selection: &Selection,

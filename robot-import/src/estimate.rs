@@ -1,7 +1,9 @@
-//! Cycles of the engine's inverse dynamics on a Cortex-M4F, estimated from what of a tree is not zero or one.
+//! Cycles of the engine's inverse dynamics on a Cortex-M4F, estimated from what of a tree is not
+//! zero or one.
 //!
-//! The engine folds products with known zeros and ones away. What is left depends on how many entries of a placement's
-//! rotation are neither, in frames whose z is the joint's axis, and on how many numbers of a body's inertia are not zero.
+//! The engine folds products with known zeros and ones away. What is left depends on how many
+//! entries of a placement's rotation are neither, in frames whose z is the joint's axis, and on how
+//! many numbers of a body's inertia are not zero.
 
 use dynamics_core::glam::{DMat3, DQuat, DVec3};
 use serde::Serialize;
@@ -12,9 +14,9 @@ use crate::selection::Selected;
 use crate::snap;
 use crate::tree::{Body, Numbers, Tree};
 
-/// Cycles of a joint; less on the base; for each entry of a placement's rotation that is neither 0 nor ±1, each component of
-/// a centre of mass and each product of inertia. Least squares over the robots measured in docs/robots.md, which states how
-/// far off the estimates are (rustc 1.95).
+/// Cycles of a joint; less on the base; for each entry of a placement's rotation that is neither 0
+/// nor ±1, each component of a centre of mass and each product of inertia. Least squares over the
+/// robots measured in docs/robots.md, which states how far off the estimates are (rustc 1.95).
 const PER_JOINT: f64 = 127.4;
 const LESS_ON_THE_BASE: f64 = 152.4;
 const PER_ROTATION_ENTRY: f64 = 14.9;
@@ -34,11 +36,13 @@ pub struct Saved {
     pub cycles: i64,
 }
 
-/// The least estimate of the robots from which it is made, whose fewest cycles are 104: below it says nothing.
+/// The least estimate of the robots from which it is made, whose fewest cycles are 104: below it
+/// says nothing.
 const LEAST: f64 = 73.0;
 
-/// Cycles of inverse dynamics with sines and cosines; none of joints that the engine is not measured with, and of a robot that is
-/// smaller than those which were measured, such as one of a single joint.
+/// Cycles of inverse dynamics with sines and cosines; none of joints that the engine is not
+/// measured with, and of a robot that is smaller than those which were measured, such as one of a
+/// single joint.
 pub fn cycles(tree: &Tree) -> Option<u64> {
     known(tree).map(|cycles| cycles as u64)
 }

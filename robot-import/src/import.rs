@@ -85,7 +85,8 @@ pub struct Options {
     /// The Python that has Pinocchio or MuJoCo; `none` compares with neither
     #[arg(long, value_name = "PROGRAM", default_value = "python3")]
     pub python: String,
-    /// Let that Python see PYTHONPATH and the packages of `pip install --user`; otherwise it is isolated
+    /// Let that Python see PYTHONPATH and the packages of `pip install --user`; otherwise it is
+    /// isolated
     #[arg(long)]
     pub python_environment: bool,
     /// How long the comparison may take, s
@@ -435,7 +436,8 @@ fn compared(
     }
 }
 
-/// The advice on a file of which a peer leaves a part out that it takes where the same numbers have no blanks around them.
+/// The advice on a file of which a peer leaves a part out that it takes where the same numbers have
+/// no blanks around them.
 fn misread(peer: &check::Peer) -> String {
     format!(
         "{} misreads the file and says: \"{}\". Its torques then differ by {:.1e} of full scale, most at joint `{}`. Where the numbers of \

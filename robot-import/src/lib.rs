@@ -1,8 +1,9 @@
 //! Robots from URDF or MJCF as constants of dynamics-core, with advice and a proof.
 //!
-//! A file becomes a [`description::Description`]; a [`selection::Selection`] of it a [`tree::Tree`], in which all that
-//! does not move is merged; a tree the text of a Rust file by [`write::source`]. [`check::check`] compares the tree's
-//! torques with Lagrange's equations of the file's own links, and [`advice::advice`] lists what its user should know.
+//! A file becomes a [`description::Description`]; a [`selection::Selection`] of it a
+//! [`tree::Tree`], in which all that does not move is merged; a tree the text of a Rust file by
+//! [`write::source`]. [`check::check`] compares the tree's torques with Lagrange's equations of the
+//! file's own links, and [`advice::advice`] lists what its user should know.
 //!
 //! ```
 //! use robot_import::{selection::Selection, source, tree::{Numbers, Tree}, write};

@@ -65,7 +65,8 @@ pub struct Motors {
 }
 
 impl Motors {
-    /// Those of some joints if there are names, otherwise those that the file drives; all where these are too few.
+    /// Those of some joints if there are names, otherwise those that the file drives; all where
+    /// these are too few.
     ///
     /// # Errors
     /// A name that no moving joint has, or fewer joints than the library takes.

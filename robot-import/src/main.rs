@@ -1,4 +1,5 @@
-//! `robot-import`: robots from URDF or MJCF as constants of dynamics-core, and projects of one's own for them.
+//! `robot-import`: robots from URDF or MJCF as constants of dynamics-core, and projects of one's
+//! own for them.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -32,7 +33,8 @@ struct New {
     /// The description: URDF or MJCF
     #[arg(long, value_name = "FILE")]
     robot: PathBuf,
-    /// Firmware for this board, such as nucleo-f446re; a wrong name lists all. Without it the firmware drives a simulation
+    /// Firmware for this board, such as nucleo-f446re; a wrong name lists all. Without it the
+    /// firmware drives a simulation
     #[arg(long, value_name = "BOARD")]
     board: Option<String>,
     /// The board's firmware under Embassy
@@ -44,10 +46,12 @@ struct New {
     /// A static library with a header for C in place of firmware in Rust
     #[arg(long, conflicts_with = "board")]
     c: bool,
-    /// Depend on the crates of this repository of dynamics-core in place of a copy of them in the project
+    /// Depend on the crates of this repository of dynamics-core in place of a copy of them in the
+    /// project
     #[arg(long, value_name = "ADDRESS", conflicts_with = "library")]
     git: Option<String>,
-    /// Depend on the crates beside this folder of the crate dynamics-core in place of a copy of them
+    /// Depend on the crates beside this folder of the crate dynamics-core in place of a copy of
+    /// them
     #[arg(long, value_name = "FOLDER")]
     library: Option<PathBuf>,
     #[command(flatten)]

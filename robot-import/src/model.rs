@@ -1,7 +1,8 @@
 //! A tree as a model of the library that is built at run time, of any size.
 //!
-//! The library's models have their sizes in their types. A tree is therefore filled up to the next of three sizes with
-//! massless bodies on joints of the base, which change no torque of the tree's joints.
+//! The library's models have their sizes in their types. A tree is therefore filled up to the next
+//! of three sizes with massless bodies on joints of the base, which change no torque of the tree's
+//! joints.
 
 use dynamics_core::advice::Advice;
 use dynamics_core::algorithms::{crba, poses, rnea};

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use crate::error::{Problem, Result};
 use crate::limits::{MOST_BYTES, MOST_FOLLOWED};
 
-/// Fails if an output is one of the inputs, or another output, by whatever path and link of the file system.
+/// Fails if an output is one of the inputs, or another output, by whatever path and link of the
+/// file system.
 ///
 /// Devices and pipes can be written several times.
 ///

@@ -4,10 +4,12 @@
 
 use dynamics_core::model::ImpossibleInertia;
 
-/// By how much a principal moment may exceed the sum of the others: the rounding of a file's digits.
+/// By how much a principal moment may exceed the sum of the others: the rounding of a file's
+/// digits.
 pub const TOLERANCE: f64 = 1e-3;
 
-/// The defect of an inertia about the centre of mass, if it exceeds `tolerance` of its largest moment.
+/// The defect of an inertia about the centre of mass, if it exceeds `tolerance` of its largest
+/// moment.
 pub fn impossible(inertia: [f64; 6], tolerance: f64) -> Option<ImpossibleInertia> {
     ImpossibleInertia::of(inertia, tolerance)
 }
@@ -35,7 +37,8 @@ mod tests {
         let found = impossible([1.0, 0.0, 0.0, 1.0, 0.0, 2.5], 1e-9).expect("too large");
         assert!((found.axis[2].abs() - 1.0).abs() < 1e-12);
         assert!((found.excess - 0.2).abs() < 1e-12);
-        // The second moments (0.25, 0.25, −… ) keep those that are positive: xx = yy = 1.25, zz = 2.5.
+        // The second moments (0.25, 0.25, −… ) keep those that are positive: xx = yy = 1.25, zz =
+        // 2.5.
         for inertia in [
             [1.0, 0.0, 0.0, 1.0, 0.0, 2.5],
             [1.0, 1.5, 0.0, 1.0, 0.0, 1.0],

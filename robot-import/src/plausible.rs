@@ -1,5 +1,6 @@
 //! Numbers of a robot that look like another unit, or ask more of its motors than they have:
-//! [`Model::advice`](dynamics_core::model::Model::advice) of the imported robot, with the file's names and lines.
+//! [`Model::advice`](dynamics_core::model::Model::advice) of the imported robot, with the file's
+//! names and lines.
 
 use dynamics_core::advice::{self as library, AdvisedJoint};
 
@@ -17,8 +18,8 @@ pub fn plausible(tree: &Tree, robot: &str) -> Vec<Advice> {
         .collect()
 }
 
-/// Whether the importer has words of its own: on limits of torque it knows the accelerations that a robot needs, too, on inertias
-/// their links.
+/// Whether the importer has words of its own: on limits of torque it knows the accelerations that a
+/// robot needs, too, on inertias their links.
 fn is_own(advice: &library::Advice) -> bool {
     match advice {
         library::Advice::TorqueLimitsFarAbove { .. }

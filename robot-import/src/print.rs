@@ -8,7 +8,8 @@ use crate::limits::MOST_CELL;
 use crate::report::Report;
 use crate::text::visible;
 
-/// A table with columns as wide as their widest cell. A name in it is cut: those of a file have any length.
+/// A table with columns as wide as their widest cell. A name in it is cut: those of a file have any
+/// length.
 fn table(rows: &[Vec<String>]) -> String {
     let shown = |row: &Vec<String>| {
         let last = row.len() - 1;

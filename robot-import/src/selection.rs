@@ -48,7 +48,8 @@ impl Selection {
     /// What the selection is in a description.
     ///
     /// # Errors
-    /// Names that there are not, a tip that is not below the base, a joint that cannot be locked at a position.
+    /// Names that there are not, a tip that is not below the base, a joint that cannot be locked at
+    /// a position.
     pub fn of(&self, robot: &Description) -> Result<Selected> {
         let mut joint_of = vec![None; robot.links.len()];
         for (j, joint) in robot.joints.iter().enumerate() {
@@ -140,8 +141,8 @@ fn lock_others(roles: &mut [Role], moves: &[bool]) {
     }
 }
 
-/// The joints below a link, parents first, each branch as a whole and in the order of the file; none to or beyond an absent
-/// link.
+/// The joints below a link, parents first, each branch as a whole and in the order of the file;
+/// none to or beyond an absent link.
 fn order(robot: &Description, base: usize, absent: &[bool]) -> Vec<usize> {
     let mut below = vec![Vec::new(); robot.links.len()];
     for (j, joint) in robot.joints.iter().enumerate().rev() {
@@ -159,8 +160,8 @@ fn order(robot: &Description, base: usize, absent: &[bool]) -> Vec<usize> {
 
 /// Locks each joint that follows one that stands still, where it follows to; none follows itself.
 ///
-/// A joint of `locked`, which the user has locked, stands still where the user says, whatever it follows. A leader that is not
-/// below the base and that nobody has locked leads nothing.
+/// A joint of `locked`, which the user has locked, stands still where the user says, whatever it
+/// follows. A leader that is not below the base and that nobody has locked leads nothing.
 fn follow(
     robot: &Description,
     roles: &mut [Role],

@@ -1,7 +1,8 @@
 //! Roundings of right angles and of zero: numbers of a file that stand for exact ones.
 //!
-//! A description that an exporter wrote has `1.5708` for a right angle and `-8.97657e-09` for no offset. Products with
-//! the exact value vanish from the engine's code; with the rounding they stay.
+//! A description that an exporter wrote has `1.5708` for a right angle and `-8.97657e-09` for no
+//! offset. Products with the exact value vanish from the engine's code; with the rounding they
+//! stay.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -14,7 +15,8 @@ const NO_ANGLE: f64 = 1e-6;
 /// A length below which no mechanism is built, m.
 pub const NO_LENGTH: f64 = 1e-6;
 
-/// The unit of a number's last printed digit: 0.0001 of `1.5708`; 0 of a number without fraction and exponent.
+/// The unit of a number's last printed digit: 0.0001 of `1.5708`; 0 of a number without fraction
+/// and exponent.
 pub fn resolution(text: &str) -> f64 {
     let (digits, exponent) = match text.split_once(['e', 'E']) {
         Some((digits, exponent)) => (digits, exponent.parse().unwrap_or(0)),
@@ -27,10 +29,11 @@ pub fn resolution(text: &str) -> f64 {
     }
 }
 
-/// The number of quarter turns that an angle is a rounding of, if it is one: within a unit of its last digit, since some
-/// exporters cut digits off.
+/// The number of quarter turns that an angle is a rounding of, if it is one: within a unit of its
+/// last digit, since some exporters cut digits off.
 ///
-/// Zero has no digits that a file could have lost: 0.001 states a milliradian, and only the noise of a computation is none.
+/// Zero has no digits that a file could have lost: 0.001 states a milliradian, and only the noise
+/// of a computation is none.
 pub fn quarter_turns(angle: f64, resolution: f64) -> Option<i32> {
     let turns = (angle / FRAC_PI_2).round();
     let apart = (angle - turns * FRAC_PI_2).abs();
@@ -41,7 +44,8 @@ pub fn quarter_turns(angle: f64, resolution: f64) -> Option<i32> {
     (apart <= most && turns.abs() <= 4.0).then_some(turns as i32)
 }
 
-/// Whether one of a direction's or a unit quaternion's entries is small, but not zero, so that the file states it.
+/// Whether one of a direction's or a unit quaternion's entries is small, but not zero, so that the
+/// file states it.
 ///
 /// The entries of right angles are 0, ±½, ±√½ and ±1.
 pub fn states_a_small_entry(entries: &[f64]) -> bool {

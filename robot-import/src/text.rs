@@ -1,7 +1,8 @@
-//! Names and texts of a description in what is written of it: each function takes any text, and what it returns is one
-//! line that says nothing else than the text in the language concerned.
+//! Names and texts of a description in what is written of it: each function takes any text, and
+//! what it returns is one line that says nothing else than the text in the language concerned.
 //!
-//! Characters that are not printed, that end a line or that change the direction of writing stand as `\u{202e}`.
+//! Characters that are not printed, that end a line or that change the direction of writing stand
+//! as `\u{202e}`.
 
 /// A text on one line in which every character is visible, for a terminal.
 ///
@@ -75,8 +76,8 @@ pub fn doc_name(name: &str) -> String {
     }
 }
 
-/// A sentence with names between backticks in a documentation comment: between pairs of backticks it is code, elsewhere
-/// nothing of it is Markdown.
+/// A sentence with names between backticks in a documentation comment: between pairs of backticks
+/// it is code, elsewhere nothing of it is Markdown.
 ///
 /// ```
 /// let sentence = "Link `a_b` of <x> is left out.";
@@ -102,7 +103,8 @@ pub fn doc_sentence(sentence: &str) -> String {
     out.trim().to_owned()
 }
 
-/// A part of a sentence, without Markdown: at the start of a line it begins no list, heading or block of code either.
+/// A part of a sentence, without Markdown: at the start of a line it begins no list, heading or
+/// block of code either.
 fn prose(text: &str, at_start: bool) -> String {
     let text = if at_start { text.trim_start() } else { text };
     let text = visible(text);

@@ -19,7 +19,8 @@ pub struct Tree {
     pub base: String,
     /// The bodies.
     pub bodies: Vec<Body>,
-    /// Of each link the body that it is part of, and its frame in that body's; none is the base, or not part of the robot.
+    /// Of each link the body that it is part of, and its frame in that body's; none is the base, or
+    /// not part of the robot.
     pub links: Vec<Option<(Option<usize>, Pose)>>,
 }
 
@@ -275,7 +276,8 @@ fn body_on(
     }
 }
 
-/// The limits without those that no joint can have: placeholders of zero, and a lower limit above the upper.
+/// The limits without those that no joint can have: placeholders of zero, and a lower limit above
+/// the upper.
 fn possible(kind: Kind, limits: &Limits) -> Limits {
     let positive = |limit: Option<f64>| limit.filter(|&limit| limit > 0.0);
     let bounded = kind != Kind::Continuous;

@@ -1,5 +1,6 @@
-//! Written projects of robots that are hard to hold run their own tests here: light joints with much torque or dry friction,
-//! ranges below an encoder's step, links whose gravity is stiffer than gains from their inertia.
+//! Written projects of robots that are hard to hold run their own tests here: light joints with
+//! much torque or dry friction, ranges below an encoder's step, links whose gravity is stiffer than
+//! gains from their inertia.
 
 use std::path::Path;
 use std::process::Command;
@@ -283,7 +284,8 @@ fn a_failing_test_names_the_joint_and_what_to_do() {
     }
 }
 
-/// Three times what a slow motion needs was less than what feedback asks for at a step of an encoder.
+/// Three times what a slow motion needs was less than what feedback asks for at a step of an
+/// encoder.
 #[test]
 fn a_joint_without_a_limit_of_torque_has_room_for_feedback() {
     let folder = Folder::new();
@@ -300,7 +302,8 @@ fn a_joint_without_a_limit_of_torque_has_room_for_feedback() {
     assert!(words.is_empty(), "{words:?}");
     let said = run(&[("slow", project)]);
     assert!(said.contains("test result: ok. 4 passed"), "{said}");
-    // With a limit of its own the steps of the encoders saturate it up to 0.2 N·m, and do not at 0.3 N·m.
+    // With a limit of its own the steps of the encoders saturate it up to 0.2 N·m, and do not at
+    // 0.3 N·m.
     for (effort, is_told) in [(0.2, true), (0.3, false)] {
         let limit = format!("'continuous'><limit effort='{effort}' velocity='3'/>");
         let urdf = urdf.replace("'continuous'>", &limit);

@@ -17,7 +17,8 @@ use robot_import::source::parse;
 use robot_import::tree::{Numbers, Tree};
 
 const SO101: &str = include_str!("urdf/so101.urdf");
-/// Every kind of joint, fixed parts between them, a mimic of a mimic, friction and inertias about turned axes.
+/// Every kind of joint, fixed parts between them, a mimic of a mimic, friction and inertias about
+/// turned axes.
 const ZOO: &str = include_str!("urdf/zoo.urdf");
 
 fn read(text: &str) -> Description {

@@ -1,6 +1,7 @@
 //! The reader of MJCF against MuJoCo: `mjcf_oracle.py` writes `mjcf/recorded.json`.
 //!
-//! The tree is walked here by the frames of the description alone; nothing of the reader is used for it.
+//! The tree is walked here by the frames of the description alone; nothing of the reader is used
+//! for it.
 
 mod exact;
 mod hostile;
@@ -224,7 +225,8 @@ fn a_change_of_a_text_is_a_difference() {
     }
 }
 
-/// The same of other models: `MJCF_RECORDED` names a recording that `mjcf_oracle.py OUT.json FILE...` has written.
+/// The same of other models: `MJCF_RECORDED` names a recording that
+/// `mjcf_oracle.py OUT.json FILE...` has written.
 #[test]
 #[ignore = "needs a recording of models that are not in the repository"]
 fn other_models_move_as_in_mujoco() {

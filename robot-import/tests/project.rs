@@ -1,8 +1,9 @@
-//! Projects as a newcomer gets them: built, tested and run in QEMU, their torques compared with those of this process.
+//! Projects as a newcomer gets them: built, tested and run in QEMU, their torques compared with
+//! those of this process.
 //!
-//! Slow: `cargo test -p robot-import --test import -- --ignored --nocapture project::` builds both projects of two robots, and
-//! one for each board. They need the targets thumbv7em-none-eabihf and thumbv8m.main-none-eabihf, qemu-system-arm, make and
-//! arm-none-eabi-gcc.
+//! Slow: `cargo test -p robot-import --test import -- --ignored --nocapture project::` builds both
+//! projects of two robots, and one for each board. They need the targets thumbv7em-none-eabihf and
+//! thumbv8m.main-none-eabihf, qemu-system-arm, make and arm-none-eabi-gcc.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -67,8 +68,8 @@ const ALL: FileEffects = FileEffects {
     spring: false,
 };
 
-/// A project in a folder outside the workspace, so that nothing of its configuration acts; it is built in the
-/// workspace's `target`, so that a second run is faster.
+/// A project in a folder outside the workspace, so that nothing of its configuration acts; it is
+/// built in the workspace's `target`, so that a second run is faster.
 struct Trial {
     folder: PathBuf,
     built: PathBuf,
@@ -131,7 +132,8 @@ impl Trial {
         text
     }
 
-    /// Builds the firmware for a board, formatted as it is, without a warning, from the versions that it came with.
+    /// Builds the firmware for a board, formatted as it is, without a warning, from the versions
+    /// that it came with.
     fn firmware(&self, name: &str, board: &Board) {
         let lock =
             |folder: &Path| fs::read_to_string(folder.join("Cargo.lock")).expect("a lock file");
@@ -306,7 +308,8 @@ fn an_arm() {
     );
     let expected = expected::<so101::So101, _, 6>(&so101::SCENE);
     let trial = rust_project("an-arm", robot.clone(), &expected);
-    // At opt-level 0 the build warns and the run fails: no tick of six joints ends within its period.
+    // At opt-level 0 the build warns and the run fails: no tick of six joints ends within its
+    // period.
     let mut slow = trial.command("cargo", &DEV);
     let slow = slow.env("CARGO_PROFILE_DEV_OPT_LEVEL", "0").output();
     let slow = slow.expect("cargo runs");
@@ -324,7 +327,8 @@ fn an_arm() {
     c_project("an-arm-for-c", robot, &expected);
 }
 
-/// Firmware for each board; the first stands alone, and a robot with fewer joints than it runs on this computer as well.
+/// Firmware for each board; the first stands alone, and a robot with fewer joints than it runs on
+/// this computer as well.
 #[test]
 #[ignore = "builds firmware"]
 fn the_boards() {
@@ -385,7 +389,8 @@ fn a_project_that_cannot_be_written_is_refused_at_once() {
     fs::remove_dir_all(&folder).expect("removed");
 }
 
-/// By the command of the project's README, and by one without a name: the file is called otherwise than the project.
+/// By the command of the project's README, and by one without a name: the file is called otherwise
+/// than the project.
 #[test]
 #[cfg(unix)]
 fn a_robot_that_is_imported_again_keeps_its_type() {

@@ -1,4 +1,5 @@
-//! Descriptions as the readers of their formats take them: encodings, XML that is not well-formed, numbers without an end.
+//! Descriptions as the readers of their formats take them: encodings, XML that is not well-formed,
+//! numbers without an end.
 
 use std::fs;
 use std::path::Path;
@@ -39,7 +40,8 @@ fn is_whole(robot: &Description) {
     assert_eq!(masses.map(|own| own.mass).sum::<f64>(), 1.5);
 }
 
-/// Texts that TinyXML-2 takes, by trying urdfdom in Pinocchio 4.1.0 and MuJoCo 4.0.0: a text, and what the note says of it.
+/// Texts that TinyXML-2 takes, by trying urdfdom in Pinocchio 4.1.0 and MuJoCo 4.0.0: a text, and
+/// what the note says of it.
 fn tolerated(text: &str) -> Vec<(String, &'static str)> {
     let inside = |what: &str| text.replacen('\n', &format!("\n{what}"), 1);
     vec![

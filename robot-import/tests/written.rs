@@ -48,7 +48,8 @@ fn imported(file: &str, name: &str, without: &[&str], written: &str) -> (String,
     (imported.source, imported.tree)
 }
 
-/// A model of which nothing is known, as of a checked tree: a chain's dynamics have other roundings.
+/// A model of which nothing is known, as of a checked tree: a chain's dynamics have other
+/// roundings.
 struct Unknown<'a, const N: usize>(&'a ArmModel<f64, N>);
 
 impl<const N: usize> RobotModel<f64, N, N, N> for Unknown<'_, N> {

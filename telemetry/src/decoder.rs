@@ -20,7 +20,8 @@ pub struct Counts {
     pub frames: u64,
     /// Frames with an error.
     pub bad: u64,
-    /// Ticks that are missing between those that arrived: dropped by the machine or lost on the line.
+    /// Ticks that are missing between those that arrived: dropped by the machine or lost on the
+    /// line.
     pub missing: u64,
     /// Of these, the ones that the machine's queue dropped.
     pub dropped: u64,
@@ -43,8 +44,8 @@ impl Counts {
 
 /// Finds the frames of a machine with up to N joints in a stream of bytes.
 ///
-/// It resynchronises at the next zero, and needs no heap. What arrives before the first zero is the rest of a frame
-/// whose beginning nobody heard, and is not counted as bad.
+/// It resynchronises at the next zero, and needs no heap. What arrives before the first zero is the
+/// rest of a frame whose beginning nobody heard, and is not counted as bad.
 ///
 /// ```
 /// use telemetry::{Decoder, FrameError};

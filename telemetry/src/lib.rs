@@ -1,8 +1,9 @@
 //! Telemetry of a control loop: what happened in each tick, sent over a serial line.
 //!
-//! The interrupt of the control tick puts a [`Tick`] into a [`Queue`]; the main loop takes it out, encodes it and
-//! writes the bytes. The interrupt never waits: a full queue drops the tick and counts it. On the other side of the
-//! line a [`Decoder`] finds the frames again, whatever was lost or corrupted in between.
+//! The interrupt of the control tick puts a [`Tick`] into a [`Queue`]; the main loop takes it out,
+//! encodes it and writes the bytes. The interrupt never waits: a full queue drops the tick and
+//! counts it. On the other side of the line a [`Decoder`] finds the frames again, whatever was lost
+//! or corrupted in between.
 //!
 //! | module | what |
 //! |---|---|
@@ -17,9 +18,10 @@
 //! 0 | COBS( version, postcard(Message), CRC-32 little-endian ) | 0
 //! ```
 //!
-//! COBS (S. Cheshire and M. Baker, "Consistent Overhead Byte Stuffing", 1999) removes zeros from the contents, so that
-//! a zero is the end of a frame and nothing else. A frame also begins with one: a lost zero then merges no two frames.
-//! The checksum is CRC-32C (Castagnoli), which finds each burst of up to 32 bits.
+//! COBS (S. Cheshire and M. Baker, "Consistent Overhead Byte Stuffing", 1999) removes zeros from
+//! the contents, so that a zero is the end of a frame and nothing else. A frame also begins with
+//! one: a lost zero then merges no two frames. The checksum is CRC-32C (Castagnoli), which finds
+//! each burst of up to 32 bits.
 //!
 //! # The two sides
 //!

@@ -102,9 +102,11 @@ impl Joint {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample<const N: usize> {
-    /// The number of the tick since the start of the program; [`Producer::push`](crate::Producer::push) sets it.
+    /// The number of the tick since the start of the program;
+    /// [`Producer::push`](crate::Producer::push) sets it.
     pub number: u32,
-    /// Ticks that the full queue has dropped before this one; [`Producer::push`](crate::Producer::push) sets it.
+    /// Ticks that the full queue has dropped before this one;
+    /// [`Producer::push`](crate::Producer::push) sets it.
     pub dropped: u32,
     /// Ticks since the start of the trajectory.
     pub tick: u32,
@@ -116,7 +118,8 @@ pub struct Sample<const N: usize> {
     pub estimate: [f32; N],
     /// The commanded torques, N·m or N.
     pub torque: [f32; N],
-    /// The counts of a timer that counts down, at the start and after each of [`PHASES`]; zeros if there is no timer.
+    /// The counts of a timer that counts down, at the start and after each of [`PHASES`]; zeros if
+    /// there is no timer.
     pub counts: [u32; PHASES.len() + 1],
 }
 
@@ -136,7 +139,8 @@ impl<const N: usize> Default for Sample<N> {
 }
 
 impl<const N: usize> Sample<N> {
-    /// The message of this sample. `period` is the number of counts after which the timer begins again.
+    /// The message of this sample. `period` is the number of counts after which the timer begins
+    /// again.
     ///
     /// ```
     /// let sample = telemetry::Sample::<1> { counts: [50, 30, 10, 90, 80, 80], ..Default::default() };

@@ -1,7 +1,8 @@
 //! The queue between the interrupt of the control tick and the main loop.
 //!
-//! It is two of [`heapless::spsc`]: neither side waits for the other, and neither masks an interrupt. They pass on where a
-//! sample is, not the sample: the interrupt writes each one where the main loop reads it.
+//! It is two of [`heapless::spsc`]: neither side waits for the other, and neither masks an
+//! interrupt. They pass on where a sample is, not the sample: the interrupt writes each one where
+//! the main loop reads it.
 
 use core::mem;
 
@@ -80,8 +81,8 @@ impl<const N: usize, const Q: usize> Default for Queue<'_, N, Q> {
     }
 }
 
-/// The two sides of a queue. `period` is the number of counts after which the timer of the samples begins again; 0 if there
-/// is no timer.
+/// The two sides of a queue. `period` is the number of counts after which the timer of the samples
+/// begins again; 0 if there is no timer.
 ///
 /// ```
 /// use telemetry::{Queue, Slots, split};
@@ -137,11 +138,12 @@ impl<const N: usize> Producer<'_, '_, N> {
         self.sample
     }
 
-    /// Puts the sample into the queue, with its number and the number of ticks that were dropped before it; drops it if the
-    /// queue is full. Returns whether it was kept.
+    /// Puts the sample into the queue, with its number and the number of ticks that were dropped
+    /// before it; drops it if the queue is full. Returns whether it was kept.
     ///
     /// # Cost
-    /// That of two pointers, whatever the number of joints. [`Consumer::pop`] arranges the message outside the interrupt.
+    /// That of two pointers, whatever the number of joints. [`Consumer::pop`] arranges the message
+    /// outside the interrupt.
     ///
     /// ```
     /// let mut slots = telemetry::Slots::<6, 4>::default();

@@ -53,7 +53,8 @@ pub enum FrameError {
         /// Its version.
         found: u8,
     },
-    /// The contents are whole but not a message: more joints than there is room for, or another program's frame.
+    /// The contents are whole but not a message: more joints than there is room for, or another
+    /// program's frame.
     #[error("it is whole but not a message")]
     Contents,
 }

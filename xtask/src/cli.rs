@@ -22,7 +22,8 @@ pub struct Cli {
     command: Option<Command>,
     #[command(flatten)]
     setup: setup::Options,
-    /// Write reports and their pictures into this directory instead of docs/ (budgets stay where they are)
+    /// Write reports and their pictures into this directory instead of docs/ (budgets stay where
+    /// they are)
     #[arg(long, global = true, value_name = "DIR")]
     reports: Option<PathBuf>,
     /// Name the program behind an error of `new` and `import` first
@@ -36,22 +37,27 @@ enum Command {
     Demo(demo::Args),
     /// Test all that guards correctness, each claim by its cheapest witness
     Test(test::Args),
-    /// Write a project for a robot from URDF or MJCF: firmware, simulated or with --board for a board, or with --c a library for C
+    /// Write a project for a robot from URDF or MJCF: firmware, simulated or with --board for a
+    /// board, or with --c a library for C
     New(import::New),
-    /// Write the Rust file of a robot from URDF or MJCF, with advice, a check, and what its inverse dynamics costs
+    /// Write the Rust file of a robot from URDF or MJCF, with advice, a check, and what its inverse
+    /// dynamics costs
     Import(import::Args),
     /// Measure a firmware of your own between its markers, and check its instructions
     #[command(after_long_help = meter::MARKERS)]
     Meter(meter::Args),
-    /// Show and record the telemetry of a scene or of your project in QEMU, or of a machine on a serial port
+    /// Show and record the telemetry of a scene or of your project in QEMU, or of a machine on a
+    /// serial port
     Watch(watch::Args),
     /// Find masses, inertias and frictions of a robot from a record of `watch`, for its file
     Identify(identify::Args),
-    /// Prove from machine code how far off a robot's torques can be and what they take, print a sheet, or rewrite docs/certificates.md
+    /// Prove from machine code how far off a robot's torques can be and what they take, print a
+    /// sheet, or rewrite docs/certificates.md
     Certify(identify::Certify),
     /// Build the page on which one tries the library in a browser, target/site/play/index.html
     Play,
-    /// Feed descriptions, files, dynamics, controller and encoder frames random bytes; CI does so for a moment
+    /// Feed descriptions, files, dynamics, controller and encoder frames random bytes; CI does so
+    /// for a moment
     Fuzz {
         /// Seconds for each target
         #[arg(long, default_value_t = 60, value_name = "N")]

@@ -78,7 +78,8 @@ fn yes_and_ci_let_it_run_sudo() {
     }
 }
 
-/// Root on a Debian where `qemu-system-arm` conflicts with the user's `qemu-utils`; `apt-ran` lists the calls of apt-get.
+/// Root on a Debian where `qemu-system-arm` conflicts with the user's `qemu-utils`; `apt-ran` lists
+/// the calls of apt-get.
 fn root_with_a_conflict(dir: &Dir) -> Command {
     let mut command = poor_user(dir, false);
     dir.program("id", "echo 0");

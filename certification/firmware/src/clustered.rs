@@ -1,7 +1,9 @@
-//! Inverse dynamics of a robot with a kinematic loop of closed form, a leg with a four-bar knee, which `certify` proves and QEMU runs.
+//! Inverse dynamics of a robot with a kinematic loop of closed form, a leg with a four-bar knee,
+//! which `certify` proves and QEMU runs.
 //!
-//! Such a function computes sines inside. The proven one has its kernel of sines apart, as a call; as the kernel's results are inputs of
-//! the rest, and no compiler may change how f32 is rounded, the function of firmware has the same expression, and QEMU compares the bits.
+//! Such a function computes sines inside. The proven one has its kernel of sines apart, as a call;
+//! as the kernel's results are inputs of the rest, and no compiler may change how f32 is rounded,
+//! the function of firmware has the same expression, and QEMU compares the bits.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,5 @@
-//! Inverse dynamics by the models of `cargo xtask accuracy`, for one robot: `certify --configurations` reads their code; nothing is run.
+//! Inverse dynamics by the models of `cargo xtask accuracy`, for one robot:
+//! `certify --configurations` reads their code; nothing is run.
 #![no_std]
 #![no_main]
 

@@ -1,7 +1,9 @@
-//! The functions that `certify` proves, for one robot: what is proven is read from the code; QEMU runs them at some states.
+//! The functions that `certify` proves, for one robot: what is proven is read from the code; QEMU
+//! runs them at some states.
 //!
-//! The inputs that `certify` gives bounds to are at known offsets from r1, sines and cosines, and r2, the state. The box of the joints
-//! is data beside the code, so that both come from one description.
+//! The inputs that `certify` gives bounds to are at known offsets from r1, sines and cosines, and
+//! r2, the state. The box of the joints is data beside the code, so that both come from one
+//! description.
 #![no_std]
 #![no_main]
 
@@ -30,8 +32,8 @@ type Forward = fn(
     &Full,
 ) -> Result<[f32; N], NotPositiveDefinite>;
 
-/// Of each body: its parent, its joint's kind and coordinate, placement, mass, first moment and second moments, for what is proven of
-/// the model itself.
+/// Of each body: its parent, its joint's kind and coordinate, placement, mass, first moment and
+/// second moments, for what is proven of the model itself.
 #[used]
 static CERTIFIED_BODIES: [[f64; 25]; B] = bodies();
 
@@ -89,8 +91,8 @@ const fn bodies() -> [[f64; 25]; B] {
 #[used]
 static CERTIFIED_EFFECTS: Full = RIGID_BODY;
 
-// A function whose address is taken is not shaped to its calls: this is the code that every program has which calls it with data of
-// its own.
+// A function whose address is taken is not shaped to its calls: this is the code that every program
+// has which calls it with data of its own.
 #[used]
 static CERTIFIED_RNEA: Inverse<Full> = Engine::<Robot>::rnea;
 #[used]

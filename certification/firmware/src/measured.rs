@@ -1,5 +1,5 @@
-//! Calls the functions in QEMU, between the meter's marks, at states that the host writes into the program, and prints the bits of their
-//! results.
+//! Calls the functions in QEMU, between the meter's marks, at states that the host writes into the
+//! program, and prints the bits of their results.
 
 use core::hint::black_box;
 

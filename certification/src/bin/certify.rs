@@ -42,8 +42,9 @@ struct Args {
     /// The greatest |q| of joints that slide and whose description has no limits, m
     #[arg(long, value_name = "Q", value_parser = magnitude, allow_hyphen_values = true)]
     range: Option<f64>,
-    /// A narrower range of a joint's position, JOINT:LOW..HIGH, speed, JOINT:v:MOST, or acceleration, JOINT:a:MOST, in rad or m and s; joints
-    /// count from 1, and --box 2:-1.5..1.5,2:v:0.5 has two
+    /// A narrower range of a joint's position, JOINT:LOW..HIGH, speed, JOINT:v:MOST, or
+    /// acceleration, JOINT:a:MOST, in rad or m and s; joints count from 1, and --box
+    /// 2:-1.5..1.5,2:v:0.5 has two
     #[arg(
         long = "box",
         value_name = "RANGE",
@@ -51,13 +52,15 @@ struct Args {
         requires = "robot"
     )]
     narrow: Vec<Narrow>,
-    /// Also how far each torque can be off if each link's inertia is known within so many percent: all its parameters off by one factor
+    /// Also how far each torque can be off if each link's inertia is known within so many percent:
+    /// all its parameters off by one factor
     #[arg(long, value_name = "PERCENT", requires = "robot")]
     inertias: Option<f64>,
     /// Into how many parts the box of each result is split: more time, tighter bounds
     #[arg(long, value_name = "N", default_value_t = 4000)]
     parts: usize,
-    /// Points of the grid of angles that bounds each result a second time; 1,000,000 if not given, 5,000,000 for the page
+    /// Points of the grid of angles that bounds each result a second time; 1,000,000 if not given,
+    /// 5,000,000 for the page
     #[arg(long, value_name = "N")]
     points: Option<usize>,
     /// States of the search for the worst error, for each result
@@ -75,11 +78,13 @@ struct Args {
     /// Let Coq check Gappa's proofs of them too: minutes for each result
     #[arg(long, requires = "gappa")]
     coq: bool,
-    /// Only write each result as a benchmark in the form of FPBench into this directory: FUNCTION_ROBOT.fpcore
+    /// Only write each result as a benchmark in the form of FPBench into this directory:
+    /// FUNCTION_ROBOT.fpcore
     #[arg(long, value_name = "DIR", conflicts_with_all = ["json", "gappa", "sampled", "write_docs", "hashes"])]
     fpcore: Option<PathBuf>,
-    /// Only prove the errors of the configurations of `cargo xtask accuracy`, and print them as JSON; of the robots of docs/accuracy.md, over boxes
-    /// that their paths lie in, if no robot is given
+    /// Only prove the errors of the configurations of `cargo xtask accuracy`, and print them as
+    /// JSON; of the robots of docs/accuracy.md, over boxes that their paths lie in, if no robot is
+    /// given
     #[arg(long, conflicts_with_all = ["fpcore", "gappa", "sampled", "write_docs", "hashes"])]
     configurations: bool,
     /// Only let Gappa and Coq check a sample of parts of the box, and refuse wrong ones
@@ -96,7 +101,8 @@ struct Args {
         conflicts_with_all = ["robot", "json"]
     )]
     write_docs: Option<Part>,
-    /// Only compare the hashes in docs/certificates.md with today's machine code, and its numbers with their sums and each other
+    /// Only compare the hashes in docs/certificates.md with today's machine code, and its numbers
+    /// with their sums and each other
     #[arg(long, conflicts_with_all = ["robot", "write_docs"])]
     hashes: bool,
     #[command(flatten)]
@@ -122,7 +128,8 @@ const CONFIGURED_POINTS: usize = 300_000;
 const CONFIGURED_PARTS: usize = 300;
 /// Points on which the Fourier coefficients of the difference of two models are evaluated.
 const CONFIGURED_FINE: usize = 4_000_000;
-/// Points of the grids of a robot with a loop, over all parts of the coordinates that it depends on by quotients and roots.
+/// Points of the grids of a robot with a loop, over all parts of the coordinates that it depends on
+/// by quotients and roots.
 const LOOP_POINTS: usize = 100_000;
 /// Parts for speeds and for the floor of the inertia matrix; those of the page.
 const SHEET_EFFORT: limits::Effort = limits::Effort {
@@ -415,7 +422,8 @@ fn spent(args: &Args, function: Function, robot: &str) -> Spent {
     Spent {
         parts: args.parts,
         points: args.points.unwrap_or(match function {
-            // It has the most results: 27 of six joints, 35 of seven. Those of the engine's bias for a Panda are the loosest.
+            // It has the most results: 27 of six joints, 35 of seven. Those of the engine's bias
+            // for a Panda are the loosest.
             Function::ForwardDynamics if robot == LOOSEST && args.write_docs.is_some() => {
                 PAGE_POINTS
             }

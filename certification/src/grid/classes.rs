@@ -1,4 +1,5 @@
-//! A program on the points of a grid: the greatest absolute sums, and which adjoints are added up before the greatest is taken.
+//! A program on the points of a grid: the greatest absolute sums, and which adjoints are added up
+//! before the greatest is taken.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -13,7 +14,8 @@ use crate::state_box::{cosine, sine};
 /// Absolute values that are added up, with their factors: places of coefficients.
 pub(super) type Weighted = Vec<(u32, f64)>;
 
-/// Points that are looked at before it is decided which adjoints are added up together: at most these, and a share of the grid.
+/// Points that are looked at before it is decided which adjoints are added up together: at most
+/// these, and a share of the grid.
 const SAMPLE: usize = 64 * LANES;
 const SHARE: usize = 8;
 
@@ -82,7 +84,8 @@ impl Program {
         }
     }
 
-    /// Evaluates the steps at points of the grid, `LANES` from each given number on, and passes all coefficients to `visit`.
+    /// Evaluates the steps at points of the grid, `LANES` from each given number on, and passes all
+    /// coefficients to `visit`.
     pub(super) fn at_points<L: Lanes>(
         &self,
         steps: &[Step],
@@ -131,7 +134,8 @@ impl Program {
         greatest.into_iter().map(most).collect()
     }
 
-    /// Adjoints by their weights, those added up together of which this gives the least bound at some points.
+    /// Adjoints by their weights, those added up together of which this gives the least bound at
+    /// some points.
     pub(super) fn classes<L: Lanes>(&self, weights: &[f64], at: &Place<'_>) -> Vec<Class> {
         let nodes = weights.len();
         let mut of_degrees = BTreeMap::<&[u8], Class>::new();

@@ -1,13 +1,16 @@
 //! The grids, and how much more a polynomial may be between their points.
 //!
-//! Of a polynomial T of degree n in one angle, and the N ≥ 2n + 1 angles of a grid, two bounds are known, of which the lesser counts:
+//! Of a polynomial T of degree n in one angle, and the N ≥ 2n + 1 angles of a grid, two bounds are
+//! known, of which the lesser counts:
 //!
-//! - Riesz (1914): T falls from its greatest absolute value M no faster than M cos(n θ), and one of the angles is within π/N, so that
-//!   max |T| ≤ max over the grid |T| / cos(π n / N).
-//! - T is the sum of its values on the grid times kernels of de la Vallée-Poussin, V(θ) = sin(N θ/2) sin((N − 2n) θ/2) / (N (N − 2n) sin²(θ/2)),
-//!   so that max |T| ≤ max over the grid |T| · max Σ_j |V(θ − θ_j)|. Below four angles for each degree it is the lesser one.
+//! - Riesz (1914): T falls from its greatest absolute value M no faster than M cos(n θ), and one of
+//!   the angles is within π/N, so that max |T| ≤ max over the grid |T| / cos(π n / N).
+//! - T is the sum of its values on the grid times kernels of de la Vallée-Poussin, V(θ) = sin(N
+//!   θ/2) sin((N − 2n) θ/2) / (N (N − 2n) sin²(θ/2)), so that max |T| ≤ max over the grid |T| · max
+//!   Σ_j |V(θ − θ_j)|. Below four angles for each degree it is the lesser one.
 //!
-//! For several angles they hold one after the other (Ehlich & Zeller, Mathematische Zeitschrift 86, 1964).
+//! For several angles they hold one after the other (Ehlich & Zeller, Mathematische Zeitschrift 86,
+//! 1964).
 
 use std::f64::consts::{PI, TAU};
 
@@ -83,7 +86,8 @@ pub(super) fn counted(sizes: &[usize], most: usize) -> Option<usize> {
     all.filter(|all| *all <= most)
 }
 
-/// How much more a polynomial of a degree may be between so many angles, more than twice the degree.
+/// How much more a polynomial of a degree may be between so many angles, more than twice the
+/// degree.
 pub fn between(degree: usize, size: usize) -> f64 {
     if degree == 0 {
         return 1.0;
@@ -102,7 +106,8 @@ pub fn between(degree: usize, size: usize) -> f64 {
         let to = |j: usize| TAU * (i as f64 / BETWEEN as f64 - j as f64) / count;
         (0..size).map(|j| kernel(to(j)).abs()).sum()
     };
-    // For fixed signs the sum is a polynomial of a degree below N, to which Riesz's bound applies once more. At a point of the grid it is one.
+    // For fixed signs the sum is a polynomial of a degree below N, to which Riesz's bound applies
+    // once more. At a point of the grid it is one.
     let most = (1..BETWEEN).map(sum).fold(1.0, f64::max);
     let kernels = most * (1.0 + 1e-12) / (PI / BETWEEN as f64).cos();
     kernels.min(riesz)

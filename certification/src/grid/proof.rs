@@ -1,4 +1,5 @@
-//! The proofs by a grid: errors with one kernel of sines or with several at once, and the greatest value of a function.
+//! The proofs by a grid: errors with one kernel of sines or with several at once, and the greatest
+//! value of a function.
 
 use std::collections::BinaryHeap;
 
@@ -23,7 +24,8 @@ pub enum Counted {
     LiteralsAlone,
 }
 
-/// The power of all points that each part has: with more of them the lattice loses less and a part more.
+/// The power of all points that each part has: with more of them the lattice loses less and a part
+/// more.
 const PER_PART: f64 = 0.375;
 
 /// The function whose error is bounded, and the errors that count.
@@ -37,8 +39,8 @@ struct Subject<'a> {
 }
 
 impl Program {
-    /// Bounds the error over all angles, from a grid of at most so many points; `None` if they are too few. Of what the values are known to be
-    /// at most in the box, the lesser bounds count.
+    /// Bounds the error over all angles, from a grid of at most so many points; `None` if they are
+    /// too few. Of what the values are known to be at most in the box, the lesser bounds count.
     pub fn prove(
         &self,
         graph: &Graph,
@@ -57,7 +59,8 @@ impl Program {
         self.proven(subject, &[sines], points)?.pop()
     }
 
-    /// The same with each of some kernels of sines: the values of the function are evaluated once for all of them.
+    /// The same with each of some kernels of sines: the values of the function are evaluated once
+    /// for all of them.
     pub fn prove_each(
         &self,
         graph: &Graph,
@@ -184,7 +187,8 @@ impl Program {
         (0..self.parted.len()).map(degree).collect()
     }
 
-    /// The greatest absolute value of each node over all angles and speeds, and of the reciprocals of quotients and roots.
+    /// The greatest absolute value of each node over all angles and speeds, and of the reciprocals
+    /// of quotients and roots.
     fn values<L: Lanes>(&self, at: &Place<'_>) -> Vec<[f64; 2]> {
         let nodes = self.inverses.len();
         let inverses: Vec<Weighted> = self
@@ -218,7 +222,8 @@ impl Program {
         let (mut errors, mut weights) = (vec![0.0; nodes], vec![0.0; nodes]);
         for (k, node) in graph.nodes.iter().enumerate() {
             let [value, inverse] = values[k];
-            // Of a quotient 1/b and of a root 1/√a are at most `inverse`; the terms of higher order grow without bound as t nears one.
+            // Of a quotient 1/b and of a root 1/√a are at most `inverse`; the terms of higher order
+            // grow without bound as t nears one.
             let higher = |t: f64, of: f64| if t < 1.0 { of } else { f64::INFINITY };
             let (propagated, second_order) = match *node {
                 Node::Input(_) | Node::Literal(_) => (0.0, 0.0),
@@ -234,7 +239,8 @@ impl Program {
                     let t = errors[b] * inverse;
                     (first, higher(t, first * t / (1.0 - t)))
                 }
-                // √(1 + u) = 1 + u/2 − u²/8 (1 + ξ)^(−3/2), and 1/√(1 + u) = 1 − u/2 + 3/8 u² (1 + ξ)^(−5/2)
+                // √(1 + u) = 1 + u/2 − u²/8 (1 + ξ)^(−3/2), and 1/√(1 + u) = 1 − u/2 + 3/8 u² (1 +
+                // ξ)^(−5/2)
                 Node::Sqrt(a) | Node::InverseRoot(a, _) => {
                     let t = errors[a] * inverse * inverse;
                     let rest = match node {
@@ -273,7 +279,8 @@ impl Program {
     }
 }
 
-/// More than the relative error of an evaluation in f64, of so many operations after each other and of sums of what they give.
+/// More than the relative error of an evaluation in f64, of so many operations after each other and
+/// of sums of what they give.
 pub(super) fn rounding(nodes: usize) -> f64 {
     64.0 * f64::EPSILON * nodes as f64
 }

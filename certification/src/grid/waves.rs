@@ -1,11 +1,14 @@
 //! The greatest value of a function from its Fourier coefficients.
 //!
-//! The values on 2n + 1 angles of each joint are those of one polynomial alone, whose coefficients they give. From these it is evaluated on a
-//! finer grid for little more than an operation for each coefficient of one angle. The coefficients also show its degree where that of the code is
-//! higher: a torque is of degree two in each angle, while its terms are of degree three, which cancel.
+//! The values on 2n + 1 angles of each joint are those of one polynomial alone, whose coefficients
+//! they give. From these it is evaluated on a finer grid for little more than an operation for each
+//! coefficient of one angle. The coefficients also show its degree where that of the code is
+//! higher: a torque is of degree two in each angle, while its terms are of degree three, which
+//! cancel.
 //!
-//! What the coefficients of the higher degrees are, up to roundings, is added. Values known within η give the polynomial, and its part of
-//! lower degrees, within √(2n + 1) η for each angle, by the inequality of Cauchy and Schwarz.
+//! What the coefficients of the higher degrees are, up to roundings, is added. Values known within
+//! η give the polynomial, and its part of lower degrees, within √(2n + 1) η for each angle, by the
+//! inequality of Cauchy and Schwarz.
 
 use std::f64::consts::TAU;
 
@@ -14,12 +17,15 @@ use super::lanes::{LANES, Plain};
 use super::lattice::counted;
 use super::{Lattice, Program};
 
-/// The degree of a polynomial is the least beyond which the coefficients are at most this share of all; the proof adds those that are left out.
+/// The degree of a polynomial is the least beyond which the coefficients are at most this share of
+/// all; the proof adds those that are left out.
 const NEGLIGIBLE: f64 = 1e-9;
-/// More than the rounding of a transform of one angle, relative to twice the greatest value, up to the degree [`HIGHEST`].
+/// More than the rounding of a transform of one angle, relative to twice the greatest value, up to
+/// the degree [`HIGHEST`].
 ///
-/// With u = 2⁻⁵³ an angle 2π j/N is off by at most 2.4 u, relative to 2π. The angle of a wave is off by its degree times that, of degree three by one
-/// rounding more: with that of the sine at most 7.3 · 10⁻¹⁵. A sum of nine products adds 1.3 · 10⁻¹⁵.
+/// With u = 2⁻⁵³ an angle 2π j/N is off by at most 2.4 u, relative to 2π. The angle of a wave is
+/// off by its degree times that, of degree three by one rounding more: with that of the sine at
+/// most 7.3 · 10⁻¹⁵. A sum of nine products adds 1.3 · 10⁻¹⁵.
 const ROUNDED: f64 = 1e-14;
 /// Of functions that are of a higher degree in an angle, nothing is said.
 const HIGHEST: usize = 4;
@@ -135,7 +141,8 @@ impl Spectrum {
         self.sweep(&tables, &coefficients)
     }
 
-    /// The same of what is left when the angles of further joints are set: one angle of the last joint after the other.
+    /// The same of what is left when the angles of further joints are set: one angle of the last
+    /// joint after the other.
     fn sweep(&self, tables: &[Vec<Vec<f64>>], coefficients: &[&[f64]]) -> f64 {
         let Some((angles, others)) = tables.split_last() else {
             let sum = self.each.iter().zip(coefficients);
@@ -169,8 +176,9 @@ impl Spectrum {
 }
 
 impl Program {
-    /// At least the greatest absolute value of the function, from at most so many points of the grid, and of a finer one; `None` if they are too few,
-    /// or if it is of a degree above four in an angle.
+    /// At least the greatest absolute value of the function, from at most so many points of the
+    /// grid, and of a finer one; `None` if they are too few, or if it is of a degree above four in
+    /// an angle.
     pub fn greatest_value(&self, points: usize, fine: usize) -> Option<f64> {
         let last = (self.sums.len() / 2).checked_sub(1)?;
         if self.parted.contains(&true) {

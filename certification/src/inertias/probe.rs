@@ -18,7 +18,8 @@ pub struct Links {
     joints: Vec<usize>,
 }
 
-/// At most so far from zero, gravity has no part in a direction: what [`crate::links::Size`] gives a literal.
+/// At most so far from zero, gravity has no part in a direction: what [`crate::links::Size`] gives
+/// a literal.
 const NO_GRAVITY: f64 = 1e-14;
 
 impl Links {
@@ -85,7 +86,8 @@ impl Links {
         path.iter().map(|k| self.joints[*k]).collect()
     }
 
-    /// The greatest Σ |τ^k| of each joint that some states have: at random, corners among them, and near the worst of them.
+    /// The greatest Σ |τ^k| of each joint that some states have: at random, corners among them, and
+    /// near the worst of them.
     pub fn search(&self, robot: &Robot, states: usize) -> Vec<f64> {
         let (n, whole) = (robot.joints.len(), robot.whole());
         let mut rng = fastrand::Rng::with_seed(1);
@@ -177,7 +179,8 @@ impl Links {
         bounds
     }
 
-    /// Whether the torques depend on each joint's position: not on that of slides next to the base, nor of a first turn about the vertical.
+    /// Whether the torques depend on each joint's position: not on that of slides next to the base,
+    /// nor of a first turn about the vertical.
     fn matters(&self, path: &[usize]) -> Vec<bool> {
         let mut frame = Frame::base(EARTH);
         let mut is_still = true;

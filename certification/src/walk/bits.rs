@@ -23,8 +23,8 @@ impl Walk<'_> {
         }
     }
 
-    /// The least and the greatest bits of a register. Those of a real number are taken as of one that is positive, neither subnormal nor
-    /// infinite, which is noted as a comparison.
+    /// The least and the greatest bits of a register. Those of a real number are taken as of one
+    /// that is positive, neither subnormal nor infinite, which is noted as a comparison.
     pub(super) fn range(&mut self, register: u8) -> Result<(u32, u32)> {
         match self.core(register)? {
             Word::Within(low, high) => Ok((low, high)),

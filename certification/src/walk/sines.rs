@@ -1,4 +1,5 @@
-//! Where sines and cosines come into an expression: comparisons at the state zero, and calls of their function.
+//! Where sines and cosines come into an expression: comparisons at the state zero, and calls of
+//! their function.
 
 use std::cmp::Ordering;
 

@@ -1,4 +1,5 @@
-//! The proven errors of other kernels of sines and of other models, against what is observed of them.
+//! The proven errors of other kernels of sines and of other models, against what is observed of
+//! them.
 
 use certification::bound::SineErrors;
 use certification::certificate::{Function, expression};

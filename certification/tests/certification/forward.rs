@@ -25,7 +25,8 @@ use super::recorded::{BASE, EFFECTS, LITTLE, SINES, bytes, robot};
 /// `Engine::<A1Leg>::forward_dynamics` and `crba`.
 const FORWARD: &str = include_str!("a1_forward.hex");
 const CRBA: &str = include_str!("a1_crba.hex");
-/// `Core::<A1Leg>::forward_dynamics`, `crba` and what they read, each line from its address on; and where they begin.
+/// `Core::<A1Leg>::forward_dynamics`, `crba` and what they read, each line from its address on; and
+/// where they begin.
 const CORE: &str = include_str!("a1_core.hex");
 const CORE_FUNCTIONS: [u32; 2] = [0x0800_0ed1, 0x0800_27d5];
 /// The states of the greatest errors, and the page that they are from.
@@ -90,8 +91,9 @@ fn search(forward: &Forward, code: &Graph, robot: &Robot) -> Result<(), Error> {
 fn the_machine_code_solves_with_the_factors_and_its_roundings_are_counted() {
     let [engine, core] = BOTH.map(|function| subject(function).factored);
     let factored = engine.expect("it is forward dynamics");
-    // Of entry 1, 1 by the second joint: l, its product with the row, and the difference of the third joint's share before; the product with y
-    // and such a difference; D⁻¹ y; the product with q̈; τ − b.
+    // Of entry 1, 1 by the second joint: l, its product with the row, and the difference of the
+    // third joint's share before; the product with y and such a difference; D⁻¹ y; the product with
+    // q̈; τ − b.
     assert_eq!(factored.roundings, [[8, 7, 6], [6, 7, 6], [4, 5, 5]]);
     let [first, second, third] = factored.noise[..] else {
         panic!("three joints");
@@ -106,7 +108,8 @@ fn the_machine_code_solves_with_the_factors_and_its_roundings_are_counted() {
     assert!(factored.noise[..2].iter().all(of_m));
 }
 
-/// The recursion of the core or of the engine on M and torques less biases, each operation of which is off by a share of its own, and Σ_k d_k |l_ki l_kj| of its factors.
+/// The recursion of the core or of the engine on M and torques less biases, each operation of which
+/// is off by a share of its own, and Σ_k d_k |l_ki l_kj| of its factors.
 fn solved(
     m: &[[f64; 3]; 3],
     rest: [f64; 3],
@@ -350,7 +353,8 @@ fn stays_below_the_bound(function: Function) {
     }
 }
 
-/// What `forward.py` makes of an error, against what f64 makes of it, as a share of the greatest error of the state.
+/// What `forward.py` makes of an error, against what f64 makes of it, as a share of the greatest
+/// error of the state.
 fn difference(of: &Worst, exact: &[f64]) -> f64 {
     let greatest = of
         .errors

@@ -63,7 +63,8 @@ fn no_observed_error_is_above_the_bound_of_a_grid() {
     }
 }
 
-/// Half of sin 2q is ½ between the points of an odd grid, where a product has twice the error that it has below.
+/// Half of sin 2q is ½ between the points of an odd grid, where a product has twice the error that
+/// it has below.
 #[test]
 fn what_lies_between_the_points_is_bounded() {
     let graph = of(&[Node::Mul(0, 1)]);
@@ -83,7 +84,8 @@ fn what_lies_between_the_points_is_bounded() {
     assert_eq!(error(4), None, "degree two asks for five angles");
 }
 
-/// On 2n + 1 angles the factor is the constant of Lebesgue. A polynomial that is at most one on the grid is found nearly as large.
+/// On 2n + 1 angles the factor is the constant of Lebesgue. A polynomial that is at most one on the
+/// grid is found nearly as large.
 #[test]
 fn the_factor_between_the_points_is_enough_and_less_than_riesz() {
     for (angles, lebesgue) in [(3, 5.0 / 3.0), (5, 1.98885), (7, 2.20221)] {
@@ -96,7 +98,8 @@ fn the_factor_between_the_points_is_enough_and_less_than_riesz() {
         let factor = between(degree, angles);
         let riesz = 1.0 / (PI * degree as f64 / angles as f64).cos();
         assert!(factor <= riesz);
-        // The values at the angles of the grid by which the polynomial of least squares through them is the greatest half way.
+        // The values at the angles of the grid by which the polynomial of least squares through
+        // them is the greatest half way.
         let mut most = 0.0_f64;
         for signs in 0..1_u32 << angles {
             let value = |j: usize| if signs >> j & 1 == 0 { 1.0 } else { -1.0 };
@@ -159,7 +162,8 @@ fn values_that_are_known_to_be_less_count() {
     assert!(bound(&[1.0, 1.0, 0.1]) < half_ulp_of_a_half);
 }
 
-/// The torque of gravity about a vertical axis is zero for any angles: errors of sines do not reach it.
+/// The torque of gravity about a vertical axis is zero for any angles: errors of sines do not reach
+/// it.
 #[test]
 fn what_cancels_has_no_part_in_the_bound() {
     let (graph, robot) = (graph(GRAVITY).of_output(0), robot(6));
@@ -183,7 +187,8 @@ fn a_cube_of_a_speed_is_declined() {
     assert!(Program::new(&cube, &robot(6)).is_none());
 }
 
-/// 1/(q + 4) of a position between −3 and 3: one at most, where an error of 4 counts as much as one of the result.
+/// 1/(q + 4) of a position between −3 and 3: one at most, where an error of 4 counts as much as one
+/// of the result.
 #[test]
 fn positions_and_quotients_are_bounded_by_parts() {
     let position = Node::Input(Input {
@@ -241,7 +246,8 @@ fn a_greatest_value_knows_what_cancels() {
     }
 }
 
-/// sin⁴ q is 3/8 − ½ cos 2q + ⅛ cos 4q. Of the fifth power a wave may be off by more than the proof adds.
+/// sin⁴ q is 3/8 − ½ cos 2q + ⅛ cos 4q. Of the fifth power a wave may be off by more than the proof
+/// adds.
 #[test]
 fn a_greatest_value_of_a_higher_degree_or_too_many_points_is_declined() {
     let greatest = |graph: &Graph, joints: usize| {

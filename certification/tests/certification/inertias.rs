@@ -1,4 +1,5 @@
-//! What inertias within some percent can change of torques, against the core in f64, a formula and random factors.
+//! What inertias within some percent can change of torques, against the core in f64, a formula and
+//! random factors.
 
 use certification::bodies::{Body, Moves};
 use certification::error::Error;

@@ -79,7 +79,8 @@ fn the_inertia_matrix_is_the_cores() {
     }
 }
 
-/// Each entry of M at a position of a part is where the centre, the slopes and the remainder say; without the remainder it is not.
+/// Each entry of M at a position of a part is where the centre, the slopes and the remainder say;
+/// without the remainder it is not.
 #[test]
 fn an_enclosure_holds_and_needs_its_remainder() {
     let (mut rng, bodies) = (fastrand::Rng::with_seed(1), bodies(&Ur5e::MODEL));
@@ -202,7 +203,8 @@ fn no_link_is_faster_than_proven() {
             "{one:?}"
         );
     }
-    // Far from the base, by differences of positions: the foot's speed where each joint moves as fast as it may.
+    // Far from the base, by differences of positions: the foot's speed where each joint moves as
+    // fast as it may.
     let foot = |q: &[f64]| {
         let mut at = [0.0; 3];
         for body in bodies.iter().rev() {

@@ -1,4 +1,5 @@
-//! Quotients, roots and branches on data: of a leg with a four-bar as it was compiled one day, and of a few instructions.
+//! Quotients, roots and branches on data: of a leg with a four-bar as it was compiled one day, and
+//! of a few instructions.
 
 use std::cmp::Ordering;
 
@@ -25,7 +26,8 @@ use firmware_demo::robots::FourBarLeg;
 
 use super::recorded::{BASE, LITTLE, SINES, bytes, gappa_is_installed, robot};
 
-/// `Clustered::<Engine<FourBarLeg>>::rnea` with its kernel of sines as a call, behind a function that passes the gravity.
+/// `Clustered::<Engine<FourBarLeg>>::rnea` with its kernel of sines as a call, behind a function
+/// that passes the gravity.
 const FOUR_BAR: &str = include_str!("four_bar.hex");
 /// Where the kernel was.
 const KERNEL: u32 = BASE + 0xf50;
@@ -96,7 +98,8 @@ fn quotients_roots_and_comparisons_are_read() {
         bounder.bound(&[Interval::point(x), Interval::default(), Interval::default()]);
         let range = bounder.range();
         assert!(range.contains(Interval::point(root)) && range.high - range.low < 1e-6);
-        // By the quotient the root rises by half of root over quotient, and by x + 3 it falls by half of root over that.
+        // By the quotient the root rises by half of root over quotient, and by x + 3 it falls by
+        // half of root over that.
         let adjoints = [3, 2].map(|k| bounder.adjoints[k]);
         let by_hand = [0.5 / root, -0.5 * root / (x + 3.0)];
         assert!(

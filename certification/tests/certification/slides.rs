@@ -1,4 +1,5 @@
-//! Absolute values: of a few instructions, and of a slide beyond a turn, whose pivots are compared with what depends on how far it is out.
+//! Absolute values: of a few instructions, and of a slide beyond a turn, whose pivots are compared
+//! with what depends on how far it is out.
 
 use certification::bound::{Bounder, Enclosure};
 use certification::certificate::{Function, Spent, Subject, expression};

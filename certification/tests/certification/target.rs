@@ -1,4 +1,5 @@
-//! The bounds of cycles and stack of code that is written by hand, what is declined, and what contradicts a sheet.
+//! The bounds of cycles and stack of code that is written by hand, what is declined, and what
+//! contradicts a sheet.
 
 use certification::certificate::{Function, expression};
 use certification::cycles::{Declined, function, region};
@@ -29,7 +30,8 @@ const RETURN: u64 = 3;
 
 #[test]
 fn straight_code_takes_what_was_counted_by_hand() {
-    // Figures of `hand_counted.txt`: a division, a chain of sums, loads through a loaded pointer; each and `bx lr`.
+    // Figures of `hand_counted.txt`: a division, a chain of sums, loads through a loaded pointer;
+    // each and `bx lr`.
     for (code, cycles) in [
         (&[0xfbb0, 0xf0f1, 0xbf00][..], 13), // udiv r0, r0, r1; nop
         (
@@ -60,7 +62,8 @@ fn the_longer_way_of_a_branch_on_data_counts() {
 
 #[test]
 fn what_stands_before_a_mark_counts_only_if_no_branch_leaves_it_out() {
-    // movs r4, #1; dbg #0; subs r4, #1; bne back to subs; dbg #1; and then back to the mark, or bx lr
+    // movs r4, #1; dbg #0; subs r4, #1; bne back to subs; dbg #1; and then back to the mark, or bx
+    // lr
     let code = [0x2401, 0xf3af, 0x80f0, 0x3c01, 0xd1fd, 0xf3af, 0x80f1];
     let of = |last: u16| {
         let whole = [&code[..], &[last]].concat();
@@ -113,7 +116,8 @@ fn what_has_no_bound_is_declined_with_its_address() {
 
 #[test]
 fn the_way_that_is_shorter_to_where_both_meet_counts_if_it_is_longer_afterwards() {
-    // cbz over a vdiv and a branch, to three of nop; vadd. At vadd a quotient is pending for ten cycles after five, or nothing after six.
+    // cbz over a vdiv and a branch, to three of nop; vadd. At vadd a quotient is pending for ten
+    // cycles after five, or nothing after six.
     let code = [
         0xb110, 0xee80, 0x0a20, 0xe002, 0xbf00, 0xbf00, 0xbf00, 0xee30, 0x1a00, 0x4770,
     ];
@@ -122,7 +126,8 @@ fn the_way_that_is_shorter_to_where_both_meet_counts_if_it_is_longer_afterwards(
 
 #[test]
 fn a_comparison_in_an_it_block_sets_flags() {
-    // movs r2, #0; cmp r2, #0, which is equal; cmp r0, #1; it eq; tsteq r1, r1; beq over udiv: both ways are open.
+    // movs r2, #0; cmp r2, #0, which is equal; cmp r0, #1; it eq; tsteq r1, r1; beq over udiv: both
+    // ways are open.
     let code = [
         0x2200, 0x2801, 0xbf08, 0x4209, 0xd001, 0xfbb0, 0xf0f1, 0x4770,
     ];

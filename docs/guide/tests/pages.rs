@@ -2,7 +2,8 @@
 
 const PAGE: &str = include_str!("../src/firmware.md");
 
-/// The part of a program between its marks, without the indentation and the gate that a page does not need.
+/// The part of a program between its marks, without the indentation and the gate that a page does
+/// not need.
 fn shown(program: &str) -> String {
     let (_, rest) = program.split_once("// page: begin\n").expect("a begin");
     let (part, _) = rest.split_once("// page: end").expect("an end");

@@ -16,7 +16,8 @@ fn number(tag: &str, name: &str) -> f64 {
     attribute(tag, name).parse().expect("a number")
 }
 
-/// The texts, and the left, upper, right and lower end of each, by an estimate of its width that is seldom too small.
+/// The texts, and the left, upper, right and lower end of each, by an estimate of its width that is
+/// seldom too small.
 fn texts(svg: &str) -> Vec<(String, [f64; 4])> {
     let each = svg.split("<text").skip(1).map(|text| {
         let (tag, rest) = text.split_once('>').expect("a tag");

@@ -1,4 +1,5 @@
-//! Names of items in the guide are those of what `cargo doc` writes, which only a full run builds here.
+//! Names of items in the guide are those of what `cargo doc` writes, which only a full run builds
+//! here.
 #![cfg(feature = "full")]
 
 use std::collections::BTreeSet;
@@ -114,7 +115,8 @@ static PROJECT_IN_C: LazyLock<String> = LazyLock::new(|| {
         .collect()
 });
 
-/// Whether a new project in C for a robot `MyArm` with a joint `elbow` and a body `forearm` names an item.
+/// Whether a new project in C for a robot `MyArm` with a joint `elbow` and a body `forearm` names
+/// an item.
 fn is_of_project_in_c(item: &str) -> bool {
     let name = item.strip_prefix("MY_ARM_").unwrap_or(item);
     let name = name.strip_suffix("ELBOW").unwrap_or(name);

@@ -19,8 +19,8 @@ pub enum Phase {
     Write,
 }
 
-/// What watches a tick while it runs: a pin for an oscilloscope, a counter of cycles, a record. `()` watches nothing and is
-/// not in the machine code.
+/// What watches a tick while it runs: a pin for an oscilloscope, a counter of cycles, a record.
+/// `()` watches nothing and is not in the machine code.
 ///
 /// ```
 /// use embedded_hal::digital::OutputPin;

@@ -1,4 +1,5 @@
-//! The servo bus over `embedded-io-async`: the transfers alone; packets and replies are the blocking form's.
+//! The servo bus over `embedded-io-async`: the transfers alone; packets and replies are the
+//! blocking form's.
 
 use embedded_io::ReadReady;
 use embedded_io_async::{Read, Write};
@@ -65,7 +66,8 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
     /// As [`Self::enable_torque`], over `embedded-io-async`.
     ///
     /// # Errors
-    /// [`FeetechError`] of the first servo that did not; to switch off, the others are tried nevertheless.
+    /// [`FeetechError`] of the first servo that did not; to switch off, the others are tried
+    /// nevertheless.
     pub async fn enable_torque_async(&mut self, is_on: bool) -> Result<(), FeetechError> {
         let mut result = Ok(());
         for id in self.ids {
@@ -207,7 +209,8 @@ mod tests {
         }
     }
 
-    /// The servos 1 and 2 on a port with these answers, the first `stale` of which are there already.
+    /// The servos 1 and 2 on a port with these answers, the first `stale` of which are there
+    /// already.
     fn servos(answers: &[&[u8]], stale: usize) -> Servos<Script, 2> {
         let port = Script {
             answers: answers.concat().into_iter().map(Ok).collect(),

@@ -40,13 +40,15 @@ pub enum FeetechError {
     },
     /// An identity above 253, or two servos of the same.
     Id(u8),
-    /// The goal of a joint is not finite, or beyond the counts of its servo: from where the joint is the servo has to pass the
-    /// seam of its turn (or ±32,767 counts, if it counts turns), or it is not known where the joint is.
+    /// The goal of a joint is not finite, or beyond the counts of its servo: from where the joint
+    /// is the servo has to pass the seam of its turn (or ±32,767 counts, if it counts turns), or it
+    /// is not known where the joint is.
     Goal {
         /// The place of the joint.
         joint: usize,
     },
-    /// The count of a servo does not say where its joint is, until [`Servos::place_near`](super::Servos::place_near).
+    /// The count of a servo does not say where its joint is, until
+    /// [`Servos::place_near`](super::Servos::place_near).
     LostTurn {
         /// The place of the joint.
         joint: usize,

@@ -161,8 +161,8 @@ impl Reply {
 
 /// Finds status packets among the bytes that a port receives, byte by byte.
 ///
-/// What is not a packet is skipped: after a false header the search continues at the byte after it, so that a packet
-/// that follows noise is not lost.
+/// What is not a packet is skipped: after a false header the search continues at the byte after it,
+/// so that a packet that follows noise is not lost.
 ///
 /// ```
 /// use joint_drivers::feetech::Parser;
@@ -264,8 +264,8 @@ fn start(bytes: &[u8]) -> Start {
     let (Some(id), Some(length)) = (at(2), at(3).map(usize::from)) else {
         return Start::Incomplete;
     };
-    // No servo has the identity of a header byte: of three in a row the packet begins one later. The length counts status
-    // and checksum too.
+    // No servo has the identity of a header byte: of three in a row the packet begins one later.
+    // The length counts status and checksum too.
     if id >= BROADCAST || !(2..=MOST_PARAMETERS + 2).contains(&length) {
         return Start::Noise;
     }

@@ -4,7 +4,8 @@ use embedded_io::ErrorKind;
 
 use super::{FeetechError, MOST_NOISE, Parser, Reply};
 
-/// The reply to a request to the servo `id`, if what the port gave ends one: a byte, or none within its time limit.
+/// The reply to a request to the servo `id`, if what the port gave ends one: a byte, or none within
+/// its time limit.
 pub(super) fn next_reply(
     received: Result<Option<u8>, FeetechError>,
     parser: &mut Parser,

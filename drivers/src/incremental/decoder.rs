@@ -20,7 +20,8 @@ impl fmt::Display for InvalidTransition {
 
 impl core::error::Error for InvalidTransition {}
 
-/// A quadrature decoder in software, four counts per line, from the levels of A, B and Z after each of their edges.
+/// A quadrature decoder in software, four counts per line, from the levels of A, B and Z after each
+/// of their edges.
 ///
 /// Forward is A before B: (A, B) = 00, 10, 11, 01. The index is the state in which Z becomes high.
 ///

@@ -1,5 +1,5 @@
-//! The subframes of a moteus reply: sections "Subframes" of `docs/protocol/can.md` and "Mappings" of
-//! `docs/protocol/registers.md`.
+//! The subframes of a moteus reply: sections "Subframes" of `docs/protocol/can.md` and "Mappings"
+//! of `docs/protocol/registers.md`.
 
 use super::{FAULT, MODE, POSITION, TORQUE, VELOCITY};
 use crate::can::CanError;
@@ -37,7 +37,8 @@ impl Registers {
     fn subframe(&mut self, kind: u8, rest: &mut Reader<'_>) -> Result<(), CanError> {
         match kind {
             NOP => Ok(()),
-            // Replies: the type in bits 2 and 3, the number of registers in bits 0 and 1 if it is not zero.
+            // Replies: the type in bits 2 and 3, the number of registers in bits 0 and 1 if it is
+            // not zero.
             0x20..=0x2f => {
                 let count = match kind & 3 {
                     0 => rest.varuint()?,

@@ -8,7 +8,8 @@ use motion_control::Fault;
 use super::devices::{Count, GONE};
 use super::*;
 
-/// The motor turns by 0.3 rad in a tick at most: 9 readings may be missing, and after 10 it can have turned by half a turn.
+/// The motor turns by 0.3 rad in a tick at most: 9 readings may be missing, and after 10 it can
+/// have turned by half a turn.
 const STEP: f32 = 3e-3;
 const ALLOWED: u32 = 9;
 
@@ -217,7 +218,8 @@ fn a_servo_behind_one_that_is_silent_has_a_gap_too() {
     );
 }
 
-/// An incremental encoder of 400,000 counts per turn, whose counter wraps in a sixth of a turn, at a count and an index.
+/// An incremental encoder of 400,000 counts per turn, whose counter wraps in a sixth of a turn, at
+/// a count and an index.
 fn incremental(range: JointRange) -> (Count, Rc<Cell<Option<u16>>>, Encoder) {
     let (raw, index) = (count(0), Rc::new(Cell::new(None)));
     let (counts, indices) = (raw.clone(), index.clone());

@@ -104,7 +104,8 @@ fn a_brake_that_fails_stops_the_arm_in_the_next_tick() {
         (after.mode, after.fault),
         (Mode::Stopped, Some(Fault::Brake))
     );
-    // One that fails while it is set is a fault as well, and a failed drive is the reason if both fail.
+    // One that fails while it is set is a fault as well, and a failed drive is the reason if both
+    // fail.
     for (drive, fault) in [
         (None, Fault::Brake),
         (Some(Broken::Wire), Fault::Drive { joint: 0 }),
@@ -246,7 +247,8 @@ fn a_tick_that_ends_late_completes_none_and_is_a_fault() {
     assert!(completed.is_some());
 }
 
-/// A law without inertia, whose feed-forward is the velocity of its reference; or the same law, said to have it.
+/// A law without inertia, whose feed-forward is the velocity of its reference; or the same law,
+/// said to have it.
 struct OfVelocity<const INERTIA: bool>;
 
 impl<const INERTIA: bool> Law<2> for OfVelocity<INERTIA> {

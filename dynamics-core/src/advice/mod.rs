@@ -1,10 +1,13 @@
-//! Words on a robot's description, a scene or a controller's configuration: advice, never a refusal.
+//! Words on a robot's description, a scene or a controller's configuration: advice, never a
+//! refusal.
 //!
-//! A description in grams, millimetres or degrees is a correct one of another machine: it compiles and runs, and its
-//! torques are wrong by a factor of thousands. [`Model::advice`](crate::model::Model::advice),
-//! [`Model::advice_on`](crate::model::Model::advice_on) a scene and `motion_control::MotionControllerConfig::advice` compare the numbers with those of
-//! machines, and name the number, the reason and what to do. They are for a host, a test or the start of a firmware:
-//! none of it is in a tick, nor in an image that does not call it.
+//! A description in grams, millimetres or degrees is a correct one of another machine: it compiles
+//! and runs, and its torques are wrong by a factor of thousands.
+//! [`Model::advice`](crate::model::Model::advice),
+//! [`Model::advice_on`](crate::model::Model::advice_on) a scene and
+//! `motion_control::MotionControllerConfig::advice` compare the numbers with those of machines, and
+//! name the number, the reason and what to do. They are for a host, a test or the start of a
+//! firmware: none of it is in a tick, nor in an image that does not call it.
 //!
 //! ```
 //! use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model};
@@ -80,7 +83,8 @@ pub enum Advice {
         /// The distance from the first joint to the farthest centre of mass, along the bodies, m.
         reach: f64,
     },
-    /// The inertias look like kg·mm² or g·mm²: the masses would be farther from their centres than the robot is long.
+    /// The inertias look like kg·mm² or g·mm²: the masses would be farther from their centres than
+    /// the robot is long.
     InertiasInMillimetres {
         /// The body with the largest radius of gyration.
         body: &'static str,
@@ -89,8 +93,8 @@ pub enum Advice {
         /// The robot's reach, m.
         reach: f64,
     },
-    /// The inertia of one body looks like kg·mm² or g·mm²: its mass would be farther from its centre than the robot is long, and
-    /// thinner than air.
+    /// The inertia of one body looks like kg·mm² or g·mm²: its mass would be farther from its
+    /// centre than the robot is long, and thinner than air.
     InertiaInMillimetres {
         /// The body.
         body: &'static str,
@@ -108,15 +112,16 @@ pub enum Advice {
     },
     /// The inertias look like those about the joints in place of the centres of mass.
     InertiasAboutJoints {
-        /// A body of which m d², with the distance d of its centre of mass, is the largest share of its inertia.
+        /// A body of which m d², with the distance d of its centre of mass, is the largest share of
+        /// its inertia.
         body: &'static str,
         /// The body's largest moment of inertia as described, kg·m².
         inertia: f64,
         /// m d², kg·m².
         shift: f64,
     },
-    /// The inertia of one body looks like that about its joint in place of its centre of mass: it is wider than what lies between
-    /// its joints.
+    /// The inertia of one body looks like that about its joint in place of its centre of mass: it
+    /// is wider than what lies between its joints.
     InertiaAboutJoint {
         /// The body.
         body: &'static str,
@@ -162,8 +167,8 @@ pub enum Advice {
         /// What holds all that the joint moves, stretched out horizontally, N·m or N.
         needed: f64,
     },
-    /// Within the limits of the positions there is a configuration in which the limit of torque does not hold the
-    /// robot's weight.
+    /// Within the limits of the positions there is a configuration in which the limit of torque
+    /// does not hold the robot's weight.
     GravityBeyondTorque {
         /// The joint.
         joint: AdvisedJoint,
@@ -212,7 +217,8 @@ pub enum Advice {
         /// Its limit of torque, N·m or N.
         torque: f64,
     },
-    /// An arm may be started so far from its trajectory that it is not a restart; it looks like degrees.
+    /// An arm may be started so far from its trajectory that it is not a restart; it looks like
+    /// degrees.
     FarRestart {
         /// The distance, rad or m.
         distance: f64,
@@ -226,7 +232,8 @@ pub enum Advice {
         /// π / h, rad/s.
         nyquist: f64,
     },
-    /// A frequency of the feedback is not below the bandwidth of the observer, whose velocity it uses.
+    /// A frequency of the feedback is not below the bandwidth of the observer, whose velocity it
+    /// uses.
     BeyondObserver {
         /// Which.
         of: Frequency,
@@ -242,7 +249,8 @@ pub enum Advice {
         /// The bandwidth of the drive, rad/s.
         bandwidth: f64,
     },
-    /// A count of the encoder changes the estimated velocity by a large share of the joint's greatest speed.
+    /// A count of the encoder changes the estimated velocity by a large share of the joint's
+    /// greatest speed.
     CoarseEncoder {
         /// The joint.
         joint: AdvisedJoint,
@@ -293,8 +301,8 @@ impl Advice {
         }
     }
 
-    /// The same with the joint's name, from [`coordinate_names`](crate::model::Model::coordinate_names) or another list of
-    /// the joints.
+    /// The same with the joint's name, from
+    /// [`coordinate_names`](crate::model::Model::coordinate_names) or another list of the joints.
     ///
     /// ```
     /// use dynamics_core::advice::{Advice, AdvisedJoint};

@@ -5,8 +5,8 @@ use crate::model::{ImpossibleInertia, Link, Model, impossible};
 use crate::scalar::{Matrix, Real, Vector};
 
 impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> {
-    /// Advice on a description that looks like another unit, is impossible, or asks more of the motors than they have: a list of words
-    /// with numbers, empty for most robots. Never a refusal.
+    /// Advice on a description that looks like another unit, is impossible, or asks more of the
+    /// motors than they have: a list of words with numbers, empty for most robots. Never a refusal.
     ///
     /// | advice | given where |
     /// |---|---|
@@ -25,8 +25,9 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     /// Limits that are infinite, zero or a power of ten of 100 or more stand for none.
     ///
     /// # Cost
-    /// Some µs on a host; for a joint whose limit is below its weight stretched out, up to 36 times the number of
-    /// joints before and after it evaluations of [`rnea`](crate::algorithms::rnea()). Not for a tick.
+    /// Some µs on a host; for a joint whose limit is below its weight stretched out, up to 36 times
+    /// the number of joints before and after it evaluations of [`rnea`](crate::algorithms::rnea()).
+    /// Not for a tick.
     ///
     /// ```
     /// use dynamics_core::advice::Advice;
@@ -63,7 +64,8 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     }
 }
 
-/// By how much of its largest moment an inertia may be impossible without a word: the rounding of a description's digits.
+/// By how much of its largest moment an inertia may be impossible without a word: the rounding of a
+/// description's digits.
 const ROUNDING: f64 = 1e-3;
 
 /// The impossible inertia of a body, in the frame of its description.

@@ -12,7 +12,8 @@ const SPEEDS: [f64; 4] = [1.0, 10.0, 0.05, 1e-3];
 const LOAD: f64 = 1.0;
 
 impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> {
-    /// Advice on a scene that no machine has: a list of words with numbers, empty for most scenes. Never a refusal.
+    /// Advice on a scene that no machine has: a list of words with numbers, empty for most scenes.
+    /// Never a refusal.
     ///
     /// | advice | given where |
     /// |---|---|
@@ -21,8 +22,8 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     /// | [`Advice::NegativePayload`] | a payload has a negative mass |
     /// | [`Advice::NoRotorInertia`] | it has the friction of gears and no inertia at the joint |
     ///
-    /// The values of a scene are no part of its type, so that the compiler does not find them. Effects of your own are asked as
-    /// those of the library. Not for a tick.
+    /// The values of a scene are no part of its type, so that the compiler does not find them.
+    /// Effects of your own are asked as those of the library. Not for a tick.
     ///
     /// ```
     /// use dynamics_core::effects::{RIGID_BODY, Viscous};
@@ -85,8 +86,8 @@ where
     [first, negative, missing].into_iter().flatten()
 }
 
-/// The torque that a scene adds at a joint for a speed, N·m or N, where that is more than rounding: of the torques without load, and
-/// of a gear that transmits one.
+/// The torque that a scene adds at a joint for a speed, N·m or N, where that is more than rounding:
+/// of the torques without load, and of a gear that transmits one.
 fn friction<R: Real, E, const B: usize, const V: usize>(
     scene: &E,
     joint: usize,

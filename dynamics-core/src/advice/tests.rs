@@ -375,7 +375,8 @@ impl Ask for OneJoint {
             let single = ("PositionInDegrees".to_string(), Some(name));
             assert_eq!(first(&changed), Some(single), "{name}");
             let mut changed = *model;
-            // Not quite a degree, of which 100 a second stand for no limit; that of a slow joint is one of a fast one.
+            // Not quite a degree, of which 100 a second stand for no limit; that of a slow joint is
+            // one of a fast one.
             changed.links[i].limits.velocity *= 57.0;
             let single = ("SpeedInDegrees".to_string(), Some(name));
             let others = model.links.iter().filter(|other| other.name != name);

@@ -1,9 +1,11 @@
-//! Limits of torque: against what gravity needs within the limits of the positions, and against what a joint ever needs.
+//! Limits of torque: against what gravity needs within the limits of the positions, and against
+//! what a joint ever needs.
 //!
-//! A bound of the need is the weight of all that the joint moves, at the end of its lever: first moments add up along
-//! the bodies as if these were stretched out horizontally. Where that is beyond the limit, the worst configuration is
-//! sought. The torque of gravity is A + B sin qₖ + C cos qₖ in each angle, and linear in each slide, so that the best
-//! value of one coordinate is exact; in turn they climb to a maximum.
+//! A bound of the need is the weight of all that the joint moves, at the end of its lever: first
+//! moments add up along the bodies as if these were stretched out horizontally. Where that is
+//! beyond the limit, the worst configuration is sought. The torque of gravity is A + B sin qₖ + C
+//! cos qₖ in each angle, and linear in each slide, so that the best value of one coordinate is
+//! exact; in turn they climb to a maximum.
 
 use super::units::is_stated;
 use super::{Advice, AdvisedJoint};
@@ -12,8 +14,8 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::state::manifold::neutral;
 use core::f64::consts::PI;
 
-/// A limit that is more times the need, at every joint. Published arms have 0.1 to 16; with limits that stand for none 20
-/// to 5,000.
+/// A limit that is more times the need, at every joint. Published arms have 0.1 to 16; with limits
+/// that stand for none 20 to 5,000.
 const TIMES: f64 = 20.0;
 /// Standard gravity, m/s².
 const G: f64 = 9.81;
@@ -119,7 +121,8 @@ fn stretched<R: Real, const B: usize, const Q: usize, const V: usize>(
     needs
 }
 
-/// The greatest torque of gravity along −z at a joint that was found within the limits of the positions, N·m or N.
+/// The greatest torque of gravity along −z at a joint that was found within the limits of the
+/// positions, N·m or N.
 fn worst<R: Real, const B: usize, const Q: usize, const V: usize>(
     model: &Model<R, B, Q, V>,
     of: &Link<R>,
@@ -145,11 +148,12 @@ fn worst<R: Real, const B: usize, const Q: usize, const V: usize>(
     greatest
 }
 
-/// The torque of gravity at a joint as a function of each coordinate alone, from one pass over the bodies.
+/// The torque of gravity at a joint as a function of each coordinate alone, from one pass over the
+/// bodies.
 ///
-/// With up as ẑ, a hinge about n carries G ẑ · (n × h) and a slide G ẑ · m n, h the first moment and m the mass of all that the
-/// joint moves. A coordinate on the way to the base turns that vector, w; one further out turns the first moment of what it
-/// moves, in h · (ẑ × n).
+/// With up as ẑ, a hinge about n carries G ẑ · (n × h) and a slide G ẑ · m n, h the first moment
+/// and m the mass of all that the joint moves. A coordinate on the way to the base turns that
+/// vector, w; one further out turns the first moment of what it moves, in h · (ẑ × n).
 struct Levers<R: Real, const B: usize> {
     /// Mass and first moment of all that each joint moves, in its aligned frame.
     masses: [R; B],
@@ -221,7 +225,8 @@ impl<R: Real, const B: usize> Levers<R, B> {
         sign: R,
     ) {
         let axis = R::Vec3::new(R::ZERO, R::ZERO, R::ONE);
-        // The row of a body from the joint to the base up, for one further out ẑ × n, in its frame; none of the others.
+        // The row of a body from the joint to the base up, for one further out ẑ × n, in its frame;
+        // none of the others.
         let mut known: [Option<R::Vec3>; B] = [None; B];
         for (i, link) in model.links.iter().enumerate() {
             let (on_way, mass, moment) =
@@ -262,7 +267,8 @@ impl<R: Real, const B: usize> Levers<R, B> {
     }
 }
 
-/// Angle about, and way along, the axis of a joint of one coordinate; others stand at their neutral positions.
+/// Angle about, and way along, the axis of a joint of one coordinate; others stand at their neutral
+/// positions.
 fn at_joint<R: Real, const Q: usize>(link: &Link<R>, q: &[R; Q]) -> [R; 2] {
     let x = q.get(link.idx_q).copied().unwrap_or_default();
     match link.joint.kind {
@@ -401,7 +407,8 @@ mod tests {
         )
     }
 
-    // Directions without influence are found by its own rounding; from there they can climb to different maxima.
+    // Directions without influence are found by its own rounding; from there they can climb to
+    // different maxima.
     #[test]
     fn one_pass_climbs_as_high_as_inverse_dynamics() {
         fn all<const N: usize>(model: &ArmModel<f64, N>) {

@@ -1,7 +1,7 @@
 //! Units of a description: masses against the reach, radii of gyration, limits of most joints.
 //!
-//! The thresholds lie between what the robots of the library and of docs/robots.md have and what the same robots have in
-//! another unit; the figures are beside each.
+//! The thresholds lie between what the robots of the library and of docs/robots.md have and what
+//! the same robots have in another unit; the figures are beside each.
 
 use super::{Advice, AdvisedJoint};
 use crate::model::{BASE, ImpossibleInertia, JointKind, Link, Model};
@@ -14,27 +14,31 @@ const DENSE: f64 = 2000.0;
 const THIN: f64 = 1e-2;
 /// A reach, m. Robots have 0.16 to 1.8; no crane's is thinner than [`THIN`].
 const FAR: f64 = 20.0;
-/// m over the cube of the radius of gyration of a solid sphere of steel, 9 · 7,850 kg/m³: compact weights have less, though
-/// their mass over the cube of the reach may be large.
+/// m over the cube of the radius of gyration of a solid sphere of steel, 9 · 7,850 kg/m³: compact
+/// weights have less, though their mass over the cube of the reach may be large.
 const SOLID: f64 = 9.0 * 7850.0;
 /// Radius of gyration over reach. Robots have a median of 0.03 to 0.74, in kg·mm² 28 or more.
 const GYRATION: f64 = 10.0;
 /// The same of one body among others. Published robots have up to 1.5, of placeholders.
 const ONE_GYRATION: f64 = 3.0;
-/// Mass over the cube of the radius of gyration of one body, kg/m³. Bodies are at most of solid steel, 7 · 10⁴, and have in kg·mm² 10⁻⁹
-/// of it; a propeller with a placeholder of an inertia has 0.4, and a wheel about its centre, which has no reach, is not thin.
+/// Mass over the cube of the radius of gyration of one body, kg/m³. Bodies are at most of solid
+/// steel, 7 · 10⁴, and have in kg·mm² 10⁻⁹ of it; a propeller with a placeholder of an inertia has
+/// 0.4, and a wheel about its centre, which has no reach, is not thin.
 const AIRY: f64 = 0.01;
-/// Position, rad: four turns. Robots have up to 1.6 turns; a median of 56° to 360° makes 9 turns or more.
+/// Position, rad: four turns. Robots have up to 1.6 turns; a median of 56° to 360° makes 9 turns or
+/// more.
 const TURNS: f64 = 8.0 * PI;
-/// Speed, rad/s: 573 turns a minute. Robots have a median of up to 32; in degrees/s a slow one has 70.
+/// Speed, rad/s: 573 turns a minute. Robots have a median of up to 32; in degrees/s a slow one has
+/// 70.
 const SPEED: f64 = 60.0;
 /// The speed of one joint over the next one, beside [`SPEED`]: degrees/s make 57.
 const FASTER: f64 = 20.0;
 /// The share of a body's largest moment of inertia beyond which m d² would be of note.
 const SHARE: f64 = 0.5;
-/// The same of one body among others, and the square of its radius of gyration, of the largest that its joints allow: a link of
-/// the G1 has 0.60 and 2.0, one of the Gen3 0.89 and 0.99; a rod about its end has 0.75 and 1.33. At a tip, where nothing says how
-/// long it is, a calf with a heavy foot has a share of 0.94.
+/// The same of one body among others, and the square of its radius of gyration, of the largest that
+/// its joints allow: a link of the G1 has 0.60 and 2.0, one of the Gen3 0.89 and 0.99; a rod about
+/// its end has 0.75 and 1.33. At a tip, where nothing says how long it is, a calf with a heavy foot
+/// has a share of 0.94.
 const ONE_SHARE: f64 = 0.65;
 const SPAN: f64 = 1.2;
 const TIP_SHARE: f64 = 0.9;
@@ -73,7 +77,8 @@ pub(super) fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
         .chain(limits.into_iter().flatten())
 }
 
-/// Whether a limit is one, and not a number that stands for none: infinite, zero, or a power of ten.
+/// Whether a limit is one, and not a number that stands for none: infinite, zero, or a power of
+/// ten.
 pub(super) fn is_stated(limit: f64) -> bool {
     let mut power = 100.0;
     while power < limit.abs() && power < 1e30 {
@@ -235,15 +240,16 @@ struct AboutJoint {
     share: f64,
     /// Whether what is left without m d² is one that a body may have.
     is_possible: bool,
-    /// Whether it is wider than masses between its joint and the next one are; of a tip, whether it is no rod with a mass at its end.
+    /// Whether it is wider than masses between its joint and the next one are; of a tip, whether it
+    /// is no rod with a mass at its end.
     is_wide: bool,
     largest: f64,
     shift: f64,
 }
 
 impl AboutJoint {
-    /// The size of a body with a centre of mass beside its joint; `next` is the distance of the farthest joint on it, m; none of a
-    /// tip.
+    /// The size of a body with a centre of mass beside its joint; `next` is the distance of the
+    /// farthest joint on it, m; none of a tip.
     fn of<R: Real>(link: &Link<R>, next: Option<f64>) -> Option<Self> {
         let size = Massive::of(link);
         if size.mass == 0.0 || size.com == 0.0 || size.gyration == 0.0 {
@@ -256,7 +262,8 @@ impl AboutJoint {
             .array()
             .map(|h| h.to_f64() / size.mass);
         let shift = size.mass * size.com * size.com;
-        // m (d² 1 − d dᵀ), taken off once for the description's inertia and once more for one about the joint.
+        // m (d² 1 − d dᵀ), taken off once for the description's inertia and once more for one about
+        // the joint.
         let offset = |i: usize, j: usize| {
             let [a, b] = [i, j].map(|k| com.get(k).copied().unwrap_or_default());
             (if i == j { shift } else { 0.0 }) - size.mass * a * b
@@ -271,7 +278,8 @@ impl AboutJoint {
                 *entry -= offset(i, j);
             }
         }
-        // Masses on a line of length L have a variance of at most d (L − d) (Bhatia and Davis 2000).
+        // Masses on a line of length L have a variance of at most d (L − d) (Bhatia and Davis
+        // 2000).
         let is_wide = match next {
             Some(next) => {
                 let widest = size.com * (next - size.com);
@@ -289,8 +297,8 @@ impl AboutJoint {
     }
 }
 
-/// A body whose inertia is mostly the distance of its centre, if those of all such bodies could be about their joints; else each
-/// that is wider than its joints allow.
+/// A body whose inertia is mostly the distance of its centre, if those of all such bodies could be
+/// about their joints; else each that is wider than its joints allow.
 fn about_joints<R: Real, const B: usize, const Q: usize, const V: usize>(
     model: &Model<R, B, Q, V>,
 ) -> impl Iterator<Item = Advice> {
@@ -343,8 +351,9 @@ fn rotations<R: Real, const B: usize, const Q: usize, const V: usize>(
     })
 }
 
-/// [`Advice::PositionsInDegrees`], if most joints that state limits of position, rad, have one beyond four turns, or
-/// [`Advice::PositionInDegrees`], if some do: published robots have up to 1.6.
+/// [`Advice::PositionsInDegrees`], if most joints that state limits of position, rad, have one
+/// beyond four turns, or [`Advice::PositionInDegrees`], if some do: published robots have up to
+/// 1.6.
 ///
 /// Limits that are infinite, zero or a power of ten of 100 or more state none.
 ///
@@ -384,8 +393,9 @@ pub fn positions_in_degrees(
     })
 }
 
-/// [`Advice::SpeedsInDegrees`], if most joints that state a limit of speed, rad/s, have one above 60, or
-/// [`Advice::SpeedInDegrees`], if one does and is 20 times the next: published robots have a median of up to 32.
+/// [`Advice::SpeedsInDegrees`], if most joints that state a limit of speed, rad/s, have one above
+/// 60, or [`Advice::SpeedInDegrees`], if one does and is 20 times the next: published robots have a
+/// median of up to 32.
 ///
 /// Limits that are infinite, zero or a power of ten of 100 or more state none.
 ///

@@ -1,9 +1,9 @@
 //! Forward dynamics: the articulated-body algorithm in link coordinates.
 //!
-//! Featherstone, RBDA (2008), table 7.1; Featherstone & Orin (2000), section 3.2. A joint of several degrees of freedom
-//! is eliminated a coordinate at a time, which is the same as by its block D. Where
-//! [`hybrid_dynamics`](super::hybrid_dynamics()) prescribes a coordinate's motion, RBDA section 9.2, nothing is
-//! eliminated.
+//! Featherstone, RBDA (2008), table 7.1; Featherstone & Orin (2000), section 3.2. A joint of
+//! several degrees of freedom is eliminated a coordinate at a time, which is the same as by its
+//! block D. Where [`hybrid_dynamics`](super::hybrid_dynamics()) prescribes a coordinate's motion,
+//! RBDA section 9.2, nothing is eliminated.
 
 use heapless::Vec;
 
@@ -33,7 +33,8 @@ struct Body<'a, R: Real> {
     pa: Force<R>,
 }
 
-/// q̈ and τ by the three passes of table 7.1; each coordinate's torque or its acceleration is `given`.
+/// q̈ and τ by the three passes of table 7.1; each coordinate's torque or its acceleration is
+/// `given`.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -183,7 +184,8 @@ where
     Ok(())
 }
 
-/// Pass 3: q̈ᵢ = D⁻¹ (u − Uᵀ a′) with a′ = X a_λ + c, and aᵢ = a′ + S q̈. The factors are used in reverse order.
+/// Pass 3: q̈ᵢ = D⁻¹ (u − Uᵀ a′) with a′ = X a_λ + c, and aᵢ = a′ + S q̈. The factors are used in
+/// reverse order.
 #[cfg_attr(optimised, inline(always))]
 #[allow(
     clippy::too_many_arguments,
@@ -237,7 +239,8 @@ where
     joints
 }
 
-/// Whether a body is decoupled from its parent: no constraint, no prescribed motion, no inertia at the joint.
+/// Whether a body is decoupled from its parent: no constraint, no prescribed motion, no inertia at
+/// the joint.
 ///
 /// The body's acceleration is then independent of the parent's; without it free fall is exact.
 #[cfg_attr(optimised, inline(always))]

@@ -1,4 +1,5 @@
-//! Articulated-body inertias without forces: pass 2 of RBDA (2008), table 7.1, for algorithms that need only these.
+//! Articulated-body inertias without forces: pass 2 of RBDA (2008), table 7.1, for algorithms that
+//! need only these.
 
 use heapless::Vec;
 

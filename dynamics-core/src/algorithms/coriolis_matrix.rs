@@ -1,8 +1,8 @@
 //! The Coriolis matrix C(q, q̇), from composite inertias and their rates.
 //!
-//! Echeandia & Wensing, "Numerical methods to compute the Coriolis matrix and Christoffel symbols for rigid-body systems"
-//! (2021). As in the composite-rigid-body algorithm, the force of a column is projected on the joints between its body and
-//! the base.
+//! Echeandia & Wensing, "Numerical methods to compute the Coriolis matrix and Christoffel symbols
+//! for rigid-body systems" (2021). As in the composite-rigid-body algorithm, the force of a column
+//! is projected on the joints between its body and the base.
 
 use core::borrow::Borrow;
 
@@ -25,7 +25,8 @@ struct Body<'a, R: Real> {
     bc: BodyCoriolis<R>,
 }
 
-/// The Coriolis matrix C(q, q̇), by rows: N·m·s/rad between revolute joints, N·s/m between prismatic ones.
+/// The Coriolis matrix C(q, q̇), by rows: N·m·s/rad between revolute joints, N·s/m between
+/// prismatic ones.
 ///
 /// With the composite inertias Iᶜ, their Coriolis matrices Bᶜ (see
 /// [`rnea_two_velocities`](crate::algorithms::rnea_two_velocities())) and Ṡ_i = S̊_i + v_i × S_i:
@@ -41,21 +42,25 @@ struct Body<'a, R: Real> {
 ///   [`Coriolis`](crate::effects::Coriolis);
 /// - Ṁ = C + Cᵀ, so that Ṁ − 2 C is antisymmetric; Cᵀ q̇ is that of
 ///   [`momentum_and_coriolis`](crate::algorithms::momentum_and_coriolis());
-/// - C(q, x) y − C(q, y) x = M b, M without armatures, where b is zero but at spherical, planar and free joints, whose q̇
-///   is not a derivative of q. There b is the vector with S b = S x × S y: x × y at a spherical joint.
+/// - C(q, x) y − C(q, y) x = M b, M without armatures, where b is zero but at spherical, planar and
+///   free joints, whose q̇ is not a derivative of q. There b is the vector with S b = S x × S y: x
+///   × y at a spherical joint.
 ///
 /// Where q̇ is the derivative of q, C is thus the matrix of the Christoffel symbols:
 /// C_ij = ½ Σ_k (∂_k M_ij + ∂_j M_ik − ∂_i M_jk) q̇_k.
 ///
-/// M is that of [`crba`](crate::algorithms::crba()) under the same effects; of these, payloads, rotors and a base of
-/// given motion are part of C. A non-finite input gives a non-finite output. For the product with one vector,
+/// M is that of [`crba`](crate::algorithms::crba()) under the same effects; of these, payloads,
+/// rotors and a base of given motion are part of C. A non-finite input gives a non-finite output.
+/// For the product with one vector,
 /// [`rnea_two_velocities`](crate::algorithms::rnea_two_velocities()) is faster.
 ///
 /// # Shape
-/// V × V, not symmetric; an entry between joints of which neither is an ancestor of the other is exactly zero.
+/// V × V, not symmetric; an entry between joints of which neither is an ancestor of the other is
+/// exactly zero.
 ///
 /// # Cost
-/// For B revolute joints some 600 B flops, and 110 for each pair of a joint and its ancestor: B² / 2 pairs on a chain.
+/// For B revolute joints some 600 B flops, and 110 for each pair of a joint and its ancestor: B² /
+/// 2 pairs on a chain.
 ///
 /// # Source
 /// Echeandia & Wensing (2021).

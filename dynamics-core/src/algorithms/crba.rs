@@ -1,8 +1,8 @@
 //! The joint-space inertia matrix: the composite-rigid-body algorithm in link coordinates.
 //!
-//! Walker & Orin (1982); Featherstone & Orin (2000), section 3.3; RBDA (2008), table 6.2. Composite inertias are
-//! accumulated from the tips to the base; column j of M is the force of a unit acceleration of joint j on its composite
-//! body, projected on every joint between it and the base.
+//! Walker & Orin (1982); Featherstone & Orin (2000), section 3.3; RBDA (2008), table 6.2. Composite
+//! inertias are accumulated from the tips to the base; column j of M is the force of a unit
+//! acceleration of joint j on its composite body, projected on every joint between it and the base.
 
 use heapless::Vec;
 

@@ -1,9 +1,9 @@
 //! M and a Jacobian together: the modified composite-rigid-body method.
 //!
-//! Lilly & Orin, "Alternate formulations for the manipulator inertia matrix" (1991). As [`crba`](super::crba()), but
-//! the joints' axes are transformed outward to the tips instead of a force inward to the base: in a body's frame they
-//! are its Jacobian, and M_jk is the scalar product of its column k and the force that accelerates the composite body
-//! of joint j.
+//! Lilly & Orin, "Alternate formulations for the manipulator inertia matrix" (1991). As
+//! [`crba`](super::crba()), but the joints' axes are transformed outward to the tips instead of a
+//! force inward to the base: in a body's frame they are its Jacobian, and M_jk is the scalar
+//! product of its column k and the force that accelerates the composite body of joint j.
 
 use core::borrow::Borrow;
 
@@ -35,7 +35,8 @@ struct Body<'a, R: Real> {
 /// ```
 ///
 /// # Shape
-/// V × V and 6 × V. The Jacobian of the base is zero, that of a body that the robot does not have NaN.
+/// V × V and 6 × V. The Jacobian of the base is zero, that of a body that the robot does not have
+/// NaN.
 ///
 /// # Cost
 /// That of [`crba`](super::crba()), of which the Jacobian is a by-product.

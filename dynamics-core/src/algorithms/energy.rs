@@ -17,8 +17,9 @@ use crate::state::{Configuration, RobotState, entry};
 /// T = ½ Σ_i v_iᵀ I_i v_i
 /// ```
 ///
-/// It includes the bodies, a payload of the scene, and rotors by their inertia at the joints: on a base at rest it is ½
-/// q̇ᵀ M q̇, with M under the same effects. On a base with a given motion it is that of the moving bodies.
+/// It includes the bodies, a payload of the scene, and rotors by their inertia at the joints: on a
+/// base at rest it is ½ q̇ᵀ M q̇, with M under the same effects. On a base with a given motion it
+/// is that of the moving bodies.
 ///
 /// # Cost
 /// O(B): some 115 flops for each revolute joint.

@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-/// M(q) is not positive definite: the named joint moves no inertia; or a coordinate or inertia is NaN, not necessarily
-/// one of that joint.
+/// M(q) is not positive definite: the named joint moves no inertia; or a coordinate or inertia is
+/// NaN, not necessarily one of that joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]

@@ -1,7 +1,7 @@
 //! Forward dynamics: M q̈ = τ − C(q, q̇) by bias, M, its factors and their solution.
 //!
-//! Walker & Orin (1982), method 3; Featherstone, RBDA (2008), section 6.1. The articulated-body algorithm
-//! gives the same without M.
+//! Walker & Orin (1982), method 3; Featherstone, RBDA (2008), section 6.1. The articulated-body
+//! algorithm gives the same without M.
 
 use core::borrow::Borrow;
 
@@ -13,9 +13,9 @@ use crate::state::{Configuration, RobotState};
 
 /// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², by M and its factors.
 ///
-/// [`aba`](super::aba()) gives the same without M. `state.qdd` is not read. In f32 the accelerations of long chains and of
-/// light links with heavy loads lose digits: [`forward_dynamics_with_error`](super::forward_dynamics_with_error()) says how
-/// many.
+/// [`aba`](super::aba()) gives the same without M. `state.qdd` is not read. In f32 the
+/// accelerations of long chains and of light links with heavy loads lose digits:
+/// [`forward_dynamics_with_error`](super::forward_dynamics_with_error()) says how many.
 ///
 /// ```text
 /// M(q) q̈ = τ − C(q, q̇)      C(q, q̇) = ID(q, q̇, 0)
@@ -25,8 +25,8 @@ use crate::state::{Configuration, RobotState};
 /// V.
 ///
 /// # Cost
-/// That of [`rnea`](super::rnea()), [`crba`](super::crba()), [`ltdl`] and [`solve`]: O(V³) on a chain, with a small
-/// factor.
+/// That of [`rnea`](super::rnea()), [`crba`](super::crba()), [`ltdl`] and [`solve`]: O(V³) on a
+/// chain, with a small factor.
 ///
 /// # Source
 /// Walker & Orin (1982), method 3.

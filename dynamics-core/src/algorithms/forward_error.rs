@@ -1,12 +1,13 @@
 //! The error that rounding leaves in forward dynamics, estimated from M and its factors.
 //!
-//! Oettli & Prager (1964); Skeel (1979); Arioli, Demmel & Duff (1989), as the forward error bounds of LAPACK. M q̈ = b is
-//! solved exactly for an M and a b that are off by some roundings of each entry; to the first order
+//! Oettli & Prager (1964); Skeel (1979); Arioli, Demmel & Duff (1989), as the forward error bounds
+//! of LAPACK. M q̈ = b is solved exactly for an M and a b that are off by some roundings of each
+//! entry; to the first order
 //!
 //! |δq̈| ≤ c ε |M⁻¹| (|M| |q̈| + |b|).
 //!
-//! Unlike κ ε it does not depend on the units of the joints, and takes the accelerations themselves: a stiff direction in
-//! which nothing accelerates does no harm.
+//! Unlike κ ε it does not depend on the units of the joints, and takes the accelerations
+//! themselves: a stiff direction in which nothing accelerates does no harm.
 
 use core::borrow::Borrow;
 
@@ -19,8 +20,8 @@ use crate::state::{Configuration, RobotState};
 #[cfg(test)]
 mod tests;
 
-/// c: roundings of each entry of M and b. With two the errors of f32 were between 0.004 and 0.5 of the estimate, in each of
-/// twenty states of 18 robots and chains.
+/// c: roundings of each entry of M and b. With two the errors of f32 were between 0.004 and 0.5 of
+/// the estimate, in each of twenty states of 18 robots and chains.
 const ROUNDINGS: f64 = 2.0;
 
 /// Accelerations, and how far off rounding leaves them.
@@ -33,8 +34,8 @@ pub struct EstimatedAcceleration<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> EstimatedAcceleration<R, V> {
-    /// The largest error relative to the largest acceleration: 1 where nothing is left of them, of f32 about 10⁻⁶ for an
-    /// arm.
+    /// The largest error relative to the largest acceleration: 1 where nothing is left of them, of
+    /// f32 about 10⁻⁶ for an arm.
     pub fn relative(&self) -> R {
         let largest = |all: &[R; V]| {
             all.iter().fold(R::ZERO, |largest, x| {
@@ -52,17 +53,19 @@ impl<R: Real, const V: usize> EstimatedAcceleration<R, V> {
     }
 }
 
-/// The acceleration of each joint by [`forward_dynamics`](super::forward_dynamics()), to the same bits, with an estimate of
-/// its error from rounding: whether f32 serves for this robot in this state.
+/// The acceleration of each joint by [`forward_dynamics`](super::forward_dynamics()), to the same
+/// bits, with an estimate of its error from rounding: whether f32 serves for this robot in this
+/// state.
 ///
 /// ```text
 /// |δq̈| ≤ 2 ε |M⁻¹| (|M| |q̈| + |τ| + |C|)
 /// ```
 ///
-/// f32 loses digits where M is ill-conditioned: long straight chains, heavy loads on light links, humanoids. Of the
-/// library's robots and of chains of 16 and 64 rods the error of f32 against f64 is at most the estimate, and the largest
-/// error of twenty states at least a hundredth of the largest estimate: 10⁻⁵ for an arm, 5·10⁻³ for a humanoid with a free
-/// base, 1 or more, thus no digit, for 64 rods that are stretched out.
+/// f32 loses digits where M is ill-conditioned: long straight chains, heavy loads on light links,
+/// humanoids. Of the library's robots and of chains of 16 and 64 rods the error of f32 against f64
+/// is at most the estimate, and the largest error of twenty states at least a hundredth of the
+/// largest estimate: 10⁻⁵ for an arm, 5·10⁻³ for a humanoid with a free base, 1 or more, thus no
+/// digit, for 64 rods that are stretched out.
 ///
 /// # Shape
 /// V.
@@ -117,8 +120,8 @@ where
     Ok(EstimatedAcceleration { qdd, error })
 }
 
-/// The estimated error of a solution q̈ of M q̈ = b, rad/s² or m/s²: that of rounding in each entry of M and in the terms of
-/// b, of which `terms` are the sums of magnitudes, N·m or N.
+/// The estimated error of a solution q̈ of M q̈ = b, rad/s² or m/s²: that of rounding in each entry
+/// of M and in the terms of b, of which `terms` are the sums of magnitudes, N·m or N.
 ///
 /// For forward dynamics in parts; [`forward_dynamics_with_error`] is the whole.
 ///

@@ -1,7 +1,7 @@
 //! Hybrid dynamics: the torque of some coordinates is given, and the acceleration of the others.
 //!
-//! Featherstone, RBDA (2008), section 9.2: the articulated-body algorithm, in which a coordinate with a prescribed
-//! motion is not eliminated. Inverse and forward dynamics are its special cases.
+//! Featherstone, RBDA (2008), section 9.2: the articulated-body algorithm, in which a coordinate
+//! with a prescribed motion is not eliminated. Inverse and forward dynamics are its special cases.
 
 use core::borrow::Borrow;
 
@@ -38,7 +38,8 @@ use crate::state::{Configuration, RobotState, entry};
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names a coordinate with a given torque that moves no inertia, as [`aba`](super::aba()) does.
+/// [`NotPositiveDefinite`] names a coordinate with a given torque that moves no inertia, as
+/// [`aba`](super::aba()) does.
 #[doc(alias = "HD")]
 #[cfg_attr(optimised, inline(always))]
 pub fn hybrid_dynamics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(

@@ -1,13 +1,15 @@
-//! Detects pivots of articulated bodies that are only rounding errors, that is, a singular mass matrix.
+//! Detects pivots of articulated bodies that are only rounding errors, that is, a singular mass
+//! matrix.
 //!
-//! D = sᵀ Iᴬ s is the inertia along s with all descendants fixed, minus a term for each descendant that is free. If the
-//! exact difference is zero, D is the rounding error of its terms, of either sign. The terms are bounded by their
-//! values for a straight chain of the descendants: m, |h| and ∫ r² dm add up along the bodies' offsets, independently
-//! of their directions, across fixed bodies and bodies without inertia. A pivot must exceed some roundings of this
-//! bound.
+//! D = sᵀ Iᴬ s is the inertia along s with all descendants fixed, minus a term for each descendant
+//! that is free. If the exact difference is zero, D is the rounding error of its terms, of either
+//! sign. The terms are bounded by their values for a straight chain of the descendants: m, |h| and
+//! ∫ r² dm add up along the bodies' offsets, independently of their directions, across fixed bodies
+//! and bodies without inertia. A pivot must exceed some roundings of this bound.
 //!
-//! The coordinates of one joint are one block, which is eliminated a coordinate at a time. A small pivot amplifies the
-//! rounding errors: the following coordinates of the joint inherit its error, times the square of the multiplier.
+//! The coordinates of one joint are one block, which is eliminated a coordinate at a time. A small
+//! pivot amplifies the rounding errors: the following coordinates of the joint inherit its error,
+//! times the square of the multiplier.
 
 use core::ops::AddAssign;
 
@@ -18,14 +20,15 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::MotionSubspace;
 use crate::spatial::{Force, SpatialInertia};
 
-/// How many roundings a pivot must exceed: up to 3.1 were measured for singular M, and no fewer than 51 for regular ones (a
-/// rope of ten light rods with a weight at its end, in f32).
+/// How many roundings a pivot must exceed: up to 3.1 were measured for singular M, and no fewer
+/// than 51 for regular ones (a rope of ten light rods with a weight at its end, in f32).
 const ROUNDINGS: f64 = 8.0;
 
 /// The coordinates of a free joint.
 const MOST: usize = 6;
 
-/// Mass, largest first moment and largest ∫ r² dm of the bodies that a joint moves, about its frame's origin.
+/// Mass, largest first moment and largest ∫ r² dm of the bodies that a joint moves, about its
+/// frame's origin.
 #[derive(Clone, Copy)]
 pub(crate) struct Magnitude<R> {
     mass: R,
@@ -55,7 +58,8 @@ impl<R: Real> AddAssign for Magnitude<R> {
 }
 
 impl<R: Real> Magnitude<R> {
-    /// The same about the origin of the parent's frame, from which the body's is at `pos`. 10 flops.
+    /// The same about the origin of the parent's frame, from which the body's is at `pos`. 10
+    /// flops.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn at_parent(&self, pos: R::Vec3) -> Self {
         self.at_distance(length::<R>(pos))
@@ -110,8 +114,8 @@ impl<R: Real> PivotCheck<R> {
         }
     }
 
-    /// Whether `d`, the pivot of coordinate `k` of the joint, which is coordinate `joint` of the robot, is not NaN and
-    /// exceeds rounding errors.
+    /// Whether `d`, the pivot of coordinate `k` of the joint, which is coordinate `joint` of the
+    /// robot, is not NaN and exceeds rounding errors.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn check(
         &mut self,

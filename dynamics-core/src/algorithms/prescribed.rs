@@ -11,7 +11,8 @@ use crate::scalar::Real;
 use crate::spatial::{Force, MotionSubspace};
 use crate::state::State;
 
-/// The results of the inward pass for a coordinate: U, 1/D and u; for a prescribed motion, only U and sᵀ pᴬ.
+/// The results of the inward pass for a coordinate: U, 1/D and u; for a prescribed motion, only U
+/// and sᵀ pᴬ.
 #[derive(Clone, Copy)]
 pub(crate) struct JointFactor<R: Real> {
     pub(crate) u_a: Force<R>,
@@ -19,7 +20,8 @@ pub(crate) struct JointFactor<R: Real> {
     pub(crate) u: R,
 }
 
-/// Pass 2 of a coordinate with a prescribed motion, which stays part of the articulated body: pᴬ + U q̈, U and sᵀ pᴬ.
+/// Pass 2 of a coordinate with a prescribed motion, which stays part of the articulated body: pᴬ +
+/// U q̈, U and sᵀ pᴬ.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn prescribed_factor<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
@@ -38,7 +40,8 @@ where
     JointFactor { u_a, d_inv, u }
 }
 
-/// Pass 3 of a coordinate with a prescribed motion: its torque, from the load Uᵀ a′ + sᵀ U q̈ + sᵀ pᴬ of the articulated body.
+/// Pass 3 of a coordinate with a prescribed motion: its torque, from the load Uᵀ a′ + sᵀ U q̈ + sᵀ
+/// pᴬ of the articulated body.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn prescribed_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,

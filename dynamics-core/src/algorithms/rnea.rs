@@ -1,8 +1,8 @@
 //! Inverse dynamics: the recursive Newton-Euler algorithm in link coordinates.
 //!
-//! Featherstone & Orin (2000), equations (3) to (8), which stand at [`rnea`](crate::algorithms::rnea());
-//! RBDA (2008), table 5.1. Bias, gravity torque and full torque are computed by the same function
-//! with different effects.
+//! Featherstone & Orin (2000), equations (3) to (8), which stand at
+//! [`rnea`](crate::algorithms::rnea()); RBDA (2008), table 5.1. Bias, gravity torque and full
+//! torque are computed by the same function with different effects.
 
 use heapless::Vec;
 
@@ -37,7 +37,8 @@ where
 {
     let turns = &trig.coordinates;
     let (v_0, a_0) = base_motion(effects);
-    // With one pattern for both, or with `v.push` after (5) or `a.push` before it, the A1 takes 2 % more cycles.
+    // With one pattern for both, or with `v.push` after (5) or `a.push` before it, the A1 takes 2 %
+    // more cycles.
     let mut v = per_body(robot, v_0);
     let mut a = per_body(robot, a_0);
     let mut poses = per_body(robot, Xform::IDENTITY);
@@ -122,8 +123,8 @@ where
     }
 }
 
-/// aᵢ from X a_parent: S q̈ with [`crate::effects::Inertia`], S̊ q̇ + v × S q̇ with [`crate::effects::Coriolis`].
-/// Featherstone & Orin (4).
+/// aᵢ from X a_parent: S q̈ with [`crate::effects::Inertia`], S̊ q̇ + v × S q̇ with
+/// [`crate::effects::Coriolis`]. Featherstone & Orin (4).
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn acceleration<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     _: &E,
@@ -168,7 +169,8 @@ where
     }
 }
 
-/// fˣ, the wrench of the environment on body `i`; zero if no effect has one. Featherstone & Orin (6).
+/// fˣ, the wrench of the environment on body `i`; zero if no effect has one. Featherstone & Orin
+/// (6).
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn external_force<R: Real, E, T: Topology, const B: usize, const V: usize>(
     effects: &E,

@@ -1,8 +1,10 @@
-//! Inverse dynamics of two velocities: the recursive Newton-Euler algorithm for laws that keep the arm passive.
+//! Inverse dynamics of two velocities: the recursive Newton-Euler algorithm for laws that keep the
+//! arm passive.
 //!
-//! De Luca & Ferrajoli, "A modified Newton-Euler method for dynamic computations in robot fault detection and control"
-//! (2009); with the symmetric force of a body of Echeandia & Wensing, "Numerical methods to compute the Coriolis matrix
-//! and Christoffel symbols for rigid-body systems" (2021).
+//! De Luca & Ferrajoli, "A modified Newton-Euler method for dynamic computations in robot fault
+//! detection and control" (2009); with the symmetric force of a body of Echeandia & Wensing,
+//! "Numerical methods to compute the Coriolis matrix and Christoffel symbols for rigid-body
+//! systems" (2021).
 
 use core::borrow::Borrow;
 
@@ -26,13 +28,16 @@ struct Body<R: Real> {
     rotor: R,
 }
 
-/// The torque M q̈_r + C(q, q̇) q̇_r + g + F of each motor, N·m or N, under the effects of the scene, by one pass over the tree.
+/// The torque M q̈_r + C(q, q̇) q̇_r + g + F of each motor, N·m or N, under the effects of the
+/// scene, by one pass over the tree.
 ///
-/// q, q̇ and q̈_r are those of `state`, `qd_r` is the second velocity. With the effects of a scene switched off, parts
-/// remain: under [`Coriolis`](crate::effects::Coriolis) alone the result is C(q, q̇) q̇_r. Friction, springs and external
-/// wrenches are those at q and q̇. With q̇_r = q̇ the result is that of [`rnea`](crate::algorithms::rnea()).
+/// q, q̇ and q̈_r are those of `state`, `qd_r` is the second velocity. With the effects of a scene
+/// switched off, parts remain: under [`Coriolis`](crate::effects::Coriolis) alone the result is
+/// C(q, q̇) q̇_r. Friction, springs and external wrenches are those at q and q̇. With q̇_r = q̇ the
+/// result is that of [`rnea`](crate::algorithms::rnea()).
 ///
-/// Both velocities v (of q̇) and w (of q̇_r) follow from the base to the tips, as do the accelerations, with a₀ = −g:
+/// Both velocities v (of q̇) and w (of q̇_r) follow from the base to the tips, as do the
+/// accelerations, with a₀ = −g:
 ///
 /// ```text
 /// a_i     = ⁱX_λ(i) a_λ(i) + S_i q̈_r,i + (S̊_i + v_i × S_i) q̇_r,i
@@ -41,10 +46,10 @@ struct Body<R: Real> {
 /// ```
 ///
 /// where (f ×̄*) w = w ×* f. C is that of
-/// [`coriolis_matrix`](crate::algorithms::coriolis_matrix()), which states its laws: Ṁ = C + Cᵀ for joints of every kind,
-/// and C(q, x) y = C(q, y) x where q̇ is the derivative of q. Both make it the C of a passive law: see
-/// `motion_control::passivity_based_torque`. On a base of given motion both velocities include
-/// that motion.
+/// [`coriolis_matrix`](crate::algorithms::coriolis_matrix()), which states its laws: Ṁ = C + Cᵀ for
+/// joints of every kind, and C(q, x) y = C(q, y) x where q̇ is the derivative of q. Both make it
+/// the C of a passive law: see `motion_control::passivity_based_torque`. On a base of given motion
+/// both velocities include that motion.
 ///
 /// A non-finite input gives a non-finite output, which the safety gate of `motion-control` rejects.
 ///

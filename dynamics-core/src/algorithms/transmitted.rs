@@ -1,4 +1,5 @@
-//! The torques behind the gears, from those of the motors: the inverse of friction in proportion to the load.
+//! The torques behind the gears, from those of the motors: the inverse of friction in proportion to
+//! the load.
 
 use crate::effects::{Effect, all_transmitted};
 use crate::model::RobotModel;
@@ -7,10 +8,11 @@ use crate::state::State;
 
 /// The torques that the gears transmit while their motors supply `tau`, N·m or N.
 ///
-/// The part of `tau` that is left for all other effects at the joint, after friction in proportion to the transmitted torque
-/// ([`LoadFriction`](crate::effects::LoadFriction)): τ of x = τ + a |τ| + b τ, in closed form. In a scene without such
-/// friction it is `tau` itself. An observer of external torques takes it as the torque of the drives, since a contact loads
-/// the gear as gravity does, and the friction then includes what the contact adds to it:
+/// The part of `tau` that is left for all other effects at the joint, after friction in proportion
+/// to the transmitted torque ([`LoadFriction`](crate::effects::LoadFriction)): τ of x = τ + a |τ| +
+/// b τ, in closed form. In a scene without such friction it is `tau` itself. An observer of
+/// external torques takes it as the torque of the drives, since a contact loads the gear as gravity
+/// does, and the friction then includes what the contact adds to it:
 ///
 /// ```
 /// use dynamics_core::algorithms::{rnea, transmitted_torque};
@@ -26,13 +28,15 @@ use crate::state::State;
 /// assert!(found.iter().zip(load).all(|(found, load)| (found - load).abs() < 1e-14));
 /// ```
 ///
-/// Not finite where the load drives a gear that it cannot turn (a back-driving friction μ₂ of 1 or more).
+/// Not finite where the load drives a gear that it cannot turn (a back-driving friction μ₂ of 1 or
+/// more).
 ///
 /// # Cost
 /// Some 16 flops and a division a joint in a scene with such friction; else none.
 ///
 /// # Source
-/// Duclusaud, Passault, Padois & Ly, "Extended friction models for the physics simulation of servo actuators" (2025).
+/// Duclusaud, Passault, Padois & Ly, "Extended friction models for the physics simulation of servo
+/// actuators" (2025).
 #[doc(alias = "gear efficiency")]
 #[cfg_attr(optimised, inline(always))]
 #[must_use]

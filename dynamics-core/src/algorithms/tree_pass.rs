@@ -24,9 +24,11 @@ where
     const CHAIN: bool = D::CHAIN;
 }
 
-/// A quantity of the base and of each body so far, from which the next body reads that of its parent.
+/// A quantity of the base and of each body so far, from which the next body reads that of its
+/// parent.
 ///
-/// For a chain only the last one is stored: `T::CHAIN` is a constant, and the other form is not in the machine code.
+/// For a chain only the last one is stored: `T::CHAIN` is a constant, and the other form is not in
+/// the machine code.
 pub(crate) struct PerBody<A, T, const B: usize> {
     base: A,
     last: A,
@@ -73,8 +75,8 @@ impl<A: Copy, T: Topology, const B: usize> PerBody<A, T, B> {
     }
 }
 
-/// A value that a body stores: on processors with vectors a copy that `complete` has changed, elsewhere the value in its place, which takes
-/// less code.
+/// A value that a body stores: on processors with vectors a copy that `complete` has changed,
+/// elsewhere the value in its place, which takes less code.
 #[cfg(any(target_feature = "sse2", target_feature = "neon"))]
 #[cfg_attr(optimised, inline(always))]
 fn read<T: Copy>(stored: &T, complete: impl FnOnce(T) -> T) -> impl Deref<Target = T> {
@@ -98,7 +100,8 @@ fn read<T: Copy>(stored: &T, _: impl FnOnce(T) -> T) -> impl Deref<Target = T> {
     stored
 }
 
-/// A link that was stored, of a `robot` whose kinds of joint are known at compile time: the compiler does not see them in memory.
+/// A link that was stored, of a `robot` whose kinds of joint are known at compile time: the
+/// compiler does not see them in memory.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn recalled<'a, D, R: Real, const B: usize, const Q: usize, const V: usize>(
     _: &D,
@@ -112,9 +115,9 @@ where
 
 /// The share of a sum over children that belongs to the next body of the inward pass.
 ///
-/// It is not written to memory, where processors with vectors would wait for a sum that is written in other pieces than it is read. The
-/// bits are the same: the last child that adds to a body is the one before it in the pass. Elsewhere the code is shorter without, and this
-/// is empty.
+/// It is not written to memory, where processors with vectors would wait for a sum that is written
+/// in other pieces than it is read. The bits are the same: the last child that adds to a body is
+/// the one before it in the pass. Elsewhere the code is shorter without, and this is empty.
 pub(crate) struct Passed<A>(Option<A>);
 
 impl<A: Copy + AddAssign> Passed<A> {
@@ -154,7 +157,8 @@ pub(crate) fn inward<A>(bodies: &mut [A]) -> Inward<'_, A> {
 }
 
 impl<'a, A> Inward<'a, A> {
-    /// The next body, and those before it, among which is its parent: their count is the body's number.
+    /// The next body, and those before it, among which is its parent: their count is the body's
+    /// number.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn next(&mut self) -> Option<(&'a mut A, &mut [A])> {
         let (body, before) = core::mem::take(&mut self.0).split_last_mut()?;
@@ -174,7 +178,8 @@ mod tests {
     use crate::scalar::Real;
     use crate::state::State;
 
-    /// The sum of each of the G1's bodies: of its own number and of 1.1 times the sums of its children.
+    /// The sum of each of the G1's bodies: of its own number and of 1.1 times the sums of its
+    /// children.
     fn sums(mut add: impl FnMut(usize, &mut [f64; 29])) -> [u64; 29] {
         // Of the last body −0, which a sum with zero would not leave.
         let mut of = core::array::from_fn(|i| {
@@ -211,8 +216,9 @@ mod tests {
         assert_eq!(got, want);
     }
 
-    /// The bits of the torques, of the inertia matrix and of the accelerations by a model and by the robot known at compile time, one of
-    /// whose positions differs by that many units in the last place of f32: are they the same?
+    /// The bits of the torques, of the inertia matrix and of the accelerations by a model and by
+    /// the robot known at compile time, one of whose positions differs by that many units in the
+    /// last place of f32: are they the same?
     fn have_same_bits<R: Real>(a1: &Model<R, 16, 12, 12>, other: u64) -> [bool; 3] {
         let of = |step: f64| core::array::from_fn(|i| R::from_f64(i as f64 * step - 1.3));
         let state = State {
@@ -240,7 +246,8 @@ mod tests {
         ]
     }
 
-    /// It notices a parent that is taken for the body before: `RevoluteOrFixed` with `CHAIN = true`.
+    /// It notices a parent that is taken for the body before: `RevoluteOrFixed` with
+    /// `CHAIN = true`.
     #[test]
     fn a_tree_with_fixed_joints_read_at_run_time_keeps_its_bits() {
         assert_eq!(have_same_bits::<f64>(&A1::MODEL, 0), [true; 3]);

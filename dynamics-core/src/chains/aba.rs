@@ -1,8 +1,10 @@
-//! Forward dynamics of a chain of joints with one coordinate each: the articulated-body algorithm where nothing branches.
+//! Forward dynamics of a chain of joints with one coordinate each: the articulated-body algorithm
+//! where nothing branches.
 //!
-//! The passes of [`aba`](crate::algorithms::aba()), Featherstone, RBDA (2008), table 7.1. One articulated inertia runs from the tip to the
-//! base, of which the row that a free turn about z cannot feel is left out; of the first body only its pivot is computed. A link that is
-//! placed by Denavit & Hartenberg's parameters is crossed by two screws: McMillan & Orin (1995).
+//! The passes of [`aba`](crate::algorithms::aba()), Featherstone, RBDA (2008), table 7.1. One
+//! articulated inertia runs from the tip to the base, of which the row that a free turn about z
+//! cannot feel is left out; of the first body only its pivot is computed. A link that is placed by
+//! Denavit & Hartenberg's parameters is crossed by two screws: McMillan & Orin (1995).
 
 use heapless::Vec;
 
@@ -30,7 +32,8 @@ struct Body<R: Real, X: Across<R>> {
     pa: Force<R>,
 }
 
-/// Iᵃ, pᵃ and the sizes of the bodies beyond a joint, at the parent's frame; beyond the last one all are zero.
+/// Iᵃ, pᵃ and the sizes of the bodies beyond a joint, at the parent's frame; beyond the last one
+/// all are zero.
 struct Beyond<R: Real> {
     ia: ArticulatedInertia<R>,
     pa: Force<R>,

@@ -1,7 +1,8 @@
 //! Inverse dynamics of a chain of revolute joints by the accelerations of points.
 //!
-//! [`rnea`](crate::algorithms::rnea()) with (4) and (5) of Balafoutis, Patel & Misra (1988): a is the acceleration of a body's origin as a
-//! point of the body, ȧ + ω × v, so that v does not occur; see [`AccelerationField`].
+//! [`rnea`](crate::algorithms::rnea()) with (4) and (5) of Balafoutis, Patel & Misra (1988): a is
+//! the acceleration of a body's origin as a point of the body, ȧ + ω × v, so that v does not occur;
+//! see [`AccelerationField`].
 
 use heapless::Vec;
 
@@ -20,9 +21,11 @@ struct Body<R: Real> {
     f: Force<R>,
 }
 
-/// τ of a chain of revolute joints under velocity products: `D::CHAIN`, and `D::KINDS` are revolute.
+/// τ of a chain of revolute joints under velocity products: `D::CHAIN`, and `D::KINDS` are
+/// revolute.
 ///
-/// `first_apart`: the first link has code of its own, with the same numbers; it takes fewer cycles, and more code.
+/// `first_apart`: the first link has code of its own, with the same numbers; it takes fewer cycles,
+/// and more code.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn rnea<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -48,8 +51,8 @@ where
         && const { !E::BASE_MOTION && V > 1 }
         && let Some((i, link)) = links.next()
     {
-        // Its axis stands still, and of the force on it only the couple about z is asked for. The rate of a single link would not be
-        // read at all, so that a NaN of it were lost.
+        // Its axis stands still, and of the force on it only the couple about z is asked for. The
+        // rate of a single link would not be read at all, so that a NaN of it were lost.
         let x = link.xform(turns);
         v = link.plus_motion(Motion::ZERO, turns, &state.qd); // (3)
         a = Motion::new(R::Vec3::ZERO, x.rot * a.lin); // (4)
@@ -88,7 +91,8 @@ where
                 *rotor_tau = tau;
             }
         }
-        // That there is no place never happens; to end the loop there leaves no branch that joins it again.
+        // That there is no place never happens; to end the loop there leaves no branch that joins
+        // it again.
         if bodies.push(Body { rot: x.rot, f }).is_err() {
             break;
         }

@@ -1,8 +1,9 @@
 //! Forward dynamics of a robot with clusters: the articulated-body algorithm by clusters.
 //!
-//! Jain (2011), section 11.5, constraint embedding; Chignoli, Adrian, Kim & Wensing (2023); table 7.1 of RBDA (2008),
-//! in which S of a cluster has the columns Aᵢₖ = X A_λ(i)ₖ + Sᵢ Gᵢₖ for each body i of it: U = Σ Iᴬ A at the body that
-//! carries the cluster, D = Aᵀ Iᴬ A of N × N. A coordinate in no cluster is a cluster of one, of the column S.
+//! Jain (2011), section 11.5, constraint embedding; Chignoli, Adrian, Kim & Wensing (2023); table
+//! 7.1 of RBDA (2008), in which S of a cluster has the columns Aᵢₖ = X A_λ(i)ₖ + Sᵢ Gᵢₖ for each
+//! body i of it: U = Σ Iᴬ A at the body that carries the cluster, D = Aᵀ Iᴬ A of N × N. A
+//! coordinate in no cluster is a cluster of one, of the column S.
 
 use core::fmt;
 
@@ -46,7 +47,8 @@ impl From<ClusterError> for ForwardError {
 }
 
 impl<T, K> Clustered<Core<T, K>> {
-    /// ÿ = FD(y, ẏ, τ_y): the independent accelerations, rad/s² or m/s², under the effects of the scene.
+    /// ÿ = FD(y, ẏ, τ_y): the independent accelerations, rad/s² or m/s², under the effects of the
+    /// scene.
     ///
     /// `y.qdd` is not read. τ_y are torques at y: those of motors elsewhere go through
     /// [`TreeMotion::from_motors`](super::TreeMotion::from_motors).
@@ -55,7 +57,8 @@ impl<T, K> Clustered<Core<T, K>> {
     /// Y.
     ///
     /// # Cost
-    /// O(B): some 600 flops for each revolute joint, 200 for each independent coordinate on each body of a cluster.
+    /// O(B): some 600 flops for each revolute joint, 200 for each independent coordinate on each
+    /// body of a cluster.
     ///
     /// # Source
     /// Jain (2011), section 11.5; Chignoli, Adrian, Kim & Wensing (2023).
@@ -81,8 +84,8 @@ impl<T, K> Clustered<Core<T, K>> {
     /// ```
     ///
     /// # Errors
-    /// [`ForwardError`] names the cluster that no configuration closes at y or that moves no inertia in some direction,
-    /// or the joint that moves none.
+    /// [`ForwardError`] names the cluster that no configuration closes at y or that moves no
+    /// inertia in some direction, or the joint that moves none.
     #[inline(never)]
     pub fn aba<
         R,
@@ -115,11 +118,11 @@ where
     R: Real,
     T: ClusteredRobot<B, Q, V, P, Y>,
 {
-    /// ÿ = FD(y, ẏ, τ_y) of a robot with the joints and loops of `T` and inertias of its own, rad/s² or m/s²:
-    /// [`Calibrated`](crate::model::Calibrated), identified or disturbed.
+    /// ÿ = FD(y, ẏ, τ_y) of a robot with the joints and loops of `T` and inertias of its own,
+    /// rad/s² or m/s²: [`Calibrated`](crate::model::Calibrated), identified or disturbed.
     ///
-    /// The lengths of the loops are those of `T`: placements of joints are not to be changed. See [`Clustered::aba`]
-    /// for the rest.
+    /// The lengths of the loops are those of `T`: placements of joints are not to be changed. See
+    /// [`Clustered::aba`] for the rest.
     ///
     /// # Cost
     /// That of [`Clustered::aba`] without the motion of the tree.

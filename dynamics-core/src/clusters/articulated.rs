@@ -14,7 +14,8 @@ pub(super) struct Body<'a, R: Real> {
     pub(super) x: Xform<R>,
     /// S̊ q̇ + v × S q̇ + S Ġ ẏ.
     pub(super) c: Motion<R>,
-    /// Iᴬ and pᴬ of the body with the clusters that it carries, and the largest that the inertia could be.
+    /// Iᴬ and pᴬ of the body with the clusters that it carries, and the largest that the inertia
+    /// could be.
     pub(super) ia: ArticulatedInertia<R>,
     pub(super) pa: Force<R>,
     pub(super) magnitude: Magnitude<R>,
@@ -23,7 +24,8 @@ pub(super) struct Body<'a, R: Real> {
     pub(super) force: Force<R>,
 }
 
-/// What an independent coordinate's elimination leaves, of D = L Δ Lᵀ: L⁻¹ Uᵀ, 1/Δ, L⁻¹ u, and the row of L.
+/// What an independent coordinate's elimination leaves, of D = L Δ Lᵀ: L⁻¹ Uᵀ, 1/Δ, L⁻¹ u, and the
+/// row of L.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Factor<R: Real> {
     pub(super) z: Force<R>,
@@ -74,7 +76,8 @@ pub(super) struct Group {
 }
 
 impl Group {
-    /// The parent of a body, if it is of the group too: the body that carries the group is listed before all of it.
+    /// The parent of a body, if it is of the group too: the body that carries the group is listed
+    /// before all of it.
     pub(super) fn parent_in<'b, 'a, R: Real>(
         &self,
         inner: &'b mut [Body<'a, R>],

@@ -8,10 +8,11 @@ use crate::scalar::Real;
 use crate::state::all_finite;
 use crate::trig::Kernel;
 
-/// M joint coordinates q of a spanning tree as a function q = γ(y) of N independent coordinates y: a loop, or several.
+/// M joint coordinates q of a spanning tree as a function q = γ(y) of N independent coordinates y:
+/// a loop, or several.
 ///
-/// Implemented by the linkages of this module, by [`Transmission`](crate::drivetrain::Transmission) and by the user's
-/// own:
+/// Implemented by the linkages of this module, by [`Transmission`](crate::drivetrain::Transmission)
+/// and by the user's own:
 ///
 /// ```
 /// use dynamics_core::clusters::{Cluster, ClusterMotion, ClusterProblem};
@@ -46,24 +47,25 @@ use crate::trig::Kernel;
 /// ```
 ///
 /// # Source
-/// Jain, *Robot and Multibody Dynamics* (2011), chapter 11, constraint embedding; Chignoli, Adrian, Kim & Wensing
-/// (2023).
+/// Jain, *Robot and Multibody Dynamics* (2011), chapter 11, constraint embedding; Chignoli, Adrian,
+/// Kim & Wensing (2023).
 pub trait Cluster<const M: usize, const N: usize>: Copy {
     /// The independent coordinate that each joint coordinate is, of those that are one.
     ///
-    /// Its row of G must be a unit row, and its Ġ ẏ zero: no product with them is computed. `None`, which is the
-    /// default, is right for every row. A number beyond N does not compile.
+    /// Its row of G must be a unit row, and its Ġ ẏ zero: no product with them is computed. `None`,
+    /// which is the default, is right for every row. A number beyond N does not compile.
     const INDEPENDENT: [Option<usize>; M] = [None; M];
 
     /// γ(y), G and Ġ ẏ.
     ///
-    /// `y` are the independent coordinates with their sines and cosines by the kernel K, which also serves for those of
-    /// the results: [`JointCoordinate::with_kernel`]. |y| ≤ 100 rad where all the cluster's joints have limits within
-    /// ±4π, else 10⁴ rad.
+    /// `y` are the independent coordinates with their sines and cosines by the kernel K, which also
+    /// serves for those of the results: [`JointCoordinate::with_kernel`]. |y| ≤ 100 rad where all
+    /// the cluster's joints have limits within ±4π, else 10⁴ rad.
     ///
     /// # Errors
-    /// [`ClusterProblem`] where no configuration belongs to y. Where y and ẏ are finite every result must be finite; at
-    /// a singularity of G the results are those of a damped G, and `singular` is set.
+    /// [`ClusterProblem`] where no configuration belongs to y. Where y and ẏ are finite every
+    /// result must be finite; at a singularity of G the results are those of a damped G, and
+    /// `singular` is set.
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,
         y: &[JointCoordinate<R>; N],
@@ -80,8 +82,9 @@ pub struct ClusterMotion<R, const M: usize, const N: usize> {
     pub g: [[R; N]; M],
     /// Ġ ẏ, rad/s² or m/s²: the joints' acceleration at ÿ = 0.
     pub bias: [R; M],
-    /// Whether y is at or near a singularity, where G and Ġ ẏ are damped and do not close the loop. Of the linkages of
-    /// this module that begins where rounding errors of Ġ ẏ are some thousandths of ẏ² in f64, and of its size in f32.
+    /// Whether y is at or near a singularity, where G and Ġ ẏ are damped and do not close the loop.
+    /// Of the linkages of this module that begins where rounding errors of Ġ ẏ are some thousandths
+    /// of ẏ² in f64, and of its size in f32.
     pub singular: bool,
 }
 

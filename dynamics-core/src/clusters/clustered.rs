@@ -17,7 +17,8 @@ use crate::state::{JointTrig, State, entry};
 use crate::trig::Kernel;
 use crate::{Core, Engine};
 
-/// The algorithms for a robot with clusters by those of its tree: `Clustered<Core<T>>` or `Clustered<Engine<T>>`.
+/// The algorithms for a robot with clusters by those of its tree: `Clustered<Core<T>>` or
+/// `Clustered<Engine<T>>`.
 ///
 /// States are those of y: see [`ClusteredRobot`].
 #[derive(Clone, Copy, Debug)]
@@ -136,8 +137,8 @@ where
         if const { !has_subtree_functions::<CompiledRobot<T, B, Q, V>>(E::WRENCH) } {
             return Engine::<T>::run(trig, trig, state, effects);
         }
-        // Functions of subtrees get the state in memory, and with it angles of which only effects at joints read more
-        // than sine and cosine: these are added here.
+        // Functions of subtrees get the state in memory, and with it angles of which only effects
+        // at joints read more than sine and cosine: these are added here.
         let mut turns = *trig;
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW
@@ -195,29 +196,32 @@ impl<A> Clustered<A> {
         evaluate::<R, A, B, Q, V, P, Y>(y)
     }
 
-    /// τ_y = Gᵀ ID(γ(y), G ẏ, G ÿ + Ġ ẏ): the torques at y, N·m or N, under the effects of the scene.
+    /// τ_y = Gᵀ ID(γ(y), G ẏ, G ÿ + Ġ ẏ): the torques at y, N·m or N, under the effects of the
+    /// scene.
     ///
-    /// Gravity alone: the same with `&Gravity::EARTH`. Effects act on the tree: friction and rotors are of its
-    /// coordinates.
+    /// Gravity alone: the same with `&Gravity::EARTH`. Effects act on the tree: friction and rotors
+    /// are of its coordinates.
     ///
-    /// Towards a singular configuration of a cluster the torques grow without bound, and this result does not say so:
-    /// [`Clustered::rnea_with_status`] does.
+    /// Towards a singular configuration of a cluster the torques grow without bound, and this
+    /// result does not say so: [`Clustered::rnea_with_status`] does.
     ///
     /// # Shape
     /// Y.
     ///
     /// # Cost
-    /// That of the tree's `rnea` without the sines of the dependent angles, that of the clusters, and 2 M N flops for
-    /// each. The same instructions for all data, but at singularities. Dependent angles themselves, which only
-    /// effects of joints read, cost an arc tangent each where one does, in the core, and in the engine on trees of more
-    /// than 16 joints with wrenches on bodies.
+    /// That of the tree's `rnea` without the sines of the dependent angles, that of the clusters,
+    /// and 2 M N flops for each. The same instructions for all data, but at singularities.
+    /// Dependent angles themselves, which only effects of joints read, cost an arc tangent each
+    /// where one does, in the core, and in the engine on trees of more than 16 joints with wrenches
+    /// on bodies.
     ///
     /// # Errors
-    /// [`ClusterError`] names the cluster that no configuration closes at y; and where a torque is not finite, the first
-    /// cluster with such a one, or the robot.
+    /// [`ClusterError`] names the cluster that no configuration closes at y; and where a torque is
+    /// not finite, the first cluster with such a one, or the robot.
     ///
     /// # Source
-    /// Jain (2011), section 11.4; Featherstone, RBDA (2008), (3.16), G being the null space of the loops' constraints.
+    /// Jain (2011), section 11.4; Featherstone, RBDA (2008), (3.16), G being the null space of the
+    /// loops' constraints.
     ///
     /// # Example
     /// That of [the module](super).
@@ -271,8 +275,8 @@ where
         qd: [R::ZERO; V],
         qdd: [R::ZERO; V],
     };
-    // Not by loops alone, which might not be unrolled: the tree's state would stay in memory, and with it numbers that
-    // no effect reads.
+    // Not by loops alone, which might not be unrolled: the tree's state would stay in memory, and
+    // with it numbers that no effect reads.
     for_each_joint!(J, {
         let p = TreeCoordinate::<A::Robot, B, Q, V, P, Y, J>::FREE_POSITION;
         let y_k = TreeCoordinate::<A::Robot, B, Q, V, P, Y, J>::FREE_VELOCITY;

@@ -6,8 +6,8 @@ use crate::model::{JointCoordinate, Robot};
 use crate::scalar::Real;
 use crate::state::State;
 
-/// The least rate of a cluster's motors per rate of an independent coordinate that is not damped, by default; see
-/// [`Driven::damped_below`](super::Driven::damped_below).
+/// The least rate of a cluster's motors per rate of an independent coordinate that is not damped,
+/// by default; see [`Driven::damped_below`](super::Driven::damped_below).
 pub const DEAD_POINT: f64 = 0.01;
 
 /// A cluster of a robot, with its name and the places of its motors.
@@ -36,8 +36,8 @@ impl<C, const M: usize, const N: usize> Driven<C, M, N> {
         }
     }
 
-    /// The same with the motors at these rows of q, of which [`TreeMotion::to_motors`](super::TreeMotion::to_motors)
-    /// has the torques.
+    /// The same with the motors at these rows of q, of which
+    /// [`TreeMotion::to_motors`](super::TreeMotion::to_motors) has the torques.
     ///
     /// # Panics
     /// If the cluster has no such row or a row is named twice; in a `const` this does not compile.
@@ -60,11 +60,12 @@ impl<C, const M: usize, const N: usize> Driven<C, M, N> {
         self
     }
 
-    /// The same with other rates of the motors, per unit rate of each independent coordinate, below which their torques
-    /// are damped, in place of [`DEAD_POINT`] for all.
+    /// The same with other rates of the motors, per unit rate of each independent coordinate, below
+    /// which their torques are damped, in place of [`DEAD_POINT`] for all.
     ///
-    /// They are in the units of the motors over those of y, such as m/rad. They bound the torques of the motors: |τ_a|
-    /// is at most the root of the sum of squares of the torques at y, each over its rate.
+    /// They are in the units of the motors over those of y, such as m/rad. They bound the torques
+    /// of the motors: |τ_a| is at most the root of the sum of squares of the torques at y, each
+    /// over its rate.
     ///
     /// ```
     /// use dynamics_core::clusters::{Branch, Driven, FourBar};
@@ -100,15 +101,16 @@ impl<C, const M: usize, const N: usize> Driven<C, M, N> {
     }
 }
 
-/// A robot of B bodies with Q positions and V velocities in its spanning tree, and P independent positions and Y
-/// independent velocities, known at compile time.
+/// A robot of B bodies with Q positions and V velocities in its spanning tree, and P independent
+/// positions and Y independent velocities, known at compile time.
 ///
-/// y has, in the order of the tree's bodies, the coordinates that are in no cluster as they are, and the independent
-/// coordinates of each cluster in the place of its first body. For robots whose joints all have one degree of freedom P
-/// = Y.
+/// y has, in the order of the tree's bodies, the coordinates that are in no cluster as they are,
+/// and the independent coordinates of each cluster in the place of its first body. For robots whose
+/// joints all have one degree of freedom P = Y.
 ///
-/// An impossible description does not compile: a coordinate that is driven twice, one that the robot does not have,
-/// bodies of a cluster that are on two bodies outside it, a joint with a quaternion, wrong P and Y. This one compiles,
+/// An impossible description does not compile: a coordinate that is driven twice, one that the
+/// robot does not have, bodies of a cluster that are on two bodies outside it, a joint with a
+/// quaternion, wrong P and Y. This one compiles,
 ///
 /// ```
 /// use dynamics_core::clusters::{Clustered, ClusteredRobot, Differential, Driven};

@@ -1,7 +1,9 @@
-//! Forward dynamics of a robot with clusters by the engine: M_y ÿ = τ_y − C_y, with M and the bias of the tree.
+//! Forward dynamics of a robot with clusters by the engine: M_y ÿ = τ_y − C_y, with M and the bias
+//! of the tree.
 //!
-//! Featherstone, RBDA (2008), section 8.5: M_y = Gᵀ M G, and C_y is inverse dynamics at ÿ = 0, Gᵀ ID(γ(y), G ẏ, Ġ ẏ). For the
-//! few independent coordinates of legs and arms cheaper than articulated bodies, [`Clustered::aba`].
+//! Featherstone, RBDA (2008), section 8.5: M_y = Gᵀ M G, and C_y is inverse dynamics at ÿ = 0, Gᵀ
+//! ID(γ(y), G ẏ, Ġ ẏ). For the few independent coordinates of legs and arms cheaper than
+//! articulated bodies, [`Clustered::aba`].
 
 use super::aba::ForwardError;
 use super::clustered::{evaluate, sealed::Tree};
@@ -17,8 +19,8 @@ use crate::state::State;
 use crate::trig::Kernel;
 
 impl<T, K> Clustered<Engine<T, K>> {
-    /// ÿ = FD(y, ẏ, τ_y): the independent accelerations, rad/s² or m/s², under the effects of the scene, as
-    /// `Clustered<Core<T>>::aba` computes them.
+    /// ÿ = FD(y, ẏ, τ_y): the independent accelerations, rad/s² or m/s², under the effects of the
+    /// scene, as `Clustered<Core<T>>::aba` computes them.
     ///
     /// `y.qdd` is not read. τ_y are torques at y: those of motors elsewhere go through
     /// [`TreeMotion::from_motors`].
@@ -27,8 +29,8 @@ impl<T, K> Clustered<Engine<T, K>> {
     /// Y.
     ///
     /// # Cost
-    /// That of [`Clustered::rnea`], of the tree's [`Engine::crba`] and of [`TreeMotion::inertia`], and Y³/3 flops; the same
-    /// instructions for all data, but at singularities.
+    /// That of [`Clustered::rnea`], of the tree's [`Engine::crba`] and of [`TreeMotion::inertia`],
+    /// and Y³/3 flops; the same instructions for all data, but at singularities.
     ///
     /// # Source
     /// Featherstone, RBDA (2008), section 8.5.
@@ -54,8 +56,9 @@ impl<T, K> Clustered<Engine<T, K>> {
     /// ```
     ///
     /// # Errors
-    /// [`ForwardError`] names the cluster that no configuration closes at y, or the cluster or joint of a coordinate of y whose
-    /// pivot is NaN or does not exceed 32 roundings of its entry on the diagonal of M_y: it moves no inertia.
+    /// [`ForwardError`] names the cluster that no configuration closes at y, or the cluster or
+    /// joint of a coordinate of y whose pivot is NaN or does not exceed 32 roundings of its entry
+    /// on the diagonal of M_y: it moves no inertia.
     #[inline(never)]
     pub fn forward_dynamics<
         R,

@@ -1,9 +1,9 @@
 //! The second pass of forward dynamics by clusters: articulated inertias and bias forces, inward.
 //!
-//! All coordinates of a cluster are eliminated at once, when the pass reaches its first body. The forces of its bodies
-//! are those of inverse dynamics within the cluster on a parent body at rest: once at ÿ = 0, which gives u = τ − Gᵀ(…),
-//! and once for each unit ÿₖ, which gives a column of D and of U. The joint of a body in no cluster is a cluster of one
-//! body with G = 1.
+//! All coordinates of a cluster are eliminated at once, when the pass reaches its first body. The
+//! forces of its bodies are those of inverse dynamics within the cluster on a parent body at rest:
+//! once at ÿ = 0, which gives u = τ − Gᵀ(…), and once for each unit ÿₖ, which gives a column of D
+//! and of U. The joint of a body in no cluster is a cluster of one body with G = 1.
 
 use super::aba::ForwardError;
 use super::articulated::{Column, Group};
@@ -17,8 +17,9 @@ use crate::scalar::Real;
 use crate::spatial::{Force, Motion, MotionSubspace};
 use crate::state::entry;
 
-/// How many roundings a pivot must exceed, relative to the largest inertia that the bodies could have along its motion:
-/// twice those of the algorithm without clusters, since a body of a cluster rotates and translates at once.
+/// How many roundings a pivot must exceed, relative to the largest inertia that the bodies could
+/// have along its motion: twice those of the algorithm without clusters, since a body of a cluster
+/// rotates and translates at once.
 const ROUNDINGS: f64 = 16.0;
 
 impl<R, T, E, const B: usize, const Q: usize, const V: usize, const P: usize, const Y: usize>
@@ -28,7 +29,8 @@ where
     T: ClusteredRobot<B, Q, V, P, Y>,
     E: Effect<R, B, V>,
 {
-    /// The second pass at body `i`: if it is the first of its group, the group's coordinates are eliminated.
+    /// The second pass at body `i`: if it is the first of its group, the group's coordinates are
+    /// eliminated.
     pub(super) fn inward(&mut self, i: usize, tau: &[R; Y]) -> Result<(), ForwardError> {
         let Some(group) = self.group(i) else {
             return Ok(());

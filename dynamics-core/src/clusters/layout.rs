@@ -40,8 +40,8 @@ pub(super) struct Layout<const Q: usize, const V: usize> {
 }
 
 impl<const Q: usize, const V: usize> Layout<Q, V> {
-    /// Of the clusters that drive these coordinates of a model and have these sizes M and N; a description that cannot
-    /// be does not compile.
+    /// Of the clusters that drive these coordinates of a model and have these sizes M and N; a
+    /// description that cannot be does not compile.
     pub(super) const fn of<const B: usize>(
         model: &Model<f64, B, Q, V>,
         coordinates: &[&[usize]],
@@ -112,7 +112,8 @@ impl<const Q: usize, const V: usize> Layout<Q, V> {
         }
     }
 
-    /// Places the coordinates of body `i`, `next` being the first places of y and ẏ that are left; returns those after.
+    /// Places the coordinates of body `i`, `next` being the first places of y and ẏ that are left;
+    /// returns those after.
     const fn body<const B: usize>(
         &mut self,
         model: &Model<f64, B, Q, V>,
@@ -195,7 +196,8 @@ const fn is_near(link: &Link<f64>) -> bool {
     link.limits.within_two_turns()
 }
 
-/// An entry of a list, or [`NONE`] behind its end: for constants that are evaluated where they are not used, too.
+/// An entry of a list, or [`NONE`] behind its end: for constants that are evaluated where they are
+/// not used, too.
 pub(super) const fn at(list: &[usize], i: usize) -> usize {
     if i < list.len() { list[i] } else { NONE }
 }

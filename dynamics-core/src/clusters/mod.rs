@@ -1,9 +1,11 @@
-//! Kinematic loops of closed form as clusters of joints: a robot with four-bars, parallel ankles or differentials.
+//! Kinematic loops of closed form as clusters of joints: a robot with four-bars, parallel ankles or
+//! differentials.
 //!
-//! A loop whose position is a function q = γ(y) of independent coordinates y becomes one joint of several bodies, a
+//! A loop whose position is a function q = γ(y) of independent coordinates y becomes one joint of
+//! several bodies, a
 //! [`Cluster`]: q̇ = G ẏ, q̈ = G ÿ + Ġ ẏ, τ_y = Gᵀ τ. The robot is described by its spanning tree, a
-//! [`Robot`](crate::model::Robot) like any other, and by which of the tree's coordinates each cluster drives, a
-//! [`ClusteredRobot`]. [`Clustered`] has the algorithms, of core and engine:
+//! [`Robot`](crate::model::Robot) like any other, and by which of the tree's coordinates each
+//! cluster drives, a [`ClusteredRobot`]. [`Clustered`] has the algorithms, of core and engine:
 //!
 //! ```
 //! use dynamics_core::clusters::{Branch, Clustered, ClusteredRobot, Driven, FourBar};
@@ -46,12 +48,13 @@
 //! | [`Stewart`] | 24, 6 | the platform's position and attitude |
 //! | [`Transmission`](crate::drivetrain::Transmission) | its V, its M | its motors |
 //!
-//! Motors at other coordinates of a linkage than y are those of [`Driven::actuated`]; [`Clustered::rnea_of_motors`] and
-//! [`TreeMotion::to_motors`] have their torques, [`Clustered::motors`] their motion.
+//! Motors at other coordinates of a linkage than y are those of [`Driven::actuated`];
+//! [`Clustered::rnea_of_motors`] and [`TreeMotion::to_motors`] have their torques,
+//! [`Clustered::motors`] their motion.
 //!
-//! Every other algorithm works on the tree: [`Clustered::motion`] gives the tree's state with its sines and cosines,
-//! which every algorithm of [`Core`](crate::Core) and [`Engine`](crate::Engine) accepts, and the maps of torques, M and
-//! Jacobians to y.
+//! Every other algorithm works on the tree: [`Clustered::motion`] gives the tree's state with its
+//! sines and cosines, which every algorithm of [`Core`](crate::Core) and [`Engine`](crate::Engine)
+//! accepts, and the maps of torques, M and Jacobians to y.
 
 mod aba;
 mod articulated;

@@ -1,6 +1,8 @@
-//! Motion of motors that are at actuated coordinates of a cluster and not at y, and inverse dynamics for them.
+//! Motion of motors that are at actuated coordinates of a cluster and not at y, and inverse
+//! dynamics for them.
 //!
-//! q_a = γ_a(y), q̇_a = G_a ẏ of the rows a that [`Driven::actuated`](super::Driven::actuated) names.
+//! q_a = γ_a(y), q̇_a = G_a ẏ of the rows a that [`Driven::actuated`](super::Driven::actuated)
+//! names.
 
 use super::clustered::evaluate;
 use super::description::sealed::Set;
@@ -10,15 +12,15 @@ use crate::scalar::Real;
 use crate::state::{State, entry};
 
 impl<A> Clustered<A> {
-    /// The motors' positions, velocities and accelerations at y, ẏ, ÿ, rad and s or m and s: the reference of a
-    /// controller whose encoders are at the motors.
+    /// The motors' positions, velocities and accelerations at y, ẏ, ÿ, rad and s or m and s: the
+    /// reference of a controller whose encoders are at the motors.
     ///
     /// In the places of y: a coordinate in no cluster has its motor there, as has a cluster without
     /// [`Driven::actuated`](super::Driven::actuated) rows.
     ///
     /// # Cost
-    /// That of the clusters, without what only other coordinates of the tree need, and an arc tangent for each angle of
-    /// a motor.
+    /// That of the clusters, without what only other coordinates of the tree need, and an arc
+    /// tangent for each angle of a motor.
     ///
     /// # Errors
     /// [`ClusterError`] names the cluster that no configuration closes at y.
@@ -44,8 +46,8 @@ impl<A> Clustered<A> {
         Ok(evaluate::<R, A, B, Q, V, P, Y>(y)?.motors(y))
     }
 
-    /// The torques of the motors at y, ẏ, ÿ under the effects of the scene, N·m or N: [`Clustered::rnea`], and then
-    /// [`TreeMotion::to_motors`].
+    /// The torques of the motors at y, ẏ, ÿ under the effects of the scene, N·m or N:
+    /// [`Clustered::rnea`], and then [`TreeMotion::to_motors`].
     ///
     /// # Shape
     /// Y, in the places of y.
@@ -54,8 +56,8 @@ impl<A> Clustered<A> {
     /// That of both, with the clusters evaluated once.
     ///
     /// # Errors
-    /// As both: [`ClusterError`] names the cluster that no configuration closes at y, or of which a torque is not
-    /// finite.
+    /// As both: [`ClusterError`] names the cluster that no configuration closes at y, or of which a
+    /// torque is not finite.
     ///
     /// # Example
     /// ```
@@ -119,8 +121,8 @@ where
     R: Real,
     T: ClusteredRobot<B, Q, V, P, Y>,
 {
-    /// The motors' positions, velocities and accelerations, in the places of `y`, of which this is the motion: see
-    /// [`Clustered::motors`].
+    /// The motors' positions, velocities and accelerations, in the places of `y`, of which this is
+    /// the motion: see [`Clustered::motors`].
     #[cfg_attr(optimised, inline(always))]
     pub fn motors(&self, y: &State<R, P, Y>) -> State<R, P, Y> {
         let (set, layout) = (const { T::CLUSTERS }, Self::LAYOUT);

@@ -14,11 +14,13 @@ const PIVOT: f64 = 4.0;
 pub struct MotorTorques<R, const Y: usize> {
     /// The torque of each motor in the places of y, N·m or N.
     pub tau: [R; Y],
-    /// The name of the first cluster whose motors are at or near a dead point: its torques are damped.
+    /// The name of the first cluster whose motors are at or near a dead point: its torques are
+    /// damped.
     pub singular: Option<&'static str>,
 }
 
-/// τ_a, and whether it is damped, from G_a by rows, τ at y and the reciprocals of the rates below which it is damped.
+/// τ_a, and whether it is damped, from G_a by rows, τ at y and the reciprocals of the rates below
+/// which it is damped.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn solve<R: Real, const N: usize>(
     g: &[[R; N]; N],
@@ -40,8 +42,9 @@ pub(super) fn solve<R: Real, const N: usize>(
 
 /// x with A x = b, by elimination with row pivots, and whether ς is more than one for certain.
 ///
-/// Of rows of unit length the sum of squares of A⁻¹ is at most N / det² A, by the inequality of the means for its
-/// singular values; rows of length r divide it by their least r². The determinant is the product of the pivots.
+/// Of rows of unit length the sum of squares of A⁻¹ is at most N / det² A, by the inequality of the
+/// means for its singular values; rows of length r divide it by their least r². The determinant is
+/// the product of the pivots.
 #[allow(
     clippy::needless_range_loop,
     reason = "iterators that skip entries are not unrolled: 3000 cycles of six motors, in place of 1220"

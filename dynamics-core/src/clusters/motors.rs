@@ -1,4 +1,5 @@
-//! The torques of a robot's motors, where they are not at the independent coordinates of its clusters.
+//! The torques of a robot's motors, where they are not at the independent coordinates of its
+//! clusters.
 
 use super::description::sealed::Set;
 use super::motor_torques::{MotorTorques, solve};
@@ -13,8 +14,8 @@ where
     R: Real,
     T: ClusteredRobot<B, Q, V, P, Y>,
 {
-    /// The torques of the motors that do the work of the torques τ at y, N·m or N: G_aᵀ τ_a = τ of each cluster's
-    /// actuated rows.
+    /// The torques of the motors that do the work of the torques τ at y, N·m or N: G_aᵀ τ_a = τ of
+    /// each cluster's actuated rows.
     ///
     /// A cluster without [`Driven::actuated`](super::Driven::actuated) rows has its motors at y.
     ///
@@ -22,19 +23,21 @@ where
     /// Y, in the places of y.
     ///
     /// # Dead points
-    /// At a dead point of the motors no torque of theirs does the work. Near it, τ_a is that of damped least squares,
-    /// with the rows of A = G_aᵀ and τ over [`Driven::damped_below`](super::Driven::damped_below):
+    /// At a dead point of the motors no torque of theirs does the work. Near it, τ_a is that of
+    /// damped least squares, with the rows of A = G_aᵀ and τ over
+    /// [`Driven::damped_below`](super::Driven::damped_below):
     ///
     /// ```text
     /// τ_a = Aᵀ (A Aᵀ + λ² 1)⁻¹ τ      λ² = 1 − ς² where ς² = 1 / tr (A Aᵀ)⁻¹ < 1
     /// ```
     ///
-    /// ς, at most the least singular value of A, is the distance from the dead point; from one on there is no damping.
-    /// Everywhere |τ_a| ≤ |τ| of these rows, and there is no jump where the damping ends.
+    /// ς, at most the least singular value of A, is the distance from the dead point; from one on
+    /// there is no damping. Everywhere |τ_a| ≤ |τ| of these rows, and there is no jump where the
+    /// damping ends.
     ///
     /// # Cost
-    /// N³/3 + 3 N² multiplications and N divisions for each cluster: 1,220 cycles of a Cortex-M4F with six motors. Near
-    /// a dead point some 5 N³ more: 11,500 cycles.
+    /// N³/3 + 3 N² multiplications and N divisions for each cluster: 1,220 cycles of a Cortex-M4F
+    /// with six motors. Near a dead point some 5 N³ more: 11,500 cycles.
     ///
     /// # Source
     /// Nakamura & Hanafusa (1986); Wampler (1986).
@@ -89,7 +92,8 @@ where
         Ok(out)
     }
 
-    /// The torques at y of the motors' torques, N·m or N: G_aᵀ τ_a, the inverse of [`TreeMotion::to_motors`].
+    /// The torques at y of the motors' torques, N·m or N: G_aᵀ τ_a, the inverse of
+    /// [`TreeMotion::to_motors`].
     ///
     /// # Shape
     /// Y, in the places of y.

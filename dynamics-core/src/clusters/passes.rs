@@ -1,5 +1,6 @@
-//! The first and the third pass of forward dynamics by clusters, [`Clustered::aba`](super::Clustered::aba), and the
-//! forces within a cluster; the second pass is in `inward.rs`.
+//! The first and the third pass of forward dynamics by clusters,
+//! [`Clustered::aba`](super::Clustered::aba), and the forces within a cluster; the second pass is
+//! in `inward.rs`.
 
 use super::places::TreeLayout;
 use heapless::Vec;
@@ -128,8 +129,9 @@ where
         i == group.root || (i < B && group.cluster != NONE && self.cluster(i) == group.cluster)
     }
 
-    /// The forces within the group while its parent body is at rest: `accel` is the acceleration that a body's joints
-    /// add, and `visit` is called for the bodies from the last to the first. Returns the force on the parent body.
+    /// The forces within the group while its parent body is at rest: `accel` is the acceleration
+    /// that a body's joints add, and `visit` is called for the bodies from the last to the first.
+    /// Returns the force on the parent body.
     pub(super) fn forces(
         &mut self,
         group: &Group,
@@ -174,7 +176,8 @@ where
         entry(&self.factors, group.first + k)
     }
 
-    /// The third pass: D ÿ = u − Uᵀ a of the body that carries the group, and aᵢ = X a_λ + c + S G ÿ.
+    /// The third pass: D ÿ = u − Uᵀ a of the body that carries the group, and aᵢ = X a_λ + c + S G
+    /// ÿ.
     pub(super) fn outward(&mut self) -> [R; Y] {
         let (_, a_0) = base_motion(self.effects);
         let (motion, mut ydd) = (self.motion, [R::ZERO; Y]);

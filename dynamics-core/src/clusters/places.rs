@@ -6,8 +6,8 @@ use super::description::sealed::Set;
 use super::layout::{Layout, NONE, at, independent};
 use super::{Cluster, ClusteredRobot};
 
-/// The layout of a robot's coordinates, with its checks: constants with names, which the compiler evaluates once, and not in
-/// each instance of a function.
+/// The layout of a robot's coordinates, with its checks: constants with names, which the compiler
+/// evaluates once, and not in each instance of a function.
 pub(super) struct TreeLayout<
     T,
     const B: usize,

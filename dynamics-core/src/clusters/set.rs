@@ -12,7 +12,8 @@ use crate::state::{State, entry};
 use crate::trig::Kernel;
 
 impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
-    /// Evaluates the cluster, which is the I-th, and fills in the tree's coordinates that it drives.
+    /// Evaluates the cluster, which is the I-th, and fills in the tree's coordinates that it
+    /// drives.
     #[cfg_attr(optimised, inline(always))]
     fn place<
         R: Real,
@@ -46,7 +47,8 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
             Err(problem) => return Err(self.error(problem)),
         };
         for_each_joint!(J, {
-            // Not a loop, which might not be unrolled: angles that no effect reads are then computed.
+            // Not a loop, which might not be unrolled: angles that no effect reads are then
+            // computed.
             if Index::<J, M>::IS_BELOW {
                 let v = ClusterRow::<T, B, Q, V, P, Y, I, J>::VELOCITY;
                 let q = ClusterRow::<T, B, Q, V, P, Y, I, J>::POSITION;

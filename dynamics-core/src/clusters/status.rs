@@ -1,8 +1,9 @@
 //! Inverse dynamics with clusters that says how close y is to a singular configuration.
 //!
-//! There G, the rates of the tree's joints per rate of y, grows without bound, and with it the torques: a torque of
-//! 10¹¹ N·m may be right, but no motor has it, and rounding errors grow with the square of G. The status is computed from
-//! the G of the motion, by whoever asks: [`Clustered::rnea`] has no instruction more.
+//! There G, the rates of the tree's joints per rate of y, grows without bound, and with it the
+//! torques: a torque of 10¹¹ N·m may be right, but no motor has it, and rounding errors grow with
+//! the square of G. The status is computed from the G of the motion, by whoever asks:
+//! [`Clustered::rnea`] has no instruction more.
 
 use core::fmt;
 
@@ -13,10 +14,11 @@ use crate::effects::{Effect, no_load_friction};
 use crate::scalar::Real;
 use crate::state::State;
 
-/// The rates of a tree's joints per rate of y beyond which [`ClusteredTorque::regular`] refuses by default.
+/// The rates of a tree's joints per rate of y beyond which [`ClusteredTorque::regular`] refuses by
+/// default.
 ///
-/// Linkages at work have up to some ten, and the reciprocal is [`DEAD_POINT`](super::DEAD_POINT), that of motors. In f32 the
-/// damping of the linkages begins at some 60, in f64 at 30,000.
+/// Linkages at work have up to some ten, and the reciprocal is [`DEAD_POINT`](super::DEAD_POINT),
+/// that of motors. In f32 the damping of the linkages begins at some 60, in f64 at 30,000.
 pub const NEAR_SINGULAR: f64 = 100.0;
 
 /// How far the joints of the clusters move with y.
@@ -25,10 +27,12 @@ pub const NEAR_SINGULAR: f64 = 100.0;
 pub struct Conditioning<R> {
     /// The cluster with the fastest joint, relative to y.
     pub cluster: &'static str,
-    /// The largest |∂q/∂y| of its joints, with a metre counted like a radian. It is constant for gears and belts; for linkages
-    /// it grows without bound towards a singular configuration, unless G is damped there.
+    /// The largest |∂q/∂y| of its joints, with a metre counted like a radian. It is constant for
+    /// gears and belts; for linkages it grows without bound towards a singular configuration,
+    /// unless G is damped there.
     pub transmission: R,
-    /// The first cluster that is at a singularity, where G is damped and the tree's velocities do not close the loop.
+    /// The first cluster that is at a singularity, where G is damped and the tree's velocities do
+    /// not close the loop.
     pub singular: Option<&'static str>,
 }
 
@@ -77,8 +81,8 @@ impl fmt::Display for NearSingular {
 impl core::error::Error for NearSingular {}
 
 impl<R: Real, const Y: usize> ClusteredTorque<R, Y> {
-    /// The torques, if no cluster is damped, and no joint of one is more than `most` times as fast as y: such as
-    /// [`NEAR_SINGULAR`], times the ratio of a gear.
+    /// The torques, if no cluster is damped, and no joint of one is more than `most` times as fast
+    /// as y: such as [`NEAR_SINGULAR`], times the ratio of a gear.
     ///
     /// # Errors
     /// [`NearSingular`] names the cluster.
@@ -101,7 +105,8 @@ impl<R: Real, const Y: usize> ClusteredTorque<R, Y> {
 }
 
 impl<A> Clustered<A> {
-    /// [`Clustered::rnea`] and how close y is to a singular configuration, where its torques grow without bound.
+    /// [`Clustered::rnea`] and how close y is to a singular configuration, where its torques grow
+    /// without bound.
     ///
     /// # Cost
     /// That of [`Clustered::rnea`], and a comparison for each entry of G.
@@ -176,8 +181,8 @@ where
     R: Real,
     T: ClusteredRobot<B, Q, V, P, Y>,
 {
-    /// How far the joints of the clusters move with y: of [`Clustered::rnea_with_status`], and of every other algorithm
-    /// that is given this motion.
+    /// How far the joints of the clusters move with y: of [`Clustered::rnea_with_status`], and of
+    /// every other algorithm that is given this motion.
     pub fn conditioning(&self) -> Conditioning<R> {
         let (mut fastest, mut transmission) = (0, R::ZERO);
         for (c, &[rows, _]) in <T::Clusters as Set>::SIZES.iter().enumerate() {

@@ -1,4 +1,5 @@
-//! The state of the spanning tree at independent coordinates, and the maps of torques, M and Jacobians to these.
+//! The state of the spanning tree at independent coordinates, and the maps of torques, M and
+//! Jacobians to these.
 
 use super::places::{TreeCoordinate, TreeLayout};
 use core::fmt;
@@ -14,8 +15,9 @@ use crate::state::{JointTrig, State, StateWithTrig, all_finite, entry};
 
 /// The spanning tree's state at y, ẏ, ÿ, with G: computed once a tick, for all algorithms.
 ///
-/// Every algorithm of core and engine accepts [`TreeMotion::state`] or [`TreeMotion::configuration`]; what it returns
-/// goes back to y by [`TreeMotion::torque`], [`TreeMotion::inertia`] and [`TreeMotion::jacobian`]:
+/// Every algorithm of core and engine accepts [`TreeMotion::state`] or
+/// [`TreeMotion::configuration`]; what it returns goes back to y by [`TreeMotion::torque`],
+/// [`TreeMotion::inertia`] and [`TreeMotion::jacobian`]:
 ///
 /// ```
 /// use dynamics_core::algorithms::frame;
@@ -147,7 +149,8 @@ where
     /// Gᵀ M G: the inertia at y of the tree's M, kg·m², kg and kg·m.
     ///
     /// # Cost
-    /// 2 V flops for each entry of G that can differ from zero, and that of [`TreeMotion::torque`] Y times.
+    /// 2 V flops for each entry of G that can differ from zero, and that of [`TreeMotion::torque`]
+    /// Y times.
     #[must_use]
     pub fn inertia(&self, m: &MassMatrix<R, V>) -> MassMatrix<R, Y> {
         // M G by columns, and Gᵀ of each.

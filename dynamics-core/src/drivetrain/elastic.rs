@@ -1,8 +1,8 @@
 //! Joint compliance: motors that drive their links through springs.
 //!
-//! Spong, "Modeling and control of elastic joint robots" (1987), equations (12), (13). The kinetic energy of a rotor is
-//! that of its rotation about its own axis only (his assumption of high gear ratios). For joints of one degree of
-//! freedom.
+//! Spong, "Modeling and control of elastic joint robots" (1987), equations (12), (13). The kinetic
+//! energy of a rotor is that of its rotation about its own axis only (his assumption of high gear
+//! ratios). For joints of one degree of freedom.
 
 /// The transmissions and motors of V joints, reflected to the joint.
 ///

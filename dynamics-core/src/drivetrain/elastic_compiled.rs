@@ -1,4 +1,5 @@
-//! Inverse dynamics with compliant joints for a robot known at compile time: by the textbook and by the engine.
+//! Inverse dynamics with compliant joints for a robot known at compile time: by the textbook and by
+//! the engine.
 
 use super::elastic_inverse_dynamics::{command, scene_taken};
 use super::{ElasticCommand, ElasticJoints, ElasticReference};
@@ -44,14 +45,15 @@ impl<T, K> Core<T, K> {
 }
 
 impl<T, K> Engine<T, K> {
-    /// Torques τ_m, angles θ and rates θ̇ of the motors for a motion of the links, N·m or N, rad or m, rad/s or m/s, as
-    /// [`elastic_inverse_dynamics`](super::elastic_inverse_dynamics()) computes them.
+    /// Torques τ_m, angles θ and rates θ̇ of the motors for a motion of the links, N·m or N, rad or
+    /// m, rad/s or m/s, as [`elastic_inverse_dynamics`](super::elastic_inverse_dynamics()) computes
+    /// them.
     ///
     /// Effects as there, angles as in [`Engine::rnea`].
     ///
     /// # Cost
-    /// About five times that of [`Engine::rnea`]: in `docs/scenes.md` in the repository the dynamics of `flexible_joint`. The same
-    /// instructions for all data.
+    /// About five times that of [`Engine::rnea`]: in `docs/scenes.md` in the repository the
+    /// dynamics of `flexible_joint`. The same instructions for all data.
     ///
     /// # Errors
     /// None: a robot with a joint of several degrees of freedom does not compile.

@@ -1,8 +1,10 @@
-//! Inverse dynamics with compliant joints: the motors' torques for a trajectory of the links with four derivatives.
+//! Inverse dynamics with compliant joints: the motors' torques for a trajectory of the links with
+//! four derivatives.
 //!
-//! De Luca & Lucibello, "A general algorithm for dynamic feedback linearization of robots with elastic joints" (1998);
-//! Buondonno & De Luca, "A recursive Newton-Euler algorithm for robots with elastic joints" (2015). The derivatives τ̇
-//! and τ̈ are computed by components in link coordinates, with W_j = S q⁽ʲ⁺¹⁾, the rule of Leibniz and
+//! De Luca & Lucibello, "A general algorithm for dynamic feedback linearization of robots with
+//! elastic joints" (1998); Buondonno & De Luca, "A recursive Newton-Euler algorithm for robots with
+//! elastic joints" (2015). The derivatives τ̇ and τ̈ are computed by components in link
+//! coordinates, with W_j = S q⁽ʲ⁺¹⁾, the rule of Leibniz and
 //!
 //! ```text
 //! d/dt (X m) = X ṁ − W₀ × X m      d/dt (Xᵀ f) = Xᵀ (ḟ + W₀ ×* f)
@@ -72,10 +74,10 @@ impl core::error::Error for MultiDofJoint {}
 /// τ = ID(q, q̇, q̈)      θ = q + τ / k      τ_m = J θ̈ + b θ̇ + τ
 /// ```
 ///
-/// Effects act on the links. The torques of joint effects are differentiated with derivatives that are assumed
-/// constant: this is exact for springs and viscous friction, and for Coulomb friction at speeds above its width.
-/// Effects that exert wrenches on bodies or move the base have no known derivatives and do not compile. Cost: some 1000
-/// flops per joint, O(B).
+/// Effects act on the links. The torques of joint effects are differentiated with derivatives that
+/// are assumed constant: this is exact for springs and viscous friction, and for Coulomb friction
+/// at speeds above its width. Effects that exert wrenches on bodies or move the base have no known
+/// derivatives and do not compile. Cost: some 1000 flops per joint, O(B).
 ///
 /// ```
 /// use dynamics_core::effects::RIGID_BODY;
@@ -150,7 +152,8 @@ impl<R: Real, const V: usize> ElasticCommand<R, V> {
         velocity: [R::ZERO; V],
     };
 
-    /// The motor of joint i at q, whose spring transmits τ with these derivatives: θ = q + τ/k, τ_m = J θ̈ + b θ̇ + τ.
+    /// The motor of joint i at q, whose spring transmits τ with these derivatives: θ = q + τ/k, τ_m
+    /// = J θ̈ + b θ̇ + τ.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn set<const Q: usize>(
         &mut self,

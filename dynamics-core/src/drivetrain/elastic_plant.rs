@@ -1,15 +1,15 @@
 //! The plant with compliant joints, stable at any stiffness.
 //!
-//! Springs and motors are integrated by backward Euler. With θ̇ at the end of the step eliminated, the torque of the
-//! springs there is
+//! Springs and motors are integrated by backward Euler. With θ̇ at the end of the step eliminated,
+//! the torque of the springs there is
 //!
 //! ```text
 //! τ₊ = ((J + h b) (e − h k q̇₊) + h k (J θ̇ + h τ_m)) / D
 //! D  = J + h (b + h k)      e = k (θ − q)
 //! ```
 //!
-//! It is linear in the links' q̇₊ = q̇ + h q̈: a torque, and h² k (J + h b) / D on the diagonal of M, which for k → ∞
-//! becomes the rotor's J + h b.
+//! It is linear in the links' q̇₊ = q̇ + h q̈: a torque, and h² k (J + h b) / D on the diagonal of
+//! M, which for k → ∞ becomes the rotor's J + h b.
 
 use super::{ElasticJoints, MotorState};
 use crate::algorithms::{NotPositiveDefinite, aba};
@@ -22,8 +22,9 @@ use crate::state::{State, entry};
 /// One step of `h` seconds of links and motors under the motors' torques τ_m, N·m or N.
 ///
 /// The step is of first order in h. The links, on which the effects act, are integrated as by
-/// [`linearly_implicit`](crate::sim::linearly_implicit). Stiff springs cause no cancellation: k (θ − q) is multiplied
-/// by J/D before it is used. Cost: that of `aba`, and a division and 30 flops per joint.
+/// [`linearly_implicit`](crate::sim::linearly_implicit). Stiff springs cause no cancellation: k (θ
+/// − q) is multiplied by J/D before it is used. Cost: that of `aba`, and a division and 30 flops
+/// per joint.
 ///
 /// ```
 /// use dynamics_core::effects::RIGID_BODY;

@@ -10,9 +10,10 @@ use crate::state::State;
 /// q = G u + q₀      τ_u = Gᵀ τ      M_u = Gᵀ M G
 /// ```
 ///
-/// A mimic joint (a gripper's second finger) is a row that repeats another; a differential wrist is a block of sums and
-/// differences. The power of the motors is that of the joints (Featherstone, RBDA, section 3.5: G is the null space of
-/// the implicit constraint). For joints of one degree of freedom. Cost: 2 M V flops per vector.
+/// A mimic joint (a gripper's second finger) is a row that repeats another; a differential wrist is
+/// a block of sums and differences. The power of the motors is that of the joints (Featherstone,
+/// RBDA, section 3.5: G is the null space of the implicit constraint). For joints of one degree of
+/// freedom. Cost: 2 M V flops per vector.
 ///
 /// ```
 /// use dynamics_core::drivetrain::Transmission;

@@ -4,7 +4,8 @@ use super::{BodyState, JointState, LoadFactors, RegroupedInertia};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 
-/// Calls the function of a hook, if it has one, directly: the `const` block names it while compiling.
+/// Calls the function of a hook, if it has one, directly: the `const` block names it while
+/// compiling.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! call_hook {
@@ -35,8 +36,8 @@ macro_rules! inlined {
     ($($function:tt)*) => { $($function)* };
 }
 
-/// The functions of a forwarder's hooks. `delegate_effect!` implements it. It has no default bodies, so that no hook is
-/// omitted.
+/// The functions of a forwarder's hooks. `delegate_effect!` implements it. It has no default
+/// bodies, so that no hook is omitted.
 #[doc(hidden)]
 pub trait Forwarder<R: Real, const B: usize, const V: usize> {
     fn forward_field(&self, g: &mut R::Vec3);
@@ -60,10 +61,11 @@ pub fn sum<R: Real>(a: Option<R>, b: Option<R>) -> Option<R> {
     }
 }
 
-/// Implements [`Effect`](crate::effects::Effect) by forwarding every hook to other effects, in their order: those of
-/// the type on the left of each arrow, found at the place on its right. Bounds of the impl stand in `where [..]` after
-/// the type. With `, advance` their internal states are advanced, too; without it, for effects that are borrowed or
-/// built for each call, they are not. With `if` and a constant, nothing is forwarded if the constant is false.
+/// Implements [`Effect`](crate::effects::Effect) by forwarding every hook to other effects, in
+/// their order: those of the type on the left of each arrow, found at the place on its right.
+/// Bounds of the impl stand in `where [..]` after the type. With `, advance` their internal states
+/// are advanced, too; without it, for effects that are borrowed or built for each call, they are
+/// not. With `if` and a constant, nothing is forwarded if the constant is false.
 ///
 /// ```
 /// use dynamics_core::delegate_effect;
@@ -108,8 +110,8 @@ macro_rules! delegate_effect {
             |$this| { $($inner => $to),* } $(, $advance)?
         }
     };
-    // All hooks, where `on` is true; those that go with q̈, where `accelerations` is true; those at joints, where
-    // `joints` is.
+    // All hooks, where `on` is true; those that go with q̈, where `accelerations` is true; those at
+    // joints, where `joints` is.
     (
         @if [$on:expr, $accelerations:expr, $joints:expr]
         impl[$($generics:tt)*] Effect<$R:ty, $B:tt, $V:tt> for $type:ty $(where [$($bounds:tt)*])?,

@@ -1,4 +1,5 @@
-//! Constants that follow from the hooks of a scene, so that core and engine use them under the same conditions.
+//! Constants that follow from the hooks of a scene, so that core and engine use them under the same
+//! conditions.
 
 use core::marker::PhantomData;
 
@@ -22,8 +23,8 @@ impl<R: Real, E, const B: usize, const V: usize> Scene<R, E, B, V>
 where
     E: Effect<R, B, V>,
 {
-    /// A scene that means what it says: see [`meaning`]. Public functions evaluate it in their own bodies, so that the
-    /// compiler names the line that calls them.
+    /// A scene that means what it says: see [`meaning`]. Public functions evaluate it in their own
+    /// bodies, so that the compiler names the line that calls them.
     pub(crate) const MEANING: () = meaning::<R, E, B, V>();
     /// The same for the textbook algorithms, which have no base parameters.
     pub(crate) const OF_CORE: () = {
@@ -32,7 +33,8 @@ where
     };
 }
 
-/// No effect occurs twice that cannot mean two things, and no payload is on a body that is not there.
+/// No effect occurs twice that cannot mean two things, and no payload is on a body that is not
+/// there.
 #[track_caller]
 pub(crate) const fn meaning<R: Real, E, const B: usize, const V: usize>()
 where

@@ -1,7 +1,8 @@
 //! Optional hooks of an effect, as values: the type of a hook's argument is what it reads.
 //!
-//! An effect names such a hook by a constant of [`Effect`](super::Effect). This is the only place to declare it, and
-//! its constructor determines what it reads, so that every hook is called and none reads a value that was not computed:
+//! An effect names such a hook by a constant of [`Effect`](super::Effect). This is the only place
+//! to declare it, and its constructor determines what it reads, so that every hook is called and
+//! none reads a value that was not computed:
 //!
 //! ```
 //! use dynamics_core::effects::{Effect, hook};
@@ -42,7 +43,8 @@
 //! }
 //! ```
 //!
-//! A function beside the constants is not a hook (the same for `field`, `base`, `payload`, `spin` and `load_factors`):
+//! A function beside the constants is not a hook (the same for `field`, `base`, `payload`, `spin`
+//! and `load_factors`):
 //!
 //! ```compile_fail,E0407
 //! # use dynamics_core::{effects::{BodyState, Effect}, scalar::Real, spatial::Force};
@@ -102,11 +104,13 @@
 //! }
 //! ```
 //!
-//! Machine code: a hook is a constant, so that its call is a direct one; a function with `#[cfg_attr(optimised, inline(always))]` in place
-//! of a closure is inlined at every level of optimisation.
+//! Machine code: a hook is a constant, so that its call is a direct one; a function with
+//! `#[cfg_attr(optimised, inline(always))]` in place of a closure is inlined at every level of
+//! optimisation.
 //!
-//! A forwarder has the hooks of its effects: none, `with` each of theirs, `through` a function that calls them
-//! ([`delegate_effect!`](crate::delegate_effect)). `call_hook!` calls the function of a hook.
+//! A forwarder has the hooks of its effects: none, `with` each of theirs, `through` a function that
+//! calls them ([`delegate_effect!`](crate::delegate_effect)). `call_hook!` calls the function of a
+//! hook.
 
 pub use load_friction::LoadFriction;
 pub use regrouped::Regrouped;
@@ -145,8 +149,8 @@ impl<E, R: Real> Field<E, R> {
         gravities: 0,
     };
 
-    /// A field of gravity, which adds to the acceleration g of free fall, in base coordinates, m/s². A scene of several
-    /// does not compile.
+    /// A field of gravity, which adds to the acceleration g of free fall, in base coordinates,
+    /// m/s². A scene of several does not compile.
     pub const fn gravity(add: fn(&E, &mut R::Vec3)) -> Self {
         Self {
             add: Some(add),
@@ -164,7 +168,8 @@ impl<E, R: Real> Field<E, R> {
         }
     }
 
-    /// The same field, of which only these base components may differ from zero; others are ignored.
+    /// The same field, of which only these base components may differ from zero; others are
+    /// ignored.
     #[must_use]
     pub const fn along(self, axes: [bool; 3]) -> Self {
         let [x, y, z] = self.axes;
@@ -212,7 +217,8 @@ impl<E, R: Real> Base<E, R> {
         is_some: false,
     };
 
-    /// Adds to the spatial velocity v₀ and acceleration a₀ of the base, at its origin and in its coordinates.
+    /// Adds to the spatial velocity v₀ and acceleration a₀ of the base, at its origin and in its
+    /// coordinates.
     pub const fn moving(add: fn(&E, &mut Motion<R>, &mut Motion<R>)) -> Self {
         Self {
             add: Some(add),
@@ -258,8 +264,8 @@ impl<E, R: Real, const B: usize> Inertia<E, R, B> {
         no_body: None,
     };
 
-    /// Adds to the inertia of the bodies that are marked, about the origin of a body's frame and in its coordinates;
-    /// for others the hook is not called.
+    /// Adds to the inertia of the bodies that are marked, about the origin of a body's frame and in
+    /// its coordinates; for others the hook is not called.
     pub const fn on(bodies: [bool; B], add: fn(&E, usize, &mut SpatialInertia<R>)) -> Self {
         Self {
             add: Some(add),
@@ -269,7 +275,8 @@ impl<E, R: Real, const B: usize> Inertia<E, R, B> {
         }
     }
 
-    /// Adds to the inertia of one body; a scene in which the robot does not have it does not compile.
+    /// Adds to the inertia of one body; a scene in which the robot does not have it does not
+    /// compile.
     pub(in crate::effects) const fn on_body(
         body: usize,
         add: fn(&E, usize, &mut SpatialInertia<R>),
@@ -324,8 +331,9 @@ impl<E, R> Rotor<E, R> {
         is_some: false,
     };
 
-    /// Adds to ρ I, the coupling of the rotor that spins on the parent link of a joint with what carries it, kg·m² or kg·m;
-    /// [`inertia`](super::Effect::inertia) has its ρ² I. See [`GyroscopicRotors`](super::GyroscopicRotors).
+    /// Adds to ρ I, the coupling of the rotor that spins on the parent link of a joint with what
+    /// carries it, kg·m² or kg·m; [`inertia`](super::Effect::inertia) has its ρ² I. See
+    /// [`GyroscopicRotors`](super::GyroscopicRotors).
     pub const fn coupling(add: fn(&E, usize, &mut R)) -> Self {
         Self {
             add: Some(add),

@@ -5,9 +5,11 @@ use crate::spatial::{Motion, Xform};
 
 /// The state of one joint, which joint hooks read.
 ///
-/// The library fills it in, and a field may be added: build it by [`JointState::new`], as in a test of an effect of one's
-/// own. It has no q̈: inertia belongs in [`Effect::inertia`](super::Effect::inertia), from which the library makes the torque
-/// and M's diagonal alike. Nor has it the transmitted torque: see [`hook::LoadFriction`](super::hook::LoadFriction).
+/// The library fills it in, and a field may be added: build it by [`JointState::new`], as in a test
+/// of an effect of one's own. It has no q̈: inertia belongs in
+/// [`Effect::inertia`](super::Effect::inertia), from which the library makes the torque and M's
+/// diagonal alike. Nor has it the transmitted torque: see
+/// [`hook::LoadFriction`](super::hook::LoadFriction).
 ///
 /// ```compile_fail,E0609
 /// # use dynamics_core::{effects::{Effect, JointState}, scalar::Real};
@@ -35,30 +37,32 @@ impl<R> JointState<R> {
     }
 }
 
-/// The velocity of one body, which a wrench of [`hook::Wrench::of_velocity`](super::hook::Wrench::of_velocity) reads.
+/// The velocity of one body, which a wrench of
+/// [`hook::Wrench::of_velocity`](super::hook::Wrench::of_velocity) reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BodyVelocity<R: Real> {
-    /// Velocity in an inertial frame, the motion of the base included, about the origin of the body's frame and in its
-    /// coordinates.
+    /// Velocity in an inertial frame, the motion of the base included, about the origin of the
+    /// body's frame and in its coordinates.
     pub velocity: Motion<R>,
-    /// Velocity of the base in the same inertial frame, about the base's origin and in its coordinates; nothing where no
-    /// effect of the scene moves the base.
+    /// Velocity of the base in the same inertial frame, about the base's origin and in its
+    /// coordinates; nothing where no effect of the scene moves the base.
     pub base: Option<Motion<R>>,
 }
 
-/// The state of one body, which a wrench of [`hook::Wrench::of_state`](super::hook::Wrench::of_state) reads.
+/// The state of one body, which a wrench of
+/// [`hook::Wrench::of_state`](super::hook::Wrench::of_state) reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BodyState<R: Real> {
-    /// Pose relative to the base: the coordinate transform from the base to the body's frame, its origin in base
-    /// coordinates, m.
+    /// Pose relative to the base: the coordinate transform from the base to the body's frame, its
+    /// origin in base coordinates, m.
     pub pose: Xform<R>,
-    /// Velocity in an inertial frame, the motion of the base included, about the origin of the body's frame and in its
-    /// coordinates.
+    /// Velocity in an inertial frame, the motion of the base included, about the origin of the
+    /// body's frame and in its coordinates.
     pub velocity: Motion<R>,
-    /// Velocity of the base in the same inertial frame, about the base's origin and in its coordinates; nothing where no
-    /// effect of the scene moves the base.
+    /// Velocity of the base in the same inertial frame, about the base's origin and in its
+    /// coordinates; nothing where no effect of the scene moves the base.
     pub base: Option<Motion<R>>,
 }
 

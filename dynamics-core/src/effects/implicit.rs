@@ -7,12 +7,13 @@ use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{State, entry};
 
-/// The effects of a scene for a step of `h` seconds, with torques at its end, extrapolated along their derivatives.
+/// The effects of a scene for a step of `h` seconds, with torques at its end, extrapolated along
+/// their derivatives.
 ///
-/// τ(q + h q̇₊, q̇₊) ≈ τ + ∂τ/∂q h (q̇ + h q̈) + ∂τ/∂q̇ h q̈: the factor of q̈, h ∂τ/∂q̇ + h² ∂τ/∂q, is added to M's
-/// diagonal, the rest to τ. Forward dynamics under these effects is the linearly implicit Euler step. It is stable at
-/// any stiffness of springs and dampers, and costs a few flops per joint. Baraff & Witkin, "Large steps in cloth
-/// simulation" (1998), equation (6).
+/// τ(q + h q̇₊, q̇₊) ≈ τ + ∂τ/∂q h (q̇ + h q̈) + ∂τ/∂q̇ h q̈: the factor of q̈, h ∂τ/∂q̇ + h²
+/// ∂τ/∂q, is added to M's diagonal, the rest to τ. Forward dynamics under these effects is the
+/// linearly implicit Euler step. It is stable at any stiffness of springs and dampers, and costs a
+/// few flops per joint. Baraff & Witkin, "Large steps in cloth simulation" (1998), equation (6).
 ///
 /// ```
 /// use dynamics_core::algorithms::aba;
@@ -61,7 +62,8 @@ impl<'a, E, R: Real, const V: usize> Implicit<'a, E, R, V> {
         Self { effects, end }
     }
 
-    /// The same for motors of the torques `tau`, N·m or N, on which load-dependent friction depends.
+    /// The same for motors of the torques `tau`, N·m or N, on which load-dependent friction
+    /// depends.
     #[cfg_attr(optimised, inline(always))]
     pub fn under<D, const B: usize, const Q: usize>(
         robot: &D,

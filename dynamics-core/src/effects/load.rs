@@ -43,8 +43,9 @@ pub(crate) fn load_frictions<R: Real, E, const B: usize, const Q: usize, const V
     }
 }
 
-/// What of the motor's torque x is left for all else, τ. Where the load drives and cannot turn the gear, 1 + b + a sgn x ≤ 0, it
-/// is not finite: that takes a friction which holds, not one of a smooth sign.
+/// What of the motor's torque x is left for all else, τ. Where the load drives and cannot turn the
+/// gear, 1 + b + a sgn x ≤ 0, it is not finite: that takes a friction which holds, not one of a
+/// smooth sign.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn transmitted<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
@@ -75,7 +76,8 @@ pub(crate) fn add_load_slope<R: Real, E, const B: usize, const V: usize>(
     E: Effect<R, B, V>,
 {
     if const { E::LOAD_DEPENDENT } {
-        // x = τ (1 + b + a sgn τ) at a given x: (1 + b + a sgn τ) ∂τ/∂q̇ = −(a′ |τ| + b′ τ), and its factor is x/τ.
+        // x = τ (1 + b + a sgn τ) at a given x: (1 + b + a sgn τ) ∂τ/∂q̇ = −(a′ |τ| + b′ τ), and
+        // its factor is x/τ.
         let load = transmitted(effects, joint, at, tau);
         let mut slopes = LoadFactors::default();
         call_hook!(E::LOAD_FRICTION.slopes, effects, joint, at, &mut slopes);
@@ -106,7 +108,8 @@ where
     factors
 }
 
-/// The motors' torques of all coordinates without the friction of their gears, for forward dynamics.
+/// The motors' torques of all coordinates without the friction of their gears, for forward
+/// dynamics.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn all_transmitted<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -131,7 +134,8 @@ where
     rest
 }
 
-/// Algorithms that do not know which torque a gear transmits do not take friction that depends on it.
+/// Algorithms that do not know which torque a gear transmits do not take friction that depends on
+/// it.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) const fn no_load_friction<R: Real, E, const B: usize, const V: usize>()
 where

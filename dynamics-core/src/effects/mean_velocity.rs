@@ -5,8 +5,9 @@ use super::{Effect, JointState};
 use crate::scalar::Real;
 use crate::state::entry;
 
-/// The effects `E` at a state of mean velocity, but for torques at joints, which are those at the start's velocity: from there
-/// [`Implicit`](super::Implicit) extrapolates them to the end. Load-dependent friction is left out.
+/// The effects `E` at a state of mean velocity, but for torques at joints, which are those at the
+/// start's velocity: from there [`Implicit`](super::Implicit) extrapolates them to the end.
+/// Load-dependent friction is left out.
 pub(crate) struct AtMeanVelocity<'a, E, R, const V: usize> {
     bodies: Bodies<'a, E>,
     joints: JointsAtStart<'a, E, R, V>,

@@ -43,8 +43,8 @@
 //! assert!(core[0] > Core::<Ur5e>::rnea(&swinging, &RIGID_BODY)[0]);
 //! ```
 //!
-//! A scene that contains gravity twice does not compile, nor does one that contains another effect twice that cannot mean
-//! two things ([`Once`] has the list):
+//! A scene that contains gravity twice does not compile, nor does one that contains another effect
+//! twice that cannot mean two things ([`Once`] has the list):
 //!
 //! ```compile_fail,E0080
 //! use dynamics_core::effects::{GravityVector, RIGID_BODY};
@@ -55,9 +55,10 @@
 //! // (Inertia, Coriolis, GravityVector(..))
 //! ```
 //!
-//! This call is checked by a full build, whose error names it in a note. A scene that is a constant is checked by `cargo
-//! check` and rust-analyzer, too, at its own line, if [`Engine::scene_f32`](crate::Engine::scene_f32) or its sisters for
-//! f64 and for [`Core`](crate::Core) return it:
+//! This call is checked by a full build, whose error names it in a note. A scene that is a constant
+//! is checked by `cargo check` and rust-analyzer, too, at its own line, if
+//! [`Engine::scene_f32`](crate::Engine::scene_f32) or its sisters for f64 and for
+//! [`Core`](crate::Core) return it:
 //!
 //! ```
 //! use dynamics_core::effects::{Coriolis, Gravity, Inertia, Viscous};
@@ -139,14 +140,15 @@ use crate::scalar::Real;
 
 /// A physical effect, or a tuple of them, on a robot of B bodies and V velocity coordinates.
 ///
-/// Every hook has an empty default, which costs nothing; but an effect has at least one constant hook or the function
-/// [`torque`](Effect::torque). (That is found when the default of `torque` is compiled: the one place where the compiler
-/// knows that it was not written. An effect whose only hook is `inertia` or `advance`, or that is to do nothing, writes
-/// an empty `torque`.) Hooks *add* to their last argument: an effect that returned
-/// zero would leave an addition in the machine code (x + 0.0 is not x for IEEE's −0.0). Sizes are part of the type, so
-/// that five friction values on six joints do not compile. Hooks at joints are functions. Hooks that enable a part of
-/// the algorithms are constants that name their function and what it reads ([`hook`]), so that a hook and its
-/// declaration cannot contradict each other.
+/// Every hook has an empty default, which costs nothing; but an effect has at least one constant
+/// hook or the function [`torque`](Effect::torque). (That is found when the default of `torque` is
+/// compiled: the one place where the compiler knows that it was not written. An effect whose only
+/// hook is `inertia` or `advance`, or that is to do nothing, writes an empty `torque`.) Hooks *add*
+/// to their last argument: an effect that returned zero would leave an addition in the machine code
+/// (x + 0.0 is not x for IEEE's −0.0). Sizes are part of the type, so that five friction values on
+/// six joints do not compile. Hooks at joints are functions. Hooks that enable a part of the
+/// algorithms are constants that name their function and what it reads ([`hook`]), so that a hook
+/// and its declaration cannot contradict each other.
 ///
 /// ```
 /// use dynamics_core::effects::{Effect, JointState};
@@ -191,11 +193,13 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Sized {
     const VELOCITY_PRODUCTS: bool = false;
     /// The scene has the stiffness and damping of links that bend ([`crate::flexible`]).
     const ELASTICITY: bool = false;
-    /// What a scene contains at most once: a scene of two does not compile. Any number of times for an effect of one's own,
-    /// unless it takes this constant from one of the library, such as `<Viscous<R, V> as Effect<R, B, V>>::ONCE`.
+    /// What a scene contains at most once: a scene of two does not compile. Any number of times for
+    /// an effect of one's own, unless it takes this constant from one of the library, such as
+    /// `<Viscous<R, V> as Effect<R, B, V>>::ONCE`.
     const ONCE: Once = Once::NONE;
 
-    /// Adds to the torque τ that the motor of `joint` must supply independently of its acceleration, N·m or N.
+    /// Adds to the torque τ that the motor of `joint` must supply independently of its
+    /// acceleration, N·m or N.
     #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         const { gates::has_hook::<R, Self, B, V>() };
@@ -209,7 +213,8 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Sized {
         let _ = (joint, at, derivatives);
     }
 
-    /// The inertia at `joint`, kg·m² or kg, which the library adds to M's diagonal and, times q̈, to the torque.
+    /// The inertia at `joint`, kg·m² or kg, which the library adds to M's diagonal and, times q̈,
+    /// to the torque.
     #[cfg_attr(optimised, inline(always))]
     fn inertia(&self, joint: usize) -> Option<R> {
         let _ = joint;

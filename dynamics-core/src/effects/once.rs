@@ -17,7 +17,8 @@
 /// | different kinds of friction | add up: each has its own term |
 /// | your own | add up: how often they may occur is for you to decide |
 ///
-/// Where two of a kind are meant, as in two fits of Stribeck's curve, an effect of one's own calls both.
+/// Where two of a kind are meant, as in two fits of Stribeck's curve, an effect of one's own calls
+/// both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Once {
     named: u32,

@@ -1,4 +1,5 @@
-//! Evaluates the hooks of effects for the textbook algorithms, in the frames in which hooks are defined.
+//! Evaluates the hooks of effects for the textbook algorithms, in the frames in which hooks are
+//! defined.
 
 use super::{
     BodyState, Declared, Effect, JointState, Scene, TorqueDerivatives, call_hook, field_axes, hook,
@@ -182,8 +183,9 @@ where
     loss
 }
 
-/// Adds the torque of the effects at one joint's coordinate, and its first two derivatives, along a course with these derivatives
-/// of q from the second to the fourth. ∂τ/∂q and ∂τ/∂q̇ are taken as constant.
+/// Adds the torque of the effects at one joint's coordinate, and its first two derivatives, along a
+/// course with these derivatives of q from the second to the fourth. ∂τ/∂q and ∂τ/∂q̇ are taken as
+/// constant.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn add_joint_torque_rates<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
@@ -236,7 +238,8 @@ where
     Force::new(R::Vec3::new(R::ZERO, R::ZERO, coupling), R::Vec3::ZERO)
 }
 
-/// ρ I (q̈ z + q̇ ω × z): the couple that the parent link exerts on such a rotor, in the body's aligned frame.
+/// ρ I (q̈ z + q̇ ω × z): the couple that the parent link exerts on such a rotor, in the body's
+/// aligned frame.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn gyroscopic<R: Real, E, const B: usize, const V: usize>(
     effects: &E,

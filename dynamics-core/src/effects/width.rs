@@ -2,10 +2,11 @@
 
 use crate::scalar::Real;
 
-/// A speed, rad/s or m/s, or a depth, rad or m, over which an effect fades in. The sign does not matter.
+/// A speed, rad/s or m/s, or a depth, rad or m, over which an effect fades in. The sign does not
+/// matter.
 ///
-/// Its reciprocal is stored, so that no tick divides by it. For a scene in a `const` or `static` [`Width::f32`] and
-/// [`Width::f64`] are evaluated by the compiler.
+/// Its reciprocal is stored, so that no tick divides by it. For a scene in a `const` or `static`
+/// [`Width::f32`] and [`Width::f64`] are evaluated by the compiler.
 ///
 /// ```
 /// use dynamics_core::effects::{Coulomb, Width};

@@ -1,8 +1,8 @@
 //! Forward dynamics by articulated bodies.
 //!
-//! Featherstone (1983); RBDA (2008), table 7.1, in two steps: the recursion of [`super::rnea`] subtracts the bias from
-//! the torques, and the remaining torques accelerate a robot at rest without gravity, so that the articulated bodies
-//! need neither velocities nor velocity products.
+//! Featherstone (1983); RBDA (2008), table 7.1, in two steps: the recursion of [`super::rnea`]
+//! subtracts the bias from the torques, and the remaining torques accelerate a robot at rest
+//! without gravity, so that the articulated bodies need neither velocities nor velocity products.
 
 use core::borrow::Borrow;
 use core::hint::black_box;
@@ -27,12 +27,14 @@ use crate::state::{Configuration, JointTrig, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// The acceleration of each joint, q̈ = FD(q, q̇, τ), as by [`Engine::forward_dynamics`], with articulated bodies.
+    /// The acceleration of each joint, q̈ = FD(q, q̇, τ), as by [`Engine::forward_dynamics`], with
+    /// articulated bodies.
     ///
     /// `state.qdd` is not read.
     ///
     /// # Cost
-    /// O(V), but more than that of `forward_dynamics` on short chains: `docs/costs.md` in the repository.
+    /// O(V), but more than that of `forward_dynamics` on short chains: `docs/costs.md` in the
+    /// repository.
     ///
     /// # Source
     /// Featherstone (1983); RBDA (2008), table 7.1.

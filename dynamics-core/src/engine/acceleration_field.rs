@@ -1,7 +1,7 @@
 //! The acceleration field of a body, from parent to child, and the wrench of its inertia.
 //!
-//! The field form of the Newton-Euler equations: the acceleration of the points of a body, and the wrench of its
-//! inertia,
+//! The field form of the Newton-Euler equations: the acceleration of the points of a body, and the
+//! wrench of its inertia,
 //!
 //! ```text
 //! a(r) = a + U r        U = α× + ω× ω×      Σ = ∫ r rᵀ dm
@@ -198,8 +198,8 @@ impl<R: Real> Inertia<R> {
         }
     }
 
-    /// The inertia that loaded base parameters leave to a body, which coordinate `by` moves; what is zero of every robot is a
-    /// known zero.
+    /// The inertia that loaded base parameters leave to a body, which coordinate `by` moves; what
+    /// is zero of every robot is a known zero.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn loaded(body: &RegroupedInertia<R>, by: &Joint, base_moves: bool) -> Self {
         let ([x, y, z], [xx, xy, xz, yy, yz]) = (
@@ -321,7 +321,8 @@ impl<R: Real> AccelerationField<R> {
         }
     }
 
-    /// The field of a child behind a revolute joint: in the axes of the child, or in those that it has at q = 0.
+    /// The field of a child behind a revolute joint: in the axes of the child, or in those that it
+    /// has at q = 0.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn across_revolute<const TURNED: bool>(
         &self,
@@ -389,9 +390,9 @@ impl<R: Real> AccelerationField<R> {
         }
     }
 
-    /// The field of a child behind joint I, a planar, spherical or free one: v_J is the velocity of the body in the
-    /// joint's frame, by the body's axes, so that α = E α_λ + ω̇_J + E ω_λ × ω_J and
-    /// a = E a_λ(p) + v̇_J + (ω + E ω_λ) × v_J.
+    /// The field of a child behind joint I, a planar, spherical or free one: v_J is the velocity of
+    /// the body in the joint's frame, by the body's axes, so that α = E α_λ + ω̇_J + E ω_λ × ω_J
+    /// and a = E a_λ(p) + v̇_J + (ω + E ω_λ) × v_J.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn across_several<C: Compiled, const I: usize>(
         &self,
@@ -419,7 +420,8 @@ impl<R: Real> AccelerationField<R> {
         }
     }
 
-    /// The wrench that accelerates the body's inertia: f = m a + U h, n = h × a + axial(U Σ − Σ Uᵀ).
+    /// The wrench that accelerates the body's inertia: f = m a + U h, n = h × a + axial(U Σ − Σ
+    /// Uᵀ).
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn wrench(&self, body: &Inertia<R>) -> Wrench<R> {
         let (mass, h) = (body.mass, body.moment);
@@ -472,8 +474,8 @@ fn complete<R: Real>(
     (ax, ay, u)
 }
 
-/// Rz(q)ᵀ Rᵀ v: from the parent's frame into the body's, or Rᵀ v. A function, not a closure: closures are inlined too late
-/// for the tags to fold.
+/// Rz(q)ᵀ Rᵀ v: from the parent's frame into the body's, or Rᵀ v. A function, not a closure:
+/// closures are inlined too late for the tags to fold.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn enter<R: Real, const TURNED: bool>(
     rot: &Mat3<R>,

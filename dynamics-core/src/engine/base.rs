@@ -8,8 +8,8 @@ use crate::effects::{Declared, Effect, Scene, base_given, call_hook, field_axes}
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
 
-/// The base without its acceleration: a = −g, its velocity if it moves, and its pose, in units of length; all other values are
-/// known zeros.
+/// The base without its acceleration: a = −g, its velocity if it moves, and its pose, in units of
+/// length; all other values are known zeros.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn unaccelerated<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
@@ -49,8 +49,8 @@ where
     field
 }
 
-/// The motion of the base: a = −g plus its own acceleration, in units of length. If it is at rest, all other values are
-/// known zeros.
+/// The motion of the base: a = −g plus its own acceleration, in units of length. If it is at rest,
+/// all other values are known zeros.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn base<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
@@ -70,8 +70,8 @@ where
     field
 }
 
-/// The field of a base of the velocity of `field`, with its spatial acceleration, and with the products of its velocity if they
-/// are asked for.
+/// The field of a base of the velocity of `field`, with its spatial acceleration, and with the
+/// products of its velocity if they are asked for.
 #[cfg_attr(optimised, inline(always))]
 fn accelerated<R: Real>(
     mut field: AccelerationField<R>,

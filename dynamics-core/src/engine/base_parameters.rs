@@ -1,6 +1,8 @@
-//! Base parameters of calibrated inertias, at run time: what [`super::compile`] does to those of the description.
+//! Base parameters of calibrated inertias, at run time: what [`super::compile`] does to those of
+//! the description.
 //!
-//! The geometry is the description's. Khalil & Dombre, *Modeling, Identification and Control of Robots* (2002), chapter 9.
+//! The geometry is the description's. Khalil & Dombre, *Modeling, Identification and Control of
+//! Robots* (2002), chapter 9.
 
 use core::marker::PhantomData;
 
@@ -16,10 +18,11 @@ use crate::spatial::{SpatialInertia, Xform};
 use crate::state::{all_finite, entry};
 
 impl<T, K> Engine<T, K> {
-    /// The base parameters of a calibrated robot with the payloads of `effects`, for the scenes of the engine.
+    /// The base parameters of a calibrated robot with the payloads of `effects`, for the scenes of
+    /// the engine.
     ///
-    /// A payload that is part of the set costs nothing in the tick; in the scene it costs what `docs/costs.md` says. A whole
-    /// set is computed at once, outside the tick.
+    /// A payload that is part of the set costs nothing in the tick; in the scene it costs what
+    /// `docs/costs.md` says. A whole set is computed at once, outside the tick.
     ///
     /// ```
     /// use dynamics_core::effects::{Payload, RIGID_BODY};
@@ -42,9 +45,10 @@ impl<T, K> Engine<T, K> {
     /// Some 200 flops for each body; not for the tick.
     ///
     /// # Errors
-    /// [`ModelError`] names the first body whose placement is not that of the description ([`Problem::Placement`]), or a moving
-    /// body whose base parameters are not finite ([`Problem::NotFinite`]). That inertias are physical is what
-    /// [`Calibrated::set_inertia`] and [`Calibrated::check`] are for.
+    /// [`ModelError`] names the first body whose placement is not that of the description
+    /// ([`Problem::Placement`]), or a moving body whose base parameters are not finite
+    /// ([`Problem::NotFinite`]). That inertias are physical is what [`Calibrated::set_inertia`] and
+    /// [`Calibrated::check`] are for.
     ///
     /// # Source
     /// Khalil & Dombre (2002), chapter 9.
@@ -100,7 +104,8 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-/// The number of a body's joint, its first coordinate, or [`BASE`] of a body that is fixed to its parent.
+/// The number of a body's joint, its first coordinate, or [`BASE`] of a body that is fixed to its
+/// parent.
 fn joint_of<R: Real>(link: &LinkView<'_, R>) -> usize {
     link.coordinates().next().unwrap_or(BASE)
 }
@@ -154,7 +159,8 @@ where
     Ok(joints)
 }
 
-/// Writes the coordinates that move a body, whose frame is `place`; returns the one that carries it, and its frame there.
+/// Writes the coordinates that move a body, whose frame is `place`; returns the one that carries
+/// it, and its frame there.
 fn attach<R: Real>(
     joints: &mut [Carried<R>],
     link: &LinkView<'_, R>,
@@ -187,8 +193,8 @@ fn attach<R: Real>(
     }
 }
 
-/// Moves the frame of joint `i` along its axis z to where the offset from the parent is perpendicular to it; returns the way
-/// back.
+/// Moves the frame of joint `i` along its axis z to where the offset from the parent is
+/// perpendicular to it; returns the way back.
 fn along_axis<R: Real>(
     joints: &mut [Carried<R>],
     i: usize,
@@ -210,7 +216,8 @@ fn along_axis<R: Real>(
     }
 }
 
-/// What regrouping leaves to a body behind a joint, in units of length, and what its parent receives.
+/// What regrouping leaves to a body behind a joint, in units of length, and what its parent
+/// receives.
 fn split<R: Real>(
     [mass, hx, hy, hz, xx, xy, yy, xz, yz, zz]: [R; 10],
     motion: JointMotion,
@@ -249,7 +256,8 @@ fn split<R: Real>(
     (kept, SpatialInertia::from_parameters(passed).into())
 }
 
-/// Mass, largest first and largest second moment of each joint and its descendants: see [`super::pivot_noise`].
+/// Mass, largest first and largest second moment of each joint and its descendants: see
+/// [`super::pivot_noise`].
 fn sizes<R: Real, T, E, const B: usize, const Q: usize, const V: usize>(
     robot: &Calibrated<T, R, B, Q, V>,
     effects: &E,

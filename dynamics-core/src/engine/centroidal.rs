@@ -1,7 +1,7 @@
 //! Centre of mass and momentum of all bodies together, and the matrix that maps q̇ to the momentum.
 //!
-//! Orin, Goswami & Lee, "Centroidal dynamics of a humanoid robot" (2013). A column of the matrix is the momentum of the composite
-//! body beyond a joint at unit rate of that joint.
+//! Orin, Goswami & Lee, "Centroidal dynamics of a humanoid robot" (2013). A column of the matrix is
+//! the momentum of the composite body beyond a joint at unit rate of that joint.
 
 use core::borrow::Borrow;
 use core::marker::PhantomData;
@@ -66,8 +66,8 @@ impl<T, K> Engine<T, K> {
         }
     }
 
-    /// The momentum of all bodies together, about the base's origin and along its axes, N·m·s and N·s, as
-    /// [`crate::algorithms::momentum`](crate::algorithms::momentum()) computes it.
+    /// The momentum of all bodies together, about the base's origin and along its axes, N·m·s and
+    /// N·s, as [`crate::algorithms::momentum`](crate::algorithms::momentum()) computes it.
     ///
     /// # Cost
     /// Some 60 flops for each revolute joint; the same instructions for all data.
@@ -99,8 +99,8 @@ impl<T, K> Engine<T, K> {
         force(&all, CompiledRobot::<T, B, Q, V>::LENGTH)
     }
 
-    /// The centroidal momentum h_G: about the centre of mass and along the base's axes, N·m·s and N·s, as
-    /// [`crate::algorithms::centroidal_momentum`] computes it.
+    /// The centroidal momentum h_G: about the centre of mass and along the base's axes, N·m·s and
+    /// N·s, as [`crate::algorithms::centroidal_momentum`] computes it.
     ///
     /// # Cost
     /// Some 60 flops for each revolute joint; the same instructions for all data.
@@ -151,8 +151,8 @@ impl<T, K> Engine<T, K> {
         totals::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V, true>(turns, Some(qd), effects)
     }
 
-    /// The centroidal momentum matrix A_G with h_G = A_G q̇, by columns, one for each coordinate, for a base at rest, as
-    /// [`crate::algorithms::centroidal_matrix`] computes it.
+    /// The centroidal momentum matrix A_G with h_G = A_G q̇, by columns, one for each coordinate,
+    /// for a base at rest, as [`crate::algorithms::centroidal_matrix`] computes it.
     ///
     /// About the centre of mass and along the base's axes, N·m·s and N·s per rad/s or m/s.
     ///
@@ -259,7 +259,8 @@ where
     }
 }
 
-/// The momentum of a body at unit rate of a joint at its origin, about the base's origin and along its axes.
+/// The momentum of a body at unit rate of a joint at its origin, about the base's origin and along
+/// its axes.
 #[cfg_attr(optimised, inline(always))]
 fn column<R: Real>(
     at: &Pose<R>,

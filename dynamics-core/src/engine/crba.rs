@@ -1,4 +1,5 @@
-//! M(q) by composite bodies: the bodies that a joint moves as one rigid body, and the wrench of its unit acceleration.
+//! M(q) by composite bodies: the bodies that a joint moves as one rigid body, and the wrench of its
+//! unit acceleration.
 //!
 //! Walker & Orin (1982); Featherstone, RBDA (2008), table 6.2, over base parameters: the masses of
 //! composite bodies are known zeros behind revolute joints, and h travels as R h.
@@ -24,11 +25,11 @@ use crate::state::Configuration;
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// The joint-space inertia matrix M(q), kg·m², kg and kg·m, with the armatures, the payload and the base
-    /// parameters of the scene.
+    /// The joint-space inertia matrix M(q), kg·m², kg and kg·m, with the armatures, the payload and
+    /// the base parameters of the scene.
     ///
-    /// Other effects are ignored: [`crate::effects::RIGID_BODY`] gives the robot's own M. Angles as in
-    /// [`Engine::rnea`].
+    /// Other effects are ignored: [`crate::effects::RIGID_BODY`] gives the robot's own M. Angles as
+    /// in [`Engine::rnea`].
     ///
     /// # Cost
     /// `docs/costs.md` in the repository; the same instructions for all data.
@@ -115,9 +116,9 @@ pub(crate) fn mass_matrix<R, C, E, const B: usize, const Q: usize, const V: usiz
 type Composite<R, E, const Q: usize, const V: usize> =
     fn(&mut Task<'_, R, E, Q, V>, &Twist<R>) -> (Inertia<R>, Felt<R>);
 
-/// Writes the columns of joint I and of its descendants; returns their inertia in the parent's frame, or what joints on
-/// parallel axes feel of it. `root` is the motion of the joint on the base at rate −1, in the frame of the parent, or in that of the
-/// last ancestor on parallel axes.
+/// Writes the columns of joint I and of its descendants; returns their inertia in the parent's
+/// frame, or what joints on parallel axes feel of it. `root` is the motion of the joint on the base
+/// at rate −1, in the frame of the parent, or in that of the last ancestor on parallel axes.
 #[cfg_attr(optimised, inline(always))]
 fn composite<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
@@ -175,7 +176,8 @@ where
     }
     let turned = body.turned::<C, I>(&at);
     if const { keeps_axis(CompiledJoint::<C, I>::MOTION) } {
-        // Of the turned body, so that column I and the composite of the parent share the turn's products.
+        // Of the turned body, so that column I and the composite of the parent share the turn's
+        // products.
         let mut wrench = turned.wrench_of(joint, length_inv);
         if !joint.prismatic {
             wrench.n.0[2] = body.second.xx + body.second.yy + spin;
@@ -189,8 +191,9 @@ where
     (turned.turned_to_parent::<C, I>(&at), Felt::NONE)
 }
 
-/// Whether a rotation of the joint's body leaves the axis of its coordinate as it is: body and wrench may be turned in either
-/// order. The axes of planar, spherical and free joints turn with the body.
+/// Whether a rotation of the joint's body leaves the axis of its coordinate as it is: body and
+/// wrench may be turned in either order. The axes of planar, spherical and free joints turn with
+/// the body.
 const fn keeps_axis(motion: JointMotion) -> bool {
     matches!(
         motion,
@@ -198,8 +201,9 @@ const fn keeps_axis(motion: JointMotion) -> bool {
     )
 }
 
-/// Column I of M: its diagonal entry, and the wrench of joint I's unit acceleration, in the joint's frame, projected on each
-/// ancestor. Where it meets `root`, that of the joint on the base, their product is the entry of both.
+/// Column I of M: its diagonal entry, and the wrench of joint I's unit acceleration, in the joint's
+/// frame, projected on each ancestor. Where it meets `root`, that of the joint on the base, their
+/// product is the entry of both.
 #[cfg_attr(optimised, inline(always))]
 fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
@@ -243,7 +247,8 @@ fn column<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usiz
     });
 }
 
-/// Of the inertia `spin` that joint I's own rotation feels, what those of the children on parallel axes do not contain.
+/// Of the inertia `spin` that joint I's own rotation feels, what those of the children on parallel
+/// axes do not contain.
 #[cfg_attr(optimised, inline(always))]
 fn own_spin<R, C, E, const B: usize, const V: usize, const I: usize>(spin: Folded<R>) -> Folded<R>
 where

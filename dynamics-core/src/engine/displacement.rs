@@ -1,7 +1,8 @@
 //! The displacement of a joint: where its body is on the parent side, and what crosses the joint.
 //!
-//! Beyond the constant placement of the joint's frame in the parent's: RBDA (2008), table 4.1. Rotations about z need a
-//! sine and a cosine; those of spherical and free joints are the matrix of the unit quaternion.
+//! Beyond the constant placement of the joint's frame in the parent's: RBDA (2008), table 4.1.
+//! Rotations about z need a sine and a cosine; those of spherical and free joints are the matrix of
+//! the unit quaternion.
 
 use super::compile::{Compiled, CompiledJoint, JointMotion};
 use super::folding::{Folded, Mat3, Sym3, Vec3, constant_offset_cross, rotate_to_parent};
@@ -10,7 +11,8 @@ use crate::scalar::{Matrix, Real};
 use crate::trig::Kernel;
 
 impl<C: Compiled, const I: usize> CompiledJoint<C, I> {
-    /// Writes the sine and cosine, or the unit quaternion and other positions, that coordinate I brings.
+    /// Writes the sine and cosine, or the unit quaternion and other positions, that coordinate I
+    /// brings.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn turn<R: Real, K: Kernel<R>, const Q: usize>(
         q: &[R; Q],
@@ -43,7 +45,8 @@ pub(crate) struct Displacement<R> {
     pub(crate) slide: Folded<R>,
     /// The translation of a planar or free joint, in the joint's frame and in units of length.
     offset: Vec3<R>,
-    /// The rotation of coordinates from the joint's frame to the body's, of a spherical or free joint.
+    /// The rotation of coordinates from the joint's frame to the body's, of a spherical or free
+    /// joint.
     attitude: Mat3<R>,
 }
 
@@ -167,7 +170,8 @@ impl<R: Real> Displacement<R> {
         Mat3(rows.rows())
     }
 
-    /// The body's axes along those of the frame of which `joint` holds the axes of the joint's frame.
+    /// The body's axes along those of the frame of which `joint` holds the axes of the joint's
+    /// frame.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn axes<C: Compiled, const I: usize>(&self, joint: &Mat3<R>) -> Mat3<R> {
         let [x, y, z] = joint.0;
@@ -184,7 +188,8 @@ impl<R: Real> Displacement<R> {
         }
     }
 
-    /// The translation in the frame of which `joint` holds the axes of the joint's frame, in units of length.
+    /// The translation in the frame of which `joint` holds the axes of the joint's frame, in units
+    /// of length.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn along<C: Compiled, const I: usize>(&self, joint: &Mat3<R>) -> Vec3<R> {
         match CompiledJoint::<C, I>::MOTION {

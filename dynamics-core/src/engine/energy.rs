@@ -59,8 +59,8 @@ impl<T, K> Engine<T, K> {
         all.twice.get() * R::from_f64(0.5)
     }
 
-    /// The potential energy U in the field of the effects, J, zero at the height of the base's origin, as
-    /// [`crate::algorithms::potential_energy`] computes it.
+    /// The potential energy U in the field of the effects, J, zero at the height of the base's
+    /// origin, as [`crate::algorithms::potential_energy`] computes it.
     ///
     /// # Cost
     /// Some 10 flops for each revolute joint; the same instructions for all data.

@@ -23,7 +23,8 @@ use crate::state::{Configuration, JointTrig, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², under the effects of the scene.
+    /// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², under the effects of the
+    /// scene.
     ///
     /// By the inertia matrix and its factors; [`Engine::aba`] gives the same without them.
     /// `state.qdd` is not read. A scene without `Inertia` does not compile:
@@ -34,10 +35,10 @@ impl<T, K> Engine<T, K> {
     /// ```
     ///
     /// # Errors
-    /// [`NotPositiveDefinite`] names the outermost joint that moves no inertia when its descendants are free (a
-    /// massless last link without rotor inertia; a joint on the axis of another with no inertia between them), or whose
-    /// inertia is NaN: its pivot does not exceed 16 roundings of the largest inertia that all its descendants,
-    /// stretched out, could have about it.
+    /// [`NotPositiveDefinite`] names the outermost joint that moves no inertia when its descendants
+    /// are free (a massless last link without rotor inertia; a joint on the axis of another with no
+    /// inertia between them), or whose inertia is NaN: its pivot does not exceed 16 roundings of
+    /// the largest inertia that all its descendants, stretched out, could have about it.
     #[doc(alias = "FD")]
     #[inline(never)]
     pub fn forward_dynamics<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
@@ -151,7 +152,8 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    // The bias before M: as one block they would need more registers than there are. M and its factors need fewer in one.
+    // The bias before M: as one block they would need more registers than there are. M and its
+    // factors need fewer in one.
     let mut rest = remaining::<R, C, E, B, Q, V>(trig, state, tau, effects);
     black_box(&mut rest);
     let mut m = MassMatrix::ZERO;

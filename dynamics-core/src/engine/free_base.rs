@@ -1,8 +1,9 @@
-//! A free base that nothing holds: its velocity from the momentum, and inverse dynamics of the joints that it carries.
+//! A free base that nothing holds: its velocity from the momentum, and inverse dynamics of the
+//! joints that it carries.
 //!
-//! The composite inertia of all bodies at the base, as that of one rigid body, gives the base's step from what is lacking:
-//! Umetani & Yoshida (1989) for velocities, Featherstone, RBDA (2008), section 9.5 for accelerations, where
-//! a₀ = −(Iᶜ₀)⁻¹ f₀ and τᵢ = τᵢ(a₀ = 0) + Sᵢᵀ Iᶜᵢ ⁱX₀ a₀.
+//! The composite inertia of all bodies at the base, as that of one rigid body, gives the base's
+//! step from what is lacking: Umetani & Yoshida (1989) for velocities, Featherstone, RBDA (2008),
+//! section 9.5 for accelerations, where a₀ = −(Iᶜ₀)⁻¹ f₀ and τᵢ = τᵢ(a₀ = 0) + Sᵢᵀ Iᶜᵢ ⁱX₀ a₀.
 
 use core::borrow::Borrow;
 use core::hint::black_box;
@@ -32,8 +33,8 @@ impl<T, K> Engine<T, K> {
     /// The velocity q̇ at which the total momentum of a floating robot is h, as
     /// [`crate::algorithms::base_velocity_from_momentum`] computes it.
     ///
-    /// The rates of the first body are replaced; h is about the base's origin and along its axes, N·m·s and N·s. A robot
-    /// whose first joint is not free does not compile:
+    /// The rates of the first body are replaced; h is about the base's origin and along its axes,
+    /// N·m·s and N·s. A robot whose first joint is not free does not compile:
     ///
     /// ```compile_fail,E0080
     /// use dynamics_core::{Engine, robots::Ur5e, spatial::Force, state::State};
@@ -60,7 +61,8 @@ impl<T, K> Engine<T, K> {
     /// ```
     ///
     /// # Errors
-    /// [`NotPositiveDefinite`] names the first coordinate if the bodies have no mass, or no inertia about some axis.
+    /// [`NotPositiveDefinite`] names the first coordinate if the bodies have no mass, or no inertia
+    /// about some axis.
     #[doc(alias = "recoil")]
     #[inline(never)]
     pub fn base_velocity_from_momentum<R, S, E, const B: usize, const Q: usize, const V: usize>(
@@ -95,13 +97,13 @@ impl<T, K> Engine<T, K> {
         Ok(qd)
     }
 
-    /// The torques at which the joints accelerate as q̈ says while no force holds the free base, and the accelerations of
-    /// all coordinates, those of the base included.
+    /// The torques at which the joints accelerate as q̈ says while no force holds the free base,
+    /// and the accelerations of all coordinates, those of the base included.
     ///
     /// Of the state's q̈ the entries of the base are replaced. The result is that of
-    /// [`crate::algorithms::hybrid_dynamics`] with the torque zero at the base and accelerations at the joints; rotor
-    /// inertias of the base's coordinates are not read, where there is no motor. A robot whose first joint is not free does not
-    /// compile.
+    /// [`crate::algorithms::hybrid_dynamics`] with the torque zero at the base and accelerations at
+    /// the joints; rotor inertias of the base's coordinates are not read, where there is no motor.
+    /// A robot whose first joint is not free does not compile.
     ///
     /// # Cost
     /// That of [`Engine::rnea`], and some 100 flops for each joint and 150.
@@ -123,7 +125,8 @@ impl<T, K> Engine<T, K> {
     /// ```
     ///
     /// # Errors
-    /// [`NotPositiveDefinite`] names the first coordinate if the bodies have no mass, or no inertia about some axis.
+    /// [`NotPositiveDefinite`] names the first coordinate if the bodies have no mass, or no inertia
+    /// about some axis.
     #[doc(alias = "floating base")]
     #[doc(alias = "hybrid dynamics")]
     #[inline(never)]
@@ -196,7 +199,8 @@ fn step<R: Real, const V: usize>(
     Ok(step)
 }
 
-/// A force about the origin of the base of the description and along its axes, in the frame of the free body.
+/// A force about the origin of the base of the description and along its axes, in the frame of the
+/// free body.
 #[cfg_attr(optimised, inline(always))]
 fn in_base<R: Real, C: Compiled, const Q: usize>(
     turns: &[JointCoordinate<R>; Q],
@@ -220,7 +224,8 @@ fn in_base<R: Real, C: Compiled, const Q: usize>(
 /// The wrenches Iᶜ S of unit accelerations, in the frames of their bodies: couple and force.
 type Columns<R, const V: usize> = [[R; 6]; V];
 
-/// The composite inertia of the free body and its descendants in its own frame, and the columns of the descendants.
+/// The composite inertia of the free body and its descendants in its own frame, and the columns of
+/// the descendants.
 #[cfg_attr(optimised, inline(always))]
 fn composite<R: Real, C, E, const B: usize, const Q: usize, const V: usize>(
     turns: &[JointCoordinate<R>; Q],

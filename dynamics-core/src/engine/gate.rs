@@ -17,7 +17,8 @@ where
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    /// Public functions evaluate it in their own bodies, so that the compiler names the line that calls them.
+    /// Public functions evaluate it in their own bodies, so that the compiler names the line that
+    /// calls them.
     pub(super) const TAKEN: () = {
         let () = Scene::<R, E, B, V>::MEANING;
         taken::<T, R, E, B, Q, V>();
@@ -60,9 +61,10 @@ impl<T, K> Engine<T, K> {
     scene! {
         /// The same `effects`, checked as a scene of this robot in f32 at the line of the caller.
         ///
-        /// The compiler checks a scene wherever an algorithm takes it, but only in a full build, and with a message from
-        /// inside the library. The value of a `const` item is evaluated by `cargo check` and rust-analyzer, too, and its
-        /// errors stand at its line. No machine code: the value is the one that is given.
+        /// The compiler checks a scene wherever an algorithm takes it, but only in a full build,
+        /// and with a message from inside the library. The value of a `const` item is evaluated by
+        /// `cargo check` and rust-analyzer, too, and its errors stand at its line. No machine code:
+        /// the value is the one that is given.
         ///
         /// ```
         /// use dynamics_core::effects::{Coriolis, Gravity, Inertia, Viscous};
@@ -83,7 +85,8 @@ impl<T, K> Engine<T, K> {
         /// ```
         ///
         /// # Panics
-        /// If the scene or the robot is one that the engine does not take: a compile error in a `const` item.
+        /// If the scene or the robot is one that the engine does not take: a compile error in a
+        /// `const` item.
         scene_f32 f32
     }
 

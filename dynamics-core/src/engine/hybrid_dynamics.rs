@@ -1,7 +1,8 @@
 //! Hybrid dynamics: the torque of some coordinates is given, and the acceleration of the others.
 //!
-//! Featherstone, RBDA (2008), section 9.2, by bias and M: rows and columns of coordinates of given acceleration are those of the
-//! identity, so that the factors of M keep their zeros and the instructions do not depend on which coordinates these are.
+//! Featherstone, RBDA (2008), section 9.2, by bias and M: rows and columns of coordinates of given
+//! acceleration are those of the identity, so that the factors of M keep their zeros and the
+//! instructions do not depend on which coordinates these are.
 
 use core::borrow::Borrow;
 use core::hint::black_box;
@@ -22,14 +23,14 @@ use crate::state::{Configuration, JointTrig, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// Torques and accelerations of all coordinates, of which one is given for each, N·m or N and rad/s² or m/s², as
-    /// [`crate::algorithms::hybrid_dynamics`] computes them.
+    /// Torques and accelerations of all coordinates, of which one is given for each, N·m or N and
+    /// rad/s² or m/s², as [`crate::algorithms::hybrid_dynamics`] computes them.
     ///
     /// `state.qdd` is not read.
     ///
     /// # Cost
-    /// That of [`Engine::forward_dynamics`], and 4 V² flops for a chain of V joints, less on a tree; the same instructions for all
-    /// data.
+    /// That of [`Engine::forward_dynamics`], and 4 V² flops for a chain of V joints, less on a
+    /// tree; the same instructions for all data.
     ///
     /// # Source
     /// Featherstone, RBDA (2008), section 9.2.
@@ -139,7 +140,8 @@ where
     Ok(JointResult { tau, qdd })
 }
 
-/// Row J of M up to its diagonal, with the entries of the identity where J or the column's coordinate is not free.
+/// Row J of M up to its diagonal, with the entries of the identity where J or the column's
+/// coordinate is not free.
 #[cfg_attr(optimised, inline(always))]
 fn hold<R: Real, C: Compiled, const V: usize, const J: usize>(
     rows: &mut [[R; V]; V],

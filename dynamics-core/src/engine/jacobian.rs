@@ -21,13 +21,14 @@ use crate::state::{Configuration, JointTrig};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// The geometric Jacobian J of a body in a [`Frame`] with v = J q̇, by columns, one for each coordinate, as
-    /// [`crate::algorithms::jacobian`] computes it.
+    /// The geometric Jacobian J of a body in a [`Frame`] with v = J q̇, by columns, one for each
+    /// coordinate, as [`crate::algorithms::jacobian`] computes it.
     ///
     /// ω in rad/s and velocity in m/s per rad/s or m/s; τ = Jᵀ f for a force in the same frame.
     ///
     /// # Cost
-    /// `docs/costs.md` in the repository, in `LocalWorldAligned`; 30 flops a column more in `Local`, 9 in `World`.
+    /// `docs/costs.md` in the repository, in `LocalWorldAligned`; 30 flops a column more in
+    /// `Local`, 9 in `World`.
     ///
     /// # Source
     /// Featherstone, RBDA (2008), section 4.1.
@@ -124,8 +125,8 @@ where
 type Reach<R, const Q: usize, const V: usize> =
     fn(&[JointCoordinate<R>; Q], &Mat3<R>, &mut [Motion<R>; V]) -> Vec3<R>;
 
-/// Writes the columns of joint I and of its descendants; returns the offset of the body's origin from the
-/// parent's, in base coordinates, m. `parent` holds the axes of the parent's frame.
+/// Writes the columns of joint I and of its descendants; returns the offset of the body's origin
+/// from the parent's, in base coordinates, m. `parent` holds the axes of the parent's frame.
 #[cfg_attr(optimised, inline(always))]
 fn reach<R: Real, C, const Q: usize, const V: usize, const BODY: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],

@@ -14,8 +14,8 @@ pub(crate) struct JointRates<R> {
     pub(crate) accel: Folded<R>,
 }
 
-/// Rates of a planar, spherical or free joint, rotations and translations, in units of length; zero where no effect needs
-/// them.
+/// Rates of a planar, spherical or free joint, rotations and translations, in units of length; zero
+/// where no effect needs them.
 #[derive(Clone, Copy)]
 pub(crate) struct SeveralRates<R> {
     pub(crate) velocity: Twist<R>,
@@ -64,7 +64,8 @@ impl<R: Real> Twist<R> {
         }
     }
 
-    /// The motion of joint I, a planar, spherical or free one, of all `rates`; zero unless it is needed.
+    /// The motion of joint I, a planar, spherical or free one, of all `rates`; zero unless it is
+    /// needed.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of<C: Compiled, const V: usize, const I: usize>(
         rates: &[R; V],

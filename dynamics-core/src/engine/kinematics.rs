@@ -1,7 +1,7 @@
 //! Poses, velocities and accelerations of bodies that are named while compiling, and of all bodies.
 //!
-//! Featherstone & Orin (2000), (3) and (4), in the field form of [`super::acceleration_field`]; only the joints that move the
-//! named bodies are visited.
+//! Featherstone & Orin (2000), (3) and (4), in the field form of [`super::acceleration_field`];
+//! only the joints that move the named bodies are visited.
 
 use core::borrow::Borrow;
 use core::marker::PhantomData;
@@ -23,11 +23,12 @@ use crate::state::{Configuration, JointTrig, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// The pose of every body's own frame in the base's: rotation, and position in m, as [`crate::algorithms::poses`] computes
-    /// them.
+    /// The pose of every body's own frame in the base's: rotation, and position in m, as
+    /// [`crate::algorithms::poses`] computes them.
     ///
     /// # Cost
-    /// Some 20 flops for each revolute joint; the same instructions for all data. [`Engine::poses_of`] costs less.
+    /// Some 20 flops for each revolute joint; the same instructions for all data.
+    /// [`Engine::poses_of`] costs less.
     ///
     /// # Source
     /// Featherstone, RBDA (2008), table 2.6.
@@ -52,12 +53,14 @@ impl<T, K> Engine<T, K> {
         poses::<R, CompiledRobot<T, B, Q, V>, AllBodies, B, Q, V>(trig.borrow())
     }
 
-    /// The poses of some bodies' own frames in the base's, in the order of `bodies`: those of [`Engine::poses`].
+    /// The poses of some bodies' own frames in the base's, in the order of `bodies`: those of
+    /// [`Engine::poses`].
     ///
     /// A body that the robot does not have does not compile.
     ///
     /// # Cost
-    /// Some 20 flops for each revolute joint that moves one of these bodies; the same instructions for all data.
+    /// Some 20 flops for each revolute joint that moves one of these bodies; the same instructions
+    /// for all data.
     ///
     /// # Source
     /// Featherstone, RBDA (2008), table 2.6.
@@ -87,11 +90,12 @@ impl<T, K> Engine<T, K> {
         poses::<R, CompiledRobot<T, B, Q, V>, L, N, Q, V>(trig.borrow())
     }
 
-    /// Pose, velocity and acceleration of every body, on a base that moves as the effects specify, as
-    /// [`crate::algorithms::kinematics()`] computes them.
+    /// Pose, velocity and acceleration of every body, on a base that moves as the effects specify,
+    /// as [`crate::algorithms::kinematics()`] computes them.
     ///
     /// # Cost
-    /// Some 80 flops for each revolute joint; the same instructions for all data. [`Engine::kinematics_of`] costs less.
+    /// Some 80 flops for each revolute joint; the same instructions for all data.
+    /// [`Engine::kinematics_of`] costs less.
     ///
     /// # Source
     /// Featherstone & Orin (2000), (3) and (4).
@@ -128,13 +132,15 @@ impl<T, K> Engine<T, K> {
         )
     }
 
-    /// Pose, velocity and acceleration of some bodies, in the order of `bodies`: those of [`Engine::kinematics`].
+    /// Pose, velocity and acceleration of some bodies, in the order of `bodies`: those of
+    /// [`Engine::kinematics`].
     ///
-    /// The numbers that the functions of [`Kinematics`] take are the places in `bodies`. A body that the robot does not have does
-    /// not compile.
+    /// The numbers that the functions of [`Kinematics`] take are the places in `bodies`. A body
+    /// that the robot does not have does not compile.
     ///
     /// # Cost
-    /// Some 80 flops for each revolute joint that moves one of these bodies; the same instructions for all data.
+    /// Some 80 flops for each revolute joint that moves one of these bodies; the same instructions
+    /// for all data.
     ///
     /// # Source
     /// Featherstone & Orin (2000), (3) and (4).
@@ -181,13 +187,14 @@ impl<T, K> Engine<T, K> {
         motions::<R, CompiledRobot<T, B, Q, V>, L, N, Q, V>(trig.borrow(), state.state(), &base)
     }
 
-    /// The acceleration J̇ q̇ of a body at q̈ = 0, in a [`Frame`], rad/s² and m/s², as [`crate::algorithms::bias_acceleration`]
-    /// computes it.
+    /// The acceleration J̇ q̇ of a body at q̈ = 0, in a [`Frame`], rad/s² and m/s², as
+    /// [`crate::algorithms::bias_acceleration`] computes it.
     ///
     /// A body that the robot does not have does not compile.
     ///
     /// # Cost
-    /// Some 80 flops for each revolute joint that moves the body; the same instructions for all data.
+    /// Some 80 flops for each revolute joint that moves the body; the same instructions for all
+    /// data.
     ///
     /// # Source
     /// Featherstone & Orin (2000), (4) at q̈ = 0; RBDA (2008), section 4.1.

@@ -1,7 +1,7 @@
 //! M = Lᵀ D L and M x = τ, without the entries that are zero by the branches of the tree.
 //!
-//! Featherstone, RBDA (2008), section 6.5, tables 6.3 and 6.4: from the tips to the base, so that no zero is filled.
-//! All sums run over the ancestors of a joint, λ(i), λ(λ(i)) …
+//! Featherstone, RBDA (2008), section 6.5, tables 6.3 and 6.4: from the tips to the base, so that
+//! no zero is filled. All sums run over the ancestors of a joint, λ(i), λ(λ(i)) …
 
 use super::compile::{Compiled, CompiledRobot, JointPair};
 use super::pivot_noise::Singular;
@@ -15,9 +15,9 @@ impl<T, K> Engine<T, K> {
     /// The factors of M = Lᵀ D L, for [`Engine::solve`].
     ///
     /// # Cost
-    /// One division for each joint, and n (n² − 1)/3 + n (n − 1)/2 flops for a chain of n joints, less on a tree; the
-    /// same instructions for all data. Inlined, as [`Engine::solve`] is: where one follows the other, the factors stay in
-    /// registers.
+    /// One division for each joint, and n (n² − 1)/3 + n (n − 1)/2 flops for a chain of n joints,
+    /// less on a tree; the same instructions for all data. Inlined, as [`Engine::solve`] is: where
+    /// one follows the other, the factors stay in registers.
     ///
     /// # Source
     /// Featherstone, RBDA (2008), table 6.3.
@@ -33,8 +33,9 @@ impl<T, K> Engine<T, K> {
     /// ```
     ///
     /// # Errors
-    /// [`NotPositiveDefinite`] names the outermost joint whose pivot is NaN or does not exceed 32 roundings of M_ii, as
-    /// [`ltdl`](crate::algorithms::ltdl()) does: it moves no inertia when its descendants are free.
+    /// [`NotPositiveDefinite`] names the outermost joint whose pivot is NaN or does not exceed 32
+    /// roundings of M_ii, as [`ltdl`](crate::algorithms::ltdl()) does: it moves no inertia when its
+    /// descendants are free.
     #[cfg_attr(optimised, inline(always))]
     pub fn ltdl<R: Real, const B: usize, const Q: usize, const V: usize>(
         m: &MassMatrix<R, V>,
@@ -76,8 +77,9 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-/// M's lower triangle becomes L; returns the reciprocals of D, whose pivots must exceed `noise`. Those that are certain to, in any
-/// state of numbers, are looked at only if that of a joint on the base does not, to which a NaN spreads.
+/// M's lower triangle becomes L; returns the reciprocals of D, whose pivots must exceed `noise`.
+/// Those that are certain to, in any state of numbers, are looked at only if that of a joint on the
+/// base does not, to which a NaN spreads.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn decompose<R: Real, C, const V: usize>(
     m: &mut [[R; V]; V],

@@ -1,12 +1,14 @@
 //! The engine: the algorithms of a robot known at compile time, specialised by the compiler.
 //!
-//! The functions have the robot, state, effects and names of [`crate::Core`]: a user switches by changing one word.
-//! There is no code generator, and no nightly compiler is needed: [`folding`] removes products with constants of the
-//! robot that are 0, 1 or −1, [`compile`] regroups its inertias to base parameters at compile time, and one recursion
-//! over its bodies keeps intermediate values in registers.
+//! The functions have the robot, state, effects and names of [`crate::Core`]: a user switches by
+//! changing one word. There is no code generator, and no nightly compiler is needed: [`folding`]
+//! removes products with constants of the robot that are 0, 1 or −1, [`compile`] regroups its
+//! inertias to base parameters at compile time, and one recursion over its bodies keeps
+//! intermediate values in registers.
 //!
-//! Functions are inlined by force where this crate is optimised (the cfg `optimised`, which the build
-//! script sets): the folding needs it, and forced inlining at opt-level 0 has fifty times the code.
+//! Functions are inlined by force where this crate is optimised (the cfg `optimised`, which the
+//! build script sets): the folding needs it, and forced inlining at opt-level 0 has fifty times the
+//! code.
 //!
 //! Joints: all kinds ([`crate::model::JointKind`]), on trees of up to 64 velocity coordinates.
 
@@ -36,7 +38,8 @@ macro_rules! for_each_joint_reversed {
     };
 }
 
-/// The place I in a list of N: a constant with a name, which the compiler evaluates once, and not in each instance of a function.
+/// The place I in a list of N: a constant with a name, which the compiler evaluates once, and not
+/// in each instance of a function.
 pub(crate) struct Index<const I: usize, const N: usize>;
 
 impl<const I: usize, const N: usize> Index<I, N> {
@@ -44,9 +47,10 @@ impl<const I: usize, const N: usize> Index<I, N> {
     pub(crate) const IS_BELOW: bool = I < N;
 }
 
-/// The function if the condition holds, for an inline `const`. A call in a branch that is never taken would still make the
-/// compiler visit its function and all that this calls: 64 × 64 pairs of joints in place of those that exist. The condition
-/// stands before it, too: without optimisation that alone keeps the branch out of the machine code.
+/// The function if the condition holds, for an inline `const`. A call in a branch that is never
+/// taken would still make the compiler visit its function and all that this calls: 64 × 64 pairs of
+/// joints in place of those that exist. The condition stands before it, too: without optimisation
+/// that alone keeps the branch out of the machine code.
 const fn only_if<F: Copy>(condition: bool, function: F) -> Option<F> {
     if condition { Some(function) } else { None }
 }
@@ -106,11 +110,13 @@ pub(crate) use rnea::joint_state;
 use rnea::{torques, write_torques};
 pub(crate) use subtree::has_subtree_functions;
 
-/// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel `K`.
+/// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel
+/// `K`.
 ///
-/// Robots: trees of up to 64 velocity coordinates on joints of any kind. Any number of bodies may be welded to one moving
-/// body, but at most 32 in a scene with wrenches ([`crate::effects::Contact`], [`crate::effects::BodyWrench`] and others that
-/// act on a body). Others do not compile; use [`crate::Core`] for them.
+/// Robots: trees of up to 64 velocity coordinates on joints of any kind. Any number of bodies may
+/// be welded to one moving body, but at most 32 in a scene with wrenches
+/// ([`crate::effects::Contact`], [`crate::effects::BodyWrench`] and others that act on a body).
+/// Others do not compile; use [`crate::Core`] for them.
 ///
 /// ```
 /// use dynamics_core::{Core, Engine, effects::RIGID_BODY, robots::Ur5e, state::State};
@@ -174,14 +180,15 @@ impl<T, K> Engine<T, K> {
         JointTrig { coordinates: turns }
     }
 
-    /// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, as [`crate::algorithms::rnea`] computes it.
+    /// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, as [`crate::algorithms::rnea`]
+    /// computes it.
     ///
-    /// Sines and cosines that no effect in the scene needs are not computed. Angles of joints whose limits lie within
-    /// ±4π may be up to ±100 rad, others up to ±10⁴ rad.
+    /// Sines and cosines that no effect in the scene needs are not computed. Angles of joints whose
+    /// limits lie within ±4π may be up to ±100 rad, others up to ±10⁴ rad.
     ///
     /// # Cost
-    /// `docs/costs.md` in the repository; the same instructions for all data. The savings of less accurate kernels are
-    /// in `docs/accuracy.md`:
+    /// `docs/costs.md` in the repository; the same instructions for all data. The savings of less
+    /// accurate kernels are in `docs/accuracy.md`:
     ///
     /// ```
     /// use dynamics_core::{Engine, effects::RIGID_BODY, robots::Ur5e, state::State, trig::Table};
@@ -210,9 +217,9 @@ impl<T, K> Engine<T, K> {
             .configuration()
             .trig_or(Specialised::<T, K, B, V>(PhantomData));
         let trig = trig.borrow();
-        // Precomputed sines and cosines are loaded again on the inward pass: `black_box` hides from the compiler that
-        // both references are the same, since it would spill the loaded values to the stack. Not needed for gravity
-        // alone.
+        // Precomputed sines and cosines are loaded again on the inward pass: `black_box` hides from
+        // the compiler that both references are the same, since it would spill the loaded values to
+        // the stack. Not needed for gravity alone.
         let back = if const { S::Configuration::PRECOMPUTED && E::VELOCITY_PRODUCTS | E::ACCELERATIONS }
         {
             black_box(trig)
@@ -246,7 +253,8 @@ where
 }
 
 impl<T> Engine<T> {
-    /// The recursion of [`rnea`] for clusters, whose sines are known; `back` is `trig` as the inward pass loads it.
+    /// The recursion of [`rnea`] for clusters, whose sines are known; `back` is `trig` as the
+    /// inward pass loads it.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn run<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         trig: &JointTrig<R, Q>,
@@ -259,7 +267,8 @@ impl<T> Engine<T> {
         E: Effect<R, B, V>,
     {
         const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        // Not a constant, as in `torques`: where sines are known it costs instructions (decision 13).
+        // Not a constant, as in `torques`: where sines are known it costs instructions (decision
+        // 13).
         let mut tau = [R::ZERO; V];
         write_torques::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(
             trig, back, state, effects, &mut tau,

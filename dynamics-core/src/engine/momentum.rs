@@ -1,9 +1,10 @@
-//! p = M q̇ with Cᵀ q̇ or with β = Cᵀ q̇ − g − F, by one recursion over the bodies: velocities on entering a joint, momenta and
-//! weights on returning.
+//! p = M q̇ with Cᵀ q̇ or with β = Cᵀ q̇ − g − F, by one recursion over the bodies: velocities on
+//! entering a joint, momenta and weights on returning.
 //!
-//! De Luca & Mattone (2003), over base parameters: they give the same kinetic energy for all q and q̇, hence the same
-//! p = ∂T/∂q̇ and Cᵀ q̇ = ∂T/∂q. Masses are known zeros behind revolute joints. The U of the field is zero: g and the wrenches of
-//! the environment come without products of velocities.
+//! De Luca & Mattone (2003), over base parameters: they give the same kinetic energy for all q and
+//! q̇, hence the same p = ∂T/∂q̇ and Cᵀ q̇ = ∂T/∂q. Masses are known zeros behind revolute joints.
+//! The U of the field is zero: g and the wrenches of the environment come without products of
+//! velocities.
 
 use core::borrow::Borrow;
 use core::hint::black_box;
@@ -27,8 +28,8 @@ use crate::state::{Configuration, JointTrig, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// The generalised momentum p = M q̇ and the transposed Coriolis product Cᵀ q̇, in joint coordinates, N·m·s and N·m, as
-    /// [`crate::algorithms::momentum_and_coriolis`] computes them.
+    /// The generalised momentum p = M q̇ and the transposed Coriolis product Cᵀ q̇, in joint
+    /// coordinates, N·m·s and N·m, as [`crate::algorithms::momentum_and_coriolis`] computes them.
     ///
     /// Effects that change neither are ignored. Angles as in [`Engine::rnea`].
     ///
@@ -71,7 +72,8 @@ impl<T, K> Engine<T, K> {
     /// Angles as in [`Engine::rnea`].
     ///
     /// # Cost
-    /// `docs/costs.md` in the repository, with the rest of an observer's tick, as `residual`; the same instructions for all data.
+    /// `docs/costs.md` in the repository, with the rest of an observer's tick, as `residual`; the
+    /// same instructions for all data.
     ///
     /// # Source
     /// De Luca & Mattone (2003); Haddadin, De Luca & Albu-Schäffer (2017), section V.
@@ -191,7 +193,8 @@ struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
     result: &'a mut MomentumAndDrift<R, V>,
 }
 
-/// The momentum of a body and its descendants, and the wrench that carries their weight less those of the environment.
+/// The momentum of a body and its descendants, and the wrench that carries their weight less those
+/// of the environment.
 #[derive(Clone, Copy)]
 struct Carried<R> {
     h: Wrench<R>,
@@ -201,7 +204,8 @@ struct Carried<R> {
 type Visit<R, E, const Q: usize, const V: usize> =
     fn(&mut Task<'_, R, E, Q, V>, &AccelerationField<R>) -> Carried<R>;
 
-/// Visits joint I and its descendants; returns what they carry about the origin of the parent, in its frame.
+/// Visits joint I and its descendants; returns what they carry about the origin of the parent, in
+/// its frame.
 #[cfg_attr(optimised, inline(always))]
 fn visit<
     R,
@@ -248,7 +252,8 @@ where
         }
     });
 
-    // After the children: until then the velocity takes fewer registers than the momentum beside it.
+    // After the children: until then the velocity takes fewer registers than the momentum beside
+    // it.
     let own = inertia::<R, C, E, B, Q, V, I>(task.effects, E::BASE_MOTION);
     let h = momentum(&body, &own) + inner.h;
     let driven = felt::<R, C, E, B, V, I>(task.effects, h, parent.omega);
@@ -320,7 +325,8 @@ type Entries<R, E, const Q: usize, const V: usize> =
     fn(&mut Task<'_, R, E, Q, V>, &AccelerationField<R>, &Wrench<R>);
 type Hold<R, E, const Q: usize, const V: usize> = fn(&mut Task<'_, R, E, Q, V>, &Wrench<R>);
 
-/// The entries of p and of Cᵀ q̇ of coordinate I, whose body moves as `body` and has with its descendants the momentum `h`.
+/// The entries of p and of Cᵀ q̇ of coordinate I, whose body moves as `body` and has with its
+/// descendants the momentum `h`.
 #[cfg_attr(optimised, inline(always))]
 fn entries<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
@@ -366,7 +372,8 @@ fn several_entries<R, C, E, const B: usize, const Q: usize, const V: usize, cons
     });
 }
 
-/// Subtracts from the entry of coordinate I what carries `load` and what the effects at the joint need.
+/// Subtracts from the entry of coordinate I what carries `load` and what the effects at the joint
+/// need.
 #[cfg_attr(optimised, inline(always))]
 fn hold<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,

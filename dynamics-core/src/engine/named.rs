@@ -1,4 +1,5 @@
-//! Bodies that are named while compiling: which of them move with a joint, and which joints move them.
+//! Bodies that are named while compiling: which of them move with a joint, and which joints move
+//! them.
 
 use core::marker::PhantomData;
 

@@ -1,7 +1,9 @@
-//! Operational space: the inertia of a task of one or several bodies, by the engine's J, M and its factors.
+//! Operational space: the inertia of a task of one or several bodies, by the engine's J, M and its
+//! factors.
 //!
-//! Khatib, "A unified approach for motion and force control of robot manipulators: the operational space formulation" (1987):
-//! Λ⁻¹ = J M⁻¹ Jᵀ, with M = Lᵀ D L the sum of y yᵀ/d over the columns y of J L⁻¹.
+//! Khatib, "A unified approach for motion and force control of robot manipulators: the operational
+//! space formulation" (1987): Λ⁻¹ = J M⁻¹ Jᵀ, with M = Lᵀ D L the sum of y yᵀ/d over the columns y
+//! of J L⁻¹.
 
 use core::borrow::Borrow;
 use core::marker::PhantomData;
@@ -20,12 +22,13 @@ use crate::state::{Configuration, JointTrig};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// The operational-space inertia of a task on a body along some directions, expressed in a [`Frame`], as
-    /// [`crate::algorithms::operational_space`] computes it.
+    /// The operational-space inertia of a task on a body along some directions, expressed in a
+    /// [`Frame`], as [`crate::algorithms::operational_space`] computes it.
     ///
     /// # Cost
-    /// That of [`Engine::crba`], [`Engine::ltdl`] and [`Engine::jacobian`], M times [`Engine::solve`], 2 M² V flops and
-    /// [`damped_inverse`](crate::algorithms::damped_inverse()); without damping the same instructions for all data.
+    /// That of [`Engine::crba`], [`Engine::ltdl`] and [`Engine::jacobian`], M times
+    /// [`Engine::solve`], 2 M² V flops and [`damped_inverse`](crate::algorithms::damped_inverse());
+    /// without damping the same instructions for all data.
     ///
     /// # Source
     /// Khatib (1987).
@@ -77,12 +80,13 @@ impl<T, K> Engine<T, K> {
         of_rows::<R, T, K, E, M, B, Q, V>(trig, rows, effects, damping)
     }
 
-    /// The operational-space inertia of the task whose Jacobian has these rows: of one body, or of several bodies that are moved
-    /// together.
+    /// The operational-space inertia of the task whose Jacobian has these rows: of one body, or of
+    /// several bodies that are moved together.
     ///
     /// # Cost
     /// That of [`Engine::crba`] and [`Engine::ltdl`], M times [`Engine::solve`], 2 M² V flops and
-    /// [`damped_inverse`](crate::algorithms::damped_inverse()); without damping the same instructions for all data.
+    /// [`damped_inverse`](crate::algorithms::damped_inverse()); without damping the same
+    /// instructions for all data.
     ///
     /// # Source
     /// Khatib (1987); of several bodies, Chang & Khatib (2000).
@@ -129,12 +133,13 @@ impl<T, K> Engine<T, K> {
         of_rows::<R, T, K, E, M, B, Q, V>(trig.borrow(), rows, effects, damping)
     }
 
-    /// The inverse operational-space inertia Λ⁻¹ = J M⁻¹ Jᵀ of a body in a [`Frame`], as [`crate::algorithms::osim_inverse`]
-    /// computes it.
+    /// The inverse operational-space inertia Λ⁻¹ = J M⁻¹ Jᵀ of a body in a [`Frame`], as
+    /// [`crate::algorithms::osim_inverse`] computes it.
     ///
     /// # Cost
-    /// That of [`Engine::crba`], [`Engine::ltdl`] and [`Engine::jacobian`]; for each joint that moves the body 60 flops, and 12
-    /// for each such joint before it. The same instructions for all data.
+    /// That of [`Engine::crba`], [`Engine::ltdl`] and [`Engine::jacobian`]; for each joint that
+    /// moves the body 60 flops, and 12 for each such joint before it. The same instructions for all
+    /// data.
     ///
     /// # Source
     /// Khatib (1987).

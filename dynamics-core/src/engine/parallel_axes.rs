@@ -1,8 +1,10 @@
-//! What joints on parallel axes feel of the bodies beyond them: four sums in place of a composite inertia.
+//! What joints on parallel axes feel of the bodies beyond them: four sums in place of a composite
+//! inertia.
 //!
-//! Most arms have two or three such joints in a row, perpendicular to the joint on the base. Turns about their axis z change
-//! neither z nor Σ_xx + Σ_yy, so that of Σ no component is turned: only h is. The joint on the base feels Σ along e, its own
-//! axis, which lies in their x-y plane, and along u, perpendicular to both. Moved by p, the offset of a joint from its parent:
+//! Most arms have two or three such joints in a row, perpendicular to the joint on the base. Turns
+//! about their axis z change neither z nor Σ_xx + Σ_yy, so that of Σ no component is turned: only h
+//! is. The joint on the base feels Σ along e, its own axis, which lies in their x-y plane, and
+//! along u, perpendicular to both. Moved by p, the offset of a joint from its parent:
 //!
 //! - h becomes h + m p,
 //! - Σ_xx + Σ_yy becomes Σ_xx + Σ_yy + 2 h·p + m p·p,
@@ -43,7 +45,8 @@ impl<R: Real> Felt<R> {
         of_root: Folded::ZERO,
     };
 
-    /// Those of a body and of the inertia `spin` that turns about z alone feel; `root` is the motion of the joint on the base, in its frame.
+    /// Those of a body and of the inertia `spin` that turns about z alone feel; `root` is the
+    /// motion of the joint on the base, in its frame.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of(body: &Inertia<R>, spin: Folded<R>, root: &Twist<R>) -> Self {
         let (s, [ex, ey, _]) = (&body.second, root.ang.0);
@@ -59,7 +62,8 @@ impl<R: Real> Felt<R> {
         }
     }
 
-    /// The wrench of the joint's unit acceleration without what only the joint on the base feels of it, in the joint's frame.
+    /// The wrench of the joint's unit acceleration without what only the joint on the base feels of
+    /// it, in the joint's frame.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn wrench<C: Compiled, const I: usize>(&self, at: &Displacement<R>) -> Wrench<R> {
         let [hx, hy, _] = at.leave::<C, I>(self.moment).0;
@@ -69,7 +73,8 @@ impl<R: Real> Felt<R> {
         }
     }
 
-    /// The same sums in the frame of joint I's parent and about its origin; `root` is in that frame.
+    /// The same sums in the frame of joint I's parent and about its origin; `root` is in that
+    /// frame.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn to_parent<C: Compiled, const I: usize>(
         self,

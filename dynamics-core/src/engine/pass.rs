@@ -1,5 +1,5 @@
-//! One recursion over the bodies, on which most algorithms are built: on entering a joint it hands values outward to the
-//! children, on leaving it adds what they return.
+//! One recursion over the bodies, on which most algorithms are built: on entering a joint it hands
+//! values outward to the children, on leaving it adds what they return.
 
 use core::marker::PhantomData;
 use core::ops::Add;
@@ -95,7 +95,8 @@ impl<R: Real, C: Compiled, P: Pass<R, C>, const I: usize, const J: usize> Step<R
     const IS_TAKEN: bool = JointPair::<C, I, J>::IS_CHILD && P::JOINTS & (1 << J) != 0;
 }
 
-/// The field of the body behind joint I, from that of its parent, with its pose if the parent's is known.
+/// The field of the body behind joint I, from that of its parent, with its pose if the parent's is
+/// known.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn moved<R: Real, C: Compiled, const Q: usize, const V: usize, const I: usize>(
     parent: &AccelerationField<R>,

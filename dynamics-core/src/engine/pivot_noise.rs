@@ -1,8 +1,9 @@
-//! The rounding error of the pivots of forward dynamics, relative to the largest inertia that each joint could move, and the
-//! joints whose pivots do not exceed it.
+//! The rounding error of the pivots of forward dynamics, relative to the largest inertia that each
+//! joint could move, and the joints whose pivots do not exceed it.
 //!
-//! As in [`crate::algorithms`], m, |h| and ∫ r² dm of a joint and its descendants, as if they lay in one line away from
-//! it. Turns do not change them, so that they are constants of the robot; slides and a payload add to them.
+//! As in [`crate::algorithms`], m, |h| and ∫ r² dm of a joint and its descendants, as if they lay
+//! in one line away from it. Turns do not change them, so that they are constants of the robot;
+//! slides and a payload add to them.
 
 use super::compile::{
     Compiled, CompiledJoint, JointMotion, JointPair, is_slide_beyond, joint, place, supports,
@@ -15,11 +16,13 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
 use glam::DVec3;
 
-/// How many roundings of it a pivot must exceed: up to 3.1 were measured for articulated bodies and 12 of LᵀDL where M is
-/// singular, and no fewer than 51 where it is regular (a rope of ten light rods with a weight at its end, in f32).
+/// How many roundings of it a pivot must exceed: up to 3.1 were measured for articulated bodies and
+/// 12 of LᵀDL where M is singular, and no fewer than 51 where it is regular (a rope of ten light
+/// rods with a weight at its end, in f32).
 const ROUNDINGS: f64 = 16.0;
 
-/// Mass, kg, largest first moment, kg·m, and largest ∫ r² dm, kg·m², of a joint and its descendants, about its origin.
+/// Mass, kg, largest first moment, kg·m, and largest ∫ r² dm, kg·m², of a joint and its
+/// descendants, about its origin.
 #[derive(Clone, Copy)]
 struct Size {
     mass: f64,
@@ -89,7 +92,8 @@ const fn reach(links: &[Link<f64>], i: usize, mut body: usize) -> f64 {
     sum
 }
 
-/// The `k`-th of the bodies with a payload that joint `i` or a descendant moves, or the number of all bodies.
+/// The `k`-th of the bodies with a payload that joint `i` or a descendant moves, or the number of
+/// all bodies.
 const fn load<C: Compiled>(i: usize, k: usize, loaded: &[bool]) -> usize {
     let (mut count, mut body) = (0, 0);
     while body < loaded.len() {
@@ -108,8 +112,8 @@ const fn length(v: DVec3) -> f64 {
     v.x.abs() + v.y.abs() + v.z.abs()
 }
 
-/// The joints whose pivots are only rounding errors, as bits. Noting one takes no branch, so that the compiler can place it
-/// among the arithmetic of the next pivot.
+/// The joints whose pivots are only rounding errors, as bits. Noting one takes no branch, so that
+/// the compiler can place it among the arithmetic of the next pivot.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Singular(u32);
 
@@ -166,7 +170,8 @@ where
     noise
 }
 
-/// Whether the pivots of forward dynamics exceed their noise in any state, of joints on a parent: of numbers, only a NaN does not.
+/// Whether the pivots of forward dynamics exceed their noise in any state, of joints on a parent:
+/// of numbers, only a NaN does not.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn certain<R, C, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
@@ -206,8 +211,8 @@ where
         && !slides_beyond::<C>(i)
 }
 
-/// The same of joint I. A pivot that exceeds it has a finite reciprocal: neither the smallest numbers nor, of an infinite
-/// inertia, infinity does.
+/// The same of joint I. A pivot that exceeds it has a finite reciprocal: neither the smallest
+/// numbers nor, of an infinite inertia, infinity does.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn of_joint<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],
@@ -223,7 +228,8 @@ where
     size * (R::EPSILON * R::from_f64(ROUNDINGS)) + R::MIN_POSITIVE
 }
 
-/// The largest inertia that joint I could move, without its rotor's: a constant of robots without slides and payload.
+/// The largest inertia that joint I could move, without its rotor's: a constant of robots without
+/// slides and payload.
 #[cfg_attr(optimised, inline(always))]
 fn largest_inertia<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],
@@ -317,7 +323,8 @@ where
     size
 }
 
-/// The largest inertia of a payload about an axis that is no further than `reach` from its body's origin.
+/// The largest inertia of a payload about an axis that is no further than `reach` from its body's
+/// origin.
 #[cfg_attr(optimised, inline(always))]
 fn of_load<R: Real>(load: &SpatialInertia<R>, reach: R) -> R {
     let [x, y, z] = load.rotational.cols().map(Vector::array);

@@ -1,5 +1,5 @@
-//! Inverse dynamics by one recursion over the bodies: the outward pass on entering a joint, the inward pass on returning from
-//! its children, so that intermediate values stay in registers.
+//! Inverse dynamics by one recursion over the bodies: the outward pass on entering a joint, the
+//! inward pass on returning from its children, so that intermediate values stay in registers.
 
 use super::acceleration_field::{AccelerationField, Inertia, Wrench, along_z};
 use super::base::base;
@@ -42,7 +42,8 @@ where
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    // A constant: behind a loop that clears the torques the compiler would reverse the order of the sines and spill more of them.
+    // A constant: behind a loop that clears the torques the compiler would reverse the order of the
+    // sines and spill more of them.
     let mut tau = const { [R::ZERO; V] };
     write_torques::<R, C, E, B, Q, V>(trig, back, state, effects, &mut tau);
     tau
@@ -97,7 +98,8 @@ pub(super) fn write_torques<R, C, E, const B: usize, const Q: usize, const V: us
 pub(crate) type Visit<R, E, const Q: usize, const V: usize> =
     fn(&mut Task<'_, R, E, Q, V>, &AccelerationField<R>) -> Wrench<R>;
 
-/// Visits joint I and its descendants; returns the wrench that they need from the parent, in its frame.
+/// Visits joint I and its descendants; returns the wrench that they need from the parent, in its
+/// frame.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn visit<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
@@ -383,7 +385,8 @@ where
     }
 }
 
-/// Adds the payloads of the bodies on joint I, which are given in those bodies' own frames, to its inertia.
+/// Adds the payloads of the bodies on joint I, which are given in those bodies' own frames, to its
+/// inertia.
 #[cfg_attr(optimised, inline(always))]
 fn loaded<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,

@@ -1,8 +1,10 @@
-//! Rotors that spin as bodies, [`crate::effects::GyroscopicRotors`]: their terms in the engine's recursions.
+//! Rotors that spin as bodies, [`crate::effects::GyroscopicRotors`]: their terms in the engine's
+//! recursions.
 //!
-//! A rotor of ratio ρ is mounted on the parent's side of its joint and spins by ρ q̇ about the joint's axis z. Its angular momentum
-//! exceeds that which the parent's inertia includes by ρ I q̇ z. Without such rotors the scene's functions return what they are
-//! given, and nothing of them is in the machine code.
+//! A rotor of ratio ρ is mounted on the parent's side of its joint and spins by ρ q̇ about the
+//! joint's axis z. Its angular momentum exceeds that which the parent's inertia includes by ρ I q̇
+//! z. Without such rotors the scene's functions return what they are given, and nothing of them is
+//! in the machine code.
 
 use core::marker::PhantomData;
 
@@ -46,7 +48,8 @@ where
     Folded::runtime_if(has_rotor, coupling)
 }
 
-/// What joint I feels of `carried`: with it the couple ρ I z·x by which the rotor follows a motion x of the parent, its ω or α.
+/// What joint I feels of `carried`: with it the couple ρ I z·x by which the rotor follows a motion
+/// x of the parent, its ω or α.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn felt<R: Real, C: Compiled, E, const B: usize, const V: usize, const I: usize>(
     effects: &E,
@@ -71,7 +74,8 @@ where
     felt
 }
 
-/// What the parent of joint I bears of `carried`: with it a couple on the rotor, in the frame of the joint's body.
+/// What the parent of joint I bears of `carried`: with it a couple on the rotor, in the frame of
+/// the joint's body.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn borne<R: Real, E, const B: usize, const V: usize>(
     _: &E,

@@ -1,8 +1,10 @@
-//! Robots of more than 16 joints are split into one function per subtree where wrenches act on bodies.
+//! Robots of more than 16 joints are split into one function per subtree where wrenches act on
+//! bodies.
 //!
-//! There a humanoid of 29 joints takes fewer cycles with a function for each limb, and elsewhere fewer in one function; the figures are in
-//! `docs/decisions/0013-joints-of-every-kind.md`. Arguments between the functions are plain numbers; values that no effect needs
-//! are known zeros in each function.
+//! There a humanoid of 29 joints takes fewer cycles with a function for each limb, and elsewhere
+//! fewer in one function; the figures are in `docs/decisions/0013-joints-of-every-kind.md`.
+//! Arguments between the functions are plain numbers; values that no effect needs are known zeros
+//! in each function.
 
 use super::acceleration_field::{AccelerationField, Wrench};
 use super::base::base;
@@ -100,7 +102,8 @@ where
     }
 }
 
-/// A field in memory: ω, ω of the velocity products, α; U's columns; a and v of the origin; axes and origin.
+/// A field in memory: ω, ω of the velocity products, α; U's columns; a and v of the origin; axes
+/// and origin.
 struct SpilledField<R: Real> {
     rates: [R::Vec3; 3],
     u: [R::Vec3; 3],

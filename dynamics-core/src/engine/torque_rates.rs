@@ -1,9 +1,11 @@
 //! Inverse dynamics with its first two derivatives, τ, τ̇ and τ̈, by one recursion over the bodies.
 //!
-//! The recursion of [`super::rnea`] on polynomials in time (Buondonno & De Luca, "A recursive Newton-Euler algorithm for robots with
-//! elastic joints", 2015), over base parameters: they give the same τ along every course of q, hence the same derivatives. What is
-//! linear in the field with constant coefficients, as is the wrench of a body, is computed for each coefficient; ω ωᵀ is the only
-//! product of polynomials, and of a rotation there are its sine and its cosine and the terms of q̇ and q̈.
+//! The recursion of [`super::rnea`] on polynomials in time (Buondonno & De Luca, "A recursive
+//! Newton-Euler algorithm for robots with elastic joints", 2015), over base parameters: they give
+//! the same τ along every course of q, hence the same derivatives. What is linear in the field with
+//! constant coefficients, as is the wrench of a body, is computed for each coefficient; ω ωᵀ is the
+//! only product of polynomials, and of a rotation there are its sine and its cosine and the terms
+//! of q̇ and q̈.
 
 use core::hint::black_box;
 use core::marker::PhantomData;
@@ -23,7 +25,8 @@ use crate::state::{JointTrig, State, TrigSource};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// τ = ID(q, q̇, q̈) and its derivatives τ̇ and τ̈, along a course with these third and fourth derivatives of q.
+    /// τ = ID(q, q̇, q̈) and its derivatives τ̇ and τ̈, along a course with these third and fourth
+    /// derivatives of q.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn torque_rates<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: &State<R, Q, V>,
@@ -91,7 +94,8 @@ struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
 type Visit<R, E, const Q: usize, const V: usize> =
     fn(&mut Task<'_, R, E, Q, V>, &Field<R>) -> WrenchSeries<R>;
 
-/// Visits joint I and its descendants; returns the wrench that they need from the parent, in its frame.
+/// Visits joint I and its descendants; returns the wrench that they need from the parent, in its
+/// frame.
 #[cfg_attr(optimised, inline(always))]
 fn visit<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
@@ -280,7 +284,8 @@ fn completed<R: Real>(squares: &Sym3<R>, az: Folded<R>, along: Vec3<R>) -> (Vec3
     (Vec3([ax, ay, az]), u)
 }
 
-/// The wrench of an inertia, f = m a + U h and n = h × a + axial(U Σ − Σ Uᵀ), linear in a, U and ω ωᵀ: for each coefficient.
+/// The wrench of an inertia, f = m a + U h and n = h × a + axial(U Σ − Σ Uᵀ), linear in a, U and ω
+/// ωᵀ: for each coefficient.
 #[cfg_attr(optimised, inline(always))]
 fn wrench<R: Real>(body: &Inertia<R>, a: Vec3<R>, u: &Mat3<R>, squares: &Sym3<R>) -> Wrench<R> {
     let (m, [x, y, z]) = (&body.second, u.0);
@@ -306,8 +311,9 @@ struct WrenchSeries<R> {
 }
 
 impl<R: Real> WrenchSeries<R> {
-    /// The same, computed before the children's fields: the compiler does not see through it. Left to itself, it mixes the bodies
-    /// and keeps more numbers than there are registers, which takes an eighth of the cycles more.
+    /// The same, computed before the children's fields: the compiler does not see through it. Left
+    /// to itself, it mixes the bodies and keeps more numbers than there are registers, which takes
+    /// an eighth of the cycles more.
     #[cfg_attr(optimised, inline(always))]
     fn finished(self) -> Self {
         let (f, n) = black_box((self.f.0.map(Vec3::get), self.n.0.map(Vec3::get)));

@@ -1,8 +1,8 @@
-//! Sums over all bodies in one pass: mass, first moment, momentum and kinetic energy. What a function does not read of them is not
-//! in its machine code.
+//! Sums over all bodies in one pass: mass, first moment, momentum and kinetic energy. What a
+//! function does not read of them is not in its machine code.
 //!
-//! Regrouping to base parameters moves mass along a joint's axis, where it moves with both links: it changes none of these sums
-//! but by what it leaves to the base.
+//! Regrouping to base parameters moves mass along a joint's axis, where it moves with both links:
+//! it changes none of these sums but by what it leaves to the base.
 
 use core::marker::PhantomData;
 use core::ops::Add;
@@ -20,7 +20,8 @@ use crate::effects::{Declared, Effect, base_given};
 use crate::model::JointCoordinate;
 use crate::scalar::Real;
 
-/// The sums over a body and its descendants, about the origin of the parent, in its frame and in units of length.
+/// The sums over a body and its descendants, about the origin of the parent, in its frame and in
+/// units of length.
 #[derive(Clone, Copy)]
 pub(super) struct Totals<R> {
     pub(super) mass: Folded<R>,
@@ -65,7 +66,8 @@ impl<R: Real> Totals<R> {
     }
 }
 
-/// The centre of mass of a mass and a first moment in units of length, m, and the reciprocal of the mass, 1/kg.
+/// The centre of mass of a mass and a first moment in units of length, m, and the reciprocal of the
+/// mass, 1/kg.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn centre<R: Real>(mass: Folded<R>, moment: Vec3<R>, length: f64) -> (R::Vec3, R) {
     let mass = (mass * Folded::constant(1.0 / (length * length))).get();
@@ -78,8 +80,8 @@ pub(super) fn centre<R: Real>(mass: Folded<R>, moment: Vec3<R>, length: f64) -> 
     (moment * mass_inv, mass_inv)
 }
 
-/// The totals of all bodies of a robot at rates `qd`, or at rest without them, with what is fixed to the base. With WHOLE, of
-/// which the momentum needs all of Σ.
+/// The totals of all bodies of a robot at rates `qd`, or at rest without them, with what is fixed
+/// to the base. With WHOLE, of which the momentum needs all of Σ.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn totals<
     R: Real,

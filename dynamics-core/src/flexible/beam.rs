@@ -7,10 +7,10 @@ use crate::math::const_eval::sqrt;
 
 /// A uniform beam along the x axis of its link, from the joint to a body at its end.
 ///
-/// Euler–Bernoulli: without shear and without the rotary inertia of sections in bending. The body at the end has its
-/// centre of mass there and the same inertia about each axis: a motor, a gripper. It is part of the link, and so of the
-/// mass, the centre of mass and the inertia that the robot's description gives the body: [`Beam::mass`],
-/// [`Beam::com`] and [`Beam::inertia`].
+/// Euler–Bernoulli: without shear and without the rotary inertia of sections in bending. The body
+/// at the end has its centre of mass there and the same inertia about each axis: a motor, a
+/// gripper. It is part of the link, and so of the mass, the centre of mass and the inertia that the
+/// robot's description gives the body: [`Beam::mass`], [`Beam::com`] and [`Beam::inertia`].
 ///
 /// ```
 /// use dynamics_core::flexible::{Beam, Shape};
@@ -77,22 +77,24 @@ impl Beam {
         self
     }
 
-    /// With the second moments of mass of a section per length, ρ∫z² dA and ρ∫y² dA, kg·m: the inertia of torsion. Of a
-    /// line they are zero.
+    /// With the second moments of mass of a section per length, ρ∫z² dA and ρ∫y² dA, kg·m: the
+    /// inertia of torsion. Of a line they are zero.
     #[must_use]
     pub const fn sections(mut self, moments: [f64; 2]) -> Self {
         self.sections = moments;
         self
     }
 
-    /// With a body at the end of this mass, kg, and inertia about each axis through its centre, kg·m².
+    /// With a body at the end of this mass, kg, and inertia about each axis through its centre,
+    /// kg·m².
     #[must_use]
     pub const fn tip(mut self, mass: f64, inertia: f64) -> Self {
         self.tip = [mass, inertia];
         self
     }
 
-    /// With modal damping D = 2 ζ ω M of every mode: some 0.002 of metal alone, 0.01 with joints and cables.
+    /// With modal damping D = 2 ζ ω M of every mode: some 0.002 of metal alone, 0.01 with joints
+    /// and cables.
     #[must_use]
     pub const fn damping_ratio(mut self, zeta: f64) -> Self {
         self.damping_ratio = zeta;
@@ -126,10 +128,11 @@ impl Beam {
     /// On the host or while compiling; not for the control tick.
     ///
     /// # Errors
-    /// [`ModeProblem::Beam`] if the beam has no length, no mass, not the stiffness of a shape (torsion: nor the inertia),
-    /// or a negative property; [`ModeProblem::NotFinite`] if one is infinite, such as the stiffness of a beam that does not
-    /// bend, whose link has no modes; [`ModeProblem::NoShape`] if there is no such shape; [`ModeProblem::Count`] if there are
-    /// more than [`MODES_PER_LINK`].
+    /// [`ModeProblem::Beam`] if the beam has no length, no mass, not the stiffness of a shape
+    /// (torsion: nor the inertia), or a negative property; [`ModeProblem::NotFinite`] if one is
+    /// infinite, such as the stiffness of a beam that does not bend, whose link has no modes;
+    /// [`ModeProblem::NoShape`] if there is no such shape; [`ModeProblem::Count`] if there are more
+    /// than [`MODES_PER_LINK`].
     ///
     /// ```
     /// use dynamics_core::flexible::{Beam, ModeProblem, Shape};

@@ -19,11 +19,13 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 use crate::trig::Kernel;
 use crate::{Core, Engine};
 
-/// The algorithms of the module for a robot and modes known at compile time: `Bending<Core<T>>` or `Bending<Engine<T>>`.
+/// The algorithms of the module for a robot and modes known at compile time: `Bending<Core<T>>` or
+/// `Bending<Engine<T>>`.
 ///
-/// The engine folds the integrals of the modes as it does all constants of a robot: of links that bend in the plane in which they
-/// move, most are zero. It takes robots of up to 64 joints and modes in all, whose joints have one degree of freedom, and whose
-/// bodies on fixed joints do not bend; others do not compile.
+/// The engine folds the integrals of the modes as it does all constants of a robot: of links that
+/// bend in the plane in which they move, most are zero. It takes robots of up to 64 joints and
+/// modes in all, whose joints have one degree of freedom, and whose bodies on fixed joints do not
+/// bend; others do not compile.
 ///
 /// ```
 /// use dynamics_core::effects::{Elasticity, RIGID_BODY};
@@ -133,8 +135,8 @@ impl<T, K> Bending<Core<T, K>> {
         )
     }
 
-    /// The accelerations of joints and modes, rad/s² or m/s², under these torques of the motors: see
-    /// [`forward_dynamics`](super::forward_dynamics()).
+    /// The accelerations of joints and modes, rad/s² or m/s², under these torques of the motors:
+    /// see [`forward_dynamics`](super::forward_dynamics()).
     ///
     /// # Errors
     /// [`FlexibleError`] names a joint or a mode that moves no inertia.
@@ -162,7 +164,8 @@ impl<T, K> Bending<Core<T, K>> {
         forward_dynamics(&Static::<T, K>::NEW, modes, state, bent, tau, effects)
     }
 
-    /// The accelerations of the modes along a motion of the joints, m/s² or rad/s²: see [`modal_dynamics`](super::modal_dynamics()).
+    /// The accelerations of the modes along a motion of the joints, m/s² or rad/s²: see
+    /// [`modal_dynamics`](super::modal_dynamics()).
     ///
     /// # Errors
     /// [`FlexibleError::Mode`].
@@ -194,8 +197,8 @@ impl<T, K> Bending<Core<T, K>> {
         )
     }
 
-    /// The torques of the joints' motors at a tick of h seconds, N·m or N, at which the joints' motion is `reference`: see
-    /// [`ModalFeedforward::tick`].
+    /// The torques of the joints' motors at a tick of h seconds, N·m or N, at which the joints'
+    /// motion is `reference`: see [`ModalFeedforward::tick`].
     ///
     /// # Errors
     /// Those of [`ModalFeedforward::tick`]; the modes are then unchanged.
@@ -223,8 +226,8 @@ impl<T, K> Bending<Core<T, K>> {
 }
 
 impl<T, K> Bending<Engine<T, K>> {
-    /// The torque of each motor, N·m or N, and the force on each mode at a state of joints and modes, as
-    /// [`rnea`](super::rnea()) computes them.
+    /// The torque of each motor, N·m or N, and the force on each mode at a state of joints and
+    /// modes, as [`rnea`](super::rnea()) computes them.
     ///
     /// Effects as there; base parameters from memory do not compile. Angles as in [`Engine::rnea`].
     ///
@@ -232,7 +235,8 @@ impl<T, K> Bending<Engine<T, K>> {
     /// `docs/costs.md` in the repository, `two_link`; the same instructions for all data.
     ///
     /// # Source
-    /// Book (1984), over base parameters: the mass of a body whose joint is on the very end of a link that bends is a point there.
+    /// Book (1984), over base parameters: the mass of a body whose joint is on the very end of a
+    /// link that bends is a point there.
     ///
     /// # Example
     /// That of [`Bending`]. A joint of several degrees of freedom does not compile:
@@ -275,14 +279,16 @@ impl<T, K> Bending<Engine<T, K>> {
         inverse::<T, R, E, B, Q, V, M>(trig.borrow(), state.state(), bent, effects)
     }
 
-    /// The inertia M(q, η) of joints and modes, kg, kg·m or kg·m², as [`crba`](super::crba()) computes it.
+    /// The inertia M(q, η) of joints and modes, kg, kg·m or kg·m², as [`crba`](super::crba())
+    /// computes it.
     ///
     /// # Shape
     /// Blocks of V × V, M × V and M × M.
     ///
     /// # Cost
-    /// `docs/costs.md` in the repository, `two_link`: by columns, each of which is [`Bending::rnea`] of the unit acceleration of one
-    /// coordinate at rest, so that it grows with the square of their number.
+    /// `docs/costs.md` in the repository, `two_link`: by columns, each of which is
+    /// [`Bending::rnea`] of the unit acceleration of one coordinate at rest, so that it grows with
+    /// the square of their number.
     ///
     /// # Source
     /// Walker & Orin (1982), method 1, over known zeros.
@@ -310,11 +316,13 @@ impl<T, K> Bending<Engine<T, K>> {
     /// [`forward_dynamics`](super::forward_dynamics()) computes them.
     ///
     /// # Cost
-    /// That of [`Bending::rnea`] without accelerations, of [`Bending::crba`], and (V + M)³ / 3 flops.
+    /// That of [`Bending::rnea`] without accelerations, of [`Bending::crba`], and (V + M)³ / 3
+    /// flops.
     ///
     /// # Errors
-    /// [`FlexibleError`] names a joint or a mode that moves no inertia, or whose acceleration is not finite. A coordinate on which
-    /// nothing depends, such as the angle about a vertical axis on the base, is not read.
+    /// [`FlexibleError`] names a joint or a mode that moves no inertia, or whose acceleration is
+    /// not finite. A coordinate on which nothing depends, such as the angle about a vertical axis
+    /// on the base, is not read.
     ///
     /// ```
     /// # use dynamics_core::flexible::{Beam, BendingRobot, FlexibleLink, Modes, Shape};
@@ -381,7 +389,8 @@ impl<T, K> Bending<Engine<T, K>> {
     /// [`modal_dynamics`](super::modal_dynamics()) computes them.
     ///
     /// # Cost
-    /// That of [`Bending::rnea`], of the columns of the modes' inertia and of M³/3 flops for its factors.
+    /// That of [`Bending::rnea`], of the columns of the modes' inertia and of M³/3 flops for its
+    /// factors.
     ///
     /// # Errors
     /// [`FlexibleError::Mode`].
@@ -420,11 +429,13 @@ impl<T, K> Bending<Engine<T, K>> {
         accelerations(&m, force)
     }
 
-    /// The torques of the joints' motors at a tick of h seconds, N·m or N, at which the joints' motion is `reference`, as
-    /// [`ModalFeedforward::tick`] computes them. To be called once in every tick.
+    /// The torques of the joints' motors at a tick of h seconds, N·m or N, at which the joints'
+    /// motion is `reference`, as [`ModalFeedforward::tick`] computes them. To be called once in
+    /// every tick.
     ///
     /// # Cost
-    /// Two calls of [`Bending::rnea`] and one of [`Bending::modal_dynamics`] without it, sines and cosines once.
+    /// Two calls of [`Bending::rnea`] and one of [`Bending::modal_dynamics`] without it, sines and
+    /// cosines once.
     ///
     /// # Errors
     /// Those of [`ModalFeedforward::tick`]; the modes are then unchanged.

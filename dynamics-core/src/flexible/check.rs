@@ -11,8 +11,8 @@ const ALL: usize = 6 + MODES_PER_LINK;
 /// A pivot is positive where it is more than this part of its diagonal.
 const LEAST: f64 = 1e-10;
 
-/// The first mode that cannot be used, and why. The inertia is that of the rigid body about its joint, in the frame that
-/// `frame` turns to from the link's.
+/// The first mode that cannot be used, and why. The inertia is that of the rigid body about its
+/// joint, in the frame that `frame` turns to from the link's.
 pub(super) const fn problem(
     link: &FlexibleLink,
     body: &SpatialInertia<f64>,
@@ -111,8 +111,9 @@ const fn rigid(body: &SpatialInertia<f64>, frame: &DMat3) -> [[f64; ALL]; ALL] {
     inertia
 }
 
-/// The first row from `first` to `last` whose pivot is not positive after those before it. The first `rigid` rows, motions
-/// that may move no inertia, such as the rotation of a line about itself, are then left out.
+/// The first row from `first` to `last` whose pivot is not positive after those before it. The
+/// first `rigid` rows, motions that may move no inertia, such as the rotation of a line about
+/// itself, are then left out.
 const fn not_positive(
     matrix: &[[f64; ALL]; ALL],
     first: usize,

@@ -171,7 +171,8 @@ const fn taken(robot: &'static str, links: &[Link<f64>], ends: &[Option<DVec3>])
     }
 }
 
-/// The modes of a body, whose aligned frame has its origin at `origin` in that of the joint; both have the same axes.
+/// The modes of a body, whose aligned frame has its origin at `origin` in that of the joint; both
+/// have the same axes.
 const fn bending<const M: usize>(modes: &Modes<f64, M>, body: usize, origin: DVec3) -> BendingLink {
     let (mut link, mut k) = (BendingLink::RIGID, 0);
     while k < M {

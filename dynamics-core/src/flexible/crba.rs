@@ -1,7 +1,8 @@
 //! The inertia of joints and modes: the composite-rigid-body algorithm with modes.
 //!
-//! The composite body on the end of a link is rigid, as everywhere in the algorithm: a mode's column is the force of its
-//! unit acceleration on its own link and on that body, projected on every coordinate between it and the base.
+//! The composite body on the end of a link is rigid, as everywhere in the algorithm: a mode's
+//! column is the force of its unit acceleration on its own link and on that body, projected on
+//! every coordinate between it and the base.
 
 use core::borrow::Borrow;
 use core::ops::Range;
@@ -18,7 +19,8 @@ use crate::spatial::inertia::CompositeInertia;
 use crate::spatial::{Force, MotionSubspace, SpatialInertia, Xform};
 use crate::state::{Configuration, entry};
 
-/// The inertia of V joints and M modes, in blocks: [joints, couplingᵀ; coupling, modes], kg, kg·m or kg·m².
+/// The inertia of V joints and M modes, in blocks: [joints, couplingᵀ; coupling, modes], kg, kg·m
+/// or kg·m².
 ///
 /// Positive definite where the links' data are: see [`Modes`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,7 +97,8 @@ where
     sweep::<R, D, E, B, Q, V, M, true>(robot, modes, q, eta, effects)
 }
 
-/// The inertia of the modes alone: the block that the motion of modes along a given one of the joints needs.
+/// The inertia of the modes alone: the block that the motion of modes along a given one of the
+/// joints needs.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn modal_inertia<
     R: Real,
@@ -248,8 +251,8 @@ impl<R: Real> Body<'_, R> {
     }
 }
 
-/// Sets the entries between a coordinate of `body`, on which its force is f, and the joints and modes from that body to the
-/// base.
+/// Sets the entries between a coordinate of `body`, on which its force is f, and the joints and
+/// modes from that body to the base.
 fn climb<R: Real, const V: usize, const M: usize, const JOINTS: bool>(
     modes: &Modes<R, M>,
     turns: &Turns<R>,

@@ -1,7 +1,8 @@
 //! A link that is bent: its inertia, the forces of its modes, and the motion of its end.
 //!
-//! With r = r₀ + Σ φₖ ηₖ in the link's frame, every integral over the mass follows from ∫ φₖ dm, ∫ φₖ r₀ᵀ dm and
-//! ∫ φₖ φₗᵀ dm. Shabana, *Dynamics of Multibody Systems* (2005), section 5.4, has them as invariants.
+//! With r = r₀ + Σ φₖ ηₖ in the link's frame, every integral over the mass follows from ∫ φₖ dm, ∫
+//! φₖ r₀ᵀ dm and ∫ φₖ φₗᵀ dm. Shabana, *Dynamics of Multibody Systems* (2005), section 5.4, has
+//! them as invariants.
 
 use core::ops::Range;
 
@@ -12,8 +13,8 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::entry;
 
-/// Adds the change of a link's inertia by the deformation η of one mode, about the joint. With Φ = ∫ φ rᵀ dm, which is
-/// `moments`, ∫ r rᵀ dm changes by Σ ηₖ (Φₖ + ∫ r₀ φₖᵀ dm).
+/// Adds the change of a link's inertia by the deformation η of one mode, about the joint. With Φ =
+/// ∫ φ rᵀ dm, which is `moments`, ∫ r rᵀ dm changes by Σ ηₖ (Φₖ + ∫ r₀ φₖᵀ dm).
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn deform<R: Real>(
     inertia: &mut SpatialInertia<R>,
@@ -68,11 +69,13 @@ pub(super) fn trace<R: Real>(m: &R::Mat3) -> R {
     x[0] + y[1] + z[2]
 }
 
-/// The end of a link, which is displaced by Σ φₖ ηₖ and rotated by Σ ψₖ ηₖ, twice its Rodrigues parameters g.
+/// The end of a link, which is displaced by Σ φₖ ηₖ and rotated by Σ ψₖ ηₖ, twice its Rodrigues
+/// parameters g.
 ///
-/// These give a rotation without a sine, equal to the linear theory's to the second order of the angle. Its velocity is
-/// 2 / (1 + g²) (ġ + g × ġ) in the link's axes: Shuster, "A survey of attitude representations" (1993). Motions and forces
-/// of the end are those about the link's joint, in the link's axes.
+/// These give a rotation without a sine, equal to the linear theory's to the second order of the
+/// angle. Its velocity is 2 / (1 + g²) (ġ + g × ġ) in the link's axes: Shuster, "A survey of
+/// attitude representations" (1993). Motions and forces of the end are those about the link's
+/// joint, in the link's axes.
 #[derive(Clone, Copy)]
 pub(super) struct End<R: Real> {
     g: R::Vec3,
@@ -94,8 +97,8 @@ impl<R: Real> End<R> {
         }
     }
 
-    /// The transform from the link's frame to a body on its end, from the same transform of the undeformed link, whose end
-    /// is at `rest`.
+    /// The transform from the link's frame to a body on its end, from the same transform of the
+    /// undeformed link, whose end is at `rest`.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn xform(&self, x: &Xform<R>, rest: R::Vec3) -> Xform<R> {
         let ([x_0, y_0, z_0], [dx, dy, dz]) = (self.g.array(), (self.g * self.scale).array());
@@ -125,8 +128,8 @@ impl<R: Real> End<R> {
         Motion::new(ang, shift + self.point.cross(ang))
     }
 
-    /// Adds the velocity and the acceleration of the end relative to the link to those of the link, with the terms that the
-    /// effects have.
+    /// Adds the velocity and the acceleration of the end relative to the link to those of the link,
+    /// with the terms that the effects have.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn add<E, const B: usize, const V: usize>(
         &self,
@@ -156,7 +159,8 @@ impl<R: Real> End<R> {
         }
     }
 
-    /// A force on the end, as the moment by which ½ ψ of a mode is multiplied and the force by which φ is.
+    /// A force on the end, as the moment by which ½ ψ of a mode is multiplied and the force by
+    /// which φ is.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn load(&self, f: Force<R>) -> Force<R> {
         let moment = f.ang - self.point.cross(f.lin);
@@ -165,7 +169,8 @@ impl<R: Real> End<R> {
 }
 
 impl<R: Real, const M: usize> Modes<R, M> {
-    /// Displacement and Rodrigues parameters of the end of a link at each of these coordinates, or their rates.
+    /// Displacement and Rodrigues parameters of the end of a link at each of these coordinates, or
+    /// their rates.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn at_end<const N: usize>(
         &self,

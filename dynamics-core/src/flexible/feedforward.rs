@@ -11,11 +11,12 @@ use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, JointTrig, State, entry};
 
-/// The modes' motion along a reference of the joints, from which follow the torques that move the joints along it.
+/// The modes' motion along a reference of the joints, from which follow the torques that move the
+/// joints along it.
 ///
-/// The inverse dynamics of the joints' motion: the modes move as those of links whose joints are clamped, which their
-/// damping brings to rest, so that it is sound for any reference. That of the tip's motion is not; see the
-/// [module](super).
+/// The inverse dynamics of the joints' motion: the modes move as those of links whose joints are
+/// clamped, which their damping brings to rest, so that it is sound for any reference. That of the
+/// tip's motion is not; see the [module](super).
 ///
 /// ```
 /// # use dynamics_core::flexible::{Beam, FlexibleLink, Shape};
@@ -46,21 +47,23 @@ pub struct ModalFeedforward<R, const M: usize> {
     pub bent: State<R, M, M>,
 }
 
-/// Iterations of the deflection at rest, each of which reduces its error by the ratio of weight to stiffness.
+/// Iterations of the deflection at rest, each of which reduces its error by the ratio of weight to
+/// stiffness.
 const ITERATIONS: usize = 12;
 /// The largest last correction, of the deflection.
 const CONVERGED: f64 = 1e-4;
 
 impl<R: Real, const M: usize> ModalFeedforward<R, M> {
-    /// With the modes at rest under the scene's gravity at configuration q. [`Elasticity`](crate::effects::Elasticity)
-    /// has to be in the scene: without it no force balances the weight, and the deflection has no meaning.
+    /// With the modes at rest under the scene's gravity at configuration q.
+    /// [`Elasticity`](crate::effects::Elasticity) has to be in the scene: without it no force
+    /// balances the weight, and the deflection has no meaning.
     ///
     /// # Cost
     /// Twelve calls of [`rnea()`]: at start, not in the control tick.
     ///
     /// # Errors
-    /// [`FlexibleError::Mode`] if the stiffness of a mode is not positive, a number is not finite, or the deflection has
-    /// not converged: the link is too soft for its weight.
+    /// [`FlexibleError::Mode`] if the stiffness of a mode is not positive, a number is not finite,
+    /// or the deflection has not converged: the link is too soft for its weight.
     pub fn at_rest<D, E, const B: usize, const Q: usize, const V: usize>(
         robot: &D,
         modes: &Modes<R, M>,
@@ -97,23 +100,24 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
         }
     }
 
-    /// The torques of the joints' motors at a tick, N·m or N, at which the joints' motion is `reference`. To be called once
-    /// in every tick: it moves the modes on by h seconds.
+    /// The torques of the joints' motors at a tick, N·m or N, at which the joints' motion is
+    /// `reference`. To be called once in every tick: it moves the modes on by h seconds.
     ///
-    /// The modes' step is the generalised-α method with ρ∞ = 0 (Chung & Hulbert, 1993), of second order and with
-    /// damping of modes that are faster than the tick: with η and η̇ extrapolated by η̈, and r the force on the modes
-    /// there, η̈ changes by
+    /// The modes' step is the generalised-α method with ρ∞ = 0 (Chung & Hulbert, 1993), of second
+    /// order and with damping of modes that are faster than the tick: with η and η̇ extrapolated by
+    /// η̈, and r the force on the modes there, η̈ changes by
     ///
     /// ```text
     /// δ = −(2 M + (3/2) h D + h² K)⁻¹ r      η̇ ← η̇ + (3/2) h δ      η ← η + h² δ
     /// ```
     ///
     /// # Cost
-    /// Two calls of [`rnea()`], one of [`crba`](super::crba()) for the modes alone, and M³ / 3 flops.
+    /// Two calls of [`rnea()`], one of [`crba`](super::crba()) for the modes alone, and M³ / 3
+    /// flops.
     ///
     /// # Errors
-    /// [`FlexibleError`] names a mode that moves no inertia or whose acceleration is not finite, or a joint whose torque is
-    /// not; the modes are then unchanged.
+    /// [`FlexibleError`] names a mode that moves no inertia or whose acceleration is not finite, or
+    /// a joint whose torque is not; the modes are then unchanged.
     #[cfg_attr(optimised, inline(always))]
     pub fn tick<D, E, const B: usize, const Q: usize, const V: usize>(
         &mut self,
@@ -159,7 +163,8 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     }
 }
 
-/// Corrects extrapolated modes, of this inertia and with this force on them, by the change δ of η̈; `elastic` has their stiffness.
+/// Corrects extrapolated modes, of this inertia and with this force on them, by the change δ of η̈;
+/// `elastic` has their stiffness.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn correct<R: Real, const M: usize>(
     bent: &mut State<R, M, M>,

@@ -42,7 +42,8 @@ impl core::error::Error for FlexibleError {}
 /// That of [`rnea()`] and [`crba()`], and (V + M)³ / 3 flops.
 ///
 /// # Errors
-/// [`FlexibleError`] names a joint or a mode that moves no inertia, or whose acceleration is not finite.
+/// [`FlexibleError`] names a joint or a mode that moves no inertia, or whose acceleration is not
+/// finite.
 ///
 /// # Example
 /// ```
@@ -113,8 +114,8 @@ where
 
 /// The accelerations η̈ of the modes along a motion of the joints, m/s² or rad/s².
 ///
-/// The motion of the joints is given by q, q̇, q̈ of the state; η̈ of `bent` is not read. The modes then move as those of
-/// links on clamped joints, whatever torques that motion takes.
+/// The motion of the joints is given by q, q̇, q̈ of the state; η̈ of `bent` is not read. The modes
+/// then move as those of links on clamped joints, whatever torques that motion takes.
 ///
 /// # Cost
 /// That of [`forward_dynamics()`] without the entries of joints and their elimination.
@@ -224,7 +225,8 @@ pub(super) struct Factors<R, const N: usize> {
 }
 
 impl<R: Real, const N: usize> Factors<R, N> {
-    /// The number of the first row whose pivot is not positive, beyond what rounding leaves of it, is the error.
+    /// The number of the first row whose pivot is not positive, beyond what rounding leaves of it,
+    /// is the error.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(matrix: &[[R; N]; N]) -> Result<Self, usize> {
         let (mut rows, mut d_inv) = (*matrix, [R::ZERO; N]);

@@ -9,10 +9,11 @@ use crate::state::entry;
 const SWEEPS: usize = 12;
 
 impl<R: Real, const M: usize> Modes<R, M> {
-    /// The frequencies ω of the modes with the joints clamped, rad/s, in ascending order, without damping.
+    /// The frequencies ω of the modes with the joints clamped, rad/s, in ascending order, without
+    /// damping.
     ///
-    /// The roots of the eigenvalues of K x = ω² M x. They depend on the configuration, which is that of the inertia: the
-    /// modes of a link carry the links on its end.
+    /// The roots of the eigenvalues of K x = ω² M x. They depend on the configuration, which is
+    /// that of the inertia: the modes of a link carry the links on its end.
     ///
     /// # Cost
     /// Some 12 M³ flops and roots: on the host or at start.

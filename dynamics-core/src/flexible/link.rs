@@ -13,9 +13,9 @@ pub(super) type Rows = [Row; 3];
 
 /// One assumed mode of a link: a displacement φ(r₀) η of every point r₀, in the link's frame.
 ///
-/// φ has no unit and η is in m where the shape is scaled by a displacement, and φ in m/rad and η in rad where it is
-/// scaled by an angle. The frame is that of the link's joint, with which the link is clamped there: φ and its
-/// derivatives are zero at the joint's end.
+/// φ has no unit and η is in m where the shape is scaled by a displacement, and φ in m/rad and η in
+/// rad where it is scaled by an angle. The frame is that of the link's joint, with which the link
+/// is clamped there: φ and its derivatives are zero at the joint's end.
 ///
 /// ```
 /// use dynamics_core::flexible::Mode;
@@ -51,7 +51,8 @@ impl Mode {
 
 /// A link with its modes: what [`Modes`](super::Modes) is made of.
 ///
-/// From a beam's data by [`Beam::link`](super::Beam::link), or from the integrals of a finite-element model:
+/// From a beam's data by [`Beam::link`](super::Beam::link), or from the integrals of a
+/// finite-element model:
 ///
 /// ```
 /// use dynamics_core::flexible::{FlexibleLink, Mode};
@@ -70,13 +71,15 @@ impl Mode {
 pub struct FlexibleLink {
     /// The body's number in the robot.
     pub body: usize,
-    /// The link's end in its frame, m, undeformed: bodies whose parent this link is stand on the end and move with it.
+    /// The link's end in its frame, m, undeformed: bodies whose parent this link is stand on the
+    /// end and move with it.
     pub end: [f64; 3],
     /// How many of the modes are used.
     pub count: usize,
     /// The modes, N = `count` of them.
     pub modes: [Mode; MODES_PER_LINK],
-    /// ∫ φₖ φₗᵀ dm of each pair k, l, of which the traces are the modes' inertia. The matrix of l, k is the transpose.
+    /// ∫ φₖ φₗᵀ dm of each pair k, l, of which the traces are the modes' inertia. The matrix of l,
+    /// k is the transpose.
     pub products: [[Rows; MODES_PER_LINK]; MODES_PER_LINK],
     /// Stiffness K, N/m or N·m/rad, symmetric.
     pub stiffness: [[f64; MODES_PER_LINK]; MODES_PER_LINK],
@@ -85,8 +88,8 @@ pub struct FlexibleLink {
 }
 
 impl FlexibleLink {
-    /// A link with these modes, whose products, stiffness and damping are zero. [`Modes`](super::Modes) refuses more than
-    /// [`MODES_PER_LINK`].
+    /// A link with these modes, whose products, stiffness and damping are zero.
+    /// [`Modes`](super::Modes) refuses more than [`MODES_PER_LINK`].
     pub const fn new(body: usize, end: [f64; 3], modes: &[Mode]) -> Self {
         const NONE: [f64; MODES_PER_LINK] = [0.0; MODES_PER_LINK];
         let mut link = Self {
@@ -129,18 +132,18 @@ pub enum ModeProblem {
     NoBody,
     /// Links are not in the order of their bodies, or one is named twice.
     Order,
-    /// The links' modes are fewer or more than the M of [`Modes`](super::Modes), or those of one link more than
-    /// [`MODES_PER_LINK`].
+    /// The links' modes are fewer or more than the M of [`Modes`](super::Modes), or those of one
+    /// link more than [`MODES_PER_LINK`].
     Count,
     /// A number is not finite.
     NotFinite,
     /// The mode moves no mass.
     NoMass,
-    /// The products of the modes are not a symmetric and positive definite matrix: the mode is a sum of those before it,
-    /// or a number is wrong.
+    /// The products of the modes are not a symmetric and positive definite matrix: the mode is a
+    /// sum of those before it, or a number is wrong.
     Inertia,
-    /// With the rigid motions of its link the inertia is not positive definite: a part of the mode is a rigid motion, or
-    /// the body's mass is not that which the mode moves.
+    /// With the rigid motions of its link the inertia is not positive definite: a part of the mode
+    /// is a rigid motion, or the body's mass is not that which the mode moves.
     RigidMotion,
     /// The stiffness is zero or negative, or the matrix is not symmetric and positive definite.
     Stiffness,
@@ -148,7 +151,8 @@ pub enum ModeProblem {
     Damping,
     /// The beam's length or mass is not positive, or a property is negative.
     Beam,
-    /// The beam has no shape of this number: shapes are counted from one, and of high ones no root was found.
+    /// The beam has no shape of this number: shapes are counted from one, and of high ones no root
+    /// was found.
     NoShape,
 }
 

@@ -1,9 +1,10 @@
 //! Links that bend: assumed modes of a link as coordinates beside those of the joints.
 //!
-//! A robot is its rigid description and [`Modes`], a table of the integrals of its links' mode shapes. Shapes come from
-//! beam data ([`Beam`]) or from a finite-element model ([`FlexibleLink`]); a robot without them uses the functions of
-//! [`crate::algorithms`], [`Core`](crate::Core) and [`Engine`](crate::Engine), of which this module changes nothing.
-//! Stiffness and damping of the modes are an effect, [`Elasticity`](crate::effects::Elasticity).
+//! A robot is its rigid description and [`Modes`], a table of the integrals of its links' mode
+//! shapes. Shapes come from beam data ([`Beam`]) or from a finite-element model ([`FlexibleLink`]);
+//! a robot without them uses the functions of [`crate::algorithms`], [`Core`](crate::Core) and
+//! [`Engine`](crate::Engine), of which this module changes nothing. Stiffness and damping of the
+//! modes are an effect, [`Elasticity`](crate::effects::Elasticity).
 //!
 //! | function | result |
 //! |---|---|
@@ -15,15 +16,16 @@
 //! | [`ModalFeedforward`] | torques along a reference, with the modes' motion under it |
 //! | [`Bending`] | all of these but [`step()`] and [`ModalFeedforward::at_rest`] for a robot known at compile time, by the textbook or by the engine |
 //!
-//! The torques that move the *joints* along a reference are a sound inverse: the modes move under it as those of links
-//! whose joints are clamped, and settle. The torques that would move the *tip* along one are not: the tip of a link that
-//! bends is a non-minimum-phase output, whose inverse grows without bound or begins before the motion (De Luca &
-//! Siciliano, 1993). No function has it. A tip that is to come to rest is a matter of the reference:
-//! `motion_control::Shaped`.
+//! The torques that move the *joints* along a reference are a sound inverse: the modes move under
+//! it as those of links whose joints are clamped, and settle. The torques that would move the *tip*
+//! along one are not: the tip of a link that bends is a non-minimum-phase output, whose inverse
+//! grows without bound or begins before the motion (De Luca & Siciliano, 1993). No function has it.
+//! A tip that is to come to rest is a matter of the reference: `motion_control::Shaped`.
 //!
 //! # Limits
-//! Displacements are linear in the modes: deflections to some 10 % of a link's length. A beam's shortening and the
-//! stiffness that rotation and axial load give it are not included: joint rates well below the first frequency.
+//! Displacements are linear in the modes: deflections to some 10 % of a link's length. A beam's
+//! shortening and the stiffness that rotation and axial load give it are not included: joint rates
+//! well below the first frequency.
 //!
 //! # Source
 //! Book (1984); Shabana, *Dynamics of Multibody Systems* (2005), chapter 5.

@@ -71,8 +71,9 @@ impl<R: Real> Outer<R> {
     }
 }
 
-/// The force that accelerates a link with modes, and those that accelerate its modes: ∫ a dm, ∫ r × a dm and
-/// ∫ φₖ·a dm of a = p̈ + α × r + ω × (ω × r) + 2 ω × φ η̇ + φ η̈. The latter are added to `of_modes`, with K η + D η̇.
+/// The force that accelerates a link with modes, and those that accelerate its modes: ∫ a dm, ∫ r ×
+/// a dm and ∫ φₖ·a dm of a = p̈ + α × r + ω × (ω × r) + 2 ω × φ η̇ + φ η̈. The latter are added to
+/// `of_modes`, with K η + D η̇.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn net_force<R: Real, E, const B: usize, const V: usize, const M: usize>(
     effects: &E,
@@ -151,7 +152,8 @@ impl<R: Real, const M: usize> Modes<R, M> {
         }
     }
 
-    /// The force on mode k of a load on the end of its link: see [`End::load`](super::deformation::End::load).
+    /// The force on mode k of a load on the end of its link: see
+    /// [`End::load`](super::deformation::End::load).
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn work(&self, k: usize, load: Force<R>) -> R {
         let work = |mode: &Integrals<R>| mode.half_turn.dot(load.ang) + mode.shift.dot(load.lin);

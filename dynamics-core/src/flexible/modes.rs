@@ -7,7 +7,8 @@ use crate::math::const_eval::{mul, mul_vec, transpose, vec3};
 use crate::model::{Model, Robot, Text};
 use crate::scalar::Real;
 
-/// The M modes of a robot's links, beside its model: in the order of the links, and of a link in that of its description.
+/// The M modes of a robot's links, beside its model: in the order of the links, and of a link in
+/// that of its description.
 ///
 /// ```
 /// use dynamics_core::flexible::{Beam, FlexibleLink, Modes, Shape};
@@ -116,9 +117,9 @@ impl<const M: usize> Modes<f64, M> {
     /// The same without a panic.
     ///
     /// # Errors
-    /// [`ModeError`] names the link and the mode: data that is not positive definite, a stiffness that is not positive,
-    /// a mode without mass or that is in part a rigid motion of its link, links that are not in order, another number of
-    /// modes than M.
+    /// [`ModeError`] names the link and the mode: data that is not positive definite, a stiffness
+    /// that is not positive, a mode without mass or that is in part a rigid motion of its link,
+    /// links that are not in order, another number of modes than M.
     pub const fn try_new<const B: usize, const Q: usize, const V: usize>(
         model: &Model<f64, B, Q, V>,
         links: &[FlexibleLink],
@@ -230,7 +231,8 @@ impl<const M: usize> Modes<f64, M> {
     }
 }
 
-/// A robot whose links bend, known at compile time. One robot may have several tables, of different numbers of modes M.
+/// A robot whose links bend, known at compile time. One robot may have several tables, of different
+/// numbers of modes M.
 ///
 /// An example is that of [`Bending`](super::Bending).
 pub trait BendingRobot<const B: usize, const Q: usize, const V: usize, const M: usize>:

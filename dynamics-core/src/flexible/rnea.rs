@@ -1,8 +1,9 @@
 //! Inverse dynamics of a robot whose links bend: the recursive Newton-Euler algorithm with modes.
 //!
-//! Book (1984); De Luca & Siciliano (1991); Shabana, *Dynamics of Multibody Systems* (2005), chapter 5. A link's modes are
-//! between its body and its end, on which its children stand: outward the velocity and the acceleration of the end are
-//! those of the body and of the modes' rates; inward the force on the end acts on the modes and on the body.
+//! Book (1984); De Luca & Siciliano (1991); Shabana, *Dynamics of Multibody Systems* (2005),
+//! chapter 5. A link's modes are between its body and its end, on which its children stand: outward
+//! the velocity and the acceleration of the end are those of the body and of the modes' rates;
+//! inward the force on the end acts on the modes and on the body.
 
 use core::borrow::Borrow;
 
@@ -23,24 +24,27 @@ use crate::state::{Configuration, RobotState, State};
 
 /// The torque of each motor, N·m or N, and the force on each mode at a state of joints and modes.
 ///
-/// With [`Elasticity`](crate::effects::Elasticity) among the effects, the forces on the modes are zero where they move
-/// freely: nothing but the links' own stiffness and damping acts on them. Without it they are the forces that stiffness
-/// and damping have to exert.
+/// With [`Elasticity`](crate::effects::Elasticity) among the effects, the forces on the modes are
+/// zero where they move freely: nothing but the links' own stiffness and damping acts on them.
+/// Without it they are the forces that stiffness and damping have to exert.
 ///
 /// ```text
 /// f_i = I_i(η) a_i + v_i ×* I_i(η) v_i + ∫ (φ η̈ + 2 ω × φ η̇) dm − fˣ_i + X_eᵀ f_e
 /// Q_k = ∫ φ_k·a(r) dm + J_kᵀ f_e + K η + D η̇
 /// ```
 ///
-/// where f_e is the force of the bodies on the end, and J_k the end's motion per rate of mode k. Terms of any order
-/// of η that a displacement linear in η has are included; a beam's shortening when it bends is not.
+/// where f_e is the force of the bodies on the end, and J_k the end's motion per rate of mode k.
+/// Terms of any order of η that a displacement linear in η has are included; a beam's shortening
+/// when it bends is not.
 ///
 /// # Frames
-/// A wrench of the effects acts on the link where its joint is, and a payload is fixed there. One at the end belongs to a
-/// body on the end, by a fixed joint if need be. Scenes with gyroscopic rotors do not compile.
+/// A wrench of the effects acts on the link where its joint is, and a payload is fixed there. One
+/// at the end belongs to a body on the end, by a fixed joint if need be. Scenes with gyroscopic
+/// rotors do not compile.
 ///
 /// # Cost
-/// That of [`rnea`](crate::algorithms::rnea()), and for each link with N modes some 150 + 130 N + 40 N² flops.
+/// That of [`rnea`](crate::algorithms::rnea()), and for each link with N modes some 150 + 130 N +
+/// 40 N² flops.
 ///
 /// # Source
 /// Book, "Recursive Lagrangian dynamics of flexible manipulator arms" (1984).

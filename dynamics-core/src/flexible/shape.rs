@@ -1,7 +1,9 @@
-//! Shapes of a uniform beam that is clamped at one end and carries a body at the other, while compiling.
+//! Shapes of a uniform beam that is clamped at one end and carries a body at the other, while
+//! compiling.
 //!
-//! Bending: EI w⁗ = ω² ρA w, so that w = cosh − cos + r (sinh − sin) of β x, with EI w″ = ω² J w′ and EI w‴ = −ω² m w at
-//! the end; torsion: θ = sin β x, with GJ θ′ = ω² J θ. Meirovitch, *Fundamentals of Vibrations* (2001), sections 8.4, 8.6.
+//! Bending: EI w⁗ = ω² ρA w, so that w = cosh − cos + r (sinh − sin) of β x, with EI w″ = ω² J w′
+//! and EI w‴ = −ω² m w at the end; torsion: θ = sin β x, with GJ θ′ = ω² J θ. Meirovitch,
+//! *Fundamentals of Vibrations* (2001), sections 8.4, 8.6.
 
 use crate::math::const_eval::{exp, sin_cos};
 
@@ -20,8 +22,8 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// The `index`-th bending shape, from one, with a body at the end of mass m and inertia J: `ratios` are m / ρAL and
-    /// J / ρAL³. None beyond the search.
+    /// The `index`-th bending shape, from one, with a body at the end of mass m and inertia J:
+    /// `ratios` are m / ρAL and J / ρAL³. None beyond the search.
     pub(super) const fn bending(index: usize, ratios: [f64; 2]) -> Option<Self> {
         let Some(wave) = root(true, index, ratios) else {
             return None;
@@ -146,7 +148,8 @@ const fn bisected(
     0.5 * (low + high)
 }
 
-/// Nodes and weights of Gauss and Legendre within (0, 1), four of eight: the others are their mirror images.
+/// Nodes and weights of Gauss and Legendre within (0, 1), four of eight: the others are their
+/// mirror images.
 const GAUSS: [[f64; 2]; 4] = [
     [0.183_434_642_495_649_8, 0.362_683_783_378_362],
     [0.525_532_409_916_329, 0.313_706_645_877_887_3],

@@ -8,10 +8,12 @@ use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, JointTrig, State, entry};
 
-/// One step of h seconds: the state of joints and modes after it; q̈ and η̈ are the accelerations within it.
+/// One step of h seconds: the state of joints and modes after it; q̈ and η̈ are the accelerations
+/// within it.
 ///
-/// The trapezoidal rule for the modes' stiffness and damping, so that a mode of any frequency is stable under any step
-/// and keeps its energy; what else acts is taken at the step's begin. For joints of one coordinate each.
+/// The trapezoidal rule for the modes' stiffness and damping, so that a mode of any frequency is
+/// stable under any step and keeps its energy; what else acts is taken at the step's begin. For
+/// joints of one coordinate each.
 ///
 /// ```text
 /// (M + (h/2) D + (h²/4) K) η̈ + … = −K (η + (h/2) η̇) − D η̇ − …

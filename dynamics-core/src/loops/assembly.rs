@@ -1,7 +1,8 @@
 //! Assembly: the configuration near a guess at which all loops are closed.
 //!
-//! Levenberg (1944) and Marquardt (1963), with a damping that follows the square of the error: Newton's convergence
-//! also where rows are redundant or a loop is near a singular configuration (Yamashita & Fukushima, 2001).
+//! Levenberg (1944) and Marquardt (1963), with a damping that follows the square of the error:
+//! Newton's convergence also where rows are redundant or a loop is near a singular configuration
+//! (Yamashita & Fukushima, 2001).
 
 use super::constraints;
 use super::description::Loops;
@@ -19,8 +20,8 @@ const STEPS: usize = 60;
 const CLOSED: (f64, f32) = (4e-14, 2e-6);
 /// The longest step of a coordinate, rad or m over the loop's size.
 const STRIDE: f64 = 0.5;
-/// The damping for each square of the error, at first; a step that gains multiplies it by `LESS`, one that does not by
-/// `MORE`.
+/// The damping for each square of the error, at first; a step that gains multiplies it by `LESS`,
+/// one that does not by `MORE`.
 const DAMPING: f64 = 1e-2;
 const LESS: f64 = 0.25;
 const MORE: f64 = 8.0;
@@ -83,8 +84,8 @@ pub struct Assembly<R, const Q: usize> {
 /// ```
 ///
 /// # Errors
-/// [`LoopError::Open`] names the loop that is farthest from closed after all steps, [`LoopError::NotFinite`] one that a
-/// guess which is not finite reaches.
+/// [`LoopError::Open`] names the loop that is farthest from closed after all steps,
+/// [`LoopError::NotFinite`] one that a guess which is not finite reaches.
 #[doc(alias = "position analysis")]
 pub fn assemble<
     R: Real,

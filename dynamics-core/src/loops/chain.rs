@@ -1,4 +1,5 @@
-//! The bodies between the ends of a loop and their nearest common ancestor. RBDA (2008), section 8.2.
+//! The bodies between the ends of a loop and their nearest common ancestor. RBDA (2008), section
+//! 8.2.
 
 use heapless::Vec;
 
@@ -95,8 +96,8 @@ impl<R: Real, const B: usize> LoopBodies<R, B> {
         }
     }
 
-    /// From the aligned frame of `ancestor` to a frame on body `at`; puts the columns of its Jacobian relative to `ancestor`
-    /// with their coordinates.
+    /// From the aligned frame of `ancestor` to a frame on body `at`; puts the columns of its
+    /// Jacobian relative to `ancestor` with their coordinates.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn of_frame<D, const Q: usize, const V: usize>(
         &self,
@@ -138,7 +139,8 @@ impl<R: Real, const B: usize> LoopBodies<R, B> {
         }
     }
 
-    /// The velocity of a frame on body `at` relative to `ancestor` and its acceleration at q̈ = 0, in its own coordinates.
+    /// The velocity of a frame on body `at` relative to `ancestor` and its acceleration at q̈ = 0,
+    /// in its own coordinates.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn motion<D, const Q: usize, const V: usize>(
         &self,
@@ -158,7 +160,8 @@ impl<R: Real, const B: usize> LoopBodies<R, B> {
                 let zero = Motion::ZERO;
                 a += frame * link.plus_velocity_product(zero, turns, qd, zero);
             }
-            // The frame moves by v relative to this body, and so does the joint's axis in the frame's coordinates.
+            // The frame moves by v relative to this body, and so does the joint's axis in the
+            // frame's coordinates.
             if i != at {
                 a -= v.cross(joint);
             }

@@ -1,8 +1,9 @@
 //! Loop constraints: K, k, and the errors of position and velocity.
 //!
-//! Featherstone, RBDA (2008), section 8.2. The velocity of a loop joint's successor relative to its predecessor,
-//! Tᵀ (v_s − v_p), in the successor's loop frame. Only the joints between the two bodies and their nearest common
-//! ancestor count: what moves that ancestor, and how far away the base is, does not enter.
+//! Featherstone, RBDA (2008), section 8.2. The velocity of a loop joint's successor relative to its
+//! predecessor, Tᵀ (v_s − v_p), in the successor's loop frame. Only the joints between the two
+//! bodies and their nearest common ancestor count: what moves that ancestor, and how far away the
+//! base is, does not enter.
 
 use core::borrow::Borrow;
 
@@ -19,7 +20,8 @@ use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Motion, Xform};
 use crate::state::{Configuration, RobotState, all_finite, entry};
 
-/// The constraints of L loops in one state: K q̇ = 0 and K q̈ = k where the loops are closed and remain so.
+/// The constraints of L loops in one state: K q̇ = 0 and K q̈ = k where the loops are closed and
+/// remain so.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constraints<R: Real, const V: usize, const L: usize, const C: usize> {
     /// K by rows, those of a loop's rotations before those of its translations.
@@ -30,8 +32,9 @@ pub struct Constraints<R: Real, const V: usize, const L: usize, const C: usize> 
     pub position: [R; C],
     /// K q̇, the error of velocity of each row, rad/s and m/s.
     pub velocity: [R; C],
-    /// The size of a loop for each of its rows: the root of the sum of squares of the rotations, or translations, that
-    /// unit rates of all coordinates of the loop give its successor. One for rows of a loop that none moves.
+    /// The size of a loop for each of its rows: the root of the sum of squares of the rotations, or
+    /// translations, that unit rates of all coordinates of the loop give its successor. One for
+    /// rows of a loop that none moves.
     pub size: [R; C],
     /// From each predecessor's aligned loop frame to the successor's.
     poses: [Xform<R>; L],
@@ -107,8 +110,9 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
         loops.name_of_row(most)
     }
 
-    /// The force of loop joint `i` on its successor, N·m about the origin and N, along the axes of the successor's loop
-    /// frame, from the λ of all loops. Its predecessor gets the opposite force.
+    /// The force of loop joint `i` on its successor, N·m about the origin and N, along the axes of
+    /// the successor's loop frame, from the λ of all loops. Its predecessor gets the opposite
+    /// force.
     pub fn force<const A: usize>(
         &self,
         loops: &Loops<L, C, A>,

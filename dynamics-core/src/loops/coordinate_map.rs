@@ -1,7 +1,7 @@
 //! The map from independent to all coordinates: q̇ = G ẏ, q̈ = G ÿ + ġ, and Gᵀ for torques.
 //!
-//! Featherstone, RBDA (2008), section 8.11. The independent coordinates are actuated ones: K is eliminated with its
-//! pivots in the passive coordinates first.
+//! Featherstone, RBDA (2008), section 8.11. The independent coordinates are actuated ones: K is
+//! eliminated with its pivots in the passive coordinates first.
 
 use core::borrow::Borrow;
 
@@ -29,9 +29,9 @@ pub enum Drive {
         /// How many more.
         redundancy: usize,
     },
-    /// It does not, or almost not: the configuration is at a dead point of the motors, or closer to one than
-    /// [`Loops::damped_below`]. The passive coordinates are damped; torques are finite and bounded, and exact where the
-    /// damping begins.
+    /// It does not, or almost not: the configuration is at a dead point of the motors, or closer to
+    /// one than [`Loops::damped_below`]. The passive coordinates are damped; torques are finite and
+    /// bounded, and exact where the damping begins.
     Singular {
         /// The loop of the coordinate that is damped most.
         name: &'static str,
@@ -88,9 +88,10 @@ pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
 /// ```
 ///
 /// # Errors
-/// [`LoopError::Open`] names a loop that is open by more than [`OPEN`] of its size, [`LoopError::UnderActuated`] one
-/// that still moves with all actuated coordinates held, and the coordinate; [`LoopError::NotFinite`] the first loop of
-/// which a number is not finite. Near a dead point of the motors there is a damped map: [`Drive::Singular`].
+/// [`LoopError::Open`] names a loop that is open by more than [`OPEN`] of its size,
+/// [`LoopError::UnderActuated`] one that still moves with all actuated coordinates held, and the
+/// coordinate; [`LoopError::NotFinite`] the first loop of which a number is not finite. Near a dead
+/// point of the motors there is a damped map: [`Drive::Singular`].
 #[doc(alias = "explicit constraints")]
 #[cfg_attr(optimised, inline(always))]
 pub fn coordinate_map<
@@ -198,7 +199,8 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         self.rows
     }
 
-    /// Whether there are more actuated than independent coordinates, or the motors are near a dead point.
+    /// Whether there are more actuated than independent coordinates, or the motors are near a dead
+    /// point.
     pub fn drive(&self) -> Drive {
         if let Some((name, joint)) = self.singular {
             return Drive::Singular { name, joint };
@@ -209,7 +211,8 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         }
     }
 
-    /// How many actuated coordinates there are: of robots of run time fewer than A, which is then V at least.
+    /// How many actuated coordinates there are: of robots of run time fewer than A, which is then V
+    /// at least.
     #[cfg_attr(optimised, inline(always))]
     fn motors(&self) -> usize {
         if const { A < V } {
@@ -218,13 +221,15 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         self.actuated.iter().filter(|joint| **joint < V).count()
     }
 
-    /// q̇ = G ẏ from the rates of the actuated coordinates; of a redundantly driven robot the independent ones count.
+    /// q̇ = G ẏ from the rates of the actuated coordinates; of a redundantly driven robot the
+    /// independent ones count.
     #[cfg_attr(optimised, inline(always))]
     pub fn velocity(&self, rates: &[R; A]) -> [R; V] {
         self.elimination.complete(&self.spread(rates))
     }
 
-    /// q̈ = G ÿ + ġ from the accelerations of the actuated coordinates and the k of [`Constraints::bias`].
+    /// q̈ = G ÿ + ġ from the accelerations of the actuated coordinates and the k of
+    /// [`Constraints::bias`].
     #[cfg_attr(optimised, inline(always))]
     pub fn acceleration(&self, accelerations: &[R; A], bias: &[R; C]) -> [R; V] {
         let mut qdd = self.elimination.particular(&scaled(*bias, &self.scale));
@@ -232,7 +237,8 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         qdd
     }
 
-    /// The torques of the actuated coordinates that do what torques of all coordinates would: Gᵀ τ_a = Gᵀ τ, N·m or N.
+    /// The torques of the actuated coordinates that do what torques of all coordinates would: Gᵀ
+    /// τ_a = Gᵀ τ, N·m or N.
     ///
     /// Of several, that with the least sum of squares, in which an N counts as an N·m.
     #[cfg_attr(optimised, inline(always))]
@@ -248,7 +254,8 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         if !matches!(self.drive(), Drive::LeastNorm { .. }) {
             return wanted;
         }
-        // G of the actuated coordinates; a unit in the place of each that is not independent keeps Gᵀ G regular.
+        // G of the actuated coordinates; a unit in the place of each that is not independent keeps
+        // Gᵀ G regular.
         let g = self.actuated.map(|joint| self.row(joint));
         let mut squares = [[R::ZERO; A]; A];
         for (i, (squares, &independent)) in squares.iter_mut().zip(&self.independent).enumerate() {

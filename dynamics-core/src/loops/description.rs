@@ -35,7 +35,8 @@ pub struct Loops<const L: usize, const C: usize, const A: usize> {
 }
 
 impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
-    /// Loops on `model`, and the indices in q̇ of the coordinates that have a motor; impossible loops do not compile.
+    /// Loops on `model`, and the indices in q̇ of the coordinates that have a motor; impossible
+    /// loops do not compile.
     ///
     /// ```
     /// use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
@@ -88,8 +89,9 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     /// const _: usize = LOOPS.rows(0).end;
     /// ```
     ///
-    /// Nor does a loop that cannot close, or one of which too few coordinates are actuated, as far as lengths and
-    /// numbers show it. The rest is found at each configuration: [`super::LoopError`].
+    /// Nor does a loop that cannot close, or one of which too few coordinates are actuated, as far
+    /// as lengths and numbers show it. The rest is found at each configuration:
+    /// [`super::LoopError`].
     ///
     /// ```compile_fail,E0080
     /// # use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
@@ -119,7 +121,8 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     /// ```
     ///
     /// # Panics
-    /// As [`Loops::try_new`] errs, with the loop's name. Meant for `const` items, where a panic is a compile error.
+    /// As [`Loops::try_new`] errs, with the loop's name. Meant for `const` items, where a panic is
+    /// a compile error.
     pub const fn new<const B: usize, const Q: usize, const V: usize>(
         model: &Model<f64, B, Q, V>,
         joints: [LoopJoint; L],
@@ -134,10 +137,11 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     /// The same for descriptions of run time.
     ///
     /// # Errors
-    /// [`LoopModelError`] names the loop: no such body, both ends on one body or on bodies that cannot move relative to
-    /// each other, a joint that constrains nothing, impossible axes or frames, links of which one is longer than all
-    /// others together; or the robot: another C, actuated coordinates that do not exist, that are listed twice, or of
-    /// which there are fewer than V − C.
+    /// [`LoopModelError`] names the loop: no such body, both ends on one body or on bodies that
+    /// cannot move relative to each other, a joint that constrains nothing, impossible axes or
+    /// frames, links of which one is longer than all others together; or the robot: another C,
+    /// actuated coordinates that do not exist, that are listed twice, or of which there are fewer
+    /// than V − C.
     pub const fn try_new<const B: usize, const Q: usize, const V: usize>(
         model: &Model<f64, B, Q, V>,
         joints: [LoopJoint; L],
@@ -146,11 +150,12 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
         Self::described(model, &joints, &actuated, true)
     }
 
-    /// The same of up to L loops and A actuated coordinates, which constrain up to C directions: for programs that learn
-    /// at run time what a robot's loops are. A is V at least.
+    /// The same of up to L loops and A actuated coordinates, which constrain up to C directions:
+    /// for programs that learn at run time what a robot's loops are. A is V at least.
     ///
-    /// Rows beyond those of the loops are zero, and redundant. Several loops whose rows are no more than the coordinates
-    /// are eliminated in another order than by [`Loops::new`], so that last digits differ.
+    /// Rows beyond those of the loops are zero, and redundant. Several loops whose rows are no more
+    /// than the coordinates are eliminated in another order than by [`Loops::new`], so that last
+    /// digits differ.
     ///
     /// ```
     /// use dynamics_core::effects::RIGID_BODY;
@@ -169,7 +174,8 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     /// ```
     ///
     /// # Errors
-    /// As [`Loops::try_new`]; [`LoopProblem::Rows`] of more than C, and of more than L loops or A coordinates.
+    /// As [`Loops::try_new`]; [`LoopProblem::Rows`] of more than C, and of more than L loops or A
+    /// coordinates.
     pub const fn try_filled<const B: usize, const Q: usize, const V: usize>(
         model: &Model<f64, B, Q, V>,
         joints: &[LoopJoint],
@@ -284,8 +290,9 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
         self.first_rows[i]..self.first_rows[i] + rotations + translations
     }
 
-    /// The force of loop joint `i` on its successor, N·m and N, in the loop frame of the successor, from the λ of all
-    /// loops. Its predecessor gets the opposite force. `x` is from the predecessor's loop frame to the successor's.
+    /// The force of loop joint `i` on its successor, N·m and N, in the loop frame of the successor,
+    /// from the λ of all loops. Its predecessor gets the opposite force. `x` is from the
+    /// predecessor's loop frame to the successor's.
     pub(super) fn wrench<R: Real>(&self, i: usize, x: Xform<R>, lambda: &[R; C]) -> Force<R> {
         let (Some(joint), Some(axes)) = (self.joints.get(i), self.axes.get(i)) else {
             return Force::ZERO;
@@ -310,7 +317,8 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
         JointConstraint { kind, pitch, x }
     }
 
-    /// Each loop joint, with the transforms from the aligned frames of its predecessor and successor to its own.
+    /// Each loop joint, with the transforms from the aligned frames of its predecessor and
+    /// successor to its own.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn ends<R: Real>(&self) -> impl Iterator<Item = (&LoopJoint, [Xform<R>; 2])> {
         let frames = self.frames.iter();
@@ -330,7 +338,8 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
         passive
     }
 
-    /// The name of the loop that row `row` of K belongs to, such as a redundant one; the robot's if there is none.
+    /// The name of the loop that row `row` of K belongs to, such as a redundant one; the robot's if
+    /// there is none.
     pub fn name_of_row(&self, row: usize) -> &'static str {
         let mut rows = self.joints.iter().enumerate();
         let joint = rows.find(|(i, _)| self.rows(*i).contains(&row));

@@ -1,11 +1,13 @@
-//! Elimination of K with complete pivoting: its rank, the rows and coordinates that depend on others.
+//! Elimination of K with complete pivoting: its rank, the rows and coordinates that depend on
+//! others.
 //!
-//! Golub & Van Loan, *Matrix Computations*, section 3.4. Rows are compared relative to the sizes of their loops, so
-//! that neither the unit of length nor rounding errors of a direction in which nothing moves decide.
+//! Golub & Van Loan, *Matrix Computations*, section 3.4. Rows are compared relative to the sizes of
+//! their loops, so that neither the unit of length nor rounding errors of a direction in which
+//! nothing moves decide.
 //!
-//! Where several loops share coordinates, those that move one loop only come first, while their pivots are large: their
-//! columns are zero in the rows of all other loops, and so is the transform of a loop's rows. Duff, Erisman & Reid,
-//! *Direct Methods for Sparse Matrices* (1986), chapter 7.
+//! Where several loops share coordinates, those that move one loop only come first, while their
+//! pivots are large: their columns are zero in the rows of all other loops, and so is the transform
+//! of a loop's rows. Duff, Erisman & Reid, *Direct Methods for Sparse Matrices* (1986), chapter 7.
 
 use core::ops::Range;
 
@@ -20,8 +22,8 @@ use crate::state::entry;
 /// The least pivot, relative to the size of a loop, of a coordinate that moves this loop only.
 const LARGE: f64 = 0.0625;
 
-/// The least pivot, relative to the size of a loop, with which the order of the pivots does not matter: some times the
-/// threshold of the rank in f32.
+/// The least pivot, relative to the size of a loop, with which the order of the pivots does not
+/// matter: some times the threshold of the rank in f32.
 const REGULAR: f64 = 3.0 * SINGULAR;
 
 /// Rows and columns of pivots, in the order in which they were found.
@@ -76,8 +78,8 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         }
     }
 
-    /// The elimination of K, pivots in the coordinates `first` before those in others, of rows over the sizes of their
-    /// loops.
+    /// The elimination of K, pivots in the coordinates `first` before those in others, of rows over
+    /// the sizes of their loops.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn eliminate<const L: usize, const A: usize>(
         &mut self,
@@ -102,8 +104,8 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         self.completely::<true, L>(closing, first, scale);
     }
 
-    /// With complete pivoting, from the start; `SCALED`: of rows over the sizes of their loops. Those of forward dynamics are
-    /// not, whose digits depend on every rounding of K.
+    /// With complete pivoting, from the start; `SCALED`: of rows over the sizes of their loops.
+    /// Those of forward dynamics are not, whose digits depend on every rounding of K.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn completely<const SCALED: bool, const L: usize>(
         &mut self,
@@ -135,7 +137,8 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         self.find_free();
     }
 
-    /// The largest entry of the rows without a pivot in the columns allowed. Those with a pivot are zero there.
+    /// The largest entry of the rows without a pivot in the columns allowed. Those with a pivot are
+    /// zero there.
     #[cfg_attr(optimised, inline(always))]
     fn largest(&self, allowed: impl Fn(usize) -> bool, weights: &[R; C]) -> Option<(usize, usize)> {
         let (mut largest, mut place) = (R::select(RANK_TOLERANCE.0, RANK_TOLERANCE.1), None);
@@ -184,9 +187,9 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         }
     }
 
-    /// Pivots in each loop's own coordinates first, listed in their order; whether every row, or every coordinate of `first`,
-    /// has a pivot that is not near to singular: there complete pivoting decides. `FACTORS`: for the factors of K, with a
-    /// right-hand side, in place of T.
+    /// Pivots in each loop's own coordinates first, listed in their order; whether every row, or
+    /// every coordinate of `first`, has a pivot that is not near to singular: there complete
+    /// pivoting decides. `FACTORS`: for the factors of K, with a right-hand side, in place of T.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn loop_by_loop<const FACTORS: bool, const L: usize, const A: usize>(
         &mut self,
@@ -211,8 +214,8 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         order.len() == C
     }
 
-    /// Pivots of more than `least` in some rows and the columns allowed, the largest first. Makes the rest of their
-    /// columns zero in the rows without a pivot.
+    /// Pivots of more than `least` in some rows and the columns allowed, the largest first. Makes
+    /// the rest of their columns zero in the rows without a pivot.
     #[cfg_attr(optimised, inline(always))]
     fn forward<const FACTORS: bool>(
         &mut self,
@@ -308,7 +311,8 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         }
     }
 
-    /// Divides the row of a pivot by it, and subtracts it from those that are open, the right-hand side likewise.
+    /// Divides the row of a pivot by it, and subtracts it from those that are open, the right-hand
+    /// side likewise.
     #[cfg_attr(optimised, inline(always))]
     fn subtract_scaled(
         &mut self,

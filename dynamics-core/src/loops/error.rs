@@ -144,8 +144,9 @@ pub enum LoopError {
         /// Its error, relative to the loop's size.
         error: f64,
     },
-    /// With the actuated coordinates held, this coordinate still moves, here and at every configuration near by that
-    /// the loops allow: they are too few, or depend on each other. A dead point that some motion leaves is no error but
+    /// With the actuated coordinates held, this coordinate still moves, here and at every
+    /// configuration near by that the loops allow: they are too few, or depend on each other. A
+    /// dead point that some motion leaves is no error but
     /// [`Drive::Singular`](super::Drive::Singular).
     UnderActuated {
         /// The loop that it moves in; the robot, if it moves in none.

@@ -1,7 +1,8 @@
 //! Solutions of forward dynamics: K x = b, and Kᵀ λ = τ in the coordinates with a pivot.
 //!
-//! By the factors of K, which solve with a few right-hand sides in fewer products than T of [`Elimination`] takes to form;
-//! by T where pivots are not found loop by loop. Golub & Van Loan, *Matrix Computations*, section 3.2.
+//! By the factors of K, which solve with a few right-hand sides in fewer products than T of
+//! [`Elimination`] takes to form; by T where pivots are not found loop by loop. Golub & Van Loan,
+//! *Matrix Computations*, section 3.2.
 
 use heapless::Vec;
 
@@ -11,8 +12,9 @@ use super::elimination::{Elimination, LoopRows, Order, dot, subtract};
 use crate::scalar::Real;
 use crate::state::entry;
 
-/// The factors of K, or T. Of the factors `rows` are those of K over their pivots, without the columns of earlier ones;
-/// `transform` has in the row of a pivot its reciprocal, and how many times the row was subtracted from each row after it.
+/// The factors of K, or T. Of the factors `rows` are those of K over their pivots, without the
+/// columns of earlier ones; `transform` has in the row of a pivot its reciprocal, and how many
+/// times the row was subtracted from each row after it.
 pub(super) struct Factors<'a, R, const V: usize, const C: usize> {
     k: &'a mut Elimination<R, V, C>,
     /// The right-hand side b, eliminated with the rows: x at the pivots.
@@ -53,7 +55,8 @@ impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
         self.right = self.k.transform.each_ref().map(|row| dot(row, right));
     }
 
-    /// Back substitution, from the last pivot to the first, of b and of the columns without a pivot.
+    /// Back substitution, from the last pivot to the first, of b and of the columns without a
+    /// pivot.
     #[cfg_attr(optimised, inline(always))]
     fn substitute_back(&mut self) {
         let mut order: &[(usize, usize)] = &self.order;

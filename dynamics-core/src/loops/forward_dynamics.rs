@@ -1,7 +1,7 @@
 //! Forward dynamics with kinematic loops.
 //!
-//! Featherstone, RBDA (2008), section 8.1: M q̈ + C = τ + Kᵀ λ and K q̈ = k. By the factors of the tree's M, in the
-//! coordinates that the elimination of K leaves free: q̈ = G ÿ + ġ, section 8.11.
+//! Featherstone, RBDA (2008), section 8.1: M q̈ + C = τ + Kᵀ λ and K q̈ = k. By the factors of the
+//! tree's M, in the coordinates that the elimination of K leaves free: q̈ = G ÿ + ġ, section 8.11.
 
 use core::borrow::Borrow;
 
@@ -32,22 +32,23 @@ pub struct LoopMotion<R: Real, const V: usize, const L: usize, const C: usize> {
     pub constraints: Constraints<R, V, L, C>,
 }
 
-/// The acceleration of each joint, q̈, rad/s² or m/s², and the forces of the loop joints, from the torques of the
-/// actuated coordinates.
+/// The acceleration of each joint, q̈, rad/s² or m/s², and the forces of the loop joints, from the
+/// torques of the actuated coordinates.
 ///
-/// `state.qdd` is not read. The state need not be closed: errors are corrected as `stabilisation` says, and
-/// [`LoopMotion::closure`] says how large they are; [`LoopMotion::closed`] refuses loops that are open by more than
-/// [`OPEN`](super::OPEN) of their sizes. Where rows of K depend on each other, those that elimination finds last are left
-/// out, and carry no force; [`LoopMotion::rank`] says whether these are more than usual, as at a change point, where the
-/// accelerations jump.
+/// `state.qdd` is not read. The state need not be closed: errors are corrected as `stabilisation`
+/// says, and [`LoopMotion::closure`] says how large they are; [`LoopMotion::closed`] refuses loops
+/// that are open by more than [`OPEN`](super::OPEN) of their sizes. Where rows of K depend on each
+/// other, those that elimination finds last are left out, and carry no force; [`LoopMotion::rank`]
+/// says whether these are more than usual, as at a change point, where the accelerations jump.
 ///
 /// # Shape
 /// V, and C.
 ///
 /// # Cost
 /// That of [`rnea`](crate::algorithms::rnea()), [`crba`](crate::algorithms::crba()),
-/// [`ltdl`](crate::algorithms::ltdl()), [`constraints`](super::constraints()) and [`coordinate_map`](super::coordinate_map()); with n degrees
-/// of freedom 4 n² V flops for the motion.
+/// [`ltdl`](crate::algorithms::ltdl()), [`constraints`](super::constraints()) and
+/// [`coordinate_map`](super::coordinate_map()); with n degrees of freedom 4 n² V flops for the
+/// motion.
 ///
 /// # Source
 /// Featherstone, RBDA (2008), sections 8.1, 8.3 and 8.11.
@@ -81,8 +82,8 @@ pub struct LoopMotion<R: Real, const V: usize, const L: usize, const C: usize> {
 /// ```
 ///
 /// # Errors
-/// [`LoopError::NotPositiveDefinite`] names a joint of the tree that moves no inertia, [`LoopError::NotFinite`] the
-/// first loop that a number which is not finite reaches.
+/// [`LoopError::NotPositiveDefinite`] names a joint of the tree that moves no inertia,
+/// [`LoopError::NotFinite`] the first loop that a number which is not finite reaches.
 #[doc(alias = "constraintDynamics")]
 #[doc(alias = "closed loops")]
 #[cfg_attr(optimised, inline(always))]

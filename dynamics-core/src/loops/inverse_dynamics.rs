@@ -1,7 +1,8 @@
 //! Inverse dynamics with kinematic loops.
 //!
-//! Featherstone, RBDA (2008), section 8.12: the torques τ of the tree's inverse dynamics, as if every joint had a
-//! motor, and those of the actuated coordinates that do the same work, Gᵀ τ_a = Gᵀ τ.
+//! Featherstone, RBDA (2008), section 8.12: the torques τ of the tree's inverse dynamics, as if
+//! every joint had a motor, and those of the actuated coordinates that do the same work, Gᵀ τ_a =
+//! Gᵀ τ.
 
 use core::borrow::Borrow;
 
@@ -32,22 +33,25 @@ pub struct LoopTorque<R: Real, const Q: usize, const V: usize, const C: usize, c
     pub rows: LoopRows<C>,
 }
 
-/// The torque of each motor of a robot with closed loops, τ_a = ID(q, ẏ, ÿ), N·m or N, under the effects of the scene.
+/// The torque of each motor of a robot with closed loops, τ_a = ID(q, ẏ, ÿ), N·m or N, under the
+/// effects of the scene.
 ///
-/// q is that of all coordinates, with closed loops, from [`super::assemble`]. Of q̇ and q̈ the independent coordinates
-/// are read, all of which are actuated; the others follow from them. A coordinate that no motor moves and that does no
-/// work, such as the spin of a rod between two ball joints, is under-actuation: give it a universal joint.
+/// q is that of all coordinates, with closed loops, from [`super::assemble`]. Of q̇ and q̈ the
+/// independent coordinates are read, all of which are actuated; the others follow from them. A
+/// coordinate that no motor moves and that does no work, such as the spin of a rod between two ball
+/// joints, is under-actuation: give it a universal joint.
 ///
-/// At a dead point of the motors, and near it, torques, velocities and accelerations are those of damped least squares:
-/// finite, bounded as [`Loops::damped_below`] says, and without a jump where the damping ends. [`LoopTorque::drive`] is
-/// then [`Drive::Singular`], and the loops are not closed by the velocities.
+/// At a dead point of the motors, and near it, torques, velocities and accelerations are those of
+/// damped least squares: finite, bounded as [`Loops::damped_below`] says, and without a jump where
+/// the damping ends. [`LoopTorque::drive`] is then [`Drive::Singular`], and the loops are not
+/// closed by the velocities.
 ///
 /// # Shape
 /// A.
 ///
 /// # Cost
-/// That of [`rnea`](crate::algorithms::rnea()), of [`constraints`](super::constraints()) twice and of
-/// [`coordinate_map`](super::coordinate_map()). Near a dead point V² C + 3 V³ flops more.
+/// That of [`rnea`](crate::algorithms::rnea()), of [`constraints`](super::constraints()) twice and
+/// of [`coordinate_map`](super::coordinate_map()). Near a dead point V² C + 3 V³ flops more.
 ///
 /// # Source
 /// Featherstone, RBDA (2008), section 8.12.
@@ -77,8 +81,8 @@ pub struct LoopTorque<R: Real, const Q: usize, const V: usize, const C: usize, c
 /// ```
 ///
 /// # Errors
-/// As [`coordinate_map`](super::coordinate_map()), and [`LoopError::NotFinite`] where a velocity, an acceleration or
-/// the result is not finite: a torque never is NaN.
+/// As [`coordinate_map`](super::coordinate_map()), and [`LoopError::NotFinite`] where a velocity,
+/// an acceleration or the result is not finite: a torque never is NaN.
 #[doc(alias = "closed loops")]
 #[doc(alias = "parallel robot")]
 #[cfg_attr(optimised, inline(always))]

@@ -1,8 +1,9 @@
 //! The constrained directions of a loop joint. RBDA (2008), table 4.1 and section 8.2.
 //!
-//! All in the successor's aligned loop frame, in which the joint's axis is z and a universal joint's second one: the
-//! relative velocity of the successor along the constrained directions T is Tᵀ v, the force of the joint T λ. Only the
-//! direction of a universal joint's couple depends on the configuration.
+//! All in the successor's aligned loop frame, in which the joint's axis is z and a universal
+//! joint's second one: the relative velocity of the successor along the constrained directions T is
+//! Tᵀ v, the force of the joint T λ. Only the direction of a universal joint's couple depends on
+//! the configuration.
 
 use crate::model::JointKind::{self, *};
 use crate::scalar::{Matrix, Real, Vector};
@@ -80,8 +81,8 @@ impl<R: Real> JointConstraint<R> {
     /// φ: rotations as 2 tan(θ/2) about their axis, rad for small errors, and m.
     pub(super) fn position(&self) -> [R; MOST] {
         let ([x, y, z], o) = ((self.x.rot * self.x.pos).array(), R::ZERO);
-        // Of a joint that slides, the error across the predecessor's axis, or along it: that across the successor's
-        // would change with its tilt as much as it has slid.
+        // Of a joint that slides, the error across the predecessor's axis, or along it: that across
+        // the successor's would change with its tilt as much as it has slid.
         let [across, away, along] = self.x.pos.array();
         let [u, w, _] = (self.x.rot * R::Vec3::new(across, away, o)).array();
         let turned = |x, y, z| {

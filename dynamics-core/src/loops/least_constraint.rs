@@ -1,9 +1,10 @@
 //! The motion of least constraint, from the factors M = Lᵀ D L.
 //!
-//! In coordinates L q̈ the kinetic energy is ½ (L q̈)ᵀ D (L q̈), and the motion that loops allow is the one nearest to that
-//! without loops (Gauss's principle of least constraint): a problem of least squares in the free coordinates of K, with
-//! the weights D. Its columns are made orthogonal, which keeps twice the digits of Gᵀ M G. Golub & Van Loan, *Matrix
-//! Computations*, sections 5.2 and 6.1.
+//! In coordinates L q̈ the kinetic energy is ½ (L q̈)ᵀ D (L q̈), and the motion that loops allow is
+//! the one nearest to that without loops (Gauss's principle of least constraint): a problem of
+//! least squares in the free coordinates of K, with the weights D. Its columns are made orthogonal,
+//! which keeps twice the digits of Gᵀ M G. Golub & Van Loan, *Matrix Computations*, sections 5.2
+//! and 6.1.
 
 use heapless::Vec;
 
@@ -12,7 +13,8 @@ use crate::model::{BASE, RobotModel};
 use crate::scalar::Real;
 use crate::state::entry;
 
-/// Roundings of a column's length: one that is no longer, once made orthogonal, depends on those before it.
+/// Roundings of a column's length: one that is no longer, once made orthogonal, depends on those
+/// before it.
 const ROUNDINGS: f64 = 16.0;
 
 /// L and D.
@@ -156,8 +158,8 @@ impl<R: Real, const V: usize> Orthogonal<R, V> {
         }
     }
 
-    /// Adds to q̈ the motion that takes L q̈ nearest to a goal at the distance z, given as D z. Leaves of it what no motion
-    /// reaches.
+    /// Adds to q̈ the motion that takes L q̈ nearest to a goal at the distance z, given as D z.
+    /// Leaves of it what no motion reaches.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn approach(&self, weighed: &mut [R; V], qdd: &mut [R; V]) {
         for motion in &self.motions {

@@ -80,9 +80,10 @@ impl BodyFrame {
 
 /// A joint that closes a loop, between a predecessor and a successor.
 ///
-/// Any kind of [`Joint`]; its axes are given in the loop frames. Where the joint's coordinates are zero, the frame on
-/// the successor is where that on the predecessor is. Which of two bodies is the predecessor matters for the sign of
-/// its force, and for the first axis of a universal joint, which is fixed on the predecessor.
+/// Any kind of [`Joint`]; its axes are given in the loop frames. Where the joint's coordinates are
+/// zero, the frame on the successor is where that on the predecessor is. Which of two bodies is the
+/// predecessor matters for the sign of its force, and for the first axis of a universal joint,
+/// which is fixed on the predecessor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoopJoint {
     pub(super) name: &'static str,

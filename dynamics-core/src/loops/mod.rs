@@ -1,8 +1,8 @@
 //! Kinematic loops: a tree of bodies, closed by further joints between two of them.
 //!
-//! Featherstone, RBDA (2008), chapter 8. A robot with loops is a spanning tree, which is a [`Robot`] as any other, and
-//! a list of [`LoopJoint`]s, [`LoopRobot::LOOPS`]. The algorithms of trees are used as they are: a robot without loops
-//! costs nothing more.
+//! Featherstone, RBDA (2008), chapter 8. A robot with loops is a spanning tree, which is a
+//! [`Robot`] as any other, and a list of [`LoopJoint`]s, [`LoopRobot::LOOPS`]. The algorithms of
+//! trees are used as they are: a robot without loops costs nothing more.
 //!
 //! | letter | meaning |
 //! |---|---|
@@ -13,11 +13,12 @@
 //! | y | independent coordinates, a subset of the actuated ones |
 //! | G | q̇ = G ẏ and q̈ = G ÿ + ġ |
 //!
-//! Rows of K may depend on each other: a planar four-bar linkage in space has three rows too many, and a parallelogram
-//! that lies flat one more. The rank is found at each configuration by elimination with complete pivoting, relative to
-//! the size of each loop ([`RANK_TOLERANCE`]), and [`LoopRows`] says which rows were redundant. There the motion does
-//! not determine the forces of the loop joint: redundant rows carry no force. Near a dead point of the motors the
-//! passive coordinates are damped, and [`Drive::Singular`] names the loop.
+//! Rows of K may depend on each other: a planar four-bar linkage in space has three rows too many,
+//! and a parallelogram that lies flat one more. The rank is found at each configuration by
+//! elimination with complete pivoting, relative to the size of each loop ([`RANK_TOLERANCE`]), and
+//! [`LoopRows`] says which rows were redundant. There the motion does not determine the forces of
+//! the loop joint: redundant rows carry no force. Near a dead point of the motors the passive
+//! coordinates are damped, and [`Drive::Singular`] names the loop.
 //!
 //! Linkages with a closed form take fewer cycles as [`clusters`](crate::clusters).
 //!
@@ -91,7 +92,8 @@ pub use thresholds::{RANK_TOLERANCE, SINGULAR};
 
 use crate::model::Robot;
 
-/// A robot with L kinematic loops, of which C directions are constrained and A coordinates actuated.
+/// A robot with L kinematic loops, of which C directions are constrained and A coordinates
+/// actuated.
 ///
 /// An impossible description does not compile; see [`Loops::new`].
 pub trait LoopRobot<

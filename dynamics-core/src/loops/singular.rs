@@ -1,14 +1,16 @@
-//! Singular configurations of the motors: the passive columns of K, damped where they are nearly dependent.
+//! Singular configurations of the motors: the passive columns of K, damped where they are nearly
+//! dependent.
 //!
-//! The motors determine the passive coordinates by K_p q̇_p = k − K_a q̇_a. Near a dead point the least singular value of
-//! K_p goes to zero, and q̇_p and the torques Gᵀ τ grow without bound. Below a threshold ε the inverse of K_p is that of
-//! damped least squares (Wampler, 1986; Nakamura & Hanafusa, 1986),
+//! The motors determine the passive coordinates by K_p q̇_p = k − K_a q̇_a. Near a dead point the
+//! least singular value of K_p goes to zero, and q̇_p and the torques Gᵀ τ grow without bound.
+//! Below a threshold ε the inverse of K_p is that of damped least squares (Wampler, 1986; Nakamura
+//! & Hanafusa, 1986),
 //!
 //! W = (K_pᵀ K_p + λ² 1)⁻¹ K_pᵀ, λ² = ε² − ς², ς² = 1 / tr (K_pᵀ K_p)⁻¹,
 //!
-//! where ς, at most the least singular value, is the distance from the singularity. At ς = ε the damping is zero. A
-//! singular value σ ≥ ς has the gain σ / (σ² + ε² − ς²) ≤ 1/ε, thus |W| ≤ 1/ε everywhere. Only columns count:
-//! redundant rows do not make ς small.
+//! where ς, at most the least singular value, is the distance from the singularity. At ς = ε the
+//! damping is zero. A singular value σ ≥ ς has the gain σ / (σ² + ε² − ς²) ≤ 1/ε, thus |W| ≤ 1/ε
+//! everywhere. Only columns count: redundant rows do not make ς small.
 
 use core::iter::once;
 
@@ -20,13 +22,14 @@ use crate::scalar::Real;
 use crate::state::entry;
 
 impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
-    /// These loops with another distance from a singular configuration of the motors below which the passive
-    /// coordinates are damped, in place of [`SINGULAR`](super::SINGULAR).
+    /// These loops with another distance from a singular configuration of the motors below which
+    /// the passive coordinates are damped, in place of [`SINGULAR`](super::SINGULAR).
     ///
-    /// It bounds the torques: |τ_a| ≤ |τ_m| + √(2 L) / ε · |τ_p| of the tree's torques τ_m at the motors and τ_p at the
-    /// passive coordinates. The distance is 1 / √(tr (K_pᵀ K_p)⁻¹) of the passive columns of K, rows relative to the
-    /// sizes of their loops: at most the least singular value. With p passive coordinates the least threshold is
-    /// √(C − p + 1) times [`RANK_TOLERANCE`]; a smaller one counts as that.
+    /// It bounds the torques: |τ_a| ≤ |τ_m| + √(2 L) / ε · |τ_p| of the tree's torques τ_m at the
+    /// motors and τ_p at the passive coordinates. The distance is 1 / √(tr (K_pᵀ K_p)⁻¹) of the
+    /// passive columns of K, rows relative to the sizes of their loops: at most the least singular
+    /// value. With p passive coordinates the least threshold is √(C − p + 1) times
+    /// [`RANK_TOLERANCE`]; a smaller one counts as that.
     ///
     /// ```
     /// use dynamics_core::effects::RIGID_BODY;
@@ -63,7 +66,8 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
 }
 
 impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
-    /// Whether ς exceeds ε for certain: T K_p = 1, and no left inverse has a lesser sum of squares than K_p's, 1/ς².
+    /// Whether ς exceeds ε for certain: T K_p = 1, and no left inverse has a lesser sum of squares
+    /// than K_p's, 1/ς².
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn is_regular(&self, passive: &[bool; V], threshold: R) -> bool {
         let mut squares = R::ZERO;
@@ -76,8 +80,8 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         driven && squares * (threshold * threshold) < R::ONE
     }
 
-    /// Of `rows` the damped map in place of the eliminated one, and the passive coordinate that is damped most; nothing
-    /// changes where ς is at least ε.
+    /// Of `rows` the damped map in place of the eliminated one, and the passive coordinate that is
+    /// damped most; nothing changes where ς is at least ε.
     #[cold]
     #[inline(never)]
     pub(super) fn damp(
@@ -159,12 +163,12 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         self.find_free();
     }
 
-    /// Whether the machine leaves the configuration at which `joint` moves with all motors held: a rate of K along one
-    /// of the motions that the loops allow acts on that motion.
+    /// Whether the machine leaves the configuration at which `joint` moves with all motors held: a
+    /// rate of K along one of the motions that the loops allow acts on that motion.
     ///
-    /// `bias` is k of velocities, over the sizes of the loops. Where no rate does, the joint moves on to the second
-    /// order, and no motor holds it: Connelly & Whiteley, "Second-order rigidity and prestress stability for tensegrity
-    /// frameworks" (1996).
+    /// `bias` is k of velocities, over the sizes of the loops. Where no rate does, the joint moves
+    /// on to the second order, and no motor holds it: Connelly & Whiteley, "Second-order rigidity
+    /// and prestress stability for tensegrity frameworks" (1996).
     #[cold]
     #[inline(never)]
     pub(super) fn is_isolated(

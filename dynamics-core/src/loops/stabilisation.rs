@@ -23,8 +23,8 @@ impl<R: Real> Stabilisation<R> {
         velocity: R::ZERO,
     };
 
-    /// Errors decay as fast as they can without oscillation, by this time constant, s. Ten time steps or more keep the
-    /// step stable.
+    /// Errors decay as fast as they can without oscillation, by this time constant, s. Ten time
+    /// steps or more keep the step stable.
     ///
     /// ```
     /// use dynamics_core::loops::Stabilisation;
@@ -39,11 +39,11 @@ impl<R: Real> Stabilisation<R> {
         }
     }
 
-    /// For a simulation in steps of this length, s: [`Stabilisation::critical`] with a time constant of
-    /// [`TIME_CONSTANT`] steps.
+    /// For a simulation in steps of this length, s: [`Stabilisation::critical`] with a time
+    /// constant of [`TIME_CONSTANT`] steps.
     ///
-    /// A four-bar linkage that swings for a minute in Runge-Kutta steps of 1 ms then opens by 2 nm at most in f64, by 2
-    /// µm in f32, and by 10 µm in f64 without stabilisation.
+    /// A four-bar linkage that swings for a minute in Runge-Kutta steps of 1 ms then opens by 2 nm
+    /// at most in f64, by 2 µm in f32, and by 10 µm in f64 without stabilisation.
     #[must_use]
     pub fn for_step(step: R) -> Self {
         Self::critical(step * R::from_f64(TIME_CONSTANT))

@@ -1,7 +1,8 @@
-//! What the result of forward dynamics says of its loops: by how much they are open, and whether the rank of K dropped.
+//! What the result of forward dynamics says of its loops: by how much they are open, and whether
+//! the rank of K dropped.
 //!
-//! Both are computed where they are asked for, from what the result carries: [`forward_dynamics`](super::forward_dynamics())
-//! itself has no instruction more.
+//! Both are computed where they are asked for, from what the result carries:
+//! [`forward_dynamics`](super::forward_dynamics()) itself has no instruction more.
 
 use super::assembly::{Moving, assemble};
 use super::description::Loops;
@@ -14,9 +15,9 @@ use crate::scalar::Real;
 use crate::state::State;
 use crate::state::manifold::integrate;
 
-/// The error of a loop relative to its size above which it counts as open: the size of a loop is the root of the sum of
-/// squares of the motions of its joint per unit rates of all its coordinates ([`Constraints::size`]), thus about the
-/// length of its links.
+/// The error of a loop relative to its size above which it counts as open: the size of a loop is
+/// the root of the sum of squares of the motions of its joint per unit rates of all its coordinates
+/// ([`Constraints::size`]), thus about the length of its links.
 pub const OPEN: f64 = 1e-2;
 
 /// How far [`mobility`] goes from a configuration to find the usual rank, rad or m.
@@ -30,8 +31,8 @@ pub struct Closure<R> {
     pub name: &'static str,
     /// That error relative to the size of the loop: 0 where it is closed.
     pub position: R,
-    /// The largest error of velocity relative to the size of its loop, rad/s: 0 where the joints' velocities keep the
-    /// loops closed.
+    /// The largest error of velocity relative to the size of its loop, rad/s: 0 where the joints'
+    /// velocities keep the loops closed.
     pub velocity: R,
 }
 
@@ -53,8 +54,9 @@ pub enum LoopRank {
     /// They do.
     Full,
     /// They do not: the configuration is closer to a singular one, such as a change point, than
-    /// [`RANK_TOLERANCE`](super::RANK_TOLERANCE). The rows that are left out carry no force, and the accelerations are
-    /// those of a machine with more degrees of freedom, with a jump to those next to it.
+    /// [`RANK_TOLERANCE`](super::RANK_TOLERANCE). The rows that are left out carry no force, and
+    /// the accelerations are those of a machine with more degrees of freedom, with a jump to those
+    /// next to it.
     Dropped {
         /// How many degrees of freedom more there are.
         gained: usize,
@@ -82,7 +84,8 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
 }
 
 impl<R: Real, const V: usize, const L: usize, const C: usize> LoopMotion<R, V, L, C> {
-    /// By how much the loops of this state were open: a result of open loops is that of another machine.
+    /// By how much the loops of this state were open: a result of open loops is that of another
+    /// machine.
     ///
     /// Beyond [`OPEN`] of a loop's size [`LoopMotion::closed`] refuses it, as
     /// [`inverse_dynamics`](super::inverse_dynamics()) does.
@@ -127,7 +130,8 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> LoopMotion<R, V, L
         Ok(self)
     }
 
-    /// Whether the rank of K is that of the machine, whose [`mobility`] is computed once, at any closed configuration.
+    /// Whether the rank of K is that of the machine, whose [`mobility`] is computed once, at any
+    /// closed configuration.
     pub fn rank(&self, machine: &Mobility) -> LoopRank {
         match V.saturating_sub(self.rows.rank() + machine.usual) {
             0 => LoopRank::Full,
@@ -136,10 +140,12 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> LoopMotion<R, V, L
     }
 }
 
-/// The degrees of freedom at a closed configuration, and those of the machine: the least next to it.
+/// The degrees of freedom at a closed configuration, and those of the machine: the least next to
+/// it.
 ///
 /// # Cost
-/// That of [`assemble`] four times for each degree of freedom: once for a machine, not for the control tick.
+/// That of [`assemble`] four times for each degree of freedom: once for a machine, not for the
+/// control tick.
 ///
 /// # Example
 /// ```
@@ -169,7 +175,8 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> LoopMotion<R, V, L
 /// ```
 ///
 /// # Errors
-/// [`LoopError::Open`] of loops that are not closed at q, [`LoopError::NotFinite`] of a q that is not finite.
+/// [`LoopError::Open`] of loops that are not closed at q, [`LoopError::NotFinite`] of a q that is
+/// not finite.
 pub fn mobility<
     R: Real,
     D,

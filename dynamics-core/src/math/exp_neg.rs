@@ -1,9 +1,9 @@
 //! e⁻ˣ without a branch, and in f32 without f64.
 //!
-//! Cody and Waite, *Software Manual for the Elementary Functions* (1980), chapter 6: −x = k ln 2 + r with
-//! ln 2 in two parts, the product of the first of which with k is exact, then a minimax polynomial of
-//! degree 6 on |r| ≤ ln 2 / 2 (Remez exchange in 40 digits, coefficients rounded to f32 one after the
-//! other). `libm::expf` branches and is twice as long.
+//! Cody and Waite, *Software Manual for the Elementary Functions* (1980), chapter 6: −x = k ln 2 +
+//! r with ln 2 in two parts, the product of the first of which with k is exact, then a minimax
+//! polynomial of degree 6 on |r| ≤ ln 2 / 2 (Remez exchange in 40 digits, coefficients rounded to
+//! f32 one after the other). `libm::expf` branches and is twice as long.
 
 /// e⁻ˣ of x ≥ 0: relative error below 1.5·10⁻⁷ down to e⁻⁸⁷, then 0; 1 for x < 0 and for NaN.
 ///

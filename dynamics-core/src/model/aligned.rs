@@ -38,7 +38,8 @@ pub(super) const fn aligned<const B: usize>(body: &Body, links: &[Link<f64>; B])
     }
 }
 
-/// Whether the numbers computed from a description are finite: numbers of 10¹⁵⁴ have squares that are not.
+/// Whether the numbers computed from a description are finite: numbers of 10¹⁵⁴ have squares that
+/// are not.
 pub(super) const fn is_finite(link: &Link<f64>) -> bool {
     // x·0 is 0 for finite x and NaN otherwise; a sum of such products is 0 or NaN.
     let (inertia, none) = (&link.inertia.rotational, DVec3::ZERO);

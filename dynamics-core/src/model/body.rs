@@ -34,8 +34,8 @@ impl JointLimits<f64> {
         torque: f64::INFINITY,
     };
 
-    /// Whether all positions lie within two turns, ±4π: for revolute joints with such limits the engine takes
-    /// [`crate::trig::sin_cos_near`], whose range leaves a margin for overshoot.
+    /// Whether all positions lie within two turns, ±4π: for revolute joints with such limits the
+    /// engine takes [`crate::trig::sin_cos_near`], whose range leaves a margin for overshoot.
     pub(crate) const fn within_two_turns(&self) -> bool {
         const FOUR_PI: f64 = 4.0 * core::f64::consts::PI;
         self.lower >= -FOUR_PI && self.upper <= FOUR_PI
@@ -85,8 +85,8 @@ impl Body {
         self
     }
 
-    /// Attitude of the body's frame in the parent's at q = 0: roll, pitch, yaw about the parent's fixed axes, rad;
-    /// within ±2π each, so that most angles in degrees are rejected.
+    /// Attitude of the body's frame in the parent's at q = 0: roll, pitch, yaw about the parent's
+    /// fixed axes, rad; within ±2π each, so that most angles in degrees are rejected.
     pub const fn rpy(mut self, rpy: [f64; 3]) -> Self {
         self.largest_angle = rpy[0].abs().max(rpy[1].abs()).max(rpy[2].abs());
         self.rotation = m::rotation(m::sin_cos(rpy[0]), m::sin_cos(rpy[1]), m::sin_cos(rpy[2]));
@@ -112,10 +112,12 @@ impl Body {
         self
     }
 
-    /// Rotational inertia about the centre of mass, along the body's axes: xx, xy, xz, yy, yz, zz in kg·m².
+    /// Rotational inertia about the centre of mass, along the body's axes: xx, xy, xz, yy, yz, zz
+    /// in kg·m².
     ///
-    /// [`Model::new`](super::Model::new) refuses one with a negative principal moment, by which a kinetic energy would be negative.
-    /// Moments of which one exceeds the sum of the two others, which no body has either, [`Model::advice`](super::Model::advice) names.
+    /// [`Model::new`](super::Model::new) refuses one with a negative principal moment, by which a
+    /// kinetic energy would be negative. Moments of which one exceeds the sum of the two others,
+    /// which no body has either, [`Model::advice`](super::Model::advice) names.
     ///
     /// ```compile_fail,E0080
     /// use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
@@ -131,7 +133,8 @@ impl Body {
         self
     }
 
-    /// As [`Body::inertia`], of published numbers with a negative moment that are to be computed with all the same.
+    /// As [`Body::inertia`], of published numbers with a negative moment that are to be computed
+    /// with all the same.
     ///
     /// ```
     /// use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
@@ -197,14 +200,17 @@ impl Body {
 /// 2π, rounded up to four digits.
 const WHOLE_TURN: f64 = 6.284;
 
-/// The share of its largest moment by which a moment may be below zero: the rounding of a description's digits.
+/// The share of its largest moment by which a moment may be below zero: the rounding of a
+/// description's digits.
 const ROUNDING: f64 = 1e-3;
 
-/// The negative moment of an inertia in the order of [`Body::inertia`], and whether another order is the reason.
+/// The negative moment of an inertia in the order of [`Body::inertia`], and whether another order
+/// is the reason.
 ///
-/// With moments that break the triangle inequality alone no kinetic energy is negative, and every result is that of the numbers: those
-/// of the published PUMA 560 do by 0.087 of the largest, those of other published robots by up to 1.0, and so do those of a wheel of
-/// which only the moment about its axis is given.
+/// With moments that break the triangle inequality alone no kinetic energy is negative, and every
+/// result is that of the numbers: those of the published PUMA 560 do by 0.087 of the largest, those
+/// of other published robots by up to 1.0, and so do those of a wheel of which only the moment
+/// about its axis is given.
 const fn negative(inertia: [f64; 6]) -> Option<Problem> {
     let moment = match ImpossibleInertia::of(inertia, ROUNDING) {
         Some(found) if found.moment < 0.0 => found.moment,
@@ -247,7 +253,8 @@ pub(super) fn is_massless<R: Real>(inertia: &SpatialInertia<R>) -> bool {
         && (some(&inertia.first_moment) || inertia.rotational.cols().iter().any(some))
 }
 
-/// Why no body has an inertia, if it is by more than `relative` of the largest moment; its axis if AXIS is true.
+/// Why no body has an inertia, if it is by more than `relative` of the largest moment; its axis if
+/// AXIS is true.
 pub(crate) fn impossible<R: Real, const AXIS: bool>(
     inertia: &SpatialInertia<R>,
     relative: f64,

@@ -4,7 +4,8 @@ use super::{BASE, Model, ModelError, Problem, Text, body, error};
 use crate::scalar::Real;
 
 impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> {
-    /// The number of the body of this name, for [`crate::effects::Payload`] and [`crate::Engine::jacobian`].
+    /// The number of the body of this name, for [`crate::effects::Payload`] and
+    /// [`crate::Engine::jacobian`].
     ///
     /// ```
     /// use dynamics_core::{model::Robot, robots::Panda};
@@ -21,7 +22,8 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     /// ```
     ///
     /// # Panics
-    /// If not exactly one body has the name. Meant for `const` items, where a panic is a compile error.
+    /// If not exactly one body has the name. Meant for `const` items, where a panic is a compile
+    /// error.
     #[track_caller]
     pub const fn body(&self, name: &str) -> usize {
         let (mut found, mut i) = (BASE, 0);
@@ -63,17 +65,18 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
         text.panic()
     }
 
-    /// Checks that every inertia is physical: not without mass, symmetric, with principal moments (about the centre of
-    /// mass) that are not negative and obey the triangle inequality, all within `relative`; and that the names of
-    /// bodies differ.
+    /// Checks that every inertia is physical: not without mass, symmetric, with principal moments
+    /// (about the centre of mass) that are not negative and obey the triangle inequality, all
+    /// within `relative`; and that the names of bodies differ.
     ///
-    /// Published models violate the inequality (PUMA 560) or satisfy it narrowly (Panda) and must be usable: of a model only a
-    /// negative moment is an error ([`Body::inertia`](super::Body::inertia)). In f32 rounding alone violates it by some 10⁻⁶.
+    /// Published models violate the inequality (PUMA 560) or satisfy it narrowly (Panda) and must
+    /// be usable: of a model only a negative moment is an error
+    /// ([`Body::inertia`](super::Body::inertia)). In f32 rounding alone violates it by some 10⁻⁶.
     ///
     /// # Errors
-    /// [`Problem::Asymmetric`], [`Problem::NegativeMoment`] or [`Problem::Triangle`] with the body's name and the amount: by how much the
-    /// largest moment exceeds the sum of the others, relative to that moment; [`Problem::Massless`],
-    /// [`Problem::Name`].
+    /// [`Problem::Asymmetric`], [`Problem::NegativeMoment`] or [`Problem::Triangle`] with the
+    /// body's name and the amount: by how much the largest moment exceeds the sum of the others,
+    /// relative to that moment; [`Problem::Massless`], [`Problem::Name`].
     pub fn check(&self, relative: f64) -> Result<(), ModelError> {
         for link in &self.links {
             let wrong = |problem| ModelError {

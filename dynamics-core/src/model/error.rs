@@ -34,13 +34,15 @@ pub enum Problem {
     NotFinite,
     /// A limit is NaN, the lower one exceeds the upper, or that of speed or torque is negative.
     Limits,
-    /// The placement of its joint is not that of the description, which the engine has as constants.
+    /// The placement of its joint is not that of the description, which the engine has as
+    /// constants.
     Placement,
     /// The robot has no body of this number.
     NoBody(usize),
     /// The joints do not add up to the model's Q position and V velocity coordinates.
     Coordinates {
-        /// The numbers of position and velocity coordinates of the joints, which Q and V must equal.
+        /// The numbers of position and velocity coordinates of the joints, which Q and V must
+        /// equal.
         expected: [usize; 2],
         /// The model's Q and V.
         given: [usize; 2],
@@ -60,7 +62,8 @@ pub enum Problem {
     NegativeMoment(f64),
     /// The same, kg·m², of six numbers that are possible in the order xx, yy, zz, xy, xz, yz.
     InertiaOrder(f64),
-    /// The principal moments violate the triangle inequality by this amount, relative to the largest.
+    /// The principal moments violate the triangle inequality by this amount, relative to the
+    /// largest.
     Triangle(f64),
     /// The inertia matrix is asymmetric by this amount, relative to its largest entry.
     Asymmetric(f64),

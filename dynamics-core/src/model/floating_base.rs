@@ -2,8 +2,8 @@
 
 use super::{BASE, Body};
 
-/// The bodies of a robot with a new root: `root` is the first, and the parent of the bodies that had the parent
-/// [`BASE`].
+/// The bodies of a robot with a new root: `root` is the first, and the parent of the bodies that
+/// had the parent [`BASE`].
 ///
 /// With `root` on a free joint this gives the floating-base form of a fixed-base robot.
 ///

@@ -1,10 +1,12 @@
-//! The inertia of a body as it is described: about its centre of mass, in the frame of its description.
+//! The inertia of a body as it is described: about its centre of mass, in the frame of its
+//! description.
 
 use super::{Calibrated, ImpossibleInertia, ModelError, Problem, Robot};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
 
-/// Mass, centre of mass and inertia of a body in the frame of its description, as [`super::Body`] has them.
+/// Mass, centre of mass and inertia of a body in the frame of its description, as [`super::Body`]
+/// has them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BodyInertia<R> {
@@ -17,8 +19,9 @@ pub struct BodyInertia<R> {
 }
 
 impl<R: Real> BodyInertia<R> {
-    /// The first property that is not physical: numbers that are not finite, a negative mass, inertia without mass, or
-    /// principal moments that violate the triangle inequality by more than `relative` of the largest.
+    /// The first property that is not physical: numbers that are not finite, a negative mass,
+    /// inertia without mass, or principal moments that violate the triangle inequality by more than
+    /// `relative` of the largest.
     pub(crate) fn problem(&self, relative: f64) -> Option<Problem> {
         let about = self.about_origin();
         let finite = |v: &R::Vec3| v.array().iter().all(|x| x.is_finite());
@@ -64,8 +67,8 @@ impl<R: Real> BodyInertia<R> {
         }
     }
 
-    /// The same inertia, given about the origin of the frame, such as an estimated one. The centre of mass of a body without
-    /// mass is the origin.
+    /// The same inertia, given about the origin of the frame, such as an estimated one. The centre
+    /// of mass of a body without mass is the origin.
     ///
     /// ```
     /// use dynamics_core::{effects::Payload, model::BodyInertia};
@@ -102,13 +105,14 @@ impl<T, R: Real, const B: usize, const Q: usize, const V: usize> Calibrated<T, R
 where
     T: Robot<B, Q, V>,
 {
-    /// Sets the inertia of the body of this number, in the frame of its description, as identified in URDF's
-    /// conventions. [`super::Model::body`] looks a number up.
+    /// Sets the inertia of the body of this number, in the frame of its description, as identified
+    /// in URDF's conventions. [`super::Model::body`] looks a number up.
     ///
-    /// Principal moments may violate the triangle inequality by `relative` of the largest: some 10⁻⁶ for numbers
-    /// rounded to f32, `f64::INFINITY` for numbers that must be accepted unchecked. Not for the tick: it computes
-    /// principal moments in f64. The algorithms of [`crate::algorithms`] accept the robot by reference; the engine
-    /// accepts its base parameters ([`BaseParameters`](crate::effects::BaseParameters)).
+    /// Principal moments may violate the triangle inequality by `relative` of the largest: some
+    /// 10⁻⁶ for numbers rounded to f32, `f64::INFINITY` for numbers that must be accepted
+    /// unchecked. Not for the tick: it computes principal moments in f64. The algorithms of
+    /// [`crate::algorithms`] accept the robot by reference; the engine accepts its base parameters
+    /// ([`BaseParameters`](crate::effects::BaseParameters)).
     ///
     /// ```
     /// use dynamics_core::model::{BodyInertia, Calibrated, Problem, Robot};
@@ -129,9 +133,10 @@ where
     /// ```
     ///
     /// # Errors
-    /// [`ModelError`] names the body and what is not physical: [`Problem::Mass`] with the mass, [`Problem::NegativeMoment`]
-    /// with the moment, [`Problem::Triangle`] with the excess, [`Problem::Massless`] or [`Problem::NotFinite`]; for an index without a body it names the robot
-    /// and the index ([`Problem::NoBody`]). The robot is then unchanged.
+    /// [`ModelError`] names the body and what is not physical: [`Problem::Mass`] with the mass,
+    /// [`Problem::NegativeMoment`] with the moment, [`Problem::Triangle`] with the excess,
+    /// [`Problem::Massless`] or [`Problem::NotFinite`]; for an index without a body it names the
+    /// robot and the index ([`Problem::NoBody`]). The robot is then unchanged.
     pub fn set_inertia(
         &mut self,
         body: usize,
@@ -158,7 +163,8 @@ where
         Ok(())
     }
 
-    /// The inertia of the body of this number, in the frame of its description; none for a number that no body has.
+    /// The inertia of the body of this number, in the frame of its description; none for a number
+    /// that no body has.
     pub fn inertia(&self, body: usize) -> Option<BodyInertia<R>> {
         let link = self.model.links.get(body)?;
         let (about, back) = (&link.inertia, link.to_joint_frame.transpose());

@@ -62,9 +62,9 @@ impl Joint<f64> {
         Self::new(JointKind::Cylindrical, axis)
     }
 
-    /// A rotation about `first`, which stands still on the parent side, then one about `second`, which
-    /// moves with the body; perpendicular within 10⁻⁹ rad (the model makes them so exactly), both given in
-    /// the body's frame at q = 0.
+    /// A rotation about `first`, which stands still on the parent side, then one about `second`,
+    /// which moves with the body; perpendicular within 10⁻⁹ rad (the model makes them so exactly),
+    /// both given in the body's frame at q = 0.
     pub const fn universal(first: [f64; 3], second: [f64; 3]) -> Self {
         let mut joint = Self::new(JointKind::Universal, second);
         joint.first_axis = m::vec3(first);
@@ -91,8 +91,8 @@ impl Joint<f64> {
         Self::new(JointKind::Fixed, [0.0; 3])
     }
 
-    /// The problem of its axes: those that its kind needs, at right angles within 10⁻⁹ rad if there are two, and of a
-    /// finite pitch.
+    /// The problem of its axes: those that its kind needs, at right angles within 10⁻⁹ rad if there
+    /// are two, and of a finite pitch.
     pub(crate) const fn problem(&self) -> Option<Problem> {
         use JointKind::*;
         match self.kind {
@@ -117,7 +117,8 @@ impl Joint<f64> {
 
     pub(crate) const fn normalised(self) -> Self {
         let (axis, mut first_axis) = (unit(self.axis), unit(self.first_axis));
-        // At right angles but for rounding: what its description leaves is taken off the first axis.
+        // At right angles but for rounding: what its description leaves is taken off the first
+        // axis.
         let skew = m::dot(first_axis, axis);
         if skew.abs() > 4.0 * f64::EPSILON {
             first_axis = unit(m::add(first_axis, m::scale(axis, -skew)));
@@ -130,8 +131,8 @@ impl Joint<f64> {
         }
     }
 
-    /// The rotation of coordinates from the body's frame to one whose z is the axis, and whose x is a
-    /// universal joint's first axis; a signed permutation where the axes are coordinate axes.
+    /// The rotation of coordinates from the body's frame to one whose z is the axis, and whose x is
+    /// a universal joint's first axis; a signed permutation where the axes are coordinate axes.
     pub(crate) const fn frame(&self) -> DMat3 {
         use JointKind::*;
         match self.kind {

@@ -42,13 +42,16 @@ impl<R: Real> JointCoordinate<R> {
         Self { q, sin, cos }
     }
 
-    /// Rotations by all of q, each with the bits of [`Self::with_kernel`], or of [`Self::revolute_bounded`] if `NEAR`.
+    /// Rotations by all of q, each with the bits of [`Self::with_kernel`], or of
+    /// [`Self::revolute_bounded`] if `NEAR`.
     ///
-    /// A loop of sines alone is one that compilers vectorise, as they do not where each is followed by other work.
+    /// A loop of sines alone is one that compilers vectorise, as they do not where each is followed
+    /// by other work.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of_all<K: Kernel<R>, const NEAR: bool, const Q: usize>(q: &[R; Q]) -> [Self; Q] {
-        // For seven and eight joints, with LLVM 22: in f32 straight-line code of four becomes vectors, in f64 a loop that is too long
-        // to be unrolled. Of other numbers the plain loop takes less time.
+        // For seven and eight joints, with LLVM 22: in f32 straight-line code of four becomes
+        // vectors, in f64 a loop that is too long to be unrolled. Of other numbers the plain loop
+        // takes less time.
         match (Q, size_of::<R>()) {
             (7 | 8, 4) => return by_fours::<R, K, NEAR, 1, Q>(q),
             (7 | 8, 8) => return by_fours::<R, K, NEAR, 2, Q>(q),
@@ -114,9 +117,9 @@ pub(crate) fn rotation<R: Real>([x, y, z, w]: [R; 4]) -> R::Mat3 {
     )
 }
 
-/// A quaternion at unit length. One that has drifted, |p|² = 1 + ε with |ε| < 1/8, by one step of Newton's iteration
-/// for 1/|p|: no root, no division; its length is then 1 to 3ε²/8. Any other by its length; [`rotation`] interprets the
-/// quaternion zero as no rotation. 29 flops.
+/// A quaternion at unit length. One that has drifted, |p|² = 1 + ε with |ε| < 1/8, by one step of
+/// Newton's iteration for 1/|p|: no root, no division; its length is then 1 to 3ε²/8. Any other by
+/// its length; [`rotation`] interprets the quaternion zero as no rotation. 29 flops.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn near_unit<R: Real>(p: [R; 4]) -> [R; 4] {
     let [x, y, z, w] = p;
@@ -127,7 +130,8 @@ pub(crate) fn near_unit<R: Real>(p: [R; 4]) -> [R; 4] {
     p.map(|x| x * scale)
 }
 
-/// Rotations by all of q: four angles of each of W places at a time, of which the last place may overlap the one before it.
+/// Rotations by all of q: four angles of each of W places at a time, of which the last place may
+/// overlap the one before it.
 #[cfg_attr(optimised, inline(always))]
 fn by_fours<R: Real, K: Kernel<R>, const NEAR: bool, const W: usize, const Q: usize>(
     q: &[R; Q],

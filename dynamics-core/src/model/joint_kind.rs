@@ -2,8 +2,8 @@
 
 /// Kind of a joint: its degrees of freedom and their coordinates.
 ///
-/// The parent side is the joint's frame, fixed in the parent; velocities are those of the body in its own
-/// frame. Angles are in rad, lengths in m.
+/// The parent side is the joint's frame, fixed in the parent; velocities are those of the body in
+/// its own frame. Angles are in rad, lengths in m.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum JointKind {
@@ -19,14 +19,14 @@ pub enum JointKind {
     Cylindrical,
     /// Rotation q₀ about an axis of the parent side, then rotation q₁ about an axis of the body.
     Universal,
-    /// A ball joint: q is a unit quaternion (x, y, z, w), the body's attitude on the parent side; q̇
-    /// is ω.
+    /// A ball joint: q is a unit quaternion (x, y, z, w), the body's attitude on the parent side;
+    /// q̇ is ω.
     Spherical,
-    /// Rotation q₀ about z and position (q₁, q₂) of the body's origin on the parent side's x-y plane;
-    /// q̇ is (ω_z, v_x, v_y).
+    /// Rotation q₀ about z and position (q₁, q₂) of the body's origin on the parent side's x-y
+    /// plane; q̇ is (ω_z, v_x, v_y).
     Planar,
-    /// No constraint: a unit quaternion (x, y, z, w) and the position of the body's origin on the parent
-    /// side; q̇ is (ω, v).
+    /// No constraint: a unit quaternion (x, y, z, w) and the position of the body's origin on the
+    /// parent side; q̇ is (ω, v).
     Free,
     /// A rigid connection, without a coordinate.
     Fixed,
@@ -93,8 +93,8 @@ impl JointKinds {
         .with(JointKind::Revolute)
         .with(JointKind::Continuous);
 
-    /// Rotations about one axis and none: continuous joints are revolute ones here, so that two kinds are left, which the compiler
-    /// tells apart by one branch.
+    /// Rotations about one axis and none: continuous joints are revolute ones here, so that two
+    /// kinds are left, which the compiler tells apart by one branch.
     pub(super) const REVOLUTE_OR_FIXED: Self =
         Self::NONE.with(JointKind::Revolute).with(JointKind::Fixed);
 

@@ -14,7 +14,8 @@ use crate::trig::Kernel;
 use JointKind::*;
 
 impl<R: Real> LinkView<'_, R> {
-    /// Its entries of the joints' sines and cosines: those of its angles, its quaternion at unit length.
+    /// Its entries of the joints' sines and cosines: those of its angles, its quaternion at unit
+    /// length.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn pose<K: Kernel<R>>(&self, q: &[R], turns: &mut [JointCoordinate<R>]) {
         let (count, _) = self.kind.coordinates();
@@ -38,7 +39,8 @@ impl<R: Real> LinkView<'_, R> {
         }
     }
 
-    /// ⁱX_λ(i) = X_J ᵀX: from the parent's aligned frame to the body's, at the configuration `turns`.
+    /// ⁱX_λ(i) = X_J ᵀX: from the parent's aligned frame to the body's, at the configuration
+    /// `turns`.
     #[cfg_attr(optimised, inline(always))]
     pub fn xform(&self, turns: &[JointCoordinate<R>]) -> Xform<R> {
         let e = &self.placement.rot;
@@ -53,15 +55,16 @@ impl<R: Real> LinkView<'_, R> {
         Xform { rot, pos }
     }
 
-    /// The same, of which the rotation is given: the origin is a constant of most joints, so that storing it costs more than
-    /// computing it.
+    /// The same, of which the rotation is given: the origin is a constant of most joints, so that
+    /// storing it costs more than computing it.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn xform_of(&self, rot: R::Mat3, turns: &[JointCoordinate<R>]) -> Xform<R> {
         let pos = self.origin(turns);
         Xform { rot, pos }
     }
 
-    /// Whether the link is turned from its parent about x, and shifted along x and along its own axis, exactly.
+    /// Whether the link is turned from its parent about x, and shifted along x and along its own
+    /// axis, exactly.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn is_placed_by_screws(&self) -> bool {
         let ([x, y, z], [_, r_y, r_z]) = (
@@ -167,7 +170,8 @@ impl<R: Real> LinkView<'_, R> {
         self.plus_subspace_rate(a, turns, rates, v, rates)
     }
 
-    /// a + (S̊ + v × S) y, where S changes by the joint's velocity in all of q̇, `rates`, and `y` is another velocity.
+    /// a + (S̊ + v × S) y, where S changes by the joint's velocity in all of q̇, `rates`, and `y`
+    /// is another velocity.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn plus_subspace_rate(
         &self,
@@ -195,7 +199,8 @@ impl<R: Real> LinkView<'_, R> {
         }
     }
 
-    /// a + ω × S q̇ of a joint that turns: α and the acceleration of the origin, which lies on the axis; w is the body's angular velocity.
+    /// a + ω × S q̇ of a joint that turns: α and the acceleration of the origin, which lies on the
+    /// axis; w is the body's angular velocity.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn plus_turning_product(&self, a: Motion<R>, rates: &[R], w: R::Vec3) -> Motion<R> {
         Motion::new(plus_cross_z(a.ang, w, entry(rates, self.idx_v)), a.lin)
@@ -257,7 +262,8 @@ impl<R: Real> LinkView<'_, R> {
         }
     }
 
-    /// Sᵀ f: the components of a force along the joint's coordinates, stored in their entries of `tau`.
+    /// Sᵀ f: the components of a force along the joint's coordinates, stored in their entries of
+    /// `tau`.
     #[cfg_attr(optimised, inline(always))]
     pub fn project(&self, turns: &[JointCoordinate<R>], f: Force<R>, tau: &mut [R]) {
         let ([nx, ny, nz], [fx, fy, fz]) = (f.ang.array(), f.lin.array());

@@ -78,8 +78,8 @@ impl<'a, R: Real> LinkView<'a, R> {
         self.idx_v..self.idx_v + count
     }
 
-    /// The position that belongs to the velocity coordinate k; zero where none does, as with the ω of
-    /// a quaternion.
+    /// The position that belongs to the velocity coordinate k; zero where none does, as with the ω
+    /// of a quaternion.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn position(&self, q: &[R], k: usize) -> R {
         let (_, quaternion) = self.kind.angles();

@@ -16,13 +16,15 @@ pub struct MergedBody {
 }
 
 impl MergedBody {
-    /// A point of the body's frame, in the frame of the body that carries it, m: where a contact of the one touches the other.
+    /// A point of the body's frame, in the frame of the body that carries it, m: where a contact of
+    /// the one touches the other.
     pub fn point(&self, p: DVec3) -> DVec3 {
         self.placement.rot.transpose() * p + self.placement.pos
     }
 }
 
-/// A robot of M bodies, each on a joint that moves, and where it has the B bodies of another: [`Model::merged`].
+/// A robot of M bodies, each on a joint that moves, and where it has the B bodies of another:
+/// [`Model::merged`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Merged<const B: usize, const M: usize, const Q: usize, const V: usize> {
     /// The robot.
@@ -56,12 +58,15 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
 
     /// The same robot with every body on a fixed joint as part of the body that carries it.
     ///
-    /// The algorithms then visit M bodies in place of B, and have shorter forms if all joints turn. The [engine](crate::Engine)
-    /// merges while compiling, and robots that are read from files are merged already. q, q̇ and τ are as before, and torques,
-    /// inertia matrix and accelerations are the same but for rounding. Bodies keep their order, names and frames, but have other
-    /// numbers, which effects must name: [`Merged::places`] has them by the numbers of the description.
+    /// The algorithms then visit M bodies in place of B, and have shorter forms if all joints turn.
+    /// The [engine](crate::Engine) merges while compiling, and robots that are read from files are
+    /// merged already. q, q̇ and τ are as before, and torques, inertia matrix and accelerations are
+    /// the same but for rounding. Bodies keep their order, names and frames, but have other
+    /// numbers, which effects must name: [`Merged::places`] has them by the numbers of the
+    /// description.
     ///
-    /// What is fixed to the base is not in the robot: it moves no joint, but mass, momentum and energy are without it.
+    /// What is fixed to the base is not in the robot: it moves no joint, but mass, momentum and
+    /// energy are without it.
     ///
     /// ```
     /// use dynamics_core::algorithms::{poses, rnea};
@@ -80,12 +85,14 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// # Ok::<(), dynamics_core::model::ModelError>(())
     /// ```
     ///
-    /// A velocity, an acceleration or a column of the Jacobian in the frame of the carrying body goes to that of body i by
-    /// `places[i].placement`, a wrench on body i by its `transpose_mul` to the carrying body.
+    /// A velocity, an acceleration or a column of the Jacobian in the frame of the carrying body
+    /// goes to that of body i by `places[i].placement`, a wrench on body i by its `transpose_mul`
+    /// to the carrying body.
     ///
     /// # Errors
-    /// [`Problem::Bodies`] names the robot, if M is another number than [`Model::moving_bodies`]; [`Problem::Parent`] names
-    /// a body whose parent is not listed before it: the fields of a model can be changed after its check.
+    /// [`Problem::Bodies`] names the robot, if M is another number than [`Model::moving_bodies`];
+    /// [`Problem::Parent`] names a body whose parent is not listed before it: the fields of a model
+    /// can be changed after its check.
     ///
     /// # Source
     /// RBDA (2008), (2.66), of two bodies that are rigidly connected.
@@ -179,7 +186,8 @@ const fn after(x: &Xform<f64>, first: &Xform<f64>) -> Xform<f64> {
     }
 }
 
-/// I + Xᵀ I₁ X, RBDA (2.66): with h = Eᵀ h₁ and w = h + m₁ r / 2, the rotational part is Eᵀ Ī₁ E + 2 (r·w) 1 − r wᵀ − w rᵀ.
+/// I + Xᵀ I₁ X, RBDA (2.66): with h = Eᵀ h₁ and w = h + m₁ r / 2, the rotational part is Eᵀ Ī₁ E +
+/// 2 (r·w) 1 − r wᵀ − w rᵀ.
 const fn with(
     body: &SpatialInertia<f64>,
     part: &SpatialInertia<f64>,
@@ -204,7 +212,8 @@ const fn with(
     }
 }
 
-/// 2 (r·w) e − (r (w·e) + w (r·e)), a column of the parallel-axis theorem from any point to any other.
+/// 2 (r·w) e − (r (w·e) + w (r·e)), a column of the parallel-axis theorem from any point to any
+/// other.
 const fn apart(e: DVec3, two: f64, r: DVec3, w: DVec3) -> DVec3 {
     let products = add(scale(r, dot(w, e)), scale(w, dot(r, e)));
     add(scale(e, two), scale(products, -1.0))

@@ -1,7 +1,8 @@
 //! A robot: a tree of rigid bodies, each on one joint.
 //!
-//! Bodies are listed so that a parent comes before its children; link frames, joint axes and placements follow URDF. A
-//! robot is described once, as a `const` in f64, which is checked at compile time and cast to f32 by [`Model::to_f32`]:
+//! Bodies are listed so that a parent comes before its children; link frames, joint axes and
+//! placements follow URDF. A robot is described once, as a `const` in f64, which is checked at
+//! compile time and cast to f32 by [`Model::to_f32`]:
 //!
 //! ```
 //! use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
@@ -17,10 +18,12 @@
 //! assert_eq!(Pendulum::MODEL.links[0].inertia.mass, 2.0);
 //! ```
 //!
-//! An impossible description does not compile; the message names the body. The compiler evaluates a trait's constant
-//! only where compiled code uses it: `cargo check` and clippy compile none, and a library need not use its robot. The
-//! line `const _` above evaluates it at once; every robot should have one, or a scene that is a constant
-//! ([`Engine::scene_f32`](crate::Engine::scene_f32)), which evaluates it, too. This description compiles,
+//! An impossible description does not compile; the message names the body. The compiler evaluates a
+//! trait's constant only where compiled code uses it: `cargo check` and clippy compile none, and a
+//! library need not use its robot. The line `const _` above evaluates it at once; every robot
+//! should have one, or a scene that is a constant
+//! ([`Engine::scene_f32`](crate::Engine::scene_f32)), which evaluates it, too. This description
+//! compiles,
 //!
 //! ```
 //! use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
@@ -31,7 +34,8 @@
 //! const _: usize = ARM.links.len();
 //! ```
 //!
-//! but the same with a parent that is not listed before its child, a zero axis or a negative mass does not:
+//! but the same with a parent that is not listed before its child, a zero axis or a negative mass
+//! does not:
 //!
 //! ```compile_fail,E0080
 //! use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
@@ -127,8 +131,9 @@ pub struct Link<R: Real> {
 }
 
 impl Link<f64> {
-    /// The greatest angle to which the engine computes this joint to its stated accuracy, rad, on either side of zero: 100 where
-    /// the joint's limits lie within ±4π, 10⁴ elsewhere; none for a joint whose position is no angle.
+    /// The greatest angle to which the engine computes this joint to its stated accuracy, rad, on
+    /// either side of zero: 100 where the joint's limits lie within ±4π, 10⁴ elsewhere; none for a
+    /// joint whose position is no angle.
     ///
     /// ```
     /// use dynamics_core::{model::Robot, robots::Ur5e};
@@ -175,8 +180,8 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// A model from its bodies; an impossible description does not compile.
     ///
     /// # Panics
-    /// If [`Model::try_new`] returns an error, with the body's name. Meant for `const` items, where a panic is a
-    /// compile error; for descriptions at run time use `try_new`.
+    /// If [`Model::try_new`] returns an error, with the body's name. Meant for `const` items, where
+    /// a panic is a compile error; for descriptions at run time use `try_new`.
     #[track_caller]
     pub const fn new(name: &'static str, bodies: [Body; B]) -> Self {
         match Self::try_new(name, bodies) {
@@ -188,10 +193,10 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// A model from its bodies.
     ///
     /// # Errors
-    /// [`ModelError`] names the body: parent not listed before it, zero or non-finite axis, axes of a universal joint
-    /// that are not at right angles, a pitch that is not finite, negative or non-finite mass, other non-finite numbers,
-    /// roll, pitch or yaw beyond a whole turn, limits that are NaN or exclude each other; or the robot, with the Q and
-    /// V of its joints.
+    /// [`ModelError`] names the body: parent not listed before it, zero or non-finite axis, axes of
+    /// a universal joint that are not at right angles, a pitch that is not finite, negative or
+    /// non-finite mass, other non-finite numbers, roll, pitch or yaw beyond a whole turn, limits
+    /// that are NaN or exclude each other; or the robot, with the Q and V of its joints.
     pub const fn try_new(name: &'static str, bodies: [Body; B]) -> Result<Self, ModelError> {
         let mut links = [EMPTY; B];
         let (mut lambda, mut kinds, mut chain) = ([BASE; V], JointKinds::NONE, true);
@@ -275,8 +280,8 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
         all
     }
 
-    /// Placement and inertia of link `i` in the frames of its description, as in a URDF; up to rounding where an axis
-    /// is none of x, y, z.
+    /// Placement and inertia of link `i` in the frames of its description, as in a URDF; up to
+    /// rounding where an axis is none of x, y, z.
     pub fn in_link_frame(&self, i: usize) -> (Xform<f64>, SpatialInertia<f64>) {
         let link = &self.links[i];
         let (back, parent) = match self.links.get(link.parent) {

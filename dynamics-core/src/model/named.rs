@@ -7,7 +7,8 @@ mod sealed {
     impl<const BODY: usize> Sealed for super::OnBody<BODY> {}
 }
 
-/// The body of the number BODY, named while compiling: for [`Engine`](crate::Engine), whose machine code then has no other.
+/// The body of the number BODY, named while compiling: for [`Engine`](crate::Engine), whose machine
+/// code then has no other.
 ///
 /// ```
 /// use dynamics_core::{Core, Engine, algorithms::frame, model::{OnBody, Robot}, robots::Ur5e, state::State};

@@ -1,7 +1,7 @@
 //! Whether a distribution of mass can have an inertia about its centre of mass.
 //!
-//! The principal moments a ≤ b ≤ c are not negative and obey the triangle inequality c ≤ a + b: the second moments
-//! Σ = ½ tr(I) 1 − I are then not negative either (Wensing, Kim and Slotine 2018).
+//! The principal moments a ≤ b ≤ c are not negative and obey the triangle inequality c ≤ a + b: the
+//! second moments Σ = ½ tr(I) 1 − I are then not negative either (Wensing, Kim and Slotine 2018).
 
 use core::fmt;
 
@@ -28,19 +28,20 @@ pub struct ImpossibleInertia {
     pub axis: [f64; 3],
     /// The moment of inertia about it, kg·m².
     pub moment: f64,
-    /// By how much the largest moment exceeds the sum of the others, or the least one is below zero, relative to the
-    /// largest.
+    /// By how much the largest moment exceeds the sum of the others, or the least one is below
+    /// zero, relative to the largest.
     pub excess: f64,
 }
 
 impl ImpossibleInertia {
-    /// The defect of xx, xy, xz, yy, yz, zz, kg·m², if it exceeds the bound by more than `relative` of the largest moment.
+    /// The defect of xx, xy, xz, yy, yz, zz, kg·m², if it exceeds the bound by more than `relative`
+    /// of the largest moment.
     pub const fn of([xx, xy, xz, yy, yz, zz]: [f64; 6], relative: f64) -> Option<Self> {
         Self::beyond::<true>([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], relative, 0.0)
     }
 
-    /// The nearest inertia that a body may have, in the Frobenius norm: that of the second moments without their negative
-    /// eigenvalues.
+    /// The nearest inertia that a body may have, in the Frobenius norm: that of the second moments
+    /// without their negative eigenvalues.
     ///
     /// ```
     /// use dynamics_core::model::ImpossibleInertia;
@@ -61,8 +62,9 @@ impl ImpossibleInertia {
         [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(|(i, j)| entry(i, j))
     }
 
-    /// As [`ImpossibleInertia::of`], but nothing for what does not exceed `noise`, kg·m²: a point mass has no moments but that.
-    /// Without AXIS the axis is not computed, which is code that a firmware with checks alone does not have.
+    /// As [`ImpossibleInertia::of`], but nothing for what does not exceed `noise`, kg·m²: a point
+    /// mass has no moments but that. Without AXIS the axis is not computed, which is code that a
+    /// firmware with checks alone does not have.
     pub(crate) const fn beyond<const AXIS: bool>(
         about_com: [[f64; 3]; 3],
         relative: f64,

@@ -4,12 +4,13 @@ use core::marker::PhantomData;
 
 use super::{Model, Robot};
 
-/// The robot T, of which [`crate::Engine`] omits the base parameters that contribute less than `PPM` millionths of its
-/// torque ([`Robot::NEGLIGIBLE`]), while [`crate::Core`] computes all of it.
+/// The robot T, of which [`crate::Engine`] omits the base parameters that contribute less than
+/// `PPM` millionths of its torque ([`Robot::NEGLIGIBLE`]), while [`crate::Core`] computes all of
+/// it.
 ///
-/// The torque error grows with the joints' accelerations and the square of their speeds; the error along a robot's
-/// trajectory and the cycles saved are in `docs/accuracy.md` in the repository. Pruning is most effective for arms with
-/// a light wrist.
+/// The torque error grows with the joints' accelerations and the square of their speeds; the error
+/// along a robot's trajectory and the cycles saved are in `docs/accuracy.md` in the repository.
+/// Pruning is most effective for arms with a light wrist.
 ///
 /// ```
 /// use dynamics_core::{Core, Engine, effects::RIGID_BODY, model::Pruned, robots::Ur5e, state::State};
@@ -19,8 +20,9 @@ use super::{Model, Robot};
 /// assert!(all.iter().zip(most).all(|(a, b)| (a - b).abs() < 0.005)); // N·m, of 60
 /// ```
 ///
-/// Meant for inverse dynamics. The joint of a light last link may lose all of its inertia; M is then singular, and
-/// forward dynamics returns an error that names the joint, unless an effect (a rotor's inertia) adds inertia to it:
+/// Meant for inverse dynamics. The joint of a light last link may lose all of its inertia; M is
+/// then singular, and forward dynamics returns an error that names the joint, unless an effect (a
+/// rotor's inertia) adds inertia to it:
 ///
 /// ```
 /// use dynamics_core::{Engine, effects::RIGID_BODY, model::Pruned, robots::Ur5e, state::State};

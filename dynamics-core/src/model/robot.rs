@@ -15,15 +15,16 @@ pub trait Robot<const B: usize, const Q: usize, const V: usize> {
     const MODEL: Model<f64, B, Q, V>;
     /// The same, rounded to f32.
     const MODEL_F32: Model<f32, B, Q, V> = Self::MODEL.to_f32();
-    /// The share of the robot's torque below which [`crate::Engine`] omits a base parameter, from 0, which omits none,
-    /// to below 1; [`super::Pruned`] sets it.
+    /// The share of the robot's torque below which [`crate::Engine`] omits a base parameter, from
+    /// 0, which omits none, to below 1; [`super::Pruned`] sets it.
     ///
-    /// Torques are compared at 1 g and at the angular acceleration at which the largest second moment needs as much
-    /// torque as the largest first moment weighs.
+    /// Torques are compared at 1 g and at the angular acceleration at which the largest second
+    /// moment needs as much torque as the largest first moment weighs.
     const NEGLIGIBLE: f64 = 0.0;
 }
 
-/// A [`Robot`] of N joints of one degree of freedom, one body each: the bound of a function for ordinary arms.
+/// A [`Robot`] of N joints of one degree of freedom, one body each: the bound of a function for
+/// ordinary arms.
 ///
 /// ```
 /// use dynamics_core::{Engine, effects::RIGID_BODY, model::Arm, robots::Ur5e, state::ArmState};

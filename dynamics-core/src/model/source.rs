@@ -7,8 +7,8 @@ use crate::scalar::{Native, Real};
 use crate::spatial::{SpatialInertia, Xform};
 use crate::trig::{Kernel, VECTORS};
 
-/// A robot of B bodies, Q position and V velocity coordinates, with the properties that are known at compile time: the
-/// machine code contains only the kinds of joint that it has.
+/// A robot of B bodies, Q position and V velocity coordinates, with the properties that are known
+/// at compile time: the machine code contains only the kinds of joint that it has.
 ///
 /// Of a [`Model`] nothing is known at compile time; of a [`Robot`] as [`Static`], everything is.
 pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
@@ -20,28 +20,32 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     const CHAIN: bool = false;
     /// Whether every body is known to have one coordinate.
     const SINGLE: bool = false;
-    /// Whether every joint turns, and each link stands in its parent's frame as Denavit & Hartenberg's parameters say: turned about x,
-    /// and shifted along x and along its own axis. None: each call asks.
+    /// Whether every joint turns, and each link stands in its parent's frame as Denavit &
+    /// Hartenberg's parameters say: turned about x, and shifted along x and along its own axis.
+    /// None: each call asks.
     const SCREWS: Option<bool> = None;
     /// Whether it is a model loaded at run time whose joints may all be revolute. For others
-    /// [`as_all_revolute`](Self::as_all_revolute) and [`as_revolute_chain`](Self::as_revolute_chain) are not called, so that no second
-    /// form of an algorithm is compiled, not even without optimisation.
+    /// [`as_all_revolute`](Self::as_all_revolute) and
+    /// [`as_revolute_chain`](Self::as_revolute_chain) are not called, so that no second form of an
+    /// algorithm is compiled, not even without optimisation.
     const MAY_BE_REVOLUTE: bool = false;
-    /// The same of joints that are revolute or fixed, and of [`as_revolute_or_fixed`](Self::as_revolute_or_fixed).
+    /// The same of joints that are revolute or fixed, and of
+    /// [`as_revolute_or_fixed`](Self::as_revolute_or_fixed).
     const MAY_HAVE_FIXED: bool = false;
 
     /// The robot's numbers.
     fn model(&self) -> &Model<R, B, Q, V>;
 
-    /// The same robot as one of revolute joints only, if all joints of a model loaded at run time are revolute. None if the
-    /// robot is known at compile time.
+    /// The same robot as one of revolute joints only, if all joints of a model loaded at run time
+    /// are revolute. None if the robot is known at compile time.
     #[cfg_attr(optimised, inline(always))]
     fn as_all_revolute(&self) -> Option<AllRevolute<'_, R, B, Q, V>> {
         None
     }
 
-    /// The same robot as a chain of revolute joints, if a model loaded at run time is one: for algorithms that are compiled a
-    /// second time for this case. None if the robot is known at compile time.
+    /// The same robot as a chain of revolute joints, if a model loaded at run time is one: for
+    /// algorithms that are compiled a second time for this case. None if the robot is known at
+    /// compile time.
     #[cfg_attr(optimised, inline(always))]
     fn as_revolute_chain(&self) -> Option<RevoluteChain<'_, R, B, Q, V>> {
         None
@@ -54,14 +58,16 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
         const { Self::SCREWS }.unwrap_or_else(asked)
     }
 
-    /// The same robot as one of revolute and fixed joints only, if a model loaded at run time is one and has fixed joints. Only on
-    /// processors with vectors: the flash of others is short for one more form of each algorithm.
+    /// The same robot as one of revolute and fixed joints only, if a model loaded at run time is
+    /// one and has fixed joints. Only on processors with vectors: the flash of others is short for
+    /// one more form of each algorithm.
     #[cfg_attr(optimised, inline(always))]
     fn as_revolute_or_fixed(&self) -> Option<RevoluteOrFixed<'_, R, B, Q, V>> {
         None
     }
 
-    /// The links, parents first, each with the properties of its joint that are known at compile time.
+    /// The links, parents first, each with the properties of its joint that are known at compile
+    /// time.
     #[cfg_attr(optimised, inline(always))]
     fn links<'a>(&'a self) -> impl DoubleEndedIterator<Item = LinkView<'a, R>> + ExactSizeIterator
     where
@@ -115,8 +121,9 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
 
 /// A [`Model`] whose joints are all known to be revolute.
 ///
-/// [`RobotModel::as_all_revolute`] makes it, and with `SERIAL` for a chain [`RobotModel::as_revolute_chain`]. A loop over it has no
-/// branch on the kind of joint, and over a chain each body finds its parent's results where the loop left them.
+/// [`RobotModel::as_all_revolute`] makes it, and with `SERIAL` for a chain
+/// [`RobotModel::as_revolute_chain`]. A loop over it has no branch on the kind of joint, and over a
+/// chain each body finds its parent's results where the loop left them.
 #[derive(Clone, Copy, Debug)]
 #[doc(hidden)]
 pub struct AllRevolute<
@@ -147,7 +154,8 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize, const SERIAL: bool
     }
 }
 
-/// A [`Model`] of which each joint is known to be revolute or fixed: [`RobotModel::as_revolute_or_fixed`] makes it.
+/// A [`Model`] of which each joint is known to be revolute or fixed:
+/// [`RobotModel::as_revolute_or_fixed`] makes it.
 #[derive(Clone, Copy, Debug)]
 #[doc(hidden)]
 pub struct RevoluteOrFixed<'a, R: Real, const B: usize, const Q: usize, const V: usize>(
@@ -201,12 +209,12 @@ where
     }
 }
 
-/// A robot with the structure of `T`, known at compile time, and run-time parameters: identified masses and inertias,
-/// measured lengths.
+/// A robot with the structure of `T`, known at compile time, and run-time parameters: identified
+/// masses and inertias, measured lengths.
 ///
-/// It is as fast and as small as [`Static`], while a [`Model`] at run time has a branch on the kind of each joint; but forward
-/// dynamics of a chain by [`aba`](crate::algorithms::aba()) takes no shorter form where its links are placed as Denavit & Hartenberg's
-/// parameters say.
+/// It is as fast and as small as [`Static`], while a [`Model`] at run time has a branch on the kind
+/// of each joint; but forward dynamics of a chain by [`aba`](crate::algorithms::aba()) takes no
+/// shorter form where its links are placed as Denavit & Hartenberg's parameters say.
 ///
 /// ```
 /// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::Calibrated, robots::Ur5e, state::State};
@@ -237,13 +245,14 @@ where
         }
     }
 
-    /// Its bodies' inertias, about the origins of their aligned frames and in their coordinates. Numbers in the frames of
-    /// the description go through [`Calibrated::set_inertia`].
+    /// Its bodies' inertias, about the origins of their aligned frames and in their coordinates.
+    /// Numbers in the frames of the description go through [`Calibrated::set_inertia`].
     pub fn inertias(&mut self) -> impl Iterator<Item = &mut SpatialInertia<R>> {
         self.model.links.iter_mut().map(|link| &mut link.inertia)
     }
 
-    /// Checks that every inertia is physical, see [`Model::check`]: for identified numbers, before they are used.
+    /// Checks that every inertia is physical, see [`Model::check`]: for identified numbers, before
+    /// they are used.
     ///
     /// # Errors
     /// As [`Model::check`].

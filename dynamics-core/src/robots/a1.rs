@@ -4,26 +4,31 @@ use core::f64::consts::PI;
 
 use crate::model::{BASE, Body, Joint, JointLimits, Model, Robot, attach_to};
 
-/// Unitree A1 quadruped with its trunk welded to the base: a tree of four equal legs, 12 revolute joints.
+/// Unitree A1 quadruped with its trunk welded to the base: a tree of four equal legs, 12 revolute
+/// joints.
 ///
-/// Each leg is hip (about x), thigh and calf (about y), and a foot on a fixed joint, in the order front
-/// right, front left, rear right, rear left. The base frame is the trunk's: x ahead, y left, z up.
+/// Each leg is hip (about x), thigh and calf (about y), and a foot on a fixed joint, in the order
+/// front right, front left, rear right, rear left. The base frame is the trunk's: x ahead, y left,
+/// z up.
 ///
 /// # Source
 ///
-/// - The PyPI package example-robot-data 6.0.0, `robots/a1_description/urdf/a1.urdf`, which states as its
-///   origin unitreerobotics/unitree_ros (`robots/a1_description`; the leg numbers at commit 0cbd88ee are
-///   the same) and MPL-2.0 as the licence; mujoco_menagerie publishes its derivative under BSD-3-Clause.
-/// - Masses, centres of mass and inertias of the legs agree with mujoco_menagerie (`unitree_a1/a1.xml`,
-///   commit 1b428b08: calf and foot lumped there). It differs in where a leg sits: hip at x = 0.183 m
-///   instead of 0.1805 m, thigh at 0.08505 m instead of 0.0838 m. Another revision of unitree_ros
-///   (xacro constants at 49e936b9) has lighter legs: 0.595, 0.888 and 0.151 kg.
+/// - The PyPI package example-robot-data 6.0.0, `robots/a1_description/urdf/a1.urdf`, which states
+///   as its origin unitreerobotics/unitree_ros (`robots/a1_description`; the leg numbers at commit
+///   0cbd88ee are the same) and MPL-2.0 as the licence; mujoco_menagerie publishes its derivative
+///   under BSD-3-Clause.
+/// - Masses, centres of mass and inertias of the legs agree with mujoco_menagerie
+///   (`unitree_a1/a1.xml`, commit 1b428b08: calf and foot lumped there). It differs in where a leg
+///   sits: hip at x = 0.183 m instead of 0.1805 m, thigh at 0.08505 m instead of 0.0838 m. Another
+///   revision of unitree_ros (xacro constants at 49e936b9) has lighter legs: 0.595, 0.888 and 0.151
+///   kg.
 ///
 /// # Changed
 ///
-/// Not written by `robot-import`: three robots share the legs. The legs are written once and mirrored, since the source's four are exact mirror images. Omitted are the
-/// trunk since it does not move, the IMU (1 g, with the inertia of a placeholder), and the shoulder links
-/// since they have no mass. The foot's inertia is 2/5 m r² of a 20 mm sphere, which the source prints as
+/// Not written by `robot-import`: three robots share the legs. The legs are written once and
+/// mirrored, since the source's four are exact mirror images. Omitted are the trunk since it does
+/// not move, the IMU (1 g, with the inertia of a placeholder), and the shoulder links since they
+/// have no mass. The foot's inertia is 2/5 m r² of a 20 mm sphere, which the source prints as
 /// 9.600000000000001e-06. Limits are the degrees of the source's constants.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct A1;
@@ -115,8 +120,8 @@ const LEGS: [Body; 16] = [
 ];
 
 impl A1 {
-    /// The front right leg alone, for machines that stand on one: hip, thigh, calf and foot, the hip where it
-    /// is on a trunk.
+    /// The front right leg alone, for machines that stand on one: hip, thigh, calf and foot, the
+    /// hip where it is on a trunk.
     ///
     /// ```
     /// use dynamics_core::model::{BASE, Body, Joint, Model, attach_to};
@@ -144,7 +149,8 @@ impl Robot<4, 3, 3> for A1Leg {
 
 const _: Model<f64, 4, 3, 3> = A1Leg::MODEL;
 
-/// Unitree A1 on a free joint: the trunk of 6 kg, then the legs of [`A1`]; 17 bodies, 18 degrees of freedom.
+/// Unitree A1 on a free joint: the trunk of 6 kg, then the legs of [`A1`]; 17 bodies, 18 degrees of
+/// freedom.
 ///
 /// Source and licence as [`A1`]; mujoco_menagerie gives the trunk 4.713 kg.
 #[derive(Clone, Copy, Debug, Default)]

@@ -2,20 +2,22 @@
 
 use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
-/// Kinova Gen3 with 7 joints and vision module, no gripper: joints 1, 3, 5 and 7 are continuous; 6.5 kg of moving mass.
+/// Kinova Gen3 with 7 joints and vision module, no gripper: joints 1, 3, 5 and 7 are continuous;
+/// 6.5 kg of moving mass.
 ///
 /// # Source
 ///
-/// - Kinovarobotics/ros_kortex at commit 5fce8b7a, `kortex_description/arms/gen3/7dof/urdf/gen3_macro.xacro`
-///   (`vision` true): kinematics, inertias, limits. Licence: BSD-3-Clause.
-/// - The same masses, centres of mass and placements stand in mujoco_menagerie (`kinova_gen3/gen3.xml`,
-///   commit 39664247), the inertias there by principal moments. It limits joints 2, 4, 6 to 2.24, 2.57
-///   and 2.09 rad.
+/// - Kinovarobotics/ros_kortex at commit 5fce8b7a,
+///   `kortex_description/arms/gen3/7dof/urdf/gen3_macro.xacro` (`vision` true): kinematics,
+///   inertias, limits. Licence: BSD-3-Clause.
+/// - The same masses, centres of mass and placements stand in mujoco_menagerie
+///   (`kinova_gen3/gen3.xml`, commit 39664247), the inertias there by principal moments. It limits
+///   joints 2, 4, 6 to 2.24, 2.57 and 2.09 rad.
 ///
 /// # Changed
 ///
-/// Rotations are exact quarter turns where the source rounds (1.5708). The base link is omitted since it
-/// does not move, the end effector's frame since it has no mass.
+/// Rotations are exact quarter turns where the source rounds (1.5708). The base link is omitted
+/// since it does not move, the end effector's frame since it has no mass.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Gen3;
 

@@ -9,17 +9,19 @@ use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 /// # Source
 ///
 /// - Kinematics, inertias, limits: Drake (RobotLocomotion/drake at commit 0b6a9c38,
-///   `manipulation/models/iiwa_description/urdf/iiwa14_no_collision.urdf`), which took the kinematics and
-///   centres of mass from iiwa_stack and adjusted masses and inertias. Licence: BSD-3-Clause for both
-///   Drake and its derivative in mujoco_menagerie (`kuka_iiwa_14/iiwa14.xml`, commit 28ffb48b), which has
-///   the same numbers except that it swaps the first two moments of link 1 (0.0330, 0.0333).
-/// - iiwa_stack's own masses (4, 4, 3, 2.7, 1.7, 1.8, 0.3 kg) are lower. The maker publishes no inertias;
-///   its brochure is where Drake's speed and torque limits come from.
+///   `manipulation/models/iiwa_description/urdf/iiwa14_no_collision.urdf`), which took the
+///   kinematics and centres of mass from iiwa_stack and adjusted masses and inertias. Licence:
+///   BSD-3-Clause for both Drake and its derivative in mujoco_menagerie (`kuka_iiwa_14/iiwa14.xml`,
+///   commit 28ffb48b), which has the same numbers except that it swaps the first two moments of
+///   link 1 (0.0330, 0.0333).
+/// - iiwa_stack's own masses (4, 4, 3, 2.7, 1.7, 1.8, 0.3 kg) are lower. The maker publishes no
+///   inertias; its brochure is where Drake's speed and torque limits come from.
 ///
 /// # Changed
 ///
-/// Rotations are exact quarter turns; position limits are the degrees that the source had rounded (170,
-/// 120, 175). Link 0 is omitted since it does not move, the flange frames since they have no mass.
+/// Rotations are exact quarter turns; position limits are the degrees that the source had rounded
+/// (170, 120, 175). Link 0 is omitted since it does not move, the flange frames since they have no
+/// mass.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Iiwa14;
 

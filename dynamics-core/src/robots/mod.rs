@@ -3,11 +3,13 @@
 //! - [`Ur5e`]: Universal Robots UR5e, 6 revolute joints, every placement in quarter turns.
 //! - [`Panda`]: Franka Emika Panda without its hand, 7 revolute joints, dense inertias.
 //! - [`Iiwa14`]: KUKA LBR iiwa 14 R820, 7 revolute joints, diagonal inertias.
-//! - [`A1`]: Unitree A1 with its trunk held, a tree of four legs, 12 revolute joints and 4 fixed feet.
+//! - [`A1`]: Unitree A1 with its trunk held, a tree of four legs, 12 revolute joints and 4 fixed
+//!   feet.
 //! - [`A1Leg`]: one leg of it, 3 revolute joints and a fixed foot.
 //! - [`A1Free`]: the same with its trunk free, 18 degrees of freedom.
 //! - [`Gen3`]: Kinova Gen3 with vision module, 7 joints, four of which are continuous.
-//! - [`So101`]: The Robot Studio's SO-101 with its gripper's jaw, 6 revolute joints moved by hobby servos.
+//! - [`So101`]: The Robot Studio's SO-101 with its gripper's jaw, 6 revolute joints moved by hobby
+//!   servos.
 //! - [`XArm7`]: UFACTORY xArm7, 7 revolute joints, dense inertias.
 //! - [`Z1`]: Unitree Z1 with its gripper, 7 revolute joints about x, y and z.
 //! - [`G1`]: Unitree G1 with its pelvis held, a humanoid of 29 revolute joints.

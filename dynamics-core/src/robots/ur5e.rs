@@ -17,19 +17,20 @@ use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 ///   matrices were "updated from measurements"; the file of commit 3426d674 and the one of
 ///   ros-industrial/universal_robot at 82632f5e hold the same numbers). Licence: BSD-3-Clause.
 /// - Masses, centres of mass and link lengths agree with the table of Denavit-Hartenberg parameters
-///   that Universal Robots publishes. For the inertia matrices no second, independent source was found.
-/// - JointLimits: `config/ur5e/joint_limits.yaml` of the same package (user manual 5.8 and the maker's page
-///   on joint torques).
+///   that Universal Robots publishes. For the inertia matrices no second, independent source was
+///   found.
+/// - JointLimits: `config/ur5e/joint_limits.yaml` of the same package (user manual 5.8 and the
+///   maker's page on joint torques).
 ///
 /// # Changed
 ///
-/// - Rotations are exact quarter turns where the source rounds (1.570796327), and the 2e-11 m offsets
-///   that this rounding had left in the wrist are zero.
+/// - Rotations are exact quarter turns where the source rounds (1.570796327), and the 2e-11 m
+///   offsets that this rounding had left in the wrist are zero.
 /// - The source gives the inertias of shoulder, wrist 1 and wrist 2 in axes a quarter turn from the
 ///   link's; they are turned into link axes here, which only swaps and negates entries.
 /// - The base link, flange and tool frames are omitted: they do not move, or have no mass.
-/// - The elbow turns ±360° by the manual; ±180° is the source's limit, kept because the upper arm is in
-///   the way beyond it.
+/// - The elbow turns ±360° by the manual; ±180° is the source's limit, kept because the upper arm
+///   is in the way beyond it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Ur5e;
 

@@ -24,8 +24,8 @@ impl Part {
         self
     }
 
-    /// Both as one: I = I₁ + I₂ + μ (d·d 1 − d dᵀ), with μ = m₁ m₂ / (m₁ + m₂) and d from one centre of
-    /// mass to the other.
+    /// Both as one: I = I₁ + I₂ + μ (d·d 1 − d dᵀ), with μ = m₁ m₂ / (m₁ + m₂) and d from one
+    /// centre of mass to the other.
     pub const fn with(self, other: Self) -> Self {
         let mass = self.mass + other.mass;
         let reduced = self.mass * other.mass / mass;

@@ -1,7 +1,7 @@
 //! The scalar of a computation, f32 or f64, with its vectors and matrices, which are glam's.
 //!
-//! All other modules use [`Real`] only, so that one source serves the firmware (f32), the host tests (f64) and the
-//! reports that compare the two in one binary.
+//! All other modules use [`Real`] only, so that one source serves the firmware (f32), the host
+//! tests (f64) and the reports that compare the two in one binary.
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -17,7 +17,8 @@ mod native;
 mod positive_part;
 mod vector;
 
-/// Public for scalars of the host's tools, such as several f32 side by side, whose every lane is compared with f32.
+/// Public for scalars of the host's tools, such as several f32 side by side, whose every lane is
+/// compared with f32.
 #[doc(hidden)]
 pub mod sealed {
     #[allow(missing_docs, reason = "not part of the public API")]
@@ -75,8 +76,8 @@ pub trait Real:
     ///
     /// Cost: in f32 the same instructions for every input.
     fn exp_neg(self) -> Self;
-    /// √x, rounded to nearest; NaN below zero. It is computed in software if the target has no instruction for it
-    /// without std: not for the control tick.
+    /// √x, rounded to nearest; NaN below zero. It is computed in software if the target has no
+    /// instruction for it without std: not for the control tick.
     fn sqrt(self) -> Self;
     /// The angle of the point (x, self) from the x axis, rad, within ±π. Not for the control tick.
     fn atan2(self, x: Self) -> Self;
@@ -84,7 +85,8 @@ pub trait Real:
     const EPSILON: Self;
     /// The smallest positive normal number; added to a denominator, it avoids 0/0.
     const MIN_POSITIVE: Self;
-    /// 1/√x of a positive normal number, within 2 ulp; no division, the same instructions for every x.
+    /// 1/√x of a positive normal number, within 2 ulp; no division, the same instructions for every
+    /// x.
     fn rsqrt(self) -> Self;
     /// |x|.
     fn abs(self) -> Self;
@@ -94,11 +96,13 @@ pub trait Real:
     fn clamped(self, lo: Self, hi: Self) -> Self;
     /// The whole number next to x towards zero, within ±[`Real::MAX_TRUNC`]; a NaN becomes 0.
     ///
-    /// Cost: two conversions, which saturate; there is no comparison that waits for the FPU's flags.
+    /// Cost: two conversions, which saturate; there is no comparison that waits for the FPU's
+    /// flags.
     fn trunc_saturating(self) -> Self;
     /// The whole number next to x towards zero, within 0 and 2³² − 1; a NaN becomes 0.
     ///
-    /// Cost: one conversion, which saturates. By way of [`Real::to_f64`] it would be calls into software.
+    /// Cost: one conversion, which saturates. By way of [`Real::to_f64`] it would be calls into
+    /// software.
     fn to_u32(self) -> u32;
     /// A model cast to this type.
     fn cast<const B: usize, const Q: usize, const V: usize>(
@@ -154,7 +158,8 @@ macro_rules! real {
             const MIN_POSITIVE: Self = <$r>::MIN_POSITIVE;
             #[cfg_attr(optimised, inline(always))]
             fn rsqrt(self) -> Self {
-                // Halves the exponent, then Newton's iteration for 1/y² = x. Of a NaN's bits anything may become.
+                // Halves the exponent, then Newton's iteration for 1/y² = x. Of a NaN's bits
+                // anything may become.
                 let halved = self.to_bits() >> 1;
                 let mut y = <$r>::from_bits(halved.wrapping_neg().wrapping_add($magic));
                 let half = 0.5 * self;

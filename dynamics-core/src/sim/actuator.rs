@@ -1,14 +1,14 @@
 //! A motor with its current controller: the torque at the joint that results from a command.
 //!
-//! i_c = τ_c / k within ±I; the supply drives at most (U − k ω)/R and at least (−U − k ω)/R against the
-//! back-EMF k ω; the current follows with the lag T: T di/dt = i_c − i; τ = k i. Krause, Wasynczuk &
-//! Sudhoff, *Analysis of Electric Machinery* (2002), chapter 2. In SI units the torque constant is the
-//! back-EMF constant.
+//! i_c = τ_c / k within ±I; the supply drives at most (U − k ω)/R and at least (−U − k ω)/R against
+//! the back-EMF k ω; the current follows with the lag T: T di/dt = i_c − i; τ = k i. Krause,
+//! Wasynczuk & Sudhoff, *Analysis of Electric Machinery* (2002), chapter 2. In SI units the torque
+//! constant is the back-EMF constant.
 
 use crate::scalar::Real;
 
-/// The actuator of one joint, with all quantities reflected to the joint: with a gear ratio of ρ, k is ρ times that of
-/// the motor.
+/// The actuator of one joint, with all quantities reflected to the joint: with a gear ratio of ρ, k
+/// is ρ times that of the motor.
 ///
 /// ```
 /// use dynamics_core::sim::Actuator;
@@ -43,8 +43,8 @@ impl<R: Real> Actuator<R> {
         self.torque_constant * self.current
     }
 
-    /// The steady-state torque of a command at the joint's speed, N·m: within the current limit and below the
-    /// torque-speed curve k (U − k ω)/R; above the no-load speed the back-EMF brakes.
+    /// The steady-state torque of a command at the joint's speed, N·m: within the current limit and
+    /// below the torque-speed curve k (U − k ω)/R; above the no-load speed the back-EMF brakes.
     #[cfg_attr(optimised, inline(always))]
     pub fn saturated_torque(&self, command: R, speed: R) -> R {
         let k = self.torque_constant;

@@ -16,7 +16,8 @@ pub trait Dynamics<R, const Q: usize, const V: usize> {
     /// As forward dynamics.
     fn acceleration(&self, at: &State<R, Q, V>) -> Result<[R; V], NotPositiveDefinite>;
 
-    /// q̈ of a linearly implicit step of h seconds: [`Implicit`]; `at.qdd` may be used as that of the step before.
+    /// q̈ of a linearly implicit step of h seconds: [`Implicit`]; `at.qdd` may be used as that of
+    /// the step before.
     ///
     /// # Errors
     /// As forward dynamics.

@@ -5,8 +5,8 @@ use super::{Dynamics, Integrator, RungeKutta, Step};
 use crate::scalar::Real;
 use crate::state::State;
 
-/// [`RungeKutta`], then q̇ is scaled so that T + U has its initial value: the projection on constant energy that is
-/// orthogonal in M. For motions without friction and drives.
+/// [`RungeKutta`], then q̇ is scaled so that T + U has its initial value: the projection on
+/// constant energy that is orthogonal in M. For motions without friction and drives.
 ///
 /// Hairer, Lubich & Wanner, *Geometric Numerical Integration* (2006), section IV.4.
 #[derive(Clone, Copy, Debug, Default)]

@@ -19,10 +19,12 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for Euler {
     }
 }
 
-/// Semi-implicit Euler: q advances with the new q̇. First order. The energy oscillates without drift only where M does not depend on
-/// q; elsewhere the step is not symplectic, and the energy drifts: at steps of 1 ms a double pendulum without friction that starts
-/// at (0.5, −0.3) rad has 1.24 times its energy after 256 s, and one that starts at (2.5, 1) rad has lost half of it after 64 s.
-/// [`LinearlyImplicit`](super::LinearlyImplicit) and [`RungeKutta`](super::RungeKutta) are for long motions without friction.
+/// Semi-implicit Euler: q advances with the new q̇. First order. The energy oscillates without
+/// drift only where M does not depend on q; elsewhere the step is not symplectic, and the energy
+/// drifts: at steps of 1 ms a double pendulum without friction that starts at (0.5, −0.3) rad has
+/// 1.24 times its energy after 256 s, and one that starts at (2.5, 1) rad has lost half of it after
+/// 64 s. [`LinearlyImplicit`](super::LinearlyImplicit) and [`RungeKutta`](super::RungeKutta) are
+/// for long motions without friction.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SemiImplicit;
 
@@ -34,9 +36,10 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for SemiImplic
     }
 }
 
-/// One step of `h` seconds by semi-implicit Euler: q̇ ← q̇ + h FD(q, q̇, τ), then q ← q ⊕ h q̇ with the
-/// new q̇. First order in h, and its energy drifts ([`SemiImplicit`]); `state.qdd` is left at the acceleration used. The internal
-/// states of effects are not advanced; [`linearly_implicit`](super::linearly_implicit()) advances them.
+/// One step of `h` seconds by semi-implicit Euler: q̇ ← q̇ + h FD(q, q̇, τ), then q ← q ⊕ h q̇ with
+/// the new q̇. First order in h, and its energy drifts ([`SemiImplicit`]); `state.qdd` is left at
+/// the acceleration used. The internal states of effects are not advanced;
+/// [`linearly_implicit`](super::linearly_implicit()) advances them.
 ///
 /// Hairer, Lubich & Wanner, *Geometric Numerical Integration* (2006), section I.1.2.
 ///

@@ -4,12 +4,12 @@ use super::StepIncrement;
 use crate::scalar::Real;
 use crate::state::State;
 
-/// Position and velocity of V joints of one axis, to which steps are added; if `COMPENSATED`, the rounding error of
-/// each increment is added to the next one.
+/// Position and velocity of V joints of one axis, to which steps are added; if `COMPENSATED`, the
+/// rounding error of each increment is added to the next one.
 ///
-/// Kahan, "Further remarks on reducing truncation errors" (1965). In f32 a step of 10 µs at 1 rad/s adds 10⁻⁵ rad, of
-/// which rounding at 3 rad loses up to one per cent: without compensation, finer steps are less accurate. 3 more flops
-/// per coordinate.
+/// Kahan, "Further remarks on reducing truncation errors" (1965). In f32 a step of 10 µs at 1 rad/s
+/// adds 10⁻⁵ rad, of which rounding at 3 rad loses up to one per cent: without compensation, finer
+/// steps are less accurate. 3 more flops per coordinate.
 ///
 /// ```
 /// use dynamics_core::{sim::{StepIncrement, KahanState}, state::State};

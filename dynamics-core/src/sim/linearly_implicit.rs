@@ -8,9 +8,9 @@ use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::State;
 
-/// Linearly implicit Euler: [`SemiImplicit`](super::SemiImplicit) with joint effects extrapolated to the end of the
-/// step by their derivatives, and bodies at the mean velocity of the step. First order. The internal states of effects are not
-/// advanced.
+/// Linearly implicit Euler: [`SemiImplicit`](super::SemiImplicit) with joint effects extrapolated
+/// to the end of the step by their derivatives, and bodies at the mean velocity of the step. First
+/// order. The internal states of effects are not advanced.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LinearlyImplicit;
 
@@ -22,19 +22,22 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for LinearlyIm
     }
 }
 
-/// One step of `h` seconds by linearly implicit Euler: as [`semi_implicit`](super::semi_implicit), with joint effects
-/// extrapolated to the end of the step by their derivatives ([`Implicit`](crate::effects::Implicit)), after which their
-/// states are advanced. First order in h; `state.qdd` is left at the acceleration used.
+/// One step of `h` seconds by linearly implicit Euler: as [`semi_implicit`](super::semi_implicit),
+/// with joint effects extrapolated to the end of the step by their derivatives
+/// ([`Implicit`](crate::effects::Implicit)), after which their states are advanced. First order in
+/// h; `state.qdd` is left at the acceleration used.
 ///
-/// Bodies move at the mean velocity q̇ + h/2 q̈ of the step, with the q̈ that the step before left in `state.qdd`, so that positions and
-/// velocities are those of a leapfrog and the energy drifts little, at the cost of one evaluation. Without friction, in f64 and at steps of
-/// 1 ms, a double pendulum that starts at (0.5, −0.3) rad keeps its energy within 0.3 % for more than an hour, and one that
-/// whirls from (1.5, 0.5) rad loses 6 % in that time, from (2.5, 1) rad 30 %; the drift falls as h³. In f32 and at steps of 0.25 ms, those of
-/// the scenes' plants, it is 0.1 %, 2 % and 11 %. Where friction depends on
-/// the load ([`LoadFriction`](crate::effects::LoadFriction)), bodies move at q̇.
+/// Bodies move at the mean velocity q̇ + h/2 q̈ of the step, with the q̈ that the step before left
+/// in `state.qdd`, so that positions and velocities are those of a leapfrog and the energy drifts
+/// little, at the cost of one evaluation. Without friction, in f64 and at steps of 1 ms, a double
+/// pendulum that starts at (0.5, −0.3) rad keeps its energy within 0.3 % for more than an hour, and
+/// one that whirls from (1.5, 0.5) rad loses 6 % in that time, from (2.5, 1) rad 30 %; the drift
+/// falls as h³. In f32 and at steps of 0.25 ms, those of the scenes' plants, it is 0.1 %, 2 % and
+/// 11 %. Where friction depends on the load ([`LoadFriction`](crate::effects::LoadFriction)),
+/// bodies move at q̇.
 ///
-/// Hairer & Wanner, *Solving Ordinary Differential Equations II* (1996), section IV.7; Baraff & Witkin
-/// (1998). Wrenches on bodies (contact) are explicit.
+/// Hairer & Wanner, *Solving Ordinary Differential Equations II* (1996), section IV.7; Baraff &
+/// Witkin (1998). Wrenches on bodies (contact) are explicit.
 ///
 /// ```
 /// use dynamics_core::effects::{RIGID_BODY, Spring};

@@ -1,8 +1,9 @@
 //! Time steps of a simulated robot, and its actuators.
 //!
-//! The functions advance a robot by its description by one step: [`semi_implicit`], [`linearly_implicit()`],
-//! [`runge_kutta()`] or [`momentum_preserving()`]: each calls the [`Integrator`] of its name, which advances any
-//! [`Dynamics`], for example those of the engine, on joints of any kind. [`KahanState`] sums coordinates without loss.
+//! The functions advance a robot by its description by one step: [`semi_implicit`],
+//! [`linearly_implicit()`], [`runge_kutta()`] or [`momentum_preserving()`]: each calls the
+//! [`Integrator`] of its name, which advances any [`Dynamics`], for example those of the engine, on
+//! joints of any kind. [`KahanState`] sums coordinates without loss.
 
 mod actuator;
 mod dynamics;

@@ -8,14 +8,17 @@ use crate::scalar::Real;
 use crate::spatial::Force;
 use crate::state::State;
 
-/// One step of `h` seconds as [`linearly_implicit()`], after which the rates of the first body's free joint are
-/// set so that all bodies together have the given momentum, about the base's origin and along its axes.
+/// One step of `h` seconds as [`linearly_implicit()`], after which the rates of the first body's
+/// free joint are set so that all bodies together have the given momentum, about the base's origin
+/// and along its axes.
 ///
-/// For a robot that floats freely: no external force acts on it, and every body is a descendant of the first. The plain
-/// step has a momentum error of first order in h, which accumulates; here the error is that of rounding and does not
-/// accumulate. First order in h in everything else. Cost: that of [`base_velocity_from_momentum`] in addition.
+/// For a robot that floats freely: no external force acts on it, and every body is a descendant of
+/// the first. The plain step has a momentum error of first order in h, which accumulates; here the
+/// error is that of rounding and does not accumulate. First order in h in everything else. Cost:
+/// that of [`base_velocity_from_momentum`] in addition.
 ///
-/// Hairer, Lubich & Wanner, *Geometric Numerical Integration* (2006), section IV.4: projection onto an invariant.
+/// Hairer, Lubich & Wanner, *Geometric Numerical Integration* (2006), section IV.4: projection onto
+/// an invariant.
 ///
 /// ```
 /// use dynamics_core::algorithms::momentum;

@@ -1,15 +1,17 @@
 //! A time step of fourth order, on joints of any kind.
 //!
-//! Runge and Kutta's method as Celledoni, Marthinsen & Owren, "Commutator-free Lie group methods" (2003),
-//! section 3.2, write it for groups, here for velocities in the body's own frame. With k = (q̇, q̈):
+//! Runge and Kutta's method as Celledoni, Marthinsen & Owren, "Commutator-free Lie group methods"
+//! (2003), section 3.2, write it for groups, here for velocities in the body's own frame. With k =
+//! (q̇, q̈):
 //!
 //! ```text
 //! Y₂ = Y ⊕ h/2 k₁    Y₃ = Y ⊕ h/2 k₂    Y₄ = Y₂ ⊕ h (k₃ − k₁/2)
 //! Y₊ = Y ⊕ h/12 (3 k₁ + 2 k₂ + 2 k₃ − k₄) ⊕ h/12 (−k₁ + 2 k₂ + 2 k₃ + 3 k₄)
 //! ```
 //!
-//! As two halves of a step, k + b and k − b: in Y₄ about k = k₃ with b = k₁ − k₃, in Y₊ about the mean k =
-//! (k₁ + 2 k₂ + 2 k₃ + k₄)/6 with b = (k₁ − k₄)/3. Joints of one axis do not see b: the classical method.
+//! As two halves of a step, k + b and k − b: in Y₄ about k = k₃ with b = k₁ − k₃, in Y₊ about the
+//! mean k = (k₁ + 2 k₂ + 2 k₃ + k₄)/6 with b = (k₁ − k₄)/3. Joints of one axis do not see b: the
+//! classical method.
 
 use super::{Dynamics, Integrator, ModelDynamics, Step, StepIncrement};
 use crate::algorithms::NotPositiveDefinite;
@@ -55,8 +57,9 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for RungeKutta
     }
 }
 
-/// One step of `h` seconds of fourth order, explicit: for motion without stiff springs, dampers or dry friction.
-/// `state.qdd` is left at the mean acceleration; the internal states of effects are not advanced.
+/// One step of `h` seconds of fourth order, explicit: for motion without stiff springs, dampers or
+/// dry friction. `state.qdd` is left at the mean acceleration; the internal states of effects are
+/// not advanced.
 ///
 /// Cost: four times that of [`aba`](crate::algorithms::aba), and for quaternions six exponentials.
 ///

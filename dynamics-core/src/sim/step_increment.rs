@@ -11,8 +11,8 @@ pub struct StepIncrement<R, const V: usize> {
     pub qd: [R; V],
     /// Mean acceleration q̈, rad/s² or m/s².
     pub qdd: [R; V],
-    /// Half the difference δ of the two halves' mean velocities, for rotations that do not commute: the first half of
-    /// the step is at q̇ + δ, the second at q̇ − δ.
+    /// Half the difference δ of the two halves' mean velocities, for rotations that do not commute:
+    /// the first half of the step is at q̇ + δ, the second at q̇ − δ.
     pub half_difference: Option<[R; V]>,
 }
 
@@ -31,7 +31,8 @@ impl<R: Real, const V: usize> StepIncrement<R, V> {
     /// Configuration after h seconds from q, on this robot's joints.
     ///
     /// # Cost
-    /// [`integrate`], twice if the halves of the step differ; V sums if all joints are known to have one axis.
+    /// [`integrate`], twice if the halves of the step differ; V sums if all joints are known to
+    /// have one axis.
     ///
     /// ```
     /// use dynamics_core::{state::manifold::neutral, model::{BASE, Body, Joint, Model}, sim::StepIncrement};

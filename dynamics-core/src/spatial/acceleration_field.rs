@@ -1,7 +1,8 @@
 //! The accelerations of the points of a body: of the one at r from the origin a + U r.
 //!
-//! U = α× + ω× ω×, the tensor of Balafoutis, Patel & Misra (1988). Where the spatial acceleration of a body is (α, ȧ), a is ȧ + ω × v;
-//! the velocity v of the origin does not occur in its recursion nor in the force of the body, so that it is not computed.
+//! U = α× + ω× ω×, the tensor of Balafoutis, Patel & Misra (1988). Where the spatial acceleration
+//! of a body is (α, ȧ), a is ȧ + ω × v; the velocity v of the origin does not occur in its
+//! recursion nor in the force of the body, so that it is not computed.
 
 use super::{Force, Motion, SpatialInertia, Xform};
 use crate::scalar::{Matrix, Real, Vector};
@@ -18,7 +19,8 @@ pub(crate) struct AccelerationField<R: Real> {
 }
 
 impl<R: Real> AccelerationField<R> {
-    /// Of the angular velocity ω, the angular acceleration α and the acceleration a of the origin. 15 flops.
+    /// Of the angular velocity ω, the angular acceleration α and the acceleration a of the origin.
+    /// 15 flops.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn new(w: R::Vec3, at_origin: Motion<R>) -> Self {
         let ([wx, wy, wz], [x, y, z]) = (w.array(), at_origin.ang.array());
@@ -35,7 +37,8 @@ impl<R: Real> AccelerationField<R> {
         }
     }
 
-    /// α, and the acceleration of the origin of a frame that is fixed in the body, in its axes. 48 flops.
+    /// α, and the acceleration of the origin of a frame that is fixed in the body, in its axes. 48
+    /// flops.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn moved(&self, x: &Xform<R>) -> Motion<R> {
         Motion::new(
@@ -53,7 +56,8 @@ impl<R: Real> AccelerationField<R> {
 }
 
 impl<R: Real> SpatialInertia<R> {
-    /// The couple about z of [`Self::force_in`] alone, of a body whose axis z stands still, so that ω and α lie along it. 5 flops.
+    /// The couple about z of [`Self::force_in`] alone, of a body whose axis z stands still, so that
+    /// ω and α lie along it. 5 flops.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn couple_about_z(&self, a: Motion<R>) -> Force<R> {
         let [_, _, _, _, _, zz] = self.upper();
@@ -63,9 +67,11 @@ impl<R: Real> SpatialInertia<R> {
         Force::new(R::Vec3::new(R::ZERO, R::ZERO, couple), R::Vec3::ZERO)
     }
 
-    /// I a + v ×* I v of a body that moves with a field: m a + U h, and ∫ r × U r dm + h × a. 66 flops beyond the products of ω.
+    /// I a + v ×* I v of a body that moves with a field: m a + U h, and ∫ r × U r dm + h × a. 66
+    /// flops beyond the products of ω.
     ///
-    /// Of 867 orders of these sums 14 keep every hard case within its bounds; this one runs from left to right.
+    /// Of 867 orders of these sums 14 keep every hard case within its bounds; this one runs from
+    /// left to right.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn force_in(&self, field: &AccelerationField<R>, w: R::Vec3) -> Force<R> {
         let [xx, xy, xz, yy, yz, zz] = self.upper();

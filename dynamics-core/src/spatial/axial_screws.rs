@@ -1,8 +1,10 @@
-//! The transform across a link as two screws about coordinate axes, whose turns mix two components of a vector each.
+//! The transform across a link as two screws about coordinate axes, whose turns mix two components
+//! of a vector each.
 //!
-//! Denavit & Hartenberg's parameters as Craig, *Introduction to Robotics* (1989), numbers them: a turn about the parent's x by α and a
-//! shift along it by a, then a turn about the joint's z by q and a shift along it by d. McMillan & Orin, *Efficient computation of
-//! articulated-body inertias using successive axial screws* (1995).
+//! Denavit & Hartenberg's parameters as Craig, *Introduction to Robotics* (1989), numbers them: a
+//! turn about the parent's x by α and a shift along it by a, then a turn about the joint's z by q
+//! and a shift along it by d. McMillan & Orin, *Efficient computation of articulated-body inertias
+//! using successive axial screws* (1995).
 
 use core::ops::Mul;
 
@@ -39,8 +41,9 @@ impl<R: Real> Screw<R> {
         [self.cos * a - self.sin * b, self.sin * a + self.cos * b]
     }
 
-    /// The block across the axis of a matrix, turned back. 24 flops, of a symmetric block 21; by its trace, which stays as it is, 11 and 10
-    /// would do, with roundings of the larger entry in the smaller.
+    /// The block across the axis of a matrix, turned back. 24 flops, of a symmetric block 21; by
+    /// its trace, which stays as it is, 11 and 10 would do, with roundings of the larger entry in
+    /// the smaller.
     #[cfg_attr(optimised, inline(always))]
     fn block_back(&self, [x, y]: [[R; 2]; 2]) -> [[R; 2]; 2] {
         let ([xx, xy], [yx, yy]) = (self.turn_back(x), self.turn_back(y));
@@ -105,7 +108,8 @@ impl<R: Real> AxialScrews<R> {
             .renamed()
     }
 
-    /// The same where nothing resists a turn about z, nor does in the frame between the screws. 174 flops.
+    /// The same where nothing resists a turn about z, nor does in the frame between the screws. 174
+    /// flops.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn free_at_parent(&self, ia: &FreeAboutZ<R>) -> ArticulatedInertia<R> {
         self.about_x
@@ -136,7 +140,8 @@ impl<R: Real> Screw<R> {
         }
     }
 
-    /// The same before the screw about x, in which rows y and z are shares of what was row y. 75 flops.
+    /// The same before the screw about x, in which rows y and z are shares of what was row y. 75
+    /// flops.
     #[cfg_attr(optimised, inline(always))]
     fn free_back_about_x(&self, ia: &FreeAboutZ<R>) -> ArticulatedInertia<R> {
         let (s, c) = (self.sin, self.cos);
@@ -226,8 +231,8 @@ impl<R: Real> Screw<R> {
         }
     }
 
-    /// A symmetric matrix, turned back about z, whose trace across z stays as it is. 16 flops. An entry gets roundings of the largest one of
-    /// its block, as it does by general rotations.
+    /// A symmetric matrix, turned back about z, whose trace across z stays as it is. 16 flops. An
+    /// entry gets roundings of the largest one of its block, as it does by general rotations.
     #[cfg_attr(optimised, inline(always))]
     fn symmetric_back_by_trace(&self, m: &Symmetric<R>) -> Symmetric<R> {
         let twice = m.xy + m.xy;
@@ -261,7 +266,8 @@ impl<R: Real> Screw<R> {
     }
 }
 
-/// In axes of other names: y is called x, z is called y, and x is called z. Three times is what it was.
+/// In axes of other names: y is called x, z is called y, and x is called z. Three times is what it
+/// was.
 trait Renamed {
     fn renamed(&self) -> Self;
 }

@@ -1,8 +1,8 @@
 //! The Coriolis matrix of a body, by which two velocities give a force.
 //!
-//! Echeandia & Wensing, "Numerical methods to compute the Coriolis matrix and Christoffel symbols for rigid-body systems"
-//! (2021). A particle of mass dm at r with the velocity ṙ contributes the force (ω_w × ṙ) dm to B w, so that of the 6 × 6
-//! matrix twelve numbers remain:
+//! Echeandia & Wensing, "Numerical methods to compute the Coriolis matrix and Christoffel symbols
+//! for rigid-body systems" (2021). A particle of mass dm at r with the velocity ṙ contributes the
+//! force (ω_w × ṙ) dm to B w, so that of the 6 × 6 matrix twelve numbers remain:
 //!
 //! ```text
 //! B(I, v) = ½ [(v ×*) I + (I v) ×̄* − I (v ×)] = [D 0; −p× 0]
@@ -16,7 +16,8 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::symmetric::turned_back;
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 
-/// B(I, v): with it, I ẇ + B w is symmetric in the velocities v and w of the body, and B v = v ×* I v.
+/// B(I, v): with it, I ẇ + B w is symmetric in the velocities v and w of the body, and B v = v ×* I
+/// v.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BodyCoriolis<R: Real> {
     /// D, the couple per angular velocity, N·m·s/rad.

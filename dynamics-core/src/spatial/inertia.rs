@@ -70,8 +70,8 @@ impl<R: Real> CompositeInertia<R> {
         }
     }
 
-    /// The motion m with Iᶜ m = f, RBDA (2.74): about the centre of mass, rotation and translation are decoupled. None
-    /// if there is no mass, or no inertia about some axis. 130 flops.
+    /// The motion m with Iᶜ m = f, RBDA (2.74): about the centre of mass, rotation and translation
+    /// are decoupled. None if there is no mass, or no inertia about some axis. 130 flops.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn solve(&self, f: Force<R>) -> Option<Motion<R>> {
         let mass_inv = R::ONE / self.mass;
@@ -207,7 +207,8 @@ impl<R: Real> ArticulatedInertia<R> {
         }
     }
 
-    /// Iᴬ − U Uᵀ / D of a joint that turns about z without an inertia of its own, D = Uᵀ s. 35 flops.
+    /// Iᴬ − U Uᵀ / D of a joint that turns about z without an inertia of its own, D = Uᵀ s. 35
+    /// flops.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn free_about_z(&self, u: Force<R>, d_inv: R) -> FreeAboutZ<R> {
         let ([ux, uy, _], f) = (u.ang.array(), u.lin * d_inv);
@@ -234,8 +235,8 @@ impl<R: Real> ArticulatedInertia<R> {
         .at_distance(x.pos)
     }
 
-    /// The same inertia about the point from which its frame's origin is at r: H + r× M, and Ī + r× Hᵀ − (H + r× M) r×,
-    /// whose upper triangle is written out. 75 flops.
+    /// The same inertia about the point from which its frame's origin is at r: H + r× M, and Ī + r×
+    /// Hᵀ − (H + r× M) r×, whose upper triangle is written out. 75 flops.
     #[cfg_attr(optimised, inline(always))]
     fn at_distance(&self, r: R::Vec3) -> Self {
         let (i, h, mass) = (self.inertia, self.coupling, self.mass);
@@ -259,8 +260,8 @@ impl<R: Real> ArticulatedInertia<R> {
     }
 }
 
-/// The inertia of an articulated body that turns freely about its z: nothing resists there, so that row and column z of Ī
-/// and row z of H are zero and left out.
+/// The inertia of an articulated body that turns freely about its z: nothing resists there, so that
+/// row and column z of Ī and row z of H are zero and left out.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FreeAboutZ<R: Real> {
     pub(super) xx: R,
@@ -273,7 +274,8 @@ pub(crate) struct FreeAboutZ<R: Real> {
 }
 
 impl<R: Real> FreeAboutZ<R> {
-    /// Iᵃ c for a velocity product c = v × S q̇ of the joint, whose components along z are zero. 35 flops.
+    /// Iᵃ c for a velocity product c = v × S q̇ of the joint, whose components along z are zero. 35
+    /// flops.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn times_across(&self, c: Motion<R>) -> Force<R> {
         let ([wx, wy, _], [vx, vy, _]) = (c.ang.array(), c.lin.array());
@@ -293,7 +295,8 @@ impl<R: Real> FreeAboutZ<R> {
         )
     }
 
-    /// Xᵀ Iᵃ X: the same inertia at the parent's frame, E's rows x and y alone turning Ī and H. 227 flops.
+    /// Xᵀ Iᵃ X: the same inertia at the parent's frame, E's rows x and y alone turning Ī and H. 227
+    /// flops.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn at_parent(&self, x: &Xform<R>) -> ArticulatedInertia<R> {
         let [[xx, yx, _], [xy, yy, _], [xz, yz, _]] = x.rot.cols().map(Vector::array);

@@ -242,7 +242,8 @@ impl<R: Real> SpatialInertia<R> {
         )
     }
 
-    /// v ×* I v: the force that keeps a body moving with v without acceleration. [`Self::force`] without its zeros, 69 flops.
+    /// v ×* I v: the force that keeps a body moving with v without acceleration. [`Self::force`]
+    /// without its zeros, 69 flops.
     #[cfg_attr(optimised, inline(always))]
     pub fn bias_force(&self, v: Motion<R>) -> Force<R> {
         let (w, h) = (v.ang, self.first_moment);
@@ -272,7 +273,8 @@ impl<R: Real> SpatialInertia<R> {
         [xx, xy, xz, yy, yz, zz]
     }
 
-    /// The ten parameters: m, h_x, h_y, h_z, Ī_xx, Ī_xy, Ī_yy, Ī_xz, Ī_yz, Ī_zz in kg, kg·m and kg·m².
+    /// The ten parameters: m, h_x, h_y, h_z, Ī_xx, Ī_xy, Ī_yy, Ī_xz, Ī_yz, Ī_zz in kg, kg·m and
+    /// kg·m².
     ///
     /// ```
     /// use dynamics_core::effects::Payload;

@@ -1,9 +1,9 @@
 //! Exponentials and logarithms of rotations and rigid motions: steps on configuration manifolds.
 //!
-//! A unit quaternion (x, y, z, w) takes coordinates of the body to those of the parent side. Murray, Li &
-//! Sastry, *A Mathematical Introduction to Robotic Manipulation* (1994), sections 2.2 and 2.3 and
-//! appendix A. Quaternions are arrays, not glam's type: that one is SIMD on x86 and would round otherwise
-//! there than on the target.
+//! A unit quaternion (x, y, z, w) takes coordinates of the body to those of the parent side.
+//! Murray, Li & Sastry, *A Mathematical Introduction to Robotic Manipulation* (1994), sections 2.2
+//! and 2.3 and appendix A. Quaternions are arrays, not glam's type: that one is SIMD on x86 and
+//! would round otherwise there than on the target.
 
 use crate::scalar::{Real, Vector};
 
@@ -35,9 +35,11 @@ pub(crate) fn rotate<R: Real>([x, y, z, w]: [R; 4], v: R::Vec3) -> R::Vec3 {
     v + t * w + u.cross(t)
 }
 
-/// The attitude p after a rotation by the vector φ in its own frame: p ⊗ (φ sin(θ/2)/θ, cos(θ/2)), θ = |φ|.
+/// The attitude p after a rotation by the vector φ in its own frame: p ⊗ (φ sin(θ/2)/θ, cos(θ/2)),
+/// θ = |φ|.
 ///
-/// It is computed as p plus an increment, so that the rounding error is that of one sum; the error of p's length, (1 −
+/// It is computed as p plus an increment, so that the rounding error is that of one sum; the error
+/// of p's length, (1 −
 /// |p|²)/2 of it, is corrected in each step. After ten million steps in f32, products alone give a length of 0.78 and
 /// an attitude error of 0.04 rad.
 pub(crate) fn so3_plus<R: Real>(p: [R; 4], phi: R::Vec3) -> [R; 4] {

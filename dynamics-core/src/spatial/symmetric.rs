@@ -96,8 +96,8 @@ impl<R: Real> Symmetric<R> {
         }
     }
 
-    /// Eᵀ Σ E in 59 flops instead of 75: Σ is zz 1, a matrix without a third column, and \[v\]×; the
-    /// first is what it was, the last turns as v does, and the trace spares a product.
+    /// Eᵀ Σ E in 59 flops instead of 75: Σ is zz 1, a matrix without a third column, and \[v\]×;
+    /// the first is what it was, the last turns as v does, and the trace spares a product.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn turned_back(&self, e: &R::Mat3) -> Self {
         let [x, y, z] = e.cols().map(Vector::array);
@@ -182,8 +182,8 @@ pub(crate) struct Eigen {
     pub(crate) vectors: [[f64; 3]; 3],
 }
 
-/// By cyclic Jacobi rotations, each quadratic in the entries that are left: eight sweeps are more than f64 needs. The
-/// vectors are those of the unit matrix unless they are asked for.
+/// By cyclic Jacobi rotations, each quadratic in the entries that are left: eight sweeps are more
+/// than f64 needs. The vectors are those of the unit matrix unless they are asked for.
 pub(crate) const fn eigen<const VECTORS: bool>(mut a: [[f64; 3]; 3]) -> Eigen {
     let mut vectors = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let mut sweep = 0;
@@ -199,8 +199,8 @@ pub(crate) const fn eigen<const VECTORS: bool>(mut a: [[f64; 3]; 3]) -> Eigen {
     }
 }
 
-/// The rotation in the plane of axes P and Q that makes the entry there zero; its indices are constants, so that no check of
-/// bounds is left.
+/// The rotation in the plane of axes P and Q that makes the entry there zero; its indices are
+/// constants, so that no check of bounds is left.
 const fn rotate<const P: usize, const Q: usize, const VECTORS: bool>(
     a: &mut [[f64; 3]; 3],
     vectors: &mut [[f64; 3]; 3],

@@ -1,4 +1,5 @@
-//! The configurations and states that the algorithms accept: plain numbers, or with precomputed sines and cosines.
+//! The configurations and states that the algorithms accept: plain numbers, or with precomputed
+//! sines and cosines.
 
 use core::borrow::Borrow;
 
@@ -15,8 +16,8 @@ mod sealed {
     impl<R, const Q: usize, const V: usize> Sealed for super::StateWithTrig<'_, R, Q, V> {}
 }
 
-/// A configuration q: an array `[R; Q]`, whose sines and cosines are computed by the callee, or a [`JointTrig`], which
-/// contains them.
+/// A configuration q: an array `[R; Q]`, whose sines and cosines are computed by the callee, or a
+/// [`JointTrig`], which contains them.
 ///
 /// Several algorithms at one configuration share a [`JointTrig`]:
 ///
@@ -62,8 +63,8 @@ impl<R, const Q: usize> Configuration<R, Q> for JointTrig<R, Q> {
     }
 }
 
-/// A source of the sines and cosines of a configuration. It is a trait, since a closure would not be inlined
-/// everywhere.
+/// A source of the sines and cosines of a configuration. It is a trait, since a closure would not
+/// be inlined everywhere.
 #[doc(hidden)]
 pub trait TrigSource<R, const Q: usize> {
     /// The sines and cosines at q.
@@ -84,8 +85,8 @@ where
     }
 }
 
-/// A state q, q̇, q̈: a reference to a [`State`], whose sines and cosines are computed by the callee, or
-/// [`JointTrig::with`], which contains them.
+/// A state q, q̇, q̈: a reference to a [`State`], whose sines and cosines are computed by the
+/// callee, or [`JointTrig::with`], which contains them.
 ///
 /// ```
 /// use dynamics_core::{Engine, effects::{Coriolis, Gravity}, robots::Ur5e, state::State};
@@ -158,7 +159,8 @@ impl<R, const Q: usize, const V: usize> RobotState<R, Q, V> for StateWithTrig<'_
 }
 
 impl<R, const Q: usize> JointTrig<R, Q> {
-    /// The state with these sines and cosines as its configuration's. `state.q` is used by the effects of joints only.
+    /// The state with these sines and cosines as its configuration's. `state.q` is used by the
+    /// effects of joints only.
     #[cfg_attr(optimised, inline(always))]
     #[must_use]
     pub fn with<'a, const V: usize>(

@@ -8,14 +8,16 @@ use crate::state::JointTrig;
 
 /// The sines and cosines of N joints that move by small angles in each tick.
 ///
-/// In each tick each pair is rotated by Δ = q − q₋ with Taylor's polynomials of degree 3 and 2, but for the pair of one
-/// joint, which is computed from its angle: each joint in turn, so that an error lives for N ticks at most. Without that, increments
-/// below the rounding of a sine were all rounded in one direction, and the angle drifted without bound: at rest between two
-/// readings by 0.19 rad in 10⁷ ticks.
+/// In each tick each pair is rotated by Δ = q − q₋ with Taylor's polynomials of degree 3 and 2, but
+/// for the pair of one joint, which is computed from its angle: each joint in turn, so that an
+/// error lives for N ticks at most. Without that, increments below the rounding of a sine were all
+/// rounded in one direction, and the angle drifted without bound: at rest between two readings by
+/// 0.19 rad in 10⁷ ticks.
 ///
-/// Angles: |Δ| < 0.02 rad. Then sines and cosines are off by at most N · 1.5 · 10⁻⁷ in f32 and N · 7 · 10⁻⁹ in f64, after any number
-/// of ticks. If the angle of a joint jumps by 0.5 rad or more, or is NaN, the entry is not updated: its `q` remains the angle
-/// of its sine and cosine, and a single wrong reading has no effect. After a real jump, call [`IncrementalTrig::at`].
+/// Angles: |Δ| < 0.02 rad. Then sines and cosines are off by at most N · 1.5 · 10⁻⁷ in f32 and N ·
+/// 7 · 10⁻⁹ in f64, after any number of ticks. If the angle of a joint jumps by 0.5 rad or more, or
+/// is NaN, the entry is not updated: its `q` remains the angle of its sine and cosine, and a single
+/// wrong reading has no effect. After a real jump, call [`IncrementalTrig::at`].
 ///
 /// # Cost
 /// 15 flops per joint and one sine and cosine, with the same instructions for all data.

@@ -1,8 +1,9 @@
 //! The configuration manifold: q is not always a vector, nor q̇ always its derivative.
 //!
-//! Continuous joints return to the same place after a turn, and attitudes are unit quaternions: a step along q̇ and the
-//! difference of two configurations are exponentials and logarithms, joint by joint. For joints of one axis they are a
-//! sum and a difference. Meant for simulation and planning: nothing here is in the control tick.
+//! Continuous joints return to the same place after a turn, and attitudes are unit quaternions: a
+//! step along q̇ and the difference of two configurations are exponentials and logarithms, joint by
+//! joint. For joints of one axis they are a sum and a difference. Meant for simulation and
+//! planning: nothing here is in the control tick.
 
 use core::fmt;
 
@@ -58,9 +59,9 @@ where
 
 /// The configuration q ⊕ δ after a unit of time at the constant velocity δ, rad and m.
 ///
-/// Exact for every joint: quaternions by the exponential of SO(3), free joints of SE(3), planar ones of
-/// SE(2); they come out at unit length within two units in the last place, after any number of steps.
-/// `integrate(robot, q, q̇·h)` is a step of h seconds.
+/// Exact for every joint: quaternions by the exponential of SO(3), free joints of SE(3), planar
+/// ones of SE(2); they come out at unit length within two units in the last place, after any number
+/// of steps. `integrate(robot, q, q̇·h)` is a step of h seconds.
 ///
 /// ```
 /// use dynamics_core::{state::manifold::{integrate, neutral}, model::{BASE, Body, Joint, Model}};
@@ -110,8 +111,9 @@ where
 
 /// The velocity q₁ ⊖ q₀ that leads from q₀ to q₁ in a unit of time, along the shorter rotation.
 ///
-/// `integrate(robot, q0, difference(robot, q0, q1))` is q₁ (a turn without end: its place; a quaternion: up to sign).
-/// Between attitudes that differ by half a turn there are two shortest rotations, of which this is one.
+/// `integrate(robot, q0, difference(robot, q0, q1))` is q₁ (a turn without end: its place; a
+/// quaternion: up to sign). Between attitudes that differ by half a turn there are two shortest
+/// rotations, of which this is one.
 ///
 /// ```
 /// use dynamics_core::{state::manifold::difference, model::{BASE, Body, Joint, Model}};
@@ -164,13 +166,14 @@ where
     out
 }
 
-/// Brings every quaternion of q to unit length, within two units in the last place, however far it has drifted,
-/// and every turn without end to the same place within ±π, where its last digits are worth most: a wheel that
-/// has turned sixty times has lost seven bits. What lies there already keeps its bits.
+/// Brings every quaternion of q to unit length, within two units in the last place, however far it
+/// has drifted, and every turn without end to the same place within ±π, where its last digits are
+/// worth most: a wheel that has turned sixty times has lost seven bits. What lies there already
+/// keeps its bits.
 ///
 /// # Errors
-/// [`NoAttitude`] names the first that is zero (or so small that its square is) or not a number; what
-/// stands before it in q is normalised, it and the rest are left.
+/// [`NoAttitude`] names the first that is zero (or so small that its square is) or not a number;
+/// what stands before it in q is normalised, it and the rest are left.
 ///
 /// ```
 /// use dynamics_core::{state::manifold::normalise, model::{BASE, Body, Joint, Model}};
@@ -225,11 +228,11 @@ fn put<R: Real>(out: &mut [R], at: usize, values: &[R]) {
     }
 }
 
-/// The same angle, rad, moved by whole turns to within half a turn of `to`: of two points on a circle, the short way is
-/// `nearest_turn(angle, to) − to`.
+/// The same angle, rad, moved by whole turns to within half a turn of `to`: of two points on a
+/// circle, the short way is `nearest_turn(angle, to) − to`.
 ///
-/// An angle that is there already keeps its bits, and so does one that is not finite; 10⁸ turns at most. The subtraction of
-/// the turns is off by less than a rounding of them.
+/// An angle that is there already keeps its bits, and so does one that is not finite; 10⁸ turns at
+/// most. The subtraction of the turns is off by less than a rounding of them.
 ///
 /// ```
 /// use core::f32::consts::TAU;

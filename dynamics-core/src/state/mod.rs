@@ -62,7 +62,8 @@ pub fn all_finite<R: Real>(values: &[R]) -> bool {
     sum == R::ZERO
 }
 
-/// The coordinates of all joints with their sines and cosines: computed once a tick, for all algorithms.
+/// The coordinates of all joints with their sines and cosines: computed once a tick, for all
+/// algorithms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointTrig<R, const Q: usize> {
     /// One entry per position coordinate.
@@ -72,9 +73,10 @@ pub struct JointTrig<R, const Q: usize> {
 impl<R: Real, const Q: usize> JointTrig<R, Q> {
     /// The sines and cosines of `robot` at q, by the robot's kernel; quaternions at unit length.
     ///
-    /// With the default kernel, in f32: absolute error below 1.2·10⁻⁷ while |q| ≤ 10⁴ rad. A quaternion whose
-    /// square is 1 + ε, |ε| < 1/8, comes to unit length within 3ε²/8, any other within rounding; those whose direction
-    /// matters first go through [`crate::state::manifold::normalise`]. The quaternion zero, which has no direction, is
+    /// With the default kernel, in f32: absolute error below 1.2·10⁻⁷ while |q| ≤ 10⁴ rad. A
+    /// quaternion whose square is 1 + ε, |ε| < 1/8, comes to unit length within 3ε²/8, any other
+    /// within rounding; those whose direction matters first go through
+    /// [`crate::state::manifold::normalise`]. The quaternion zero, which has no direction, is
     /// replaced by no rotation, so that [`State::at`] of zeros is a valid state.
     #[cfg_attr(optimised, inline(always))]
     #[must_use]
@@ -85,7 +87,8 @@ impl<R: Real, const Q: usize> JointTrig<R, Q> {
         Self::with_kernel::<D::Kernel, D, B, V>(robot, q)
     }
 
-    /// As [`Self::new`], with the kernel K in place of the robot's own: for models loaded at run time.
+    /// As [`Self::new`], with the kernel K in place of the robot's own: for models loaded at run
+    /// time.
     ///
     /// ```
     /// use dynamics_core::{model::Robot, robots::Ur5e, state::JointTrig, trig::Table};

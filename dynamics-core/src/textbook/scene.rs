@@ -26,8 +26,8 @@ macro_rules! scene {
 
 impl<T, K> Core<T, K> {
     scene! {
-        /// The same `effects`, checked as a scene of this robot in f32 at the line of the caller, as by
-        /// [`Engine::scene_f32`](crate::Engine::scene_f32), for the textbook algorithms.
+        /// The same `effects`, checked as a scene of this robot in f32 at the line of the caller,
+        /// as by [`Engine::scene_f32`](crate::Engine::scene_f32), for the textbook algorithms.
         ///
         /// ```
         /// use dynamics_core::{Core, effects::{Gravity, GyroscopicRotors}, robots::Ur5e};
@@ -37,7 +37,8 @@ impl<T, K> Core<T, K> {
         /// ```
         ///
         /// # Panics
-        /// If the scene is one that the textbook algorithms do not take: a compile error in a `const` item.
+        /// If the scene is one that the textbook algorithms do not take: a compile error in a
+        /// `const` item.
         scene_f32 f32
     }
 

@@ -20,14 +20,16 @@ pub trait Kernel<R> {
     /// (sin x, cos x) of x in rad.
     fn sin_cos(x: R) -> (R, R);
 
-    /// (sin x, cos x) of x in rad, |x| ≤ 100: [`crate::Engine`] uses it for joints whose limits lie within ±4π.
+    /// (sin x, cos x) of x in rad, |x| ≤ 100: [`crate::Engine`] uses it for joints whose limits lie
+    /// within ±4π.
     #[cfg_attr(optimised, inline(always))]
     fn sin_cos_near(x: R) -> (R, R) {
         Self::sin_cos(x)
     }
 }
 
-/// The rest r of a reduction, or nothing if that was not `inside` its range: 0 of a finite x, NaN of others.
+/// The rest r of a reduction, or nothing if that was not `inside` its range: 0 of a finite x, NaN
+/// of others.
 ///
 /// Without a branch: the compiler would make one of an `if`.
 #[allow(
@@ -39,9 +41,10 @@ pub(super) fn bounded(r: f32, inside: bool, x: f32) -> f32 {
     core::hint::select_unpredictable(inside, r, x - x)
 }
 
-/// Whether the processor computes several numbers at once, so that sines of several joints together take less time than one by
-/// one.
+/// Whether the processor computes several numbers at once, so that sines of several joints together
+/// take less time than one by one.
 pub(crate) const VECTORS: bool = cfg!(any(target_feature = "sse2", target_feature = "neon"));
 
-/// Whether the processor has gathers, which load several numbers at once, each from an address of its own.
+/// Whether the processor has gathers, which load several numbers at once, each from an address of
+/// its own.
 pub(super) const GATHERS: bool = cfg!(target_feature = "avx2");

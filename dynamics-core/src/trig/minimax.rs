@@ -3,8 +3,8 @@
 use super::Kernel;
 use super::kernel::bounded;
 
-/// Sine by a polynomial of degree `DEGREE` (3, 5 or 7), cosine by one of a degree more, of x − k π/2 with π/2 in
-/// `PARTS` (2 or 3) parts.
+/// Sine by a polynomial of degree `DEGREE` (3, 5 or 7), cosine by one of a degree more, of x − k
+/// π/2 with π/2 in `PARTS` (2 or 3) parts.
 ///
 /// | degree | error of the polynomials |
 /// |---|---|
@@ -12,9 +12,9 @@ use super::kernel::bounded;
 /// | 5 | 10⁻⁶ |
 /// | 7 | 3·10⁻⁹, below rounding |
 ///
-/// Two parts suffice up to ±100 rad, three up to 10⁴; for other x the results are within ±1, see [`crate::trig`]. Cost:
-/// the same instructions for all x. Source: as [`crate::trig`]; the coefficients are printed by
-/// `host-tests/oracle/minimax.py`.
+/// Two parts suffice up to ±100 rad, three up to 10⁴; for other x the results are within ±1, see
+/// [`crate::trig`]. Cost: the same instructions for all x. Source: as [`crate::trig`]; the
+/// coefficients are printed by `host-tests/oracle/minimax.py`.
 ///
 /// ```
 /// use dynamics_core::trig::{Kernel, Minimax};

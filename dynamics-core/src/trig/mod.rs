@@ -1,18 +1,20 @@
 //! Sine and cosine without branches, and in f32 without f64.
 //!
-//! Cody and Waite, *Software Manual for the Elementary Functions* (1980): x = k s + r with the step s in parts whose
-//! products with k are exact. In f32 s is a 128th of a turn, whose sine and cosine are in a [`Table`], and Taylor's
-//! polynomials of degree 3 and 2 go on from there; in f64 it is π/2, with minimax polynomials of degree 13 and 14 on
+//! Cody and Waite, *Software Manual for the Elementary Functions* (1980): x = k s + r with the step
+//! s in parts whose products with k are exact. In f32 s is a 128th of a turn, whose sine and cosine
+//! are in a [`Table`], and Taylor's polynomials of degree 3 and 2 go on from there; in f64 it is
+//! π/2, with minimax polynomials of degree 13 and 14 on
 //! |r| ≤ π/4. `libm::sinf` computes in f64, which the FPU of a Cortex-M4F does not have: 30 times the cost.
 //!
-//! For a finite angle beyond the range of a kernel, sine and cosine are meaningless but within ±1: a wrong reading of
-//! an encoder causes a wrong torque, but not one that is a million times too large. For an infinite angle or NaN both
-//! are NaN, and so are the results computed from them; the gate of the control loop rejects such measurements.
+//! For a finite angle beyond the range of a kernel, sine and cosine are meaningless but within ±1:
+//! a wrong reading of an encoder causes a wrong torque, but not one that is a million times too
+//! large. For an infinite angle or NaN both are NaN, and so are the results computed from them; the
+//! gate of the control loop rejects such measurements.
 //!
-//! Other approximations, such as less accurate ones, are types that implement [`Kernel`] and a parameter of
-//! [`crate::Engine`] and [`crate::Core`]: `Engine::<Ur5e, Table<256, 1>>`. The cost and error of each are in
-//! `docs/accuracy.md` in the repository, and the reasons for the default in
-//! `docs/decisions/0005-sines-from-a-table.md`.
+//! Other approximations, such as less accurate ones, are types that implement [`Kernel`] and a
+//! parameter of [`crate::Engine`] and [`crate::Core`]: `Engine::<Ur5e, Table<256, 1>>`. The cost
+//! and error of each are in `docs/accuracy.md` in the repository, and the reasons for the default
+//! in `docs/decisions/0005-sines-from-a-table.md`.
 
 mod kernel;
 mod minimax;
@@ -25,8 +27,8 @@ pub use table::Table;
 
 /// (sin x, cos x) of x in rad, |x| ≤ 10⁴: absolute error below 10⁻⁷.
 ///
-/// Beyond 10⁴ rad accuracy is lost gradually; beyond 2·10⁵ rad the result is meaningless but within ±1. NaN for an
-/// infinite x and for NaN. Cost: the same instructions for all x. Flash: 1 kB, once.
+/// Beyond 10⁴ rad accuracy is lost gradually; beyond 2·10⁵ rad the result is meaningless but within
+/// ±1. NaN for an infinite x and for NaN. Cost: the same instructions for all x. Flash: 1 kB, once.
 ///
 /// ```
 /// let (s, c) = dynamics_core::trig::sin_cos(0.5);
@@ -39,8 +41,8 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
 
 /// (sin x, cos x) of x in rad for joints that stay within ±100 rad: absolute error below 10⁻⁷.
 ///
-/// The reduction has two parts instead of four; beyond ±100 rad, see [`sin_cos`]. The engine uses it for joints whose
-/// limits lie within ±4π. Cost: the same instructions for all x.
+/// The reduction has two parts instead of four; beyond ±100 rad, see [`sin_cos`]. The engine uses
+/// it for joints whose limits lie within ±4π. Cost: the same instructions for all x.
 ///
 /// ```
 /// let (s, c) = dynamics_core::trig::sin_cos_near(-3.0);
@@ -53,11 +55,11 @@ pub fn sin_cos_near(x: f32) -> (f32, f32) {
 
 /// (sin x, cos x) in f64 of x in rad, |x| ≤ 10⁵: absolute error below 3·10⁻¹⁶.
 ///
-/// Beyond 10⁵ rad accuracy is lost gradually; beyond 3·10⁹ rad the result is meaningless but within ±1. NaN for an
-/// infinite x and for NaN.
+/// Beyond 10⁵ rad accuracy is lost gradually; beyond 3·10⁹ rad the result is meaningless but within
+/// ±1. NaN for an infinite x and for NaN.
 ///
-/// The coefficients are those of fdlibm's kernels (Sun Microsystems, 1993); unlike fdlibm and its descendants it has no
-/// branches, so that compilers can vectorise it over joints.
+/// The coefficients are those of fdlibm's kernels (Sun Microsystems, 1993); unlike fdlibm and its
+/// descendants it has no branches, so that compilers can vectorise it over joints.
 ///
 /// ```
 /// let (s, c) = dynamics_core::trig::sin_cos_f64(2.0);

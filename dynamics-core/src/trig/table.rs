@@ -4,8 +4,9 @@ use super::Kernel;
 use super::kernel::{GATHERS, bounded};
 use crate::math::const_eval;
 
-/// Sine and cosine of the nearest of `N` (a power of two) angles of a turn, turned on by the rest r, |r| ≤ π/N, by
-/// Taylor's polynomials up to the order `ORDER`: 1 (linear interpolation along the tangent), 2, 3 or 4.
+/// Sine and cosine of the nearest of `N` (a power of two) angles of a turn, turned on by the rest
+/// r, |r| ≤ π/N, by Taylor's polynomials up to the order `ORDER`: 1 (linear interpolation along the
+/// tangent), 2, 3 or 4.
 ///
 /// | entries, order | flash | error |
 /// |---|---|---|
@@ -14,11 +15,12 @@ use crate::math::const_eval;
 /// | 128, 3 | 1 kB | 8·10⁻⁸, of which 6·10⁻⁸ are rounding |
 /// | 64, 4 | 512 B | 7·10⁻⁸ |
 ///
-/// Multiples of the table's step are subtracted from x in `PARTS` parts: 2 suffice up to ±100 rad, 4 up to 10⁴ for up
-/// to 128 entries. For other x the results are within ±1 (for orders 1 and 2 within ±1.05), see [`crate::trig`]. Cost:
-/// the same instructions for all x, of which two load neighbouring words from flash and take longer with wait states.
-/// Source: Gal, "Computing elementary functions: a new approach for achieving high accuracy and good performance"
-/// (1986), with equidistant entries; parts as in [`crate::trig`].
+/// Multiples of the table's step are subtracted from x in `PARTS` parts: 2 suffice up to ±100 rad,
+/// 4 up to 10⁴ for up to 128 entries. For other x the results are within ±1 (for orders 1 and 2
+/// within ±1.05), see [`crate::trig`]. Cost: the same instructions for all x, of which two load
+/// neighbouring words from flash and take longer with wait states. Source: Gal, "Computing
+/// elementary functions: a new approach for achieving high accuracy and good performance" (1986),
+/// with equidistant entries; parts as in [`crate::trig`].
 ///
 /// ```
 /// use dynamics_core::trig::{Kernel, Table};
@@ -62,8 +64,8 @@ impl<const N: usize, const ORDER: usize, const PARTS: usize> Table<N, ORDER, PAR
         entries
     };
 
-    /// The same entries as words, the sine in the low half: LLVM loads sines and cosines of several angles by one gather, where it takes a
-    /// second one for the cosines of pairs.
+    /// The same entries as words, the sine in the low half: LLVM loads sines and cosines of several
+    /// angles by one gather, where it takes a second one for the cosines of pairs.
     const WORDS: [u64; N] = {
         let (mut words, mut k) = ([0; N], 0);
         while k < N {
@@ -74,7 +76,8 @@ impl<const N: usize, const ORDER: usize, const PARTS: usize> Table<N, ORDER, PAR
         words
     };
 
-    /// 2π/N in parts, all but the last so short that they are exact times k: 11 bits for |k| < 2¹³, 6 for 2¹⁸.
+    /// 2π/N in parts, all but the last so short that they are exact times k: 11 bits for |k| < 2¹³,
+    /// 6 for 2¹⁸.
     const STEP: [f32; PARTS] = {
         let short = if PARTS == 2 { 0x1fff } else { 0x3_ffff };
         let mut rest = core::f64::consts::TAU / N as f64;
@@ -101,8 +104,8 @@ impl<const N: usize, const ORDER: usize, const PARTS: usize> Kernel<f32>
     fn sin_cos(x: f32) -> (f32, f32) {
         // As in `minimax`: rounds, and leaves the integer in the low bits.
         const ROUND: f32 = 12_582_912.0;
-        // None of these bits is set while t is between 2²³ and 2²⁴, some are once it is beyond 2²⁵ or negative; what
-        // lies between leaves |r| < 1/4.
+        // None of these bits is set while t is between 2²³ and 2²⁴, some are once it is beyond 2²⁵
+        // or negative; what lies between leaves |r| < 1/4.
         const OUTSIDE: u32 = 0xb400_0000;
         let t = x * const { (N as f64 / core::f64::consts::TAU) as f32 } + ROUND;
         let (k, at) = (t - ROUND, t.to_bits() as usize & (N - 1));

@@ -1,5 +1,5 @@
-//! Runs the scene [`ur5e`](firmware_demo::scenes::ur5e) without end and sends its telemetry over the serial port: what
-//! `cargo xtask watch` shows.
+//! Runs the scene [`ur5e`](firmware_demo::scenes::ur5e) without end and sends its telemetry over
+//! the serial port: what `cargo xtask watch` shows.
 #![no_std]
 #![no_main]
 

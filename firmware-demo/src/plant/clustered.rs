@@ -8,7 +8,8 @@ use dynamics_core::state::{RobotState, State};
 
 use super::Simulated;
 
-/// A robot of B bodies and V tree coordinates whose loops leave N independent ones, y, and that N motors drive.
+/// A robot of B bodies and V tree coordinates whose loops leave N independent ones, y, and that N
+/// motors drive.
 #[derive(Debug)]
 pub struct ClusterPlant<T, E, const B: usize, const V: usize, const N: usize>
 where
@@ -27,7 +28,8 @@ where
     T: ClusteredRobot<B, V, V, N, N>,
     E: Effect<f32, B, V>,
 {
-    /// A robot at rest at y. Where no configuration closes its loops, the motors are at 0 and the first step fails.
+    /// A robot at rest at y. Where no configuration closes its loops, the motors are at 0 and the
+    /// first step fails.
     pub fn new(robot: Calibrated<T, f32, B, V, V>, effects: E, y: [f32; N]) -> Self {
         let y = State::at(y);
         let motion = Clustered::<Core<T>>::motion(&y).ok();
@@ -39,8 +41,8 @@ where
         }
     }
 
-    /// One step as [`linearly_implicit`](dynamics_core::sim::linearly_implicit()) takes it, of y: effects of the
-    /// tree's joints are those of the step's end.
+    /// One step as [`linearly_implicit`](dynamics_core::sim::linearly_implicit()) takes it, of y:
+    /// effects of the tree's joints are those of the step's end.
     fn advance(&mut self, torque: &[f32; N], h: f32) -> Result<(), ForwardError> {
         let motion = match &self.motion {
             Some(motion) => motion,

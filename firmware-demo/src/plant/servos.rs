@@ -6,7 +6,8 @@ use dynamics_core::model::Robot;
 
 use super::{Plant, Simulated};
 
-/// A robot of B bodies, each on the gear of a servo. Commands are the torques that the voltages would give at rest.
+/// A robot of B bodies, each on the gear of a servo. Commands are the torques that the voltages
+/// would give at rest.
 #[derive(Debug)]
 pub struct ServoPlant<T, E, const B: usize> {
     /// The robot under the servos' torques.

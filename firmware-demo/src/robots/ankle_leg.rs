@@ -7,9 +7,9 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robo
 
 /// Knee and ankle, 4.4 kg, 0.35 m: two motors at the shank pitch and roll the foot by rods.
 ///
-/// The numbers are assumed, of the size of legs of humanoids. The tree's coordinates are the knee, pitch and roll of
-/// the ankle, and for each motor its crank and the two of its rod; the independent ones knee, pitch, roll. The rods are
-/// bodies.
+/// The numbers are assumed, of the size of legs of humanoids. The tree's coordinates are the knee,
+/// pitch and roll of the ankle, and for each motor its crank and the two of its rod; the
+/// independent ones knee, pitch, roll. The rods are bodies.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct AnkleLeg;
 

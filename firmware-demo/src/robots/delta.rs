@@ -1,4 +1,5 @@
-//! A Delta robot (Clavel, 1988) with its six rods: each on a universal joint at its crank and a ball at the platform.
+//! A Delta robot (Clavel, 1988) with its six rods: each on a universal joint at its crank and a
+//! ball at the platform.
 
 use dynamics_core::loops::{BodyFrame, LoopJoint, LoopRobot, Loops};
 use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
@@ -7,8 +8,8 @@ use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
 #[derive(Clone, Copy, Debug)]
 pub struct Delta;
 
-/// The same with rods that lie in the plane of the platform while the cranks are level: these then do
-/// not hold the platform.
+/// The same with rods that lie in the plane of the platform while the cranks are level: these then
+/// do not hold the platform.
 #[derive(Clone, Copy, Debug)]
 pub struct FlatDelta;
 

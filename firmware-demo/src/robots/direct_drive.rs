@@ -4,11 +4,12 @@ use core::f64::consts::PI;
 
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
-/// Three joints: a turret about z, a shoulder about y, and the roll of a cranked forearm about the upper arm;
-/// 7.2 kg, 0.5 m reach. All numbers are assumed, of the size of direct-drive and quasi-direct-drive arms.
+/// Three joints: a turret about z, a shoulder about y, and the roll of a cranked forearm about the
+/// upper arm; 7.2 kg, 0.5 m reach. All numbers are assumed, of the size of direct-drive and
+/// quasi-direct-drive arms.
 ///
-/// A link's mass and inertia count the rotor of the motor that it carries: the turret that of the shoulder,
-/// the upper arm that of the roll.
+/// A link's mass and inertia count the rotor of the motor that it carries: the turret that of the
+/// shoulder, the upper arm that of the roll.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DirectDrive;
 

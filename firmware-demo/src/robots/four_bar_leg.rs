@@ -5,12 +5,13 @@ use core::f64::consts::{FRAC_PI_2, PI};
 use dynamics_core::clusters::{Branch, ClusteredRobot, Driven, FourBar};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
-/// Hip, knee and ankle in one plane, 7.2 kg, 0.7 m: a crank at the hip drives the knee by a rod behind the thigh's
-/// front.
+/// Hip, knee and ankle in one plane, 7.2 kg, 0.7 m: a crank at the hip drives the knee by a rod
+/// behind the thigh's front.
 ///
-/// The numbers are assumed, of the size of legs of humanoids. All joints turn about y; straight down at q = 0, crank
-/// and the shank's lever point forward. The tree's coordinates are hip, crank, rod, knee, ankle; the independent ones
-/// hip, crank, ankle. The loop is cut between the ends of rod and lever.
+/// The numbers are assumed, of the size of legs of humanoids. All joints turn about y; straight
+/// down at q = 0, crank and the shank's lever point forward. The tree's coordinates are hip, crank,
+/// rod, knee, ankle; the independent ones hip, crank, ankle. The loop is cut between the ends of
+/// rod and lever.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FourBarLeg;
 

@@ -5,25 +5,26 @@ use core::f64::consts::PI;
 use dynamics_core::clusters::{Branch, ClusteredRobot, Driven, ParallelAnkle, Rod};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
-/// Knee and ankle of a Unitree G1, 2.8 kg, its thigh held upright: a motor at the knee, and two at the shank that pitch
-/// and roll the foot by rods.
+/// Knee and ankle of a Unitree G1, 2.8 kg, its thigh held upright: a motor at the knee, and two at
+/// the shank that pitch and roll the foot by rods.
 ///
 /// # Source
 ///
 /// - Masses, inertias, and ranges of the left knee, cross and foot: those of
 ///   [`G1`](dynamics_core::robots::G1), which names its source.
-/// - Motors: torques and speeds (7520-22 at the knee: 139 N·m, 20 rad/s; 5020 at the ankle, two of them: 25 N·m, 37 rad/s)
-///   are those of mujocolab/mjlab, `g1_constants.py` ("Motor specs (from Unitree)"), Apache-2.0.
+/// - Motors: torques and speeds (7520-22 at the knee: 139 N·m, 20 rad/s; 5020 at the ankle, two of
+///   them: 25 N·m, 37 rad/s) are those of mujocolab/mjlab, `g1_constants.py` ("Motor specs (from
+///   Unitree)"), Apache-2.0.
 ///
 /// # Changed
 ///
-/// The source's roll axis is 17.6 mm below its pitch axis; here they meet at the pitch axis, with the foot in its
-/// place.
+/// The source's roll axis is 17.6 mm below its pitch axis; here they meet at the pitch axis, with
+/// the foot in its place.
 ///
 /// # Assumed
 ///
-/// The source has no rods. Their lengths and places fit the shank; the cranks and rods have 0.2 kg together, which the
-/// source counts with the shank. The range of the cranks follows.
+/// The source has no rods. Their lengths and places fit the shank; the cranks and rods have 0.2 kg
+/// together, which the source counts with the shank. The range of the cranks follows.
 ///
 /// The tree's coordinates are those of [`AnkleLeg`](super::AnkleLeg).
 #[derive(Clone, Copy, Debug, Default)]
@@ -130,7 +131,8 @@ impl ClusteredRobot<9, 9, 9, 3, 3> for G1Ankle {
 
 const _: ArmModel<f64, 9> = G1Ankle::MODEL;
 
-/// The same leg as a chain of joints, without cranks and rods: a model that controllers and simulations often use.
+/// The same leg as a chain of joints, without cranks and rods: a model that controllers and
+/// simulations often use.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SerialAnkle;
 

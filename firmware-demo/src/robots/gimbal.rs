@@ -4,11 +4,12 @@ use core::f64::consts::PI;
 
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
-/// A camera of 22 kg that pans on a table, which a roll and a pitch axis keep level: 40 kg of moving mass.
+/// A camera of 22 kg that pans on a table, which a roll and a pitch axis keep level: 40 kg of
+/// moving mass.
 ///
-/// The numbers are ours, of the size of stabilised ship-borne cameras and small antennas. The axes meet in a
-/// point; the camera's centre of mass is 8 cm above it and 4 cm beside the pan axis. At q = 0 the axes are
-/// x, y and z of the base: forward, to port, up.
+/// The numbers are ours, of the size of stabilised ship-borne cameras and small antennas. The axes
+/// meet in a point; the camera's centre of mass is 8 cm above it and 4 cm beside the pan axis. At q
+/// = 0 the axes are x, y and z of the base: forward, to port, up.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Gimbal;
 

@@ -3,11 +3,11 @@
 use dynamics_core::model::{BASE, Body, Joint, Model, Robot, attach_to};
 use dynamics_core::robots::A1;
 
-/// The front right leg of a Unitree A1 on a carriage that glides up and down a rail: a slide without a drive,
-/// then hip, thigh and calf, and the foot on a fixed joint.
+/// The front right leg of a Unitree A1 on a carriage that glides up and down a rail: a slide
+/// without a drive, then hip, thigh and calf, and the foot on a fixed joint.
 ///
-/// The leg's numbers are those of [`A1::LEG`]; the carriage weighs a quarter of that robot's trunk. The base
-/// frame stands on the floor: z up, the carriage's origin at the height of its position.
+/// The leg's numbers are those of [`A1::LEG`]; the carriage weighs a quarter of that robot's trunk.
+/// The base frame stands on the floor: z up, the carriage's origin at the height of its position.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Leg;
 

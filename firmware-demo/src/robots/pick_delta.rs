@@ -5,26 +5,28 @@ use core::f64::consts::{PI, TAU};
 use dynamics_core::clusters::{ClusteredRobot, Delta, Driven};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
-/// The three main axes of an Autonox24 RL5-1450-6kg, a Delta robot with a working range of 1450 mm, and 1 kg of gripper
-/// and part.
+/// The three main axes of an Autonox24 RL5-1450-6kg, a Delta robot with a working range of 1450 mm,
+/// and 1 kg of gripper and part.
 ///
 /// # Source
 ///
-/// testbedCIIRC/delta-robot-public (Alikoc, Sustr, Zitek, Rehorik, Burget & Lomakin, *Motion Modelling and Simulation
-/// of a 5-Axis Industrial Delta Robot*), whose numbers are from the robot's CAD model:
-/// `Basic_3DoF_Delta_Dynamic_Param.m` (lengths, the gears' ratio) and `RL5_6kg_Inertia_Mass.m` (masses, inertias). No
-/// licence is stated; these are the numbers alone.
+/// testbedCIIRC/delta-robot-public (Alikoc, Sustr, Zitek, Rehorik, Burget & Lomakin, *Motion
+/// Modelling and Simulation of a 5-Axis Industrial Delta Robot*), whose numbers are from the
+/// robot's CAD model: `Basic_3DoF_Delta_Dynamic_Param.m` (lengths, the gears' ratio) and
+/// `RL5_6kg_Inertia_Mass.m` (masses, inertias). No licence is stated; these are the numbers alone.
 ///
 /// # Changed
 ///
-/// As in the source's basic model the shafts, the wrist and the flange of the two other axes are left out. An arm is
-/// its beam of 3.47 kg with its centre 172 mm from the joint, and the pin of 0.226 kg at its end; the source's inertia
-/// of both about the joint is 0.208 kg·m². A pair of rods is one body, as [`Delta`] has it.
+/// As in the source's basic model the shafts, the wrist and the flange of the two other axes are
+/// left out. An arm is its beam of 3.47 kg with its centre 172 mm from the joint, and the pin of
+/// 0.226 kg at its end; the source's inertia of both about the joint is 0.208 kg·m². A pair of rods
+/// is one body, as [`Delta`] has it.
 ///
 /// # Assumed
 ///
-/// Gripper and part, and a centre of the platform 20 mm off its rods' plane. Of the drives the ranges, the speed of
-/// 4,200 turns a minute before the gear, and the torque, of the size of a servo motor of 1 kW.
+/// Gripper and part, and a centre of the platform 20 mm off its rods' plane. Of the drives the
+/// ranges, the speed of 4,200 turns a minute before the gear, and the torque, of the size of a
+/// servo motor of 1 kW.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PickDelta;
 

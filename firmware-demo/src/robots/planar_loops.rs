@@ -1,11 +1,13 @@
-//! Planar linkages, described in space: a loop joint that turns about y then has three redundant rows.
+//! Planar linkages, described in space: a loop joint that turns about y then has three redundant
+//! rows.
 
 use dynamics_core::loops::{BodyFrame, LoopJoint, LoopRobot, Loops};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
 
-/// Lengths of crank, coupler, rocker and ground of the four-bar linkage, m: the crank turns without end.
+/// Lengths of crank, coupler, rocker and ground of the four-bar linkage, m: the crank turns without
+/// end.
 pub const FOUR_BAR: [f64; 4] = [0.2, 0.5, 0.4, 0.6];
 
 /// A four-bar linkage in which the crank has a motor.

@@ -4,11 +4,12 @@ use core::f64::consts::{PI, TAU};
 
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
-/// A SCARA that serves a table: three vertical revolute axes, 325 mm + 275 mm, its quill locked at half
-/// its stroke with 2 kg of hand and part, held off the axis.
+/// A SCARA that serves a table: three vertical revolute axes, 325 mm + 275 mm, its quill locked at
+/// half its stroke with 2 kg of hand and part, held off the axis.
 ///
-/// Our own numbers, of the size of common 600 mm machines: reach, ranges and speeds as in their data sheets,
-/// masses and torques as their weight and motors suggest. The motors of quill and elbow sit on the forearm.
+/// Our own numbers, of the size of common 600 mm machines: reach, ranges and speeds as in their
+/// data sheets, masses and torques as their weight and motors suggest. The motors of quill and
+/// elbow sit on the forearm.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Scara;
 

@@ -30,8 +30,8 @@ impl<R: Real> Swing<R> {
     }
 }
 
-/// A ship that yaws, pitches and rolls (by ψ about z, then θ about y, then φ about x: forward, to port, up) and
-/// heaves, about the point that all of this leaves at rest.
+/// A ship that yaws, pitches and rolls (by ψ about z, then θ about y, then φ about x: forward, to
+/// port, up) and heaves, about the point that all of this leaves at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ship<R: Real> {
     /// φ, rad.
@@ -58,10 +58,11 @@ impl<R: Real> Ship<R> {
         }
     }
 
-    /// The measurement of the mast's inertial unit after t seconds: gravity and the motion of the mast's foot, in the
-    /// ship's coordinates.
+    /// The measurement of the mast's inertial unit after t seconds: gravity and the motion of the
+    /// mast's foot, in the ship's coordinates.
     ///
-    /// RBDA (2008), (2.42) in its angular part, from axis to axis: ω' = E ω + e q̇, ω̇' = E ω̇ + e q̈ + E ω × e q̇.
+    /// RBDA (2008), (2.42) in its angular part, from axis to axis: ω' = E ω + e q̇, ω̇' = E ω̇ + e
+    /// q̈ + E ω × e q̇.
     pub fn measured(&self, t: R) -> (GravityVector<R>, MovingBase<R>) {
         let zero = R::ZERO;
         let (roll, pitch, yaw) = (self.roll.at(t), self.pitch.at(t), self.yaw.at(t));

@@ -5,10 +5,11 @@ use core::f64::consts::PI;
 use dynamics_core::model::{BASE, Body, Joint, JointLimits, Model, Robot};
 use dynamics_core::state::State;
 
-/// A satellite of 140 kg that floats free and carries an arm of 6 joints: 2 m of reach, 23 kg with its hand.
+/// A satellite of 140 kg that floats free and carries an arm of 6 joints: 2 m of reach, 23 kg with
+/// its hand.
 ///
-/// The numbers are ours, of the size of small servicing satellites. The satellite's centre of mass is the
-/// origin of its frame; the arm stands on its top, and lies along x at q = 0.
+/// The numbers are ours, of the size of small servicing satellites. The satellite's centre of mass
+/// is the origin of its frame; the arm stands on its top, and lies along x at q = 0.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SpaceArm;
 

@@ -5,11 +5,13 @@ use core::f64::consts::PI;
 use dynamics_core::clusters::{ClusteredRobot, Driven, Leg, Stewart};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
-/// A platform on six legs, 23.8 kg, with motors at the slides of the legs, which are 0.8 m long at zero.
+/// A platform on six legs, 23.8 kg, with motors at the slides of the legs, which are 0.8 m long at
+/// zero.
 ///
-/// The numbers are assumed, of the size of motion platforms for laboratories. The tree's coordinates are the platform's
-/// position and attitude, and for each leg the two of its universal joint and its slide; the independent ones those of
-/// the platform. Both halves of a leg are bodies.
+/// The numbers are assumed, of the size of motion platforms for laboratories. The tree's
+/// coordinates are the platform's position and attitude, and for each leg the two of its universal
+/// joint and its slide; the independent ones those of the platform. Both halves of a leg are
+/// bodies.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct StewartPlatform;
 

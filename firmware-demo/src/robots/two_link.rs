@@ -3,7 +3,8 @@
 use dynamics_core::flexible::{Beam, BendingRobot, FlexibleLink, Modes, Shape};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Robot};
 
-/// Two beams in a vertical plane: a motor at the end of the first, a gripper at that of the second. Our own numbers.
+/// Two beams in a vertical plane: a motor at the end of the first, a gripper at that of the second.
+/// Our own numbers.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TwoLink;
 

@@ -22,8 +22,8 @@ delegate_effect! {
     |this| { E => *this.0 }
 }
 
-/// The effects of a law as they are in an environment, made anew for each hook: a tuple in memory would hide from the
-/// compiler what of it is constant, and cost its copying.
+/// The effects of a law as they are in an environment, made anew for each hook: a tuple in memory
+/// would hide from the compiler what of it is constant, and cost its copying.
 #[derive(Debug)]
 pub struct Current<'a, S, const B: usize, const Q: usize, const V: usize, const N: usize>(
     pub &'a S::Environment,

@@ -1,4 +1,5 @@
-//! The common parts of scenes of robots with kinematic loops. Their motors are N of the tree's coordinates.
+//! The common parts of scenes of robots with kinematic loops. Their motors are N of the tree's
+//! coordinates.
 
 use core::marker::PhantomData;
 
@@ -50,9 +51,10 @@ where
 
 /// The motors' torques at y, ẏ, ÿ; zero where the loops do not close.
 ///
-/// A [`MotorReference`] of the same y is then NaN, and so is the feedback's torque: the supervisor stops the robot with
-/// [`Fault::Torque`](motion_control::Fault::Torque), which the telemetry shows. The status of motors near a
-/// dead point is not read: the references of the scenes have none.
+/// A [`MotorReference`] of the same y is then NaN, and so is the feedback's torque: the supervisor
+/// stops the robot with [`Fault::Torque`](motion_control::Fault::Torque), which the telemetry
+/// shows. The status of motors near a dead point is not read: the references of the scenes have
+/// none.
 #[inline(always)]
 pub fn inverse<T, E, const B: usize, const V: usize, const N: usize>(
     y: &State<f32, N, N>,
@@ -68,8 +70,8 @@ where
     }
 }
 
-/// A robot at rest at y: that of the scene, or, with noise, one of other masses, of which `disturb` changes the
-/// effects.
+/// A robot at rest at y: that of the scene, or, with noise, one of other masses, of which `disturb`
+/// changes the effects.
 pub fn plant<S, const B: usize, const V: usize, const N: usize>(
     y: [f32; N],
     noise: Option<&mut Noise>,
@@ -102,7 +104,8 @@ where
     })
 }
 
-/// The inertia at each motor at y while the other motors do not move, kg·m²: the diagonal of G_a⁻ᵀ Gᵀ M G G_a⁻¹.
+/// The inertia at each motor at y while the other motors do not move, kg·m²: the diagonal of G_a⁻ᵀ
+/// Gᵀ M G G_a⁻¹.
 ///
 /// # Errors
 /// [`ClusterError`] names the cluster that does not close at y.

@@ -118,8 +118,8 @@ where
         brake,
     } = devices;
     let scales = FullScale::of(S::limits().map(|limit| limit.torque)).map_err(SetupError::Drive)?;
-    // The plants start within half a turn of zero. One mapping for all joints, with the speed of the fastest, takes less
-    // stack than one for each.
+    // The plants start within half a turn of zero. One mapping for all joints, with the speed of
+    // the fastest, takes less stack than one for each.
     let fastest = S::limits()
         .iter()
         .fold(0.0_f32, |most, limit| most.max(limit.velocity));

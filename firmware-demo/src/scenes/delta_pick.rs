@@ -24,8 +24,8 @@ pub type Effects = (
 
 /// The effects' numbers, of the cranks.
 ///
-/// The inertia of the gears is that of [`PickDelta`]'s source, which leaves out the motors' rotors. Friction is
-/// assumed, of the order of gears of 55 : 1 for this torque.
+/// The inertia of the gears is that of [`PickDelta`]'s source, which leaves out the motors' rotors.
+/// Friction is assumed, of the order of gears of 55 : 1 for this torque.
 pub const EFFECTS: Effects = (
     Gravity::EARTH,
     Inertia,

@@ -1,4 +1,5 @@
-//! Scene `direct_drive`: low gear ratios, where rotors are gyroscopes and not only inertia at their joints.
+//! Scene `direct_drive`: low gear ratios, where rotors are gyroscopes and not only inertia at their
+//! joints.
 
 use core::f32::consts::FRAC_PI_4;
 

@@ -1,5 +1,6 @@
-//! Scene `flexible_joint`: an arm with elastic transmissions, under a controller that models them and under one that
-//! does not. Its encoders sit on the motors, as those of most arms do; what counts is where the links are.
+//! Scene `flexible_joint`: an arm with elastic transmissions, under a controller that models them
+//! and under one that does not. Its encoders sit on the motors, as those of most arms do; what
+//! counts is where the links are.
 
 use dynamics_core::drivetrain::{ElasticJoints, ElasticReference};
 use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, Inertia, Viscous};
@@ -27,7 +28,8 @@ const SWING: [WayPoint<f32, 7>; 4] = [
 
 pub type Effects = (Gravity, Inertia, Coriolis, Viscous<f32, 7>);
 
-/// Assumed, of the order of harmonic drives of this size: the maker publishes neither stiffness nor rotors.
+/// Assumed, of the order of harmonic drives of this size: the maker publishes neither stiffness nor
+/// rotors.
 const JOINTS: ElasticJoints<f32, 7> = ElasticJoints {
     stiffness: [1.6e4, 1.6e4, 1.2e4, 1.2e4, 9e3, 5e3, 5e3],
     rotor: [3.0, 3.0, 2.5, 2.5, 1.2, 0.5, 0.5],

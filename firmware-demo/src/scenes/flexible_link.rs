@@ -1,5 +1,6 @@
-//! Scene `flexible_link`: a light arm whose links bend, under feed-forward with their modes and under one that takes them
-//! for rigid. It swings to a pose through a shaper that leaves no vibration, and back without.
+//! Scene `flexible_link`: a light arm whose links bend, under feed-forward with their modes and
+//! under one that takes them for rigid. It swings to a pose through a shaper that leaves no
+//! vibration, and back without.
 
 use dynamics_core::effects::{Armature, Coriolis, Effect, Elasticity, Gravity, Inertia, Viscous};
 use dynamics_core::flexible::{Bending, ModalFeedforward, Modes};

@@ -1,4 +1,5 @@
-//! Scene `gimbal_ship`: a camera on a rolling ship sweeps the horizon, the ship's motion as feed-forward.
+//! Scene `gimbal_ship`: a camera on a rolling ship sweeps the horizon, the ship's motion as
+//! feed-forward.
 
 use dynamics_core::Engine;
 use dynamics_core::effects::{

@@ -37,7 +37,8 @@ pub const GROUND: Contact<f32, 1> = Contact {
     slip_tolerance: 0.2,
 };
 
-/// Friction and rotors are assumed, of the order of quasi-direct drives of this size; the rail has neither.
+/// Friction and rotors are assumed, of the order of quasi-direct drives of this size; the rail has
+/// neither.
 const EFFECTS: Effects = (
     Gravity::EARTH,
     Inertia,

@@ -1,5 +1,5 @@
-//! The data sheets of the scenes: robot, effects, trajectory and controller of each. The bin of the same
-//! name runs it, and tests run it on devices that can be bent.
+//! The data sheets of the scenes: robot, effects, trajectory and controller of each. The bin of the
+//! same name runs it, and tests run it on devices that can be bent.
 
 pub mod delta_pick;
 pub mod direct_drive;

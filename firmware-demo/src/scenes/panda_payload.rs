@@ -1,5 +1,5 @@
-//! Scene `panda_payload`: a part is picked up and put down. The gripper reports what the hand holds; a
-//! feed-forward that does not read that signal carries an unknown load.
+//! Scene `panda_payload`: a part is picked up and put down. The gripper reports what the hand
+//! holds; a feed-forward that does not read that signal carries an unknown load.
 
 use core::cell::Cell;
 
@@ -25,7 +25,8 @@ use crate::scene::{
 use crate::trajectories::{READY, stop};
 use joint_drivers::{Law, Telemetry};
 
-/// The Panda carries a part from low to low, at rest there while the gripper moves: points 2 to 3 and 6 to 7.
+/// The Panda carries a part from low to low, at rest there while the gripper moves: points 2 to 3
+/// and 6 to 7.
 const PANDA_CARRY: [WayPoint<f32, 7>; 10] = [
     stop(READY, 0),
     stop([-0.70, -0.30, 0.10, -2.00, 0.05, 1.75, 0.10], 700),
@@ -68,7 +69,8 @@ pub type Effects = (
 /// The number of the load among them.
 const LOAD: usize = 6;
 
-/// Friction and rotors are assumed, of the order that identifications of this arm find; the hand is empty.
+/// Friction and rotors are assumed, of the order that identifications of this arm find; the hand is
+/// empty.
 pub const EFFECTS: Effects = (
     Gravity::EARTH,
     Inertia,
@@ -82,7 +84,8 @@ pub const EFFECTS: Effects = (
     Payload(SpatialInertia::ZERO),
 );
 
-/// The part: 2 kg, a block of 80 × 60 × 120 mm, gripped beside its centre 0.19 m from the last link's origin.
+/// The part: 2 kg, a block of 80 × 60 × 120 mm, gripped beside its centre 0.19 m from the last
+/// link's origin.
 ///
 /// # Errors
 /// If no body were like that.
@@ -152,7 +155,8 @@ impl Scene<7, 7, 7, 7> for Carry {
         })
     }
 
-    /// The share of the part that the hand carries; while it rests on the table the share changes evenly.
+    /// The share of the part that the hand carries; while it rests on the table the share changes
+    /// evenly.
     fn environment(job: &Job, ticks: f32) -> Load {
         let since = |start: u32| ((ticks - start as f32) / GRIP).clamp(0.0, 1.0);
         let borne = since(CLOSES) - since(OPENS);
@@ -189,7 +193,8 @@ impl Scene<7, 7, 7, 7> for Carry {
     }
 }
 
-/// The hand on a spring and a damper, with the same feed-forward; the feedback of the joints acts on the null space alone.
+/// The hand on a spring and a damper, with the same feed-forward; the feedback of the joints acts
+/// on the null space alone.
 #[derive(Clone, Copy, Debug)]
 pub struct Impedance;
 
@@ -216,14 +221,16 @@ impl Impedance {
         Run { plant, law, tick }
     }
 
-    // Not inlined by force, and compiled with the program: the tick of the other laws is then the same with and without it.
+    // Not inlined by force, and compiled with the program: the tick of the other laws is then the
+    // same with and without it.
     #[inline]
     fn tick(control: &mut SimLoop<7>, job: &Job, borne: &Load) -> Telemetry<7> {
         let spring = &job.spring;
         marked_tick::<Self, _, _, 7>(control, job, &Held { borne, spring })
     }
 
-    /// The spring with the modes of the first posture: the first tick then follows them as all others do.
+    /// The spring with the modes of the first posture: the first tick then follows them as all
+    /// others do.
     #[inline(never)]
     fn at_the_start() -> Spring {
         let spring = Cell::new(CartesianImpedance::try_new(SPRING).ok());
@@ -256,7 +263,8 @@ impl Law<7, Held<'_>> for Impedance {
         let rows = jacobian_rows(&columns);
         let m = Engine::<Panda>::crba(&trig, &Carry::current(held.borne));
         if let (Ok(factors), Some(mut spring)) = (Engine::<Panda>::ltdl(&m), held.spring.get()) {
-            // The goal is a posture, mrad away: its tip is off by J (q_d − q), but for the square of that.
+            // The goal is a posture, mrad away: its tip is off by J (q_d − q), but for the square
+            // of that.
             let [q, qd] = [
                 core::array::from_fn(|i| reference.q[i] - estimate.q[i]),
                 core::array::from_fn(|i| reference.qd[i] - estimate.qd[i]),

@@ -1,5 +1,5 @@
-//! Scene `parallel_ankle`: the leg of a humanoid steps in the air, and two motors tilt its foot by rods. The encoders
-//! are at the motors, and the trajectory is that of the foot.
+//! Scene `parallel_ankle`: the leg of a humanoid steps in the air, and two motors tilt its foot by
+//! rods. The encoders are at the motors, and the trajectory is that of the foot.
 
 use dynamics_core::Engine;
 use dynamics_core::clusters::{Clustered, MotorTorques};
@@ -17,8 +17,9 @@ use crate::scene::{Noise, PlantModel, Run, Scene, TICK};
 use crate::trajectories::{MID_STANCE, pass, stop};
 use joint_drivers::Law;
 
-/// Two steps of a humanoid's leg in the air: knee, pitch and roll of the ankle. The heel rises, the leg swings, the
-/// heel comes down, and the foot follows the ground; it rolls to the left in the first and to the right in the second.
+/// Two steps of a humanoid's leg in the air: knee, pitch and roll of the ankle. The heel rises, the
+/// leg swings, the heel comes down, and the foot follows the ground; it rolls to the left in the
+/// first and to the right in the second.
 const ANKLE_STEPS: [WayPoint<f32, 3>; 11] = [
     stop(MID_STANCE, 0),
     pass([0.75, 0.40, 0.08], [4.0, 0.0, 0.0], 220),
@@ -44,8 +45,9 @@ pub type Effects = (
 
 /// The effects' numbers, of knee and cranks.
 ///
-/// The motors' rotors are those of mujocolab/mjlab, `g1_constants.py`: the inertias of rotors and gears by the squares
-/// of their ratios. Friction is assumed, of the size in MuJoCo descriptions of such legs.
+/// The motors' rotors are those of mujocolab/mjlab, `g1_constants.py`: the inertias of rotors and
+/// gears by the squares of their ratios. Friction is assumed, of the size in MuJoCo descriptions of
+/// such legs.
 pub const EFFECTS: Effects = (
     Gravity::EARTH,
     Inertia,
@@ -132,9 +134,9 @@ impl Scene<9, 9, 9, 3> for AnkleSteps {
     }
 }
 
-/// Feed-forward of a serial model, that of mujocolab/mjlab: the ankle is two joints in a chain, without rods, with the
-/// rotors of both motors at each of them. G of the loops converts its torques to those of the motors; friction is at
-/// the motors.
+/// Feed-forward of a serial model, that of mujocolab/mjlab: the ankle is two joints in a chain,
+/// without rods, with the rotors of both motors at each of them. G of the loops converts its
+/// torques to those of the motors; friction is at the motors.
 #[derive(Clone, Copy, Debug)]
 pub struct SerialJoints;
 

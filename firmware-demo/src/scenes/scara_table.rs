@@ -1,5 +1,5 @@
-//! Scene `scara_table`: three vertical axes serve a table at the speeds of a packing line. Gravity does no work
-//! there, so that the scene does not name it.
+//! Scene `scara_table`: three vertical axes serve a table at the speeds of a packing line. Gravity
+//! does no work there, so that the scene does not name it.
 
 use dynamics_core::Engine;
 use dynamics_core::effects::{
@@ -94,8 +94,8 @@ impl Scene<3, 3, 3, 3> for Serve {
     }
 }
 
-/// Feed-forward by a scene that names gravity too: its type says along which axis, and the compiler finds that
-/// none of it reaches a torque. The code is the same.
+/// Feed-forward by a scene that names gravity too: its type says along which axis, and the compiler
+/// finds that none of it reaches a torque. The code is the same.
 #[derive(Clone, Copy, Debug)]
 pub struct WithGravity;
 

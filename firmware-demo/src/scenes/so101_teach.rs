@@ -1,20 +1,24 @@
-//! Scene `so101_teach`: an SO-101 follows a path that it was taught, under feed-forward as a duty and under its servos' own
-//! position loops.
+//! Scene `so101_teach`: an SO-101 follows a path that it was taught, under feed-forward as a duty
+//! and under its servos' own position loops.
 //!
-//! A servo takes no torque. In its PWM mode it takes the duty d of the supply voltage U, and with k_t and R at the joint its
-//! torque is τ = k_t (d U − k_t q̇) / R. Commands of the control loop are here u = k_t d U / R, the torque of a duty at rest, so
-//! that feed-forward is u = τ + k_t² q̇ / R.
+//! A servo takes no torque. In its PWM mode it takes the duty d of the supply voltage U, and with
+//! k_t and R at the joint its torque is τ = k_t (d U − k_t q̇) / R. Commands of the control loop
+//! are here u = k_t d U / R, the torque of a duty at rest, so that feed-forward is u = τ + k_t² q̇
+//! / R.
 //!
 //! # Sources
 //!
-//! - Servo: PyPI better-actuator-models 1.0.2 (Apache-2.0), identified on a pendulum: `params/feetech_sts3215_7_4V/m1.json`
-//!   ([`TORQUE_CONSTANT`], [`RESISTANCE`], [`ARMATURE`], [`COULOMB`], [`VISCOUS`]) and `feetech/actuator.py` ([`SUPPLY`],
-//!   [`MAX_DUTY`], [`MAX_SPEED`], [`SERVO_GAIN`], of its highest gain 32).
-//! - Load-dependent friction: model M1 has none. [`LOAD`] is the M3 of the same package for the MX-106, of its servos with
-//!   that term the one with the nearest armature (0.0248 to 0.0284 kg·m²).
-//! - The bus is half-duplex at 1 Mbit/s, ten bits per byte. A synchronous read of six positions takes 14 bytes and six answers of
-//!   8, a synchronous write of six duties 26: 88 bytes, 0.88 ms, and the servos' delays of response, at least 2 µs each (FT-SCS
-//!   protocol of Feetech). 1 kHz leaves a tenth of the bus for delays and repetitions: the tick is 2 ms.
+//! - Servo: PyPI better-actuator-models 1.0.2 (Apache-2.0), identified on a pendulum:
+//!   `params/feetech_sts3215_7_4V/m1.json` ([`TORQUE_CONSTANT`], [`RESISTANCE`], [`ARMATURE`],
+//!   [`COULOMB`], [`VISCOUS`]) and `feetech/actuator.py` ([`SUPPLY`], [`MAX_DUTY`], [`MAX_SPEED`],
+//!   [`SERVO_GAIN`], of its highest gain 32).
+//! - Load-dependent friction: model M1 has none. [`LOAD`] is the M3 of the same package for the
+//!   MX-106, of its servos with that term the one with the nearest armature (0.0248 to 0.0284
+//!   kg·m²).
+//! - The bus is half-duplex at 1 Mbit/s, ten bits per byte. A synchronous read of six positions
+//!   takes 14 bytes and six answers of 8, a synchronous write of six duties 26: 88 bytes, 0.88 ms,
+//!   and the servos' delays of response, at least 2 µs each (FT-SCS protocol of Feetech). 1 kHz
+//!   leaves a tenth of the bus for delays and repetitions: the tick is 2 ms.
 //! - Encoder: 12 bits per turn; duty: steps of 0.1 % (control table of the STS3215).
 //!
 //! The width of the smooth sign, path and gains are chosen, not measured.
@@ -33,7 +37,8 @@ use crate::scene::{Noise, PlantModel, Run, Scene, rigid, speeds};
 use crate::trajectories::{SO101_START, stop};
 use joint_drivers::Law;
 
-/// A path that the SO-101 is taught: to a part, down, the jaw closes, up, over, down, and back; ticks of 2 ms.
+/// A path that the SO-101 is taught: to a part, down, the jaw closes, up, over, down, and back;
+/// ticks of 2 ms.
 const TAUGHT: [WayPoint<f32, 6>; 8] = [
     stop(SO101_START, 0),
     stop([-0.6, -0.2, 0.5, 0.9, 0.4, 1.2], 600),
@@ -101,7 +106,8 @@ pub type Compensation = (
     LoadFriction<f32, 6>,
 );
 
-/// The compensation of this arm; the back-EMF is viscous friction of the command, and not part of it.
+/// The compensation of this arm; the back-EMF is viscous friction of the command, and not part of
+/// it.
 pub const COMPENSATION: Compensation = (Gravity::EARTH, Viscous([VISCOUS; 6]), DRY, GEARS);
 
 /// Commands from torques: what the back-EMF takes is added.

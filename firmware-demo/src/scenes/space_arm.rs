@@ -1,5 +1,6 @@
-//! Scene `space_arm`: an arm on a satellite that floats free reaches out; what the satellite gives way is in
-//! the feed-forward. The plant's step conserves momentum, down to rounding: it does not drift.
+//! Scene `space_arm`: an arm on a satellite that floats free reaches out; what the satellite gives
+//! way is in the feed-forward. The plant's step conserves momentum, down to rounding: it does not
+//! drift.
 
 use dynamics_core::Engine;
 use dynamics_core::effects::{Armature, Coriolis, Coulomb, Effect, Inertia, Viscous, Width};
@@ -77,8 +78,8 @@ impl Scene<7, 13, 12, 6> for ReachOut {
 
     fn environment(_: &Self::Reference, _: f32) {}
 
-    /// The satellite is left to itself: it recoils from the joints' rates, since all momentum is zero, and from
-    /// their accelerations, since nothing holds it.
+    /// The satellite is left to itself: it recoils from the joints' rates, since all momentum is
+    /// zero, and from their accelerations, since nothing holds it.
     fn inverse<E: Effect<f32, 7, 12>>(
         reference: &State<f32, 6, 6>,
         (): &(),

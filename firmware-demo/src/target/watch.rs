@@ -1,7 +1,8 @@
 //! A scene that runs without end and sends its telemetry over USART1, from the main loop.
 //!
-//! In QEMU the argument of `-semihosting-config` sets it: `arg=ticks=3000` ends the run, `arg=faults=5000` injects
-//! faults, `arg=listen=0` leaves the queue full, as a port does that takes no byte.
+//! In QEMU the argument of `-semihosting-config` sets it: `arg=ticks=3000` ends the run,
+//! `arg=faults=5000` injects faults, `arg=listen=0` leaves the queue full, as a port does that
+//! takes no byte.
 
 use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -132,7 +133,8 @@ fn send<const N: usize>(message: &Message<N>, port: &mut impl Write) {
     }
 }
 
-/// Writes all bytes. Not by `write_all`, which panics where the port takes none, as the HAL's does while it is busy.
+/// Writes all bytes. Not by `write_all`, which panics where the port takes none, as the HAL's does
+/// while it is busy.
 pub(super) fn write(mut bytes: &[u8], port: &mut impl Write) {
     while let Some(rest) = port.write(bytes).ok().and_then(|n| bytes.get(n..)) {
         if rest.is_empty() {
@@ -142,7 +144,8 @@ pub(super) fn write(mut bytes: &[u8], port: &mut impl Write) {
     }
 }
 
-/// USART1 on PA9. On a board the clock is 168 MHz from a crystal of 8 MHz; QEMU has no clock to set.
+/// USART1 on PA9. On a board the clock is 168 MHz from a crystal of 8 MHz; QEMU has no clock to
+/// set.
 fn port(part: pac::Peripherals) -> Result<Tx<pac::USART1>, InvalidConfig> {
     let mut clock = clock(part.RCC);
     let pins = part.GPIOA.split(&mut clock);
@@ -167,8 +170,8 @@ pub(super) fn clock(rcc: pac::RCC) -> Rcc {
 fn argument(name: &[u8]) -> Option<u32> {
     let mut text = [0_u8; 256];
     let mut block = [text.as_mut_ptr() as usize, text.len()];
-    // SAFETY: the call writes a string of at most that many bytes to that address, and its length over the second
-    // word; both are this function's own.
+    // SAFETY: the call writes a string of at most that many bytes to that address, and its length
+    // over the second word; both are this function's own.
     let failed = unsafe {
         cortex_m_semihosting::syscall1(
             cortex_m_semihosting::nr::GET_CMDLINE,

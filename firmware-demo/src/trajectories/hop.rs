@@ -1,16 +1,18 @@
-//! A leg's hops on a rail, in closed form: the ground's force first, and the motion that goes with it.
+//! A leg's hops on a rail, in closed form: the ground's force first, and the motion that goes with
+//! it.
 //!
-//! With M the mass of all bodies and f = F/M what the ground gives them, their centre moves by z̈_c = f − g. In a
-//! phase of T seconds, s from 0 to 1 and u = s (1 − s),
+//! With M the mass of all bodies and f = F/M what the ground gives them, their centre moves by z̈_c
+//! = f − g. In a phase of T seconds, s from 0 to 1 and u = s (1 − s),
 //!
 //! ```text
 //! f = rest + change (10 s³ − 15 s⁴ + 6 s⁵) + push 140 u³
 //! ```
 //!
-//! so that z_c is a polynomial. Standing has rest = g, a flight nothing, a stance between two flights a push alone.
-//! The foot enters the ground, F = k p + b ṗ, by the depth p ≈ (F − Ḟ b/k)/k; in flight it is lifted by 64 u³ of its
-//! clearance. Thigh (at α) and calf (at −α) are equally long, so that the foot stays below the hip, and the centre
-//! is above it by c + r cos(α − φ): the inverse kinematics is an arc cosine.
+//! so that z_c is a polynomial. Standing has rest = g, a flight nothing, a stance between two
+//! flights a push alone. The foot enters the ground, F = k p + b ṗ, by the depth p ≈ (F − Ḟ b/k)/k;
+//! in flight it is lifted by 64 u³ of its clearance. Thigh (at α) and calf (at −α) are equally
+//! long, so that the foot stays below the hip, and the centre is above it by c + r cos(α − φ): the
+//! inverse kinematics is an arc cosine.
 
 use dynamics_core::algorithms::center_of_mass;
 use dynamics_core::effects::Contact;
@@ -75,7 +77,8 @@ pub struct Hop {
     lag: f32,
 }
 
-/// The mass of all bodies, and how high their centre is above the foot with the knee's half angle α.
+/// The mass of all bodies, and how high their centre is above the foot with the knee's half angle
+/// α.
 // Inlined, it would be in flash four times.
 #[inline(never)]
 fn above_foot(alpha: f32) -> (f32, f32) {

@@ -8,7 +8,8 @@ use crate::robots::PickDelta;
 use crate::robots::pick_delta::SIDES;
 use crate::scene::TICK;
 
-/// The height of a move, m: manufacturers state the speed of such robots for 25 mm up, 305 mm across and 25 mm down.
+/// The height of a move, m: manufacturers state the speed of such robots for 25 mm up, 305 mm
+/// across and 25 mm down.
 pub const LIFT: f32 = 0.025;
 /// The horizontal distance of a move, m: see [`LIFT`].
 pub const REACH: f32 = 0.305;
@@ -36,7 +37,8 @@ const PLACES: [[f32; 2]; 4] = [
 
 /// The duration of a lift, and of lowering, ticks.
 const UP: u32 = 60;
-/// The horizontal distance from the ends of a move at which it has its full height, m, and its speed there, m/s.
+/// The horizontal distance from the ends of a move at which it has its full height, m, and its
+/// speed there, m/s.
 const CORNER: f32 = 0.02;
 const SPEED: f32 = 1.5;
 
@@ -73,8 +75,8 @@ const WAY: [WayPoint<f32, 3>; POINTS] = {
     way
 };
 
-/// A way-point at these distances from the feeder, along a horizontal direction and upward, with a speed in this
-/// direction.
+/// A way-point at these distances from the feeder, along a horizontal direction and upward, with a
+/// speed in this direction.
 const fn point(
     [cos, sin]: [f32; 2],
     along: f32,
@@ -126,9 +128,11 @@ impl Reference<f32, 3> for Picks {
     }
 }
 
-/// The cranks' motion at that of the platform, with the crank's end on the outer side; NaN where a rod does not reach.
+/// The cranks' motion at that of the platform, with the crank's end on the outer side; NaN where a
+/// rod does not reach.
 ///
-/// With e from the crank's end to the platform: a cos θ + b sin θ = k from |e| = l, e·ė = 0, and its derivative.
+/// With e from the crank's end to the platform: a cos θ + b sin θ = k from |e| = l, e·ė = 0, and
+/// its derivative.
 #[inline(always)]
 pub fn cranks<R: Real>(platform: &State<R, 3, 3>) -> State<R, 3, 3> {
     let [radius, l, k0] = const {
@@ -149,7 +153,8 @@ pub fn cranks<R: Real>(platform: &State<R, 3, 3>) -> State<R, 3, 3> {
         let h = (r2 - k * k).sqrt();
         let r2_inv = R::ONE / r2;
         let (c, s) = ((a * k + b * h) * r2_inv, (b * k - a * h) * r2_inv);
-        // e, of the crank's end (l c, 0, −l s), which moves along t = (−l s, 0, −l c) per rad: e·t = l h.
+        // e, of the crank's end (l c, 0, −l s), which moves along t = (−l s, 0, −l c) per rad: e·t
+        // = l h.
         let e = [a - l * c, y, l * s - b];
         let inv = R::ONE / (l * h);
         let rate = dot(e, pd) * inv;

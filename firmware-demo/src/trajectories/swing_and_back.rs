@@ -1,4 +1,5 @@
-//! A swing to and fro with a pause after each: there through a shaper, and back without; and the motion of modes under it.
+//! A swing to and fro with a pause after each: there through a shaper, and back without; and the
+//! motion of modes under it.
 
 use core::cell::Cell;
 
@@ -59,7 +60,8 @@ pub struct SwingAndBack {
     pub back: Move,
     /// Ticks of the pause.
     pub pause: u32,
-    /// The modes under the reference: the tick to which they have moved, and their motion at the tick before.
+    /// The modes under the reference: the tick to which they have moved, and their motion at the
+    /// tick before.
     modal: Cell<(u32, State<f32, 4, 4>)>,
 }
 
@@ -73,7 +75,8 @@ impl SwingAndBack {
         }
     }
 
-    /// The modes before a tick: the next after the last call, the same, or the first, at which `start` is called.
+    /// The modes before a tick: the next after the last call, the same, or the first, at which
+    /// `start` is called.
     pub fn modes_before(
         &self,
         tick: u32,

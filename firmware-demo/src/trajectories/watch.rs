@@ -8,10 +8,11 @@ use crate::robots::Ship;
 use crate::robots::ship::Swing;
 use crate::scene::TICK;
 
-/// A camera on a roll, a pitch and a pan axis that stays level on a ship and sweeps a sector of the horizon.
+/// A camera on a roll, a pitch and a pan axis that stays level on a ship and sweeps a sector of the
+/// horizon.
 ///
-/// The first two axes undo the ship's last two turns, the third its first: the angles are those of the ship, and
-/// no inverse of a sine is needed. It goes on after its end, as the ship does.
+/// The first two axes undo the ship's last two turns, the third its first: the angles are those of
+/// the ship, and no inverse of a sine is needed. It goes on after its end, as the ship does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Watch<R: Real> {
     pub ship: Ship<R>,

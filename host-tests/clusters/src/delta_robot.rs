@@ -7,9 +7,9 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robo
 
 /// A Delta robot: three cranks with motors carry a platform by pairs of rods.
 ///
-/// The numbers are assumed, of the size of pick-and-place machines. The tree's coordinates are, for each arm, the crank
-/// and the two of its pair of rods, and the platform's position; the independent ones the cranks. A pair of rods is one
-/// body, as [`Delta`] has it.
+/// The numbers are assumed, of the size of pick-and-place machines. The tree's coordinates are, for
+/// each arm, the crank and the two of its pair of rods, and the platform's position; the
+/// independent ones the cranks. A pair of rods is one body, as [`Delta`] has it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DeltaRobot;
 

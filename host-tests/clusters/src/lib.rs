@@ -112,8 +112,8 @@ impl ClusteredRobot<6, 6, 6, 6, 6> for Wrist {
     const COORDINATES: &'static [&'static [usize]] = &[&[4, 5]];
 }
 
-/// Two links, of which a spiral pulley on the first drives the second, and a hand on it by gears with rotors of their
-/// own.
+/// Two links, of which a spiral pulley on the first drives the second, and a hand on it by gears
+/// with rotors of their own.
 pub struct Geared;
 
 impl Robot<7, 7, 7> for Geared {
@@ -287,7 +287,8 @@ pub fn largest(a: &[f64]) -> f64 {
     a.iter().fold(0.0, |most, a| a.abs().max(most))
 }
 
-/// 200 states with y within `reach` of `centre`; quaternions, which begin at `quaternion`, at length one.
+/// 200 states with y within `reach` of `centre`; quaternions, which begin at `quaternion`, at
+/// length one.
 pub fn states<const P: usize, const Y: usize>(
     centre: [f64; P],
     reach: [f64; P],

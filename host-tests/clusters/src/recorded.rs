@@ -1,5 +1,5 @@
-//! What Pinocchio recorded of robots with clusters (`host-tests/oracle/clusters.py`), and how far core and
-//! engine are from it and from each other.
+//! What Pinocchio recorded of robots with clusters (`host-tests/oracle/clusters.py`), and how far
+//! core and engine are from it and from each other.
 
 use dynamics_core::clusters::{Clustered, ClusteredRobot};
 use dynamics_core::effects::{Armature, Gravity, RIGID_BODY, Viscous};
@@ -30,7 +30,8 @@ pub struct Recording {
     /// The tree's coordinates that are the independent ones, where loops are pairs of points.
     #[serde(default)]
     pub independent: Vec<usize>,
-    /// Independent positions, exactly representable in f32, like velocities, accelerations and torques.
+    /// Independent positions, exactly representable in f32, like velocities, accelerations and
+    /// torques.
     pub q: Vec<Vec<f64>>,
     /// Independent velocities.
     pub qd: Vec<Vec<f64>>,

@@ -147,8 +147,8 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for AtJoints {
     }
 }
 
-/// The largest difference of the engine's torques and the core's, relative to the largest torque; and the core's in
-/// f32.
+/// The largest difference of the engine's torques and the core's, relative to the largest torque;
+/// and the core's in f32.
 fn engine_and_single<T, E, const B: usize, const N: usize, const Y: usize>(
     states: &[State<f64, Y, Y>],
     scene: &E,
@@ -199,7 +199,8 @@ fn the_engine_agrees_with_the_core_and_f32_with_f64() {
     hold("f32", worst(1), 1e-5);
 }
 
-/// The largest errors of the engine's ÿ: of FD of the torques of ID, and of the core's articulated bodies.
+/// The largest errors of the engine's ÿ: of FD of the torques of ID, and of the core's articulated
+/// bodies.
 fn engine_forward<T, const B: usize, const N: usize, const Y: usize>(
     states: &[State<f64, Y, Y>],
 ) -> f64

@@ -1,5 +1,5 @@
-//! γ, G and Ġ ẏ of every linkage, in the tree: its loops are closed, and its rates are the derivatives of its
-//! positions.
+//! γ, G and Ġ ẏ of every linkage, in the tree: its loops are closed, and its rates are the
+//! derivatives of its positions.
 
 use cluster_tests::{
     DeltaRobot, FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart,

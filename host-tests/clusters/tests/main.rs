@@ -1,5 +1,5 @@
-//! Clusters of joints: laws, closed forms, recordings, singularities. One program, since all of it uses the same functions of
-//! the same robots.
+//! Clusters of joints: laws, closed forms, recordings, singularities. One program, since all of it
+//! uses the same functions of the same robots.
 
 mod laws;
 mod linkages;

@@ -1,5 +1,5 @@
-//! What Pinocchio says of robots with loops (`host-tests/oracle/clusters.py`), by core and engine, in f64 and f32; and
-//! that the engine gives what the core gives.
+//! What Pinocchio says of robots with loops (`host-tests/oracle/clusters.py`), by core and engine,
+//! in f64 and f32; and that the engine gives what the core gives.
 
 use cluster_tests::recorded::errors;
 use cluster_tests::{DeltaRobot, FiveBarLeg, Geared, Wrist};

@@ -60,7 +60,8 @@ fn flat_parallelograms_and_change_points_are_named_and_bounded() {
 fn damping_and_singular_status_end_together() {
     let mut before: Option<(bool, f64)> = None;
     let mut step = 0.0_f64;
-    // h of the crank's angle near π grows with it: from the damped range to the other in fine steps.
+    // h of the crank's angle near π grows with it: from the damped range to the other in fine
+    // steps.
     for i in 0..20_000 {
         let motion = at::<f64, _, 3>(&FLAT, PI - 1e-8 * f64::from(i)).expect("it closes");
         let g = motion.g[2][0];
@@ -75,7 +76,8 @@ fn damping_and_singular_status_end_together() {
     hold("step of G at the end of the damping", step, 1e-3);
 }
 
-/// The largest errors of G and of Ġ ẏ per ẏ² just beyond the damped range, and the angle at which that ends.
+/// The largest errors of G and of Ġ ẏ per ẏ² just beyond the damped range, and the angle at which
+/// that ends.
 fn beyond_the_damping<R: Real>() -> [f64; 3] {
     let turned = |y| at::<R, _, 3>(&FLAT, y).expect("it closes");
     let (mut inside, mut beyond) = (1e-9, 0.1);
@@ -359,7 +361,8 @@ fn torque_at_a_singularity_is_finite_and_bounded() {
 
 #[test]
 fn the_four_bar_obeys_its_closed_form_and_virtual_work() {
-    // Freudenstein: K₁ cos ψ − K₂ cos φ + K₃ = cos(φ − ψ) of crank φ and rocker ψ, and dψ/dφ from its derivative.
+    // Freudenstein: K₁ cos ψ − K₂ cos φ + K₃ = cos(φ − ψ) of crank φ and rocker ψ, and dψ/dφ from
+    // its derivative.
     let (ground, crank, coupler, rocker) = (0.3, 0.12, 0.28, 0.2);
     let linkage = FourBar::new(ground, crank, coupler, rocker, Branch::Positive);
     let k = [

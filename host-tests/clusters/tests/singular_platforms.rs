@@ -1,4 +1,5 @@
-//! Singular postures of the parallel robots' clusters: a status or an error, and numbers that are finite and bounded.
+//! Singular postures of the parallel robots' clusters: a status or an error, and numbers that are
+//! finite and bounded.
 
 use cluster_tests::hold;
 use dynamics_core::clusters::{Cluster, ClusterMotion, ClusterProblem, Delta, Leg, Stewart};
@@ -34,7 +35,8 @@ fn stewart_at<R: Real>(
     stewart.evaluate::<R, Native>(&y, &yd)
 }
 
-/// The largest |G| and |Ġ ẏ| of numbers that are finite and named; the sines and cosines are those of angles.
+/// The largest |G| and |Ġ ẏ| of numbers that are finite and named; the sines and cosines are those
+/// of angles.
 fn of_damped<R: Real, const M: usize, const N: usize>(
     motion: &ClusterMotion<R, M, N>,
     angles: &[usize],
@@ -54,8 +56,8 @@ fn of_damped<R: Real, const M: usize, const N: usize>(
     [g, bias]
 }
 
-/// The largest of [`of_damped`] where `at` leads away from a singular posture at zero, in fine steps, and has a status
-/// near it and nowhere else.
+/// The largest of [`of_damped`] where `at` leads away from a singular posture at zero, in fine
+/// steps, and has a status near it and nowhere else.
 fn sweep<R: Real, const M: usize, const N: usize>(
     angles: &[usize],
     reach: f64,
@@ -77,7 +79,8 @@ fn sweep<R: Real, const M: usize, const N: usize>(
     most
 }
 
-/// Demands |G| ≤ a √σ⁻ᵐ and |Ġ ẏ| ≤ b √σ⁻ⁿ of [(a, m), (b, n)] in f32 and in f64: σ is what rates are damped below.
+/// Demands |G| ≤ a √σ⁻ᵐ and |Ġ ẏ| ≤ b √σ⁻ⁿ of [(a, m), (b, n)] in f32 and in f64: σ is what rates
+/// are damped below.
 fn hold_both(what: &str, found: [[f64; 2]; 2], bounds: [(f64, i32); 2]) {
     for ((scalar, found), root) in ["f32", "f64"]
         .into_iter()

@@ -18,7 +18,8 @@ pub fn error<'a>(pairs: impl Iterator<Item = (&'a f64, &'a f64)>) -> f64 {
     worst / scale
 }
 
-/// Torques of the joints and forces on the modes at every recorded state, by a function that computes inverse dynamics.
+/// Torques of the joints and forces on the modes at every recorded state, by a function that
+/// computes inverse dynamics.
 ///
 /// # Panics
 /// If the recording is of another robot.
@@ -99,8 +100,8 @@ impl One {
     }
 }
 
-/// The tip's deflection at rest over that of as many recorded modes, less one, and the relative difference from the whole
-/// beam's.
+/// The tip's deflection at rest over that of as many recorded modes, less one, and the relative
+/// difference from the whole beam's.
 ///
 /// # Panics
 /// If the beam has no such modes.

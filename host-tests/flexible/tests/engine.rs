@@ -1,4 +1,5 @@
-//! The engine's links that bend against the core's, on trees with every joint of one coordinate and under every kind of effect.
+//! The engine's links that bend against the core's, on trees with every joint of one coordinate and
+//! under every kind of effect.
 
 use dynamics_core::effects::{
     Armature, Coriolis, Effect, Elasticity, Gravity, GravityVector, Inertia, LoadFriction,
@@ -16,8 +17,9 @@ use dynamics_core::{Core, Engine};
 use flexible_tests::{JOINTS, LOWER, MODES, Numbers, PLANAR, Planar, Spatial, UPPER, link};
 use glam::DVec3;
 
-/// A tree on a slide. The first link that bends carries one on its very end, a joint that is off it with a skew axis, and a body that
-/// is fixed there with a joint behind it. Another is fixed to the slide.
+/// A tree on a slide. The first link that bends carries one on its very end, a joint that is off it
+/// with a skew axis, and a body that is fixed there with a joint behind it. Another is fixed to the
+/// slide.
 struct Tree;
 
 const fn of(beam: &Beam, name: &'static str, parent: usize, joint: Joint<f64>) -> Body {
@@ -71,8 +73,8 @@ impl BendingRobot<9, 7, 7, 5> for Tree {
     );
 }
 
-/// Three links in a plane, of which the second is mounted the other way round and the last, with a gripper fixed on its end, bends out
-/// of the plane as well.
+/// Three links in a plane, of which the second is mounted the other way round and the last, with a
+/// gripper fixed on its end, bends out of the plane as well.
 struct Flipped;
 
 impl Robot<4, 3, 3> for Flipped {
@@ -139,7 +141,8 @@ fn apart<const V: usize, const M: usize>(
     f64::max(of(&a.joints, &b.joints), of(&a.modes, &b.modes))
 }
 
-/// Compares inverse dynamics and the modes' accelerations at random states; returns the largest difference.
+/// Compares inverse dynamics and the modes' accelerations at random states; returns the largest
+/// difference.
 fn compare<T, E, const B: usize, const V: usize, const M: usize>(scene: &E) -> f64
 where
     T: BendingRobot<B, V, V, M>,
@@ -236,7 +239,8 @@ fn engine_and_core_bend_alike_under_every_effect() {
     scenes::<Scara, _, 3, 3, 0>(Payload::<f64, 2>::from_inertia);
 }
 
-/// A difference of a part in 10⁹ of the largest stiffness, of one integral or of one place is found.
+/// A difference of a part in 10⁹ of the largest stiffness, of one integral or of one place is
+/// found.
 #[test]
 fn a_wrong_table_is_found() {
     struct Off<const WHAT: usize>;

@@ -1,5 +1,5 @@
-//! Links that bend against a referee that has no modal integrals: forces on the beams' points in 50 digits, and finite
-//! elements of 40 to a link (`host-tests/oracle/beam.py`).
+//! Links that bend against a referee that has no modal integrals: forces on the beams' points in 50
+//! digits, and finite elements of 40 to a link (`host-tests/oracle/beam.py`).
 
 use std::fmt::Write;
 
@@ -127,7 +127,8 @@ fn static_sag_converges_to_the_beams_as_modes_are_added() {
     println!("{page}");
 }
 
-/// The guide states the sag by one mode and by two: a body at the end makes a beam's shape that of its first mode.
+/// The guide states the sag by one mode and by two: a body at the end makes a beam's shape that of
+/// its first mode.
 #[test]
 fn a_bare_beam_needs_more_modes_for_its_sag() {
     let (length, density, stiffness, body) = (0.5_f64, 0.8, 4.0, 0.3);

@@ -12,8 +12,8 @@ use firmware_demo::trajectories::swing_and_back::shaper;
 use joint_drivers::Law;
 use motion_control::{Estimate, Gains, Reference, Shaped, feedback};
 
-/// The largest error of a joint, rad, and the vibration that is left: half of the range of the ends' deflections, m, in
-/// four periods after the reference has stopped.
+/// The largest error of a joint, rad, and the vibration that is left: half of the range of the
+/// ends' deflections, m, in four periods after the reference has stopped.
 #[derive(Debug)]
 struct Run {
     error: f32,

@@ -21,7 +21,8 @@ fn frames() {
     bolero::check!().for_each(host_tests::fuzz::frames);
 }
 
-/// A robot's file of which some places are replaced: four bytes are a place, how much is removed, and what is put there.
+/// A robot's file of which some places are replaced: four bytes are a place, how much is removed,
+/// and what is put there.
 #[test]
 fn import() {
     const FILE: &str = include_str!("../../../robot-import/tests/urdf/zoo.urdf");

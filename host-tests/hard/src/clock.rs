@@ -1,4 +1,5 @@
-//! Time: encoders that wrap, ticks that come late or not at all, a day of ticks, a drive at its limit.
+//! Time: encoders that wrap, ticks that come late or not at all, a day of ticks, a drive at its
+//! limit.
 
 use super::day::day;
 use super::name;
@@ -118,9 +119,9 @@ fn wrap() -> Vec<Row> {
     rows
 }
 
-/// Of an arm in motion, of which something goes wrong with the ticks from 300 on: the greatest share of the torque
-/// allowed, the worst tracking error, and how many ticks after it was over the error was beyond `settled` for the last
-/// time.
+/// Of an arm in motion, of which something goes wrong with the ticks from 300 on: the greatest
+/// share of the torque allowed, the worst tracking error, and how many ticks after it was over the
+/// error was beyond `settled` for the last time.
 fn disturbed<R: Real>(
     settled: f64,
     wrong: impl FnOnce(&mut Bench<R>, &mut dyn FnMut(&Bench<R>)),
@@ -158,7 +159,8 @@ fn disturbed<R: Real>(
     measured
 }
 
-/// 200 ticks, each late by up to so many ticks; a timer that counts tells how many were missed, or nobody does.
+/// 200 ticks, each late by up to so many ticks; a timer that counts tells how many were missed, or
+/// nobody does.
 fn lates<R: Real>(bench: &mut Bench<R>, see: &mut dyn FnMut(&Bench<R>), late: f64, counted: bool) {
     // Marsaglia's xorshift32, 2003.
     let (mut random, mut time, mut count) = (0x5eed_1234_u32, 0.0_f64, 0);

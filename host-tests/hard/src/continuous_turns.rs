@@ -19,8 +19,9 @@ pub const CASES: &[Case] = &[Case {
 /// The distance from the reference, rad.
 const HELD_OFF: f64 = 0.11;
 
-/// An arm that was held fast for so many ticks: the greatest share of its torque while it was, ticks till it is
-/// within 1 mrad for good, overshoot of the return, and where it is a second after.
+/// An arm that was held fast for so many ticks: the greatest share of its torque while it was,
+/// ticks till it is within 1 mrad for good, overshoot of the return, and where it is a second
+/// after.
 fn recover<R: Real>(held: u32) -> ([f64; 3], [R; 6]) {
     let mut bench = Bench::<R>::new(0.0, 1);
     let off = R::from_f64(HELD_OFF);

@@ -215,7 +215,8 @@ fn poses() -> Vec<Row> {
     rows
 }
 
-/// The results of the sweep: the largest error and the largest step between neighbours, relative to the largest force.
+/// The results of the sweep: the largest error and the largest step between neighbours, relative to
+/// the largest force.
 struct Sweep {
     error: f64,
     step: f64,

@@ -1,5 +1,5 @@
-//! What moves by itself, and what does not: a double pendulum for an hour, a tree in free fall, rest without
-//! gravity.
+//! What moves by itself, and what does not: a double pendulum for an hour, a tree in free fall,
+//! rest without gravity.
 
 use super::name;
 use super::pendulum::pendulum;
@@ -51,8 +51,8 @@ pub const CASES: &[Case] = &[
 
 const G: f64 = 9.81;
 
-/// Largest errors of a robot that falls: torques relative to its weight (N·m, N), accelerations of joints and base
-/// relative to g, by bodies and by M; joint speeds after a second.
+/// Largest errors of a robot that falls: torques relative to its weight (N·m, N), accelerations of
+/// joints and base relative to g, by bodies and by M; joint speeds after a second.
 fn falling<R: Real, T, const B: usize, const Q: usize, const V: usize>(by_factors: f64) -> Vec<Row>
 where
     T: Robot<B, Q, V>,

@@ -80,7 +80,8 @@ fn inverse<R: Real, const K: usize>(rows: &mut Vec<Row>, bound: f64, problems: &
     }
 }
 
-/// Forward dynamics in f32: of the same joint an error, or accelerations that differ by no more than `bound`.
+/// Forward dynamics in f32: of the same joint an error, or accelerations that differ by no more
+/// than `bound`.
 fn forward<const K: usize>(rows: &mut Vec<Row>, problems: &[(usize, f64)]) {
     for &(problem, bound) in problems {
         let (scene, mut pairs) = (scene::<f32, N>(&SINGLE[problem].extras), Vec::new());

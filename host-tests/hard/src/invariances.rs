@@ -1,4 +1,5 @@
-//! Invariances: under the choice of root, of numbering, of the direction of gravity, and under rounded rotations.
+//! Invariances: under the choice of root, of numbering, of the direction of gravity, and under
+//! rounded rotations.
 
 use super::measure::{ErrorBounds, against_oracle, by_joints};
 use super::placements::{apart, same};

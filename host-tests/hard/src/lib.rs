@@ -57,7 +57,8 @@ pub const CASES: &[&[Case]] = &[
     impedance::CASES,
 ];
 
-/// The numbers of all cases, as a constant: a program that names [`CASES`] has the code of all of them.
+/// The numbers of all cases, as a constant: a program that names [`CASES`] has the code of all of
+/// them.
 pub const NUMBERS: [u32; count()] = {
     let (mut numbers, mut next, mut family) = ([0; count()], 0, 0);
     while family < CASES.len() {

@@ -16,7 +16,8 @@ const QUANTITIES: [&str; 5] = [
     "OSIM⁻¹ by J M⁻¹ Jᵀ",
 ];
 
-/// The bounds of RNEA, CRBA + LᵀDL, ABA, and the inverse of the operational-space inertia by bodies and by M.
+/// The bounds of RNEA, CRBA + LᵀDL, ABA, and the inverse of the operational-space inertia by bodies
+/// and by M.
 #[derive(Clone, Copy, Debug)]
 pub struct ErrorBounds {
     /// In f32.
@@ -27,8 +28,8 @@ pub struct ErrorBounds {
 
 /// Holds everything of a setup against the oracle.
 ///
-/// A torque or acceleration is relative to its own joint's largest over the states, a mobility to its largest
-/// entry.
+/// A torque or acceleration is relative to its own joint's largest over the states, a mobility to
+/// its largest entry.
 pub fn against_oracle<const N: usize>(setup: &Setup<N>, bounds: &ErrorBounds) -> Vec<Row> {
     let truth = setup.truth();
     let answers = setup.answers(&truth);

@@ -50,7 +50,8 @@ pub fn floored<R: Real, const N: usize>(
     x
 }
 
-/// Inverse dynamics with all motions, inertias and forces about the base's origin, in base coordinates.
+/// Inverse dynamics with all motions, inertias and forces about the base's origin, in base
+/// coordinates.
 pub fn absolute<R: Real, const N: usize>(
     arm: &ArmModel<R, N>,
     state: &State<R, N, N>,

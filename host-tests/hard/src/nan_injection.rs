@@ -1,4 +1,5 @@
-//! Numbers that should not be where they are: NaN, infinities, huge and subnormal ones, in each input in turn.
+//! Numbers that should not be where they are: NaN, infinities, huge and subnormal ones, in each
+//! input in turn.
 
 use dynamics_core::algorithms::{aba, crba, forward_dynamics, rnea};
 use dynamics_core::effects::RIGID_BODY;
@@ -61,7 +62,8 @@ fn outputs<R: Real>(state: &State<R, 6, 6>, tau: &[R; 6]) -> Vec<u64> {
     all.into_iter().map(|x| x.to_f64().to_bits()).collect()
 }
 
-/// Of the dynamics: that nothing stays behind, that what is no number never comes out as one, that a subnormal is a zero.
+/// Of the dynamics: that nothing stays behind, that what is no number never comes out as one, that
+/// a subnormal is a zero.
 fn functions<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
     let clean = State {
         q: [0.3, -1.2, 1.5, 0.3, 0.5, 0.1].map(R::from_f64),
@@ -111,8 +113,8 @@ fn functions<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
     ));
 }
 
-/// Of the controller: that each command is within limits, that the fault is named, and how soon all is as if nothing
-/// had been.
+/// Of the controller: that each command is within limits, that the fault is named, and how soon all
+/// is as if nothing had been.
 fn controller<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
     const AT: u32 = 400;
     const AFTER: usize = 300;

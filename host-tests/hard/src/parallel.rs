@@ -113,8 +113,8 @@ fn coincident() -> Vec<Row> {
     rows
 }
 
-/// Torques of rods of 1 kg and 1 m about axes along y, φ downwards, in absolute angles: the outermost first
-/// moment is m/2, and every rod carries those beyond it at its end.
+/// Torques of rods of 1 kg and 1 m about axes along y, φ downwards, in absolute angles: the
+/// outermost first moment is m/2, and every rod carries those beyond it at its end.
 fn closed_form(state: &State<f64, N, N>, about_centre: f64) -> [f64; N] {
     let sums = |row: [f64; N]| {
         let mut sum = 0.0;

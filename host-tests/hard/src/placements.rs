@@ -44,8 +44,8 @@ fn plain() -> Setup<N> {
     arm(46, "payload 0")
 }
 
-/// Whether two arms give the same bits, once the second one's numbers are multiplied by powers of two: torque,
-/// acceleration and mobility.
+/// Whether two arms give the same bits, once the second one's numbers are multiplied by powers of
+/// two: torque, acceleration and mobility.
 pub(super) fn same<R: Real>(
     a: &[&Answers<R, N>],
     b: &[&Answers<R, N>],

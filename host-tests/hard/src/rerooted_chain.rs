@@ -11,7 +11,8 @@ use host_tests::measured::larger;
 
 type Chain<R> = Model<R, 3, 9, 8>;
 
-/// The places of the joints in the bodies on either side, and their axes, which are the same in both at q = 0.
+/// The places of the joints in the bodies on either side, and their axes, which are the same in
+/// both at q = 0.
 const HINGES: [(DVec3, DVec3, DVec3); 2] = [
     (
         DVec3::new(0.3, 0.1, -0.05),
@@ -25,7 +26,8 @@ const HINGES: [(DVec3, DVec3, DVec3); 2] = [
     ),
 ];
 
-/// The body, its joint's axis through the origin that the joint has in it: `at` is that of its frame.
+/// The body, its joint's axis through the origin that the joint has in it: `at` is that of its
+/// frame.
 fn body(k: usize, parent: usize, joint: Joint<f64>, origin: DVec3) -> Body {
     let (m, c) = ([4.0, 1.5, 2.5][k], [0.05, -0.04, 0.03]);
     let c = DVec3::from_array(c.map(|x| x * (k + 1) as f64)) - origin;
@@ -130,8 +132,8 @@ fn motions(turn: f64) -> [State<f64, 9, 8>; 2] {
     [state(&root, joints), state(&last, [joints[1], joints[0]])]
 }
 
-/// The joints' accelerations under these torques from one root and from the other, nothing holding either: by
-/// LᵀDL and by ABA.
+/// The joints' accelerations under these torques from one root and from the other, nothing holding
+/// either: by LᵀDL and by ABA.
 fn accelerations<R: Real>(
     chains: [&Chain<R>; 2],
     states: [&State<f64, 9, 8>; 2],

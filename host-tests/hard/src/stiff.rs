@@ -1,4 +1,5 @@
-//! Springs and dampers that are stiffer than the step is short: closed forms of backward Euler's method.
+//! Springs and dampers that are stiffer than the step is short: closed forms of backward Euler's
+//! method.
 
 use super::name;
 use dynamics_core::algorithms::rnea;
@@ -250,7 +251,8 @@ fn driven<R: Real>(rows: &mut Vec<Row>, k: f64) {
     ));
 }
 
-/// The motors' commands for an arm at rest in f32: its weight, and angles ahead by weight over stiffness.
+/// The motors' commands for an arm at rest in f32: its weight, and angles ahead by weight over
+/// stiffness.
 fn held(rows: &mut Vec<Row>, k: f32) {
     let joints = ElasticJoints {
         stiffness: [k; 6],

@@ -1,4 +1,5 @@
-//! The suite as data, `host-tests/suite`: its files as any library reads them, and this library's errors.
+//! The suite as data, `host-tests/suite`: its files as any library reads them, and this library's
+//! errors.
 
 use std::path::{Path, PathBuf};
 
@@ -93,8 +94,8 @@ struct Scales {
     matrix: Option<Vec<Vec<f64>>>,
 }
 
-/// The largest errors of a case as shares of their bounds; infinite where an answer is missing, or is given although
-/// there is none.
+/// The largest errors of a case as shares of their bounds; infinite where an answer is missing, or
+/// is given although there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shares {
     pub rnea: f64,
@@ -224,8 +225,8 @@ impl Allowed {
         worst
     }
 
-    /// Of accelerations, with those that are known and their scales. A refusal is right where there is no answer or
-    /// the bound leaves it no digit.
+    /// Of accelerations, with those that are known and their scales. A refusal is right where there
+    /// is no answer or the bound leaves it no digit.
     fn of_accelerations<R: Real, const N: usize>(
         &self,
         found: Option<[R; N]>,

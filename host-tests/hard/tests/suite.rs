@@ -2,8 +2,9 @@
 
 use hard_cases::suite::{Shares, SuiteCase, all};
 
-/// Articulated bodies in f32 lose a digit beside a rotor at 20 000 rad/s, where `forward_dynamics` does not: they carry
-/// its acceleration across its axis, of 10⁵ rad/s², through the elimination. The number is the share of the bound.
+/// Articulated bodies in f32 lose a digit beside a rotor at 20 000 rad/s, where `forward_dynamics`
+/// does not: they carry its acceleration across its axis, of 10⁵ rad/s², through the elimination.
+/// The number is the share of the bound.
 const KNOWN: (u32, f64) = (87, 4.0);
 
 /// The case's errors as shares of their bounds, if one exceeds it.

@@ -28,7 +28,8 @@ pub fn inverse(a: &[Vec<f64>]) -> Vec<Vec<f64>> {
     m.into_iter().map(|row| row[n..].to_vec()).collect()
 }
 
-/// The passive coordinates, and the products of two columns of K, rows over the sizes of their loops.
+/// The passive coordinates, and the products of two columns of K, rows over the sizes of their
+/// loops.
 pub fn squares<
     T,
     const B: usize,

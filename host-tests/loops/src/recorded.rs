@@ -1,5 +1,5 @@
-//! What Pinocchio recorded of the machines (`host-tests/oracle/loops.py`), and how far inverse and forward
-//! dynamics with loops are from it.
+//! What Pinocchio recorded of the machines (`host-tests/oracle/loops.py`), and how far inverse and
+//! forward dynamics with loops are from it.
 
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::loops::{Stabilisation, forward_dynamics, inverse_dynamics};
@@ -53,8 +53,8 @@ impl Recording {
     }
 }
 
-/// Errors over the recorded states, in f64 and f32. In f32 they include those of rounding the recorded states, whose
-/// dependent coordinates are not exactly representable.
+/// Errors over the recorded states, in f64 and f32. In f32 they include those of rounding the
+/// recorded states, whose dependent coordinates are not exactly representable.
 ///
 /// # Panics
 /// If a recorded state has no result.

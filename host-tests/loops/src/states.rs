@@ -7,8 +7,8 @@ use host_tests::random::{random_numbers, within};
 
 use crate::machines::Machine;
 
-/// States with closed loops: the actuated coordinates are random, rates within 2 and accelerations within 10 (of all
-/// coordinates, of which inverse dynamics reads the independent ones).
+/// States with closed loops: the actuated coordinates are random, rates within 2 and accelerations
+/// within 10 (of all coordinates, of which inverse dynamics reads the independent ones).
 pub fn closed_states<
     T,
     const B: usize,

@@ -6,8 +6,8 @@ use dynamics_core::model::BASE;
 use dynamics_core::spatial::Force;
 use glam::{DMat3, DVec3};
 
-/// Bodies and wrenches on them, about their origins and along their axes, of a force on the successor in its loop frame;
-/// the bodies stand at `poses`. The base is left out.
+/// Bodies and wrenches on them, about their origins and along their axes, of a force on the
+/// successor in its loop frame; the bodies stand at `poses`. The base is left out.
 pub fn wrenches(
     joint: &LoopJoint,
     force: Force<f64>,

@@ -1,4 +1,5 @@
-//! Loops that cannot be, and machines that cannot be driven: a typed error that names the loop, never NaN.
+//! Loops that cannot be, and machines that cannot be driven: a typed error that names the loop,
+//! never NaN.
 
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::loops::{

@@ -11,8 +11,9 @@ use host_tests::measured::{largest, within};
 use loop_tests::machines::{FOUR_BAR, FiveBar, FourBar, Machine, Parallelogram, ThreeMotors};
 use loop_tests::states::closed_states;
 
-/// The angles of coupler and rocker against the ground, from that of the crank: the diagonal from the crank's pin to
-/// the rocker's foot, and the law of cosines in the triangle on its other side (Freudenstein, 1954).
+/// The angles of coupler and rocker against the ground, from that of the crank: the diagonal from
+/// the crank's pin to the rocker's foot, and the law of cosines in the triangle on its other side
+/// (Freudenstein, 1954).
 fn angles(crank: f64) -> [f64; 2] {
     let [a, b, c, d] = FOUR_BAR;
     let (pin_x, pin_z) = (a * crank.cos(), a * crank.sin());
@@ -86,7 +87,8 @@ fn four_bar_gravity_is_its_weights_virtual_work() {
         );
         let ground = against_ground(&state.q);
         let ([a, ..], [coupler, rocker]) = (FOUR_BAR, rates(ground, 1.0));
-        // The rise of each centre of mass, which lies at (x, z) in its bar, with a unit rate of the crank.
+        // The rise of each centre of mass, which lies at (x, z) in its bar, with a unit rate of the
+        // crank.
         let rise = |i: usize, rate: f64| {
             let (com, (sin, cos)) = (
                 FourBar::MODEL.in_link_frame(i).1.first_moment,
@@ -241,7 +243,8 @@ fn a_parallelogram_without_damping_moves_on_near_its_flat_configuration() {
             &RIGID_BODY,
         );
         let qdd = fd.expect("accelerations").qdd;
-        // Rounding errors grow with the inverse of the angle from flat: the error times the angle is bounded.
+        // Rounding errors grow with the inverse of the angle from flat: the error times the angle
+        // is bounded.
         let error = largest(
             qdd.iter()
                 .zip(state.qdd)

@@ -1,4 +1,5 @@
-//! The parallel robots as clusters and as general loops: two descriptions and two algorithms, the same motors' torques.
+//! The parallel robots as clusters and as general loops: two descriptions and two algorithms, the
+//! same motors' torques.
 
 use cluster_tests::{DeltaRobot, apart, hold, largest, stewart_states};
 use dynamics_core::Core;
@@ -132,7 +133,8 @@ fn stewart_on(share: f64) -> f64 {
     stewart(&as_cluster, &as_loops)
 }
 
-/// Universal joints about y and then x, and about x and then y, point a leg alike, and differ in its spin about itself.
+/// Universal joints about y and then x, and about x and then y, point a leg alike, and differ in
+/// its spin about itself.
 // The legs of the cluster do not spin about themselves.
 #[test]
 fn a_stewart_platform_cluster_agrees_with_general_loops() {
@@ -142,7 +144,8 @@ fn a_stewart_platform_cluster_agrees_with_general_loops() {
         2e-14,
     );
     hold("torques, legs that are symmetric", stewart_on(1.0), 1e-3);
-    // As described, halves of legs have centres of mass 1 and 2 mm off their axes, and products of inertia.
+    // As described, halves of legs have centres of mass 1 and 2 mm off their axes, and products of
+    // inertia.
     let described = stewart(&Static::<StewartPlatform>::NEW, &Static::<Stewart>::NEW);
     hold("torques, legs as described", described, 2e-3);
 }

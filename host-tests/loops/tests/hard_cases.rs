@@ -90,7 +90,8 @@ fn refused(rows: &[host_tests::hard::Row]) -> Vec<String> {
 /// What makes a result wrong.
 type Change = fn(&mut Truth);
 
-/// A torque, an acceleration and a position that are wrong by some roundings of f64 are found, each in f64 alone.
+/// A torque, an acceleration and a position that are wrong by some roundings of f64 are found, each
+/// in f64 alone.
 #[test]
 fn a_wrong_value_is_refused() {
     let setup = Planar::of(problem(49, "planar four-bar in space"));
@@ -118,7 +119,8 @@ fn a_wrong_value_is_refused() {
     }
 }
 
-/// Where a status is demanded, a number without one is refused, and so is an unbounded number with one.
+/// Where a status is demanded, a number without one is refused, and so is an unbounded number with
+/// one.
 #[test]
 fn a_number_without_its_status_is_refused() {
     let (case, quantity) = (50, "inverse dynamics, flat");

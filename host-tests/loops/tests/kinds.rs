@@ -1,4 +1,5 @@
-//! Every kind of loop joint: K, k and φ against differences along a motion of a tree that mixes kinds.
+//! Every kind of loop joint: K, k and φ against differences along a motion of a tree that mixes
+//! kinds.
 
 use dynamics_core::algorithms::{poses, rnea};
 use dynamics_core::effects::BodyWrench;
@@ -36,9 +37,9 @@ fn tree(mut body: impl FnMut(&'static str, usize, Joint<f64>) -> Body) -> Model<
     Model::new("mixed", bodies)
 }
 
-/// Errors of K q̇ against the change of φ where the loop is closed, and of K q̈ − k against that of K q̇ anywhere, both
-/// relative to full scale; and of Kᵀ λ against the torques of the loop joint's force, and K q̇ against the relative
-/// velocity, absolutely.
+/// Errors of K q̇ against the change of φ where the loop is closed, and of K q̈ − k against that of
+/// K q̇ anywhere, both relative to full scale; and of Kᵀ λ against the torques of the loop joint's
+/// force, and K q̇ against the relative velocity, absolutely.
 fn errors<const C: usize>(joint: Joint<f64>) -> [f64; 3] {
     let (mut rng, h) = (random_numbers(), 1e-4);
     let (mut differences, mut sizes) = ([vec![], vec![]], [vec![], vec![]]);
@@ -54,7 +55,8 @@ fn errors<const C: usize>(joint: Joint<f64>) -> [f64; 3] {
         let joints = [LoopJoint::new("loop", joint, [p, s])];
         let loops = Loops::<1, C, V>::new(&model, joints, core::array::from_fn(|i| i));
         let open = state_of(&model, &mut rng);
-        // From some guesses it ends where the error is least, but not zero: it starts again from others.
+        // From some guesses it ends where the error is least, but not zero: it starts again from
+        // others.
         let mut tries = 0;
         let closed = loop {
             let guess = state_of(&model, &mut rng);

@@ -1,5 +1,5 @@
-//! Kinematic loops: laws, closed forms, recordings of another library, bad input. One program, since all of it uses the
-//! same functions of the same machines.
+//! Kinematic loops: laws, closed forms, recordings of another library, bad input. One program,
+//! since all of it uses the same functions of the same machines.
 
 mod bad_input;
 mod closed_forms;

@@ -1,4 +1,5 @@
-//! Singular configurations of the motors: a status, and torques that are finite, bounded and continuous.
+//! Singular configurations of the motors: a status, and torques that are finite, bounded and
+//! continuous.
 
 use dynamics_core::algorithms::rnea;
 use dynamics_core::effects::RIGID_BODY;
@@ -27,7 +28,8 @@ const RATE: f64 = 1.0;
 const ACCELERATION: f64 = 2.0;
 
 impl<const Q: usize, const L: usize, const C: usize, const A: usize> Sweep<Q, L, C, A> {
-    /// ς: the distance from the singular configuration, as the documentation of `damped_below` has it.
+    /// ς: the distance from the singular configuration, as the documentation of `damped_below` has
+    /// it.
     fn distance<T, const B: usize, const V: usize>(&self, off: f64) -> f64
     where
         T: LoopRobot<B, Q, V, L, C, A>,
@@ -53,8 +55,9 @@ impl<const Q: usize, const L: usize, const C: usize, const A: usize> Sweep<Q, L,
         found.unwrap_or_else(|error| panic!("{off:e}: {error}"))
     }
 
-    /// Checks the sweep, where the status may be off by a part `slack` of the threshold; returns the step at the end of the
-    /// damping relative to the torque, the largest torque over its bound, and the largest error beyond the damping.
+    /// Checks the sweep, where the status may be off by a part `slack` of the threshold; returns
+    /// the step at the end of the damping relative to the torque, the largest torque over its
+    /// bound, and the largest error beyond the damping.
     fn check<R: Real, T, const B: usize, const V: usize>(&self, slack: f64) -> [f64; 3]
     where
         T: LoopRobot<B, Q, V, L, C, A>,
@@ -87,7 +90,8 @@ impl<const Q: usize, const L: usize, const C: usize, const A: usize> Sweep<Q, L,
                 let size = norm(&found.tau.map(Real::to_f64));
                 fullest = fullest.max(size / bound(&tree));
                 if moving == 0.0 {
-                    // Without damping: it exceeds the bound near the singular configuration, and is the same beyond.
+                    // Without damping: it exceeds the bound near the singular configuration, and is
+                    // the same beyond.
                     let exact = self.undamped::<T, B, V>(off, &tree);
                     if off != 0.0 {
                         undamped = undamped.max(norm(&exact) / bound(&tree));
@@ -166,8 +170,8 @@ fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// A flat parallelogram with a motor at its crank, whose joints are off by up to a milliradian, as encoders are: where
-/// crank, coupler and rocker are exactly in line, the torque has a limit.
+/// A flat parallelogram with a motor at its crank, whose joints are off by up to a milliradian, as
+/// encoders are: where crank, coupler and rocker are exactly in line, the torque has a limit.
 const FLAT: Sweep<3, 1, 5, 1> = Sweep {
     loops: Parallelogram::LOOPS,
     at: |off| {

@@ -29,7 +29,8 @@ fn forward_dynamics_says_by_how_much_its_loops_are_open() {
     );
     assert!(motion.closed(&Parallelogram::LOOPS).is_ok());
 
-    // The rocker of 0.3 m is turned by δ: its end is 0.6 sin(δ/2) away. And its rate is off by 1 rad/s.
+    // The rocker of 0.3 m is turned by δ: its end is 0.6 sin(δ/2) away. And its rate is off by 1
+    // rad/s.
     for delta in [1e-3, 1e-2, 0.1_f64] {
         let motion = parallelogram([-1.0, 1.0, -1.0 - delta], [2.0, -2.0, 3.0]);
         let closure = motion.closure(&Parallelogram::LOOPS);

@@ -5,8 +5,8 @@ use dynamics_core::effects::{Effect, JointState};
 use dynamics_core::model::RobotModel;
 use dynamics_core::sim::{Integrator, KahanState, LinearlyImplicit, ModelDynamics};
 
-/// One linearly implicit step of `h` seconds with compensated sums, under a scene that contains `friction`, whose bristles then
-/// move on.
+/// One linearly implicit step of `h` seconds with compensated sums, under a scene that contains
+/// `friction`, whose bristles then move on.
 ///
 /// # Errors
 /// As forward dynamics.

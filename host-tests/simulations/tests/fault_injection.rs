@@ -1,6 +1,6 @@
-//! Every fault at random times in random combinations: limits of torque, rate, speed and energy hold, every fault has the
-//! reaction of the contract, the arm comes back, and the table of `docs/guide/src/faults.md` is what was observed.
-//! `TABLES_WRITE=1` writes the table.
+//! Every fault at random times in random combinations: limits of torque, rate, speed and energy
+//! hold, every fault has the reaction of the contract, the arm comes back, and the table of
+//! `docs/guide/src/faults.md` is what was observed. `TABLES_WRITE=1` writes the table.
 
 use host_tests::page::Table;
 use lab_target::faults::{

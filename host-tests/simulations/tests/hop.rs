@@ -1,4 +1,5 @@
-//! Claims about the hops of scene `leg_hop`: what its reference promises, and what the leg on its rail does.
+//! Claims about the hops of scene `leg_hop`: what its reference promises, and what the leg on its
+//! rail does.
 
 use crate::common::{Verdict, Worst};
 use dynamics_core::effects::RIGID_BODY;

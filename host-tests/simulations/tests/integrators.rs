@@ -1,4 +1,5 @@
-//! Integrators: their orders, what keeps energy, what damping cannot shake, and what compensated addition repairs.
+//! Integrators: their orders, what keeps energy, what damping cannot shake, and what compensated
+//! addition repairs.
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::{kinetic_energy, potential_energy};
@@ -15,8 +16,8 @@ use host_tests::measured::{largest, within};
 use host_tests::tolerances::check;
 use lab_target::accuracy::simulation::{DoublePendulum, PassiveMotion};
 
-/// Where the double pendulum is after a second in so many steps, all of which `see` is shown; nothing if some
-/// acceleration has become none.
+/// Where the double pendulum is after a second in so many steps, all of which `see` is shown;
+/// nothing if some acceleration has become none.
 fn watched<I, R, E, const COMPENSATED: bool>(
     steps: u32,
     effects: &E,
@@ -183,8 +184,8 @@ impl Robot<2, 2, 2> for Two {
     const MODEL: ArmModel<f64, 2> = TWO;
 }
 
-/// The energy of the pendulum after some seconds by steps of h without friction, as a share of that at the start: the least and
-/// the greatest of the last hundred steps' in each second.
+/// The energy of the pendulum after some seconds by steps of h without friction, as a share of that
+/// at the start: the least and the greatest of the last hundred steps' in each second.
 fn energies<R: Real>(start: [f64; 2], seconds: u32, h: f64) -> [f64; 2]
 where
     Static<Two>: RobotModel<R, 2, 2, 2>,
@@ -238,7 +239,8 @@ fn the_energy_of_a_pendulum_drifts_little_within_an_hour() {
     }
 }
 
-/// The step and the scalar of the scenes' plants; the doc comment of `linearly_implicit` states these, too.
+/// The step and the scalar of the scenes' plants; the doc comment of `linearly_implicit` states
+/// these, too.
 #[test]
 fn the_energy_of_a_plant_in_f32_drifts_little_within_an_hour() {
     for (start, share) in [([0.5, -0.3], 0.002), ([1.5, 0.5], 0.03), ([2.5, 1.0], 0.12)] {

@@ -1,4 +1,5 @@
-//! Claims about an SO-101 that learns its parameters and weighs its load, in f32 as in firmware. `TABLES_WRITE=1` writes what the firmware knows.
+//! Claims about an SO-101 that learns its parameters and weighs its load, in f32 as in firmware.
+//! `TABLES_WRITE=1` writes what the firmware knows.
 
 use simulation_tests::learning::arm::{BRISTLES, SMOOTH};
 use simulation_tests::learning::parameters::Known;

@@ -1,4 +1,5 @@
-//! Claims about external torques by the observer of the momentum, on a simulated UR5e with friction.
+//! Claims about external torques by the observer of the momentum, on a simulated UR5e with
+//! friction.
 
 use dynamics_core::algorithms::MomentumAndCoriolis;
 use dynamics_core::effects::BodyWrench;
@@ -219,10 +220,12 @@ fn friction_that_grows_with_the_load_is_no_contact() {
     };
     let free = worst(&run::<1>(1000, Known::All, gears, |_| FREE));
     let without = worst(&run::<1>(1000, Known::WithoutGears, gears, |_| FREE));
-    // N·m: the friction of a tick is that of its first velocity, also where the sign changes within it.
+    // N·m: the friction of a tick is that of its first velocity, also where the sign changes within
+    // it.
     assert!(free < 0.3, "{free}");
     assert!(without > 5.0, "{without}");
-    // A contact loads the gears of all joints that carry it, and the friction that it adds is no contact further out.
+    // A contact loads the gears of all joints that carry it, and the friction that it adds is no
+    // contact further out.
     let wrench = Force::new(DVec3::ZERO, DVec3::new(20.0, -30.0, 40.0));
     let contact = BodyWrench { body: 2, wrench };
     let residuals = run::<1>(300, Known::All, (gears, contact), |_| FREE);
@@ -318,8 +321,8 @@ struct Wrong {
     friction: f64,
 }
 
-/// The contacts that a detector finds, with the model's torques off by shares up to the stated ones. The arm is pushed from
-/// a tick on.
+/// The contacts that a detector finds, with the model's torques off by shares up to the stated
+/// ones. The arm is pushed from a tick on.
 fn contacts(
     stated: Wrong,
     wrong: Wrong,

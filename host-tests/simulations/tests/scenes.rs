@@ -43,9 +43,10 @@ fn acting<R: Real>() -> (
     )
 }
 
-/// 60 s of the scene's way, again and again, under its feed-forward and feedback, in `steps` steps a tick: the largest
-/// momentum about the origin, angular and linear, each as a share of the largest that the arm has beside a satellite
-/// at rest. `step` is given the joints' torques and the seconds.
+/// 60 s of the scene's way, again and again, under its feed-forward and feedback, in `steps` steps
+/// a tick: the largest momentum about the origin, angular and linear, each as a share of the
+/// largest that the arm has beside a satellite at rest. `step` is given the joints' torques and the
+/// seconds.
 fn drift<R: Real>(steps: u32, mut step: impl FnMut(&[f32; 6], R) -> Floating<R>) -> f64 {
     let (way, inertia) = (ReachOut::reference().unwrap(), ReachOut::inertia(&()));
     let h = R::from_f64(f64::from(TICK) / f64::from(steps));
@@ -187,7 +188,8 @@ fn the_inertial_unit_measures_the_masts_motion() {
             * DMat3::from_cols_array(&slope(|dt| pose(&ship, t + dt).0.to_cols_array()));
         let omega = DVec3::new(turn.y_axis.z, turn.z_axis.x, turn.x_axis.y);
         velocity.see(six(base.velocity), flat::<f64>(omega, v));
-        // In the ship's own coordinates a spatial acceleration is the rate of the velocity's numbers.
+        // In the ship's own coordinates a spatial acceleration is the rate of the velocity's
+        // numbers.
         let rate = slope(|dt| six(ship.measured(t + dt).1.velocity));
         acceleration.see(six(base.acceleration), rate);
         let weight = attitude.transpose() * DVec3::new(0.0, 0.0, -9.81);

@@ -1,5 +1,6 @@
-//! What the scene `so101_teach` promises: with the servos' duty computed from the model the arm follows the taught path at a
-//! fraction of the error of the servos' own position loops, and a hand that teaches it moves it with less effort.
+//! What the scene `so101_teach` promises: with the servos' duty computed from the model the arm
+//! follows the taught path at a fraction of the error of the servos' own position loops, and a hand
+//! that teaches it moves it with less effort.
 
 use dynamics_core::Engine;
 use dynamics_core::effects::{Effect, Gravity, LoadFriction};
@@ -62,7 +63,8 @@ fn gravity_compensation_follows_better_with_friction() {
     }
 }
 
-/// Stiffness and damping of the hand on each joint, N·m/rad and N·m·s/rad: firm enough to lead the arm along the path.
+/// Stiffness and damping of the hand on each joint, N·m/rad and N·m·s/rad: firm enough to lead the
+/// arm along the path.
 const HAND: [f32; 2] = [20.0, 1.0];
 
 /// Teaching is slower than the path by this factor, as it is done without haste.
@@ -80,8 +82,8 @@ fn slowly(reference: &impl Reference<f32, 6>, tick: u32) -> State<f32, 6, 6> {
     path
 }
 
-/// The root mean square of the torque with which a hand leads the arm along the path, N·m, the servos compensating these
-/// effects at the measured state.
+/// The root mean square of the torque with which a hand leads the arm along the path, N·m, the
+/// servos compensating these effects at the measured state.
 fn effort<E: Effect<f32, 6, 6>>(exact: bool, effects: &E) -> f64 {
     let reference = TaughtPath::reference().expect("within the limits");
     let mut servos = plant(exact);

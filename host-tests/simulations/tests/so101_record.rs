@@ -1,4 +1,5 @@
-//! A record of the arm that learns, as `cargo xtask watch` writes it, gives `cargo xtask identify` its parameters.
+//! A record of the arm that learns, as `cargo xtask watch` writes it, gives `cargo xtask identify`
+//! its parameters.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -55,7 +56,8 @@ fn record(friction: impl Effect<f32, 6, 6> + Clone) -> String {
     text + "\n"
 }
 
-/// The description of the arm with each number of its bodies 30 % more or less, and without friction.
+/// The description of the arm with each number of its bodies 30 % more or less, and without
+/// friction.
 fn described() -> Robot {
     let file = concat!(
         env!("CARGO_MANIFEST_DIR"),
@@ -102,7 +104,8 @@ fn torques(robot: &Robot, found: &Found, at: &State<f64, 6, 6>) -> [f64; 6] {
     rnea(&arm, at, &(RIGID_BODY, viscous, coulomb, armature, gears))
 }
 
-/// The errors on the path that is taught: of each joint, the root mean square and the largest, of the largest torque.
+/// The errors on the path that is taught: of each joint, the root mean square and the largest, of
+/// the largest torque.
 fn errors(robot: &Robot, found: &Found) -> [[f64; 2]; 6] {
     let path = TaughtPath::reference().expect("a path");
     let (mut errors, mut largest, mut count) = ([[0.0_f64; 2]; 6], [0.0_f64; 6], 0.0);

@@ -8,7 +8,8 @@ use dynamics_core::robots::Ur5e;
 use host_tests::measured::largest;
 use lab_target::accuracy::simulation::{DoublePendulum, PassiveMotion};
 
-/// The double pendulum by Lagrange's equations, angles from the vertical, the second's relative to the first.
+/// The double pendulum by Lagrange's equations, angles from the vertical, the second's relative to
+/// the first.
 fn lagrange() -> Vec<[[f64; 2]; 2]> {
     let (m, l, c, i, g) = (1.0, 0.5, 0.25, 1.0 / 48.0, 9.81);
     let acceleration = |[q, qd]: [[f64; 2]; 2]| -> [f64; 2] {
@@ -50,7 +51,8 @@ fn lagrange() -> Vec<[[f64; 2]; 2]> {
     samples.collect()
 }
 
-/// The reference of the simulations agrees with equations of another kind, and does not depend on its step.
+/// The reference of the simulations agrees with equations of another kind, and does not depend on
+/// its step.
 #[test]
 fn true_motions_agree_with_lagrange_and_longer_steps() {
     fn apart<const N: usize>(a: &[[[f64; N]; 2]], b: &[[[f64; N]; 2]]) -> f64 {

@@ -1,4 +1,5 @@
-//! Input at the edges: values out of range, missing or contradictory are treated as documented, or refused.
+//! Input at the edges: values out of range, missing or contradictory are treated as documented, or
+//! refused.
 
 use dynamics_core::algorithms::{crba_jacobian, jacobian, rnea};
 use dynamics_core::effects::{
@@ -115,7 +116,8 @@ fn contact_friction_is_relative_to_the_moving_base() {
         std::iter::zip(still, weight).all(|(a, b)| (a - b).abs() > 1.0),
         "{still:?} {weight:?}"
     );
-    // Friction alone: a turning base would add centrifugal forces with `Coriolis`, which is not in the scene.
+    // Friction alone: a turning base would add centrifugal forces with `Coriolis`, which is not in
+    // the scene.
     let velocity = Motion::new(DVec3::new(0.3, -0.2, 0.5), DVec3::new(5.0, 1.0, -2.0));
     let base = MovingBase {
         velocity,

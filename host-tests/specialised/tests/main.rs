@@ -1,4 +1,5 @@
-//! The engine beside the textbook and the recordings, in one program: each robot, scalar and set of effects is compiled once.
+//! The engine beside the textbook and the recordings, in one program: each robot, scalar and set of
+//! effects is compiled once.
 
 mod bad_input;
 mod contract;

@@ -1,5 +1,5 @@
-//! The core against Pinocchio, in f64 and f32, on every recorded state. Its loops are over run-time models,
-//! which robots of one size share; `engine` has those of robots known while compiling.
+//! The core against Pinocchio, in f64 and f32, on every recorded state. Its loops are over run-time
+//! models, which robots of one size share; `engine` has those of robots known while compiling.
 
 use dynamics_core::algorithms::{aba, crba, inverse, ltdl, rnea};
 use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, RIGID_BODY, hook};

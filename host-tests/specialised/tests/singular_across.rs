@@ -1,5 +1,5 @@
-//! Robots whose M is singular across bodies without inertia are refused by every algorithm, robots with a light
-//! wrist by none.
+//! Robots whose M is singular across bodies without inertia are refused by every algorithm, robots
+//! with a light wrist by none.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -81,7 +81,8 @@ fn all_refused<const B: usize, const Q: usize, const V: usize>(
     assert_eq!(refused, [[count; 7]; 2], "{what}, {WAYS:?}");
 }
 
-/// As [`all_refused`] by the ways of articulated bodies; M alone does not show in which frames it was computed.
+/// As [`all_refused`] by the ways of articulated bodies; M alone does not show in which frames it
+/// was computed.
 fn refused_by_bodies<const B: usize, const Q: usize, const V: usize>(
     what: &str,
     count: usize,
@@ -163,7 +164,8 @@ fn two_joints_on_one_axis_are_refused() {
     });
 }
 
-/// Two turns on one axis, and between them a plate without mass, `reach` away from the axis at most.
+/// Two turns on one axis, and between them a plate without mass, `reach` away from the axis at
+/// most.
 fn across_a_plate(rng: &mut TestRng, reach: f64) -> (Model<f64, 4, 3, 3>, State<f64, 3, 3>) {
     let axis = Line::random(rng);
     let motor = carrier(rng, "motor", 0, Joint::revolute(axis.0.to_array()));

@@ -1,4 +1,5 @@
-//! Robots whose M is singular across bodies without inertia are refused by the engine as by the core.
+//! Robots whose M is singular across bodies without inertia are refused by the engine as by the
+//! core.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -74,7 +75,8 @@ impl Robot<4, 4, 4> for Slides {
     );
 }
 
-/// A wrist without mass about z, y and x, which is in gimbal lock where its second joint is at ±π/2.
+/// A wrist without mass about z, y and x, which is in gimbal lock where its second joint is at
+/// ±π/2.
 struct Wrist;
 impl Robot<4, 4, 4> for Wrist {
     const MODEL: Model<f64, 4, 4, 4> = Model::new(
@@ -167,7 +169,8 @@ fn a_wrist_out_of_gimbal_lock_is_regular() {
     regular::<f32>(1e-2);
 }
 
-/// Pivots that are certain to exceed their rounding errors are not compared with them; a NaN among them is named all the same.
+/// Pivots that are certain to exceed their rounding errors are not compared with them; a NaN among
+/// them is named all the same.
 #[test]
 fn a_nan_angle_names_the_outermost_joint_that_feels_it() {
     fn named<R: Real, T: Robot<N, N, N>, const N: usize>() {

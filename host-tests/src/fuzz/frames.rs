@@ -1,4 +1,5 @@
-//! Frames of an encoder: what passes its checks is an angle, and no bit that falls over passes them.
+//! Frames of an encoder: what passes its checks is an angle, and no bit that falls over passes
+//! them.
 
 use super::bytes::Bytes;
 use joint_drivers::as5047p::{COUNTS, decode, encode};
@@ -7,7 +8,8 @@ use joint_drivers::{JointMapping, JointRange, MultiTurnEncoder};
 /// Frames of two bytes each.
 ///
 /// # Panics
-/// If one is taken for another angle than its own, a wrong bit passes, or a count goes further than half a turn.
+/// If one is taken for another angle than its own, a wrong bit passes, or a count goes further than
+/// half a turn.
 pub fn frames(bytes: &[u8]) {
     let near = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 3e-3);
     let mut counter = MultiTurnEncoder::<14>::new(near.expect("slower than its encoder"));

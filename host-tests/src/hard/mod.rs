@@ -1,4 +1,5 @@
-//! The form of a hard case, of which there are packages: `hard-cases`, `loop-tests` and `flexible-tests`.
+//! The form of a hard case, of which there are packages: `hard-cases`, `loop-tests` and
+//! `flexible-tests`.
 
 mod row;
 

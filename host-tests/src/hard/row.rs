@@ -102,7 +102,8 @@ impl Row {
     /// Whether the row is as it has to be.
     ///
     /// # Errors
-    /// It fails, a naive alternative does not, or a measured bound lies more than ten times too high.
+    /// It fails, a naive alternative does not, or a measured bound lies more than ten times too
+    /// high.
     pub fn demand(&self) -> Result<(), String> {
         let Self {
             quantity,

@@ -1,8 +1,8 @@
 //! Mistakes of a user that the compiler refuses with a message, at the user's line.
 //!
-//! The files in `mistakes/` are compiled as a user's crate would be, with the library of this test. A comment `//~ words` says that
-//! the compiler's error has these words and names this line. Without code generation rustc finds what `cargo check`, and so
-//! rust-analyzer, finds.
+//! The files in `mistakes/` are compiled as a user's crate would be, with the library of this test.
+//! A comment `//~ words` says that the compiler's error has these words and names this line.
+//! Without code generation rustc finds what `cargo check`, and so rust-analyzer, finds.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

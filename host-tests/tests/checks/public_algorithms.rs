@@ -1,14 +1,14 @@
 //! One name per algorithm: none is a variant of another by its name.
 //!
-//! Read are the public functions of `algorithms`, the public methods of `Core` and `Engine`, the methods of public traits in
-//! these rooms, and the public methods of other types there that take a robot; apart from them those of `loops` and `clusters`.
-//! Accessors of results are not.
+//! Read are the public functions of `algorithms`, the public methods of `Core` and `Engine`, the
+//! methods of public traits in these rooms, and the public methods of other types there that take a
+//! robot; apart from them those of `loops` and `clusters`. Accessors of results are not.
 
 use std::fs;
 use std::path::Path;
 
-/// Endings of names for variants that a type of the argument or a parameter of `Core` and `Engine` replaces: sines and
-/// cosines computed before, another kernel.
+/// Endings of names for variants that a type of the argument or a parameter of `Core` and `Engine`
+/// replaces: sines and cosines computed before, another kernel.
 const VARIANTS: [&str; 2] = ["_at", "_by"];
 
 /// What an item at the left margin contains.

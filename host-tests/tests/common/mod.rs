@@ -1,4 +1,5 @@
-//! Random trees that have every kind of joint, random states of them, and what several tests measure with.
+//! Random trees that have every kind of joint, random states of them, and what several tests
+//! measure with.
 
 #![allow(dead_code, reason = "each test uses a part")]
 
@@ -10,7 +11,8 @@ use glam::{DQuat, DVec3};
 use host_tests::random::six_points;
 use host_tests::tolerances;
 
-/// Bodies, position and velocity coordinates of a tree that has each of the ten kinds of joint once.
+/// Bodies, position and velocity coordinates of a tree that has each of the ten kinds of joint
+/// once.
 pub const B: usize = 10;
 pub const Q: usize = 22;
 pub const V: usize = 20;
@@ -46,8 +48,8 @@ impl Rng {
     }
 }
 
-/// The ten kinds of joint in random order on a random tree, on axes, placements and inertias of any kind.
-/// `rooted`: only the first body stands on the base, and its joint is the free one.
+/// The ten kinds of joint in random order on a random tree, on axes, placements and inertias of any
+/// kind. `rooted`: only the first body stands on the base, and its joint is the free one.
 pub fn random_tree(rng: &mut Rng, rooted: bool) -> Tree {
     const NAMES: [&str; B] = ["a", "b", "c", "d", "e", "f", "g", "h", "i", "j"];
     let mut kinds: [usize; B] = core::array::from_fn(|i| i);

@@ -1,4 +1,5 @@
-//! Dry friction: closed forms of a pendulum and a sledge, stick-slip on a belt; more among the hard cases.
+//! Dry friction: closed forms of a pendulum and a sledge, stick-slip on a belt; more among the hard
+//! cases.
 
 use super::*;
 use dynamics_core::effects::{
@@ -28,7 +29,8 @@ fn turning_points<E: Effect<f64, 1, 1>>(
 
 #[test]
 fn a_pendulums_energy_loss_is_frictions_work() {
-    // m g l (cos θ₁ − cos θ₀) = F (θ₀ + θ₁) between turning points θ₀ and −θ₁, however far it swings.
+    // m g l (cos θ₁ − cos θ₀) = F (θ₀ + θ₁) between turning points θ₀ and −θ₁, however far it
+    // swings.
     const PENDULUM: ArmModel<f64, 1> = Model::new(
         "pendulum",
         [Body::new("rod", BASE, Joint::revolute([0.0, 1.0, 0.0]))

@@ -1,6 +1,6 @@
-//! Friction of gears that depends on the transmitted torque: sign, symmetry, passivity, efficiency, and the forward dynamics
-//! that solve for it. The oracles are the models of Duclusaud et al. (2025) as they are published, iterated, and closed
-//! forms of a hoist.
+//! Friction of gears that depends on the transmitted torque: sign, symmetry, passivity, efficiency,
+//! and the forward dynamics that solve for it. The oracles are the models of Duclusaud et al.
+//! (2025) as they are published, iterated, and closed forms of a hoist.
 
 use super::*;
 use dynamics_core::algorithms::{self, hybrid_dynamics, rnea};
@@ -22,8 +22,8 @@ const HOIST: ArmModel<f64, 1> = Model::new(
 );
 const WEIGHT: f64 = 2.0 * 9.81;
 
-/// An XL330's gears below 2.9 rad/s, by better-actuator-models 1.0.2, params/xl330/m6.json: `load_friction_motor` and
-/// `load_friction_external_stribeck`.
+/// An XL330's gears below 2.9 rad/s, by better-actuator-models 1.0.2, params/xl330/m6.json:
+/// `load_friction_motor` and `load_friction_external_stribeck`.
 const XL330: [f64; 2] = [0.2667860954283698, 0.08077928978935671];
 
 fn gears<R: Real, const N: usize>(
@@ -71,7 +71,8 @@ fn load_friction_opposes_motion_and_is_odd_bit_by_bit() {
 
 #[test]
 fn load_friction_solves_the_published_directional_model() {
-    // F = |k_m τ_m − k_e τ_e|, τ_e = −τ the external torque and τ_m = τ + F sgn q̇: iterated from F = 0.
+    // F = |k_m τ_m − k_e τ_e|, τ_e = −τ the external torque and τ_m = τ + F sgn q̇: iterated from F
+    // = 0.
     let [k_m, k_e] = XL330;
     let gears = LoadFriction::of_motor_and_load([k_m], [k_e], Width::new(1e-3));
     for (load, qd) in [(3.0, 1.0), (3.0, -1.0), (-0.7, 1.0), (-0.7, -1.0)] {
@@ -148,7 +149,8 @@ fn between_the_two_efficiencies_the_load_is_held_without_chatter() {
 
 #[test]
 fn the_implicit_step_has_the_derivative_of_the_acceleration() {
-    // q̈ of the implicit step is q̈ / (1 − h ∂q̈/∂q̇), its derivative that of aba by central differences.
+    // q̈ of the implicit step is q̈ / (1 − h ∂q̈/∂q̇), its derivative that of aba by central
+    // differences.
     let gears = gears::<f64, 1>(0.4, 0.3, 0.5);
     let scene = (RIGID_BODY, gears);
     let aba = |qd: f64, x: f64| {

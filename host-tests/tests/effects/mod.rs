@@ -1,4 +1,5 @@
-//! Each effect against an oracle that does not share its code: closed forms, Pinocchio, expanded models.
+//! Each effect against an oracle that does not share its code: closed forms, Pinocchio, expanded
+//! models.
 
 use dynamics_core::effects::{Effect, JointState, TorqueDerivatives};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};

@@ -1,4 +1,5 @@
-//! A user's own effect, written as a user would, in core, engine and plant; and every effect in the engine.
+//! A user's own effect, written as a user would, in core, engine and plant; and every effect in the
+//! engine.
 
 use super::*;
 use dynamics_core::algorithms::kinetic_energy;
@@ -226,7 +227,8 @@ fn engine_equals_core_on_a_moving_base() {
         ulps::<f64>(f64::EPSILON),
     );
     println!("{single:.2?} {double:.2?} ulp");
-    // Friction of the ground is of the difference of two velocities, a body's and the base's, both larger than it.
+    // Friction of the ground is of the difference of two velocities, a body's and the base's, both
+    // larger than it.
     for (ulps, most) in single.into_iter().chain(double).zip([6.0, 4.0, 6.0, 4.0]) {
         assert!(ulps <= most, "{single:.2?} {double:.2?} ulp");
     }

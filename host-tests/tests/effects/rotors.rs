@@ -20,7 +20,8 @@ const ROTORS: [[f64; 4]; 4] = [
     [0.5, 0.02, 1e-3, 1e-3],
     [0.3, 0.03, 8e-4, 6e-4],
 ];
-/// Low, as where it matters; one gear turns the other way, one joint is a screw-driven slide (rad/m).
+/// Low, as where it matters; one gear turns the other way, one joint is a screw-driven slide
+/// (rad/m).
 const RATIOS: [f64; 4] = [6.0, -4.0, 9.0, 40.0];
 const AXES: [[f64; 3]; 4] = [
     [0.0, 0.0, 1.0],

@@ -180,7 +180,8 @@ fn a_resting_bodys_depth_is_weight_over_stiffness() {
 
 #[test]
 fn a_box_on_a_slope_follows_coulombs_law() {
-    // A free body on two turned planes: 0.3 rad slides at g (sin − μ cos), 0.2 rad holds but for slip_tolerance.
+    // A free body on two turned planes: 0.3 rad slides at g (sin − μ cos), 0.2 rad holds but for
+    // slip_tolerance.
     let slab: Model<f64, 1, 7, 6> = Model::new(
         "slab",
         [Body::new("slab", BASE, Joint::free())

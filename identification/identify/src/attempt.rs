@@ -16,7 +16,8 @@ use crate::robot::Robot;
 
 /// How far the numbers of a description are believed: a relative standard deviation.
 const BELIEVED: f64 = 0.3;
-/// The range of a joint without limits, rad, and the least speed and acceleration that are compared, rad/s and rad/s².
+/// The range of a joint without limits, rad, and the least speed and acceleration that are
+/// compared, rad/s and rad/s².
 const TURN: f64 = PI;
 const SLOWEST: f64 = 0.2;
 const SLOWEST_RATE: f64 = 1.0;
@@ -68,7 +69,8 @@ pub(crate) struct Attempt<const V: usize> {
     pub fit: Fit,
     pub found: Fitted<V>,
     pub set: PhysicalSet<V, V>,
-    /// The mean squares of what the set leaves of the torques, relative to the joints' largest torques, summed.
+    /// The mean squares of what the set leaves of the torques, relative to the joints' largest
+    /// torques, summed.
     pub residual: f64,
 }
 
@@ -88,7 +90,8 @@ impl Task<'_> {
         Error::Identification { path, source }
     }
 
-    /// The fit of a part of a recording, with torques so long after the positions, s; estimated if not given.
+    /// The fit of a part of a recording, with torques so long after the positions, s; estimated if
+    /// not given.
     pub fn attempt<const V: usize>(
         &self,
         whole: &TickRecording<V>,
@@ -166,7 +169,8 @@ pub(crate) fn own<const V: usize>(arm: &Base<V>, joint: usize, of: OfJoint) -> O
     (0..arm.len()).find(|&base| arm.terms(base)[0].1 == parameter)
 }
 
-/// The limits within which the motion is compared with random ones: positions of the description, the speeds of the recording.
+/// The limits within which the motion is compared with random ones: positions of the description,
+/// the speeds of the recording.
 fn limits<const V: usize>(
     robot: &Robot,
     path: &Path,
@@ -234,7 +238,8 @@ fn known<const V: usize>(arm: &Base<V>, effects: &[JointEffect]) -> Vec<bool> {
         .collect()
 }
 
-/// The parameters of the joints around which the physical set is looked for: of an effect that the description lacks, the estimate.
+/// The parameters of the joints around which the physical set is looked for: of an effect that the
+/// description lacks, the estimate.
 fn believed<const V: usize>(
     arm: &Base<V>,
     found: &Fitted<V>,

@@ -1,8 +1,9 @@
-//! The time to which the torque of a tick belongs, relative to its position, from the recording itself.
+//! The time to which the torque of a tick belongs, relative to its position, from the recording
+//! itself.
 //!
-//! The sum of the squares of the residuals is nearly a parabola in this time, as long as the time is
-//! short relative to the periods of the motion. The minimum of a parabola through three values is
-//! taken, and again from there.
+//! The sum of the squares of the residuals is nearly a parabola in this time, as long as the time
+//! is short relative to the periods of the motion. The minimum of a parabola through three values
+//! is taken, and again from there.
 
 use identification::{Fit, Fitted, IdentificationError};
 
@@ -12,14 +13,17 @@ const STEP: f64 = 5e-3;
 const REACH: f64 = 20e-3;
 /// The largest number of parabolas.
 const PARABOLAS: usize = 4;
-/// The minimum is taken if the squares of its residuals are below this share of those at half a tick.
+/// The minimum is taken if the squares of its residuals are below this share of those at half a
+/// tick.
 const SHARE: f64 = 0.9;
-/// The same with friction of gears, which reverses with the power and is nearly that of a short delay.
+/// The same with friction of gears, which reverses with the power and is nearly that of a short
+/// delay.
 const SHARE_WITH_GEARS: f64 = 0.5;
 
 type Fits<const V: usize> = Result<Fitted<V>, IdentificationError>;
 
-/// The fit at the delay of least residuals; `fit` keeps its delay unless the recording shows another one.
+/// The fit at the delay of least residuals; `fit` keeps its delay unless the recording shows
+/// another one.
 pub fn least<const V: usize>(
     fit: &mut Fit,
     torque: &[f64; V],

@@ -1,4 +1,5 @@
-//! The parameters of a robot's file from a recording of its ticks: what `cargo xtask identify` runs.
+//! The parameters of a robot's file from a recording of its ticks: what `cargo xtask identify`
+//! runs.
 //!
 //! | module | what |
 //! |---|---|

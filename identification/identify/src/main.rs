@@ -1,4 +1,5 @@
-//! The parameters of a robot's file from a recording of its ticks: what `cargo xtask identify` runs.
+//! The parameters of a robot's file from a recording of its ticks: what `cargo xtask identify`
+//! runs.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -20,7 +21,8 @@ struct Args {
     /// The description of the robot, URDF or MJCF
     #[arg(long, value_name = "FILE")]
     robot: PathBuf,
-    /// The robot's name in its Rust file: that of the project's folder; that of the description if not given
+    /// The robot's name in its Rust file: that of the project's folder; that of the description if
+    /// not given
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
     /// The effects at joints that are identified; the others stay as described
@@ -46,7 +48,8 @@ struct Args {
     /// Print JSON instead of text
     #[arg(long)]
     json: bool,
-    /// Draw the torques into this file; beside the recording, with the ending .torques.svg, if not given
+    /// Draw the torques into this file; beside the recording, with the ending .torques.svg, if not
+    /// given
     #[arg(long, value_name = "SVG")]
     picture: Option<PathBuf>,
     #[command(flatten)]

@@ -8,7 +8,8 @@ use identification::{OfJoint, Parameter, TickRecording};
 use crate::attempt::{Attempt, Task, own};
 pub use crate::mistake::Mistake;
 
-/// A physical set at more than this distance from the estimate, in standard deviations, does not fit.
+/// A physical set at more than this distance from the estimate, in standard deviations, does not
+/// fit.
 pub const IMPOSSIBLE: f64 = 3.0;
 /// Mistakes are looked for if the residuals exceed this share of the joints' largest torques.
 const UNEXPLAINED: f64 = 0.02;
@@ -53,7 +54,8 @@ impl<const V: usize> Correction<V> {
     }
 }
 
-/// The mistake that explains an estimate which no robot has, or residuals that the model leaves, if one does.
+/// The mistake that explains an estimate which no robot has, or residuals that the model leaves, if
+/// one does.
 pub(crate) fn explains<const V: usize>(
     task: &Task<'_>,
     whole: &TickRecording<V>,
@@ -109,7 +111,8 @@ pub(crate) fn explains<const V: usize>(
         .map(|(_, mistake)| mistake)
 }
 
-/// The shift of a joint's zero that leaves the least residuals: the minimum of the parabola through three of them.
+/// The shift of a joint's zero that leaves the least residuals: the minimum of the parabola through
+/// three of them.
 fn zero<const V: usize>(
     joint: usize,
     names: &[String],
@@ -126,7 +129,8 @@ fn zero<const V: usize>(
         let [back, ahead] = [shift - SHIFT, shift + SHIFT].map(at);
         let bend = back - 2.0 * left + ahead;
         let change = 0.5 * SHIFT * (back - ahead) / bend;
-        // Where the residuals are no parabola, or one side is beyond the limits, the better side is tried.
+        // Where the residuals are no parabola, or one side is beyond the limits, the better side is
+        // tried.
         let change = match bend > 0.0 && change.is_finite() {
             true => change.clamp(-2.0 * SHIFT, 2.0 * SHIFT),
             false => SHIFT * if back < ahead { -1.0 } else { 1.0 },
@@ -147,7 +151,8 @@ fn zero<const V: usize>(
         .then_some((left, Mistake::Zero { joint, shift }))
 }
 
-/// How many times the description's first moments of mass the estimated ones are, by least squares relative to their torques.
+/// How many times the description's first moments of mass the estimated ones are, by least squares
+/// relative to their torques.
 fn unit<const V: usize>(attempt: &Attempt<V>) -> f64 {
     let (mut product, mut square) = (0.0, 0.0);
     for (base, scale) in attempt.arm.scales().into_iter().enumerate() {

@@ -49,7 +49,8 @@ fn today() -> String {
     format!("{}-{month:02}-{:02}", today.year(), today.day())
 }
 
-/// Of the file, the lines that differ from the one before: the bodies and the constants of the joints.
+/// Of the file, the lines that differ from the one before: the bodies and the constants of the
+/// joints.
 pub fn lines(file: &str) -> String {
     let between = |from: &str, to: &str| {
         let start = file.find(from).unwrap_or(file.len());
@@ -106,7 +107,8 @@ fn gears(found: &Found, width: &str) -> String {
     )
 }
 
-/// Initialisers for C: of each body the fields of `<name>_load` in the header of a project, and of each joint its friction.
+/// Initialisers for C: of each body the fields of `<name>_load` in the header of a project, and of
+/// each joint its friction.
 pub fn c(found: &Found) -> String {
     let list = |numbers: &[f64]| {
         let each: Vec<String> = numbers

@@ -1,4 +1,5 @@
-//! The torques of each joint by time as an SVG: measured, by the description, and by what was found.
+//! The torques of each joint by time as an SVG: measured, by the description, and by what was
+//! found.
 
 use std::fmt::Write as _;
 

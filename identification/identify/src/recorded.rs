@@ -27,7 +27,8 @@ pub struct Recorded {
     pub tick: f64,
     /// Positions and torques of consecutive ticks, joint by joint.
     pub stretches: Vec<Vec<Row>>,
-    /// Ticks that were left out: on hold, stopped, or before the machine had said how long a tick is.
+    /// Ticks that were left out: on hold, stopped, or before the machine had said how long a tick
+    /// is.
     pub left_out: usize,
     /// Gaps between ticks: dropped ones and restarts of the trajectory.
     pub gaps: usize,

@@ -31,8 +31,8 @@ pub struct Found {
     pub condition: f64,
     /// Of the physical set from the estimate, in standard deviations.
     pub misfit: f64,
-    /// The time to which a torque belongs, after the position of its tick, s: half a tick for a torque that is
-    /// held for a tick, less if the torques lag behind.
+    /// The time to which a torque belongs, after the position of its tick, s: half a tick for a
+    /// torque that is held for a tick, less if the torques lag behind.
     pub delay: f64,
     /// The mistake in the recording, if one was found; nothing is offered to paste then.
     pub mistake: Option<Mistake>,
@@ -163,7 +163,8 @@ fn short(x: f64) -> String {
 }
 
 impl Found {
-    /// The joint whose residuals are the largest share of its torque, held out or else fitted, and that share.
+    /// The joint whose residuals are the largest share of its torque, held out or else fitted, and
+    /// that share.
     pub fn worst(&self) -> Option<(&JointFound, f64)> {
         let each = self.joints.iter().map(|joint| {
             let part = joint.held_out.unwrap_or(joint.fitted);

@@ -23,7 +23,8 @@ pub struct Robot {
 }
 
 impl Robot {
-    /// Imports a description under its own or another name, without a peer: the import itself has had one.
+    /// Imports a description under its own or another name, without a peer: the import itself has
+    /// had one.
     ///
     /// # Errors
     /// [`Error::Robot`], and [`Error::Unsuitable`] if a joint has not one coordinate.

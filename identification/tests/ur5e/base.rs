@@ -32,8 +32,9 @@ fn the_torques_by_base_parameters_are_those_of_inverse_dynamics() {
     }
 }
 
-/// Khalil & Dombre (2002), chapter 9: of revolute joints, a vertical one first, one parameter of the first body and seven of each other;
-/// the armatures of the first two joints are part of the inertias of their bodies about the axes. Offsets and frictions are independent.
+/// Khalil & Dombre (2002), chapter 9: of revolute joints, a vertical one first, one parameter of
+/// the first body and seven of each other; the armatures of the first two joints are part of the
+/// inertias of their bodies about the axes. Offsets and frictions are independent.
 #[test]
 fn regrouping_rules_give_the_number_of_base_parameters() {
     let armatures = |parameter: &Parameter| matches!(parameter, Parameter::Joint { .. });

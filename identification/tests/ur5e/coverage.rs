@@ -20,8 +20,9 @@ const FEW: u64 = 10;
 struct Outcome {
     /// Errors of the base parameters in stated deviations.
     errors: Vec<f64>,
-    /// The largest error of the torques on another excitation and on the pick and place, of any joint, relative to the largest torque of
-    /// the joint there: of the nominal model, of the estimate, and of the physical set.
+    /// The largest error of the torques on another excitation and on the pick and place, of any
+    /// joint, relative to the largest torque of the joint there: of the nominal model, of the
+    /// estimate, and of the physical set.
     torques: [[Errors; 2]; 3],
     misfit: f64,
     /// The mean noise of each joint below 1.6 Hz relative to that of its torque.
@@ -43,7 +44,8 @@ static OTHER: LazyLock<FourierMotion<6>> = LazyLock::new(|| {
         .motion
 });
 
-/// Errors of the torques of a path: of the joint with the largest ones, relative to its largest torque on the path.
+/// Errors of the torques of a path: of the joint with the largest ones, relative to its largest
+/// torque on the path.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Errors {
     pub largest: f64,
@@ -152,7 +154,8 @@ fn most(all: &[Outcome], of: impl Fn(&Outcome) -> f64) -> f64 {
     all.iter().map(of).fold(0.0, f64::max)
 }
 
-/// Of a corner frequency of 5 Hz: the deviations are several times those of white noise of the same size.
+/// Of a corner frequency of 5 Hz: the deviations are several times those of white noise of the same
+/// size.
 #[test]
 fn the_deviations_are_those_of_coloured_noise_too() {
     let (mut inside, mut all, mut ratio) = (0, 0, 0.0);
@@ -184,7 +187,8 @@ fn the_deviations_are_those_of_coloured_noise_too() {
 fn identified_torques_are_within_1_percent_of_full_scale() {
     const ESTIMATES: [usize; 2] = [1, 2];
     for k in ESTIMATES {
-        // Of the rated torque at all times, on the pick and place too; in the mean of the largest torque of the motion.
+        // Of the rated torque at all times, on the pick and place too; in the mean of the largest
+        // torque of the motion.
         for path in 0..2 {
             let rated = most(&ALL, |outcome| outcome.torques[k][path].rated);
             assert!((0.001..0.01).contains(&rated), "{k}: {rated}");

@@ -93,7 +93,8 @@ fn the_condition_number_is_that_of_the_singular_values() {
             }
         }
     }
-    // Without the scale of the columns another number, of which each factor is between the least and the greatest scale.
+    // Without the scale of the columns another number, of which each factor is between the least
+    // and the greatest scale.
     let values = rows.singular_values();
     let unscaled = values.max() / values.min();
     for (i, unit) in ARM.scales().iter().enumerate() {

@@ -1,5 +1,6 @@
-//! Claims about the identification of a UR5e: half a minute in closed loop with encoders of 14 bits, torques with noise, and
-//! parameters that are off by up to 30 %. `TABLES_WRITE=1` writes the tables of `docs/guide/src/identification.md`.
+//! Claims about the identification of a UR5e: half a minute in closed loop with encoders of 14
+//! bits, torques with noise, and parameters that are off by up to 30 %. `TABLES_WRITE=1` writes the
+//! tables of `docs/guide/src/identification.md`.
 
 mod bad_input;
 mod base;

@@ -26,8 +26,9 @@ pub fn assert_possible(set: &PhysicalSet<6, 6>) {
     assert_eq!(stored.follow(&all(&set.bodies, &set.joints)), 1.0);
 }
 
-/// With hardly any knowledge of nominal numbers the nearest set that is not possible has the estimate itself. By optimality that of a
-/// convex problem agrees with the estimate at least as well as the true parameters, which are possible.
+/// With hardly any knowledge of nominal numbers the nearest set that is not possible has the
+/// estimate itself. By optimality that of a convex problem agrees with the estimate at least as
+/// well as the true parameters, which are possible.
 // No possible arm has the estimate, and yet the set is possible.
 #[test]
 fn the_physical_set_agrees_as_well_as_the_truth() {

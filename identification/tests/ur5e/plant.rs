@@ -30,7 +30,8 @@ pub struct Run {
 }
 
 impl Run {
-    /// Half a minute along a motion: position and velocity feedback from encoders of 14 bits, and the nominal model ahead.
+    /// Half a minute along a motion: position and velocity feedback from encoders of 14 bits, and
+    /// the nominal model ahead.
     pub fn new(motion: &FourierMotion<6>, truth: &Parameters, friction: Friction) -> Self {
         let mut plant = Plant::new(truth, friction, motion.at(0.0));
         let nominal = Parameters::nominal().base();
@@ -81,7 +82,8 @@ impl Run {
     }
 }
 
-/// Bristles that slide from 10⁻⁴ rad on, with the sliding friction of the model and 15 % more stiction.
+/// Bristles that slide from 10⁻⁴ rad on, with the sliding friction of the model and 15 % more
+/// stiction.
 pub fn bristles(truth: &Parameters) -> Lugre<f64, 6> {
     let of = |k: usize| truth.joints.map(|joint| joint[k]);
     Lugre {
@@ -184,7 +186,8 @@ impl Plant {
     }
 }
 
-/// The friction of bristles along a motion, less that of the model with the same coefficients: at every state, after a lead.
+/// The friction of bristles along a motion, less that of the model with the same coefficients: at
+/// every state, after a lead.
 pub fn beyond(truth: &Parameters, motion: &FourierMotion<6>) -> Vec<[f64; 6]> {
     const STEP: f64 = 1e-4;
     let per_state = (PERIOD / STEP / 500.0) as usize;

@@ -108,8 +108,9 @@ impl Parameters {
         }
     }
 
-    /// Each mass, each component of each centre of mass, the inertias of each body about its centre, and each number of a joint
-    /// times another number between 0.7 and 1.3; offsets of up to 1 % of the rated torque.
+    /// Each mass, each component of each centre of mass, the inertias of each body about its
+    /// centre, and each number of a joint times another number between 0.7 and 1.3; offsets of up
+    /// to 1 % of the rated torque.
     pub fn off(seed: u64) -> Self {
         let mut rng = fastrand::Rng::with_seed(seed);
         let mut factor = || 0.7 + 0.6 * rng.f64();

@@ -1,5 +1,5 @@
-//! Balafoutis, Patel & Misra (1988); Balafoutis & Patel (1991): Newton's and Euler's equations with Cartesian tensors
-//! and augmented links, O(n):
+//! Balafoutis, Patel & Misra (1988); Balafoutis & Patel (1991): Newton's and Euler's equations with
+//! Cartesian tensors and augmented links, O(n):
 //!
 //! ```text
 //! ω_i = A_iᵀ (ω_{i−1} + z q̇_i),   ω̇_i = A_iᵀ (ω̇_{i−1} + z q̈_i + ω_{i−1} × z q̇_i)
@@ -10,10 +10,11 @@
 //! τ_i = (A_i η_i) · z
 //! ```
 //!
-//! A link is augmented by the masses of all links behind it, put in its outer origin: u_i, K_i: `augmented_first`,
-//! `augmented_second`, ∫ ρ dm and ∫ ρ ρᵀ dm about the origin of frame i − 1. f_i is the force on a link without the
-//! mass from there on times s̈_{i−1}, whose moment is in u_i and K_i. ω~ is the tensor of ω ×, dual its inverse.
-//! Rotations are two planar ones, of 8 products and 4 sums.
+//! A link is augmented by the masses of all links behind it, put in its outer origin: u_i, K_i:
+//! `augmented_first`, `augmented_second`, ∫ ρ dm and ∫ ρ ρᵀ dm about the origin of frame i − 1. f_i
+//! is the force on a link without the mass from there on times s̈_{i−1}, whose moment is in u_i and
+//! K_i. ω~ is the tensor of ω ×, dual its inverse. Rotations are two planar ones, of 8 products and
+//! 4 sums.
 
 use core::array::from_fn;
 

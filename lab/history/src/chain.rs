@@ -1,8 +1,8 @@
-//! Chains of revolute joints in Denavit and Hartenberg's parameters, with general inertias, for the ancestors and for
-//! today's core.
+//! Chains of revolute joints in Denavit and Hartenberg's parameters, with general inertias, for the
+//! ancestors and for today's core.
 //!
-//! Frame i is fixed in link i at its outer end; joint i turns about z of frame i − 1; frame i follows from frame i − 1
-//! by Rot(z, q_i) Trans(z, d_i) Trans(x, a_i) Rot(x, α_i).
+//! Frame i is fixed in link i at its outer end; joint i turns about z of frame i − 1; frame i
+//! follows from frame i − 1 by Rot(z, q_i) Trans(z, d_i) Trans(x, a_i) Rot(x, α_i).
 
 use core::array::from_fn;
 
@@ -15,8 +15,8 @@ pub const LONGEST: usize = 12;
 /// Gravity in the base's frame, m/s².
 pub const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 
-/// A link: a, d, α, and in the frame at its inner joint, whose z is that joint's axis: mass, centre of mass, and the
-/// inertia about it: xx, xy, xz, yy, yz, zz.
+/// A link: a, d, α, and in the frame at its inner joint, whose z is that joint's axis: mass, centre
+/// of mass, and the inertia about it: xx, xy, xz, yy, yz, zz.
 struct Given {
     a: f64,
     d: f64,
@@ -96,7 +96,8 @@ pub struct Link<T> {
     pub pseudo_inertia: Mat<T, 4>,
     /// m (s, 1).
     pub first_moment_4: [T; 4],
-    /// ∫ ρ dm about the origin of frame i − 1, of the link with all masses behind it put in the origin of frame i.
+    /// ∫ ρ dm about the origin of frame i − 1, of the link with all masses behind it put in the
+    /// origin of frame i.
     pub augmented_first: [T; 3],
     /// ∫ ρ ρᵀ dm of the same.
     pub augmented_second: Mat<T, 3>,

@@ -1,6 +1,8 @@
-//! Walker & Orin (1982), method 3: the joint-space inertia matrix H by composite rigid bodies, O(n²). H is M of today.
+//! Walker & Orin (1982), method 3: the joint-space inertia matrix H by composite rigid bodies,
+//! O(n²). H is M of today.
 //!
-//! Links j to n move as one rigid body, of mass M_j, centre c_j and inertia E_j about it, when joint j alone turns:
+//! Links j to n move as one rigid body, of mass M_j, centre c_j and inertia E_j about it, when
+//! joint j alone turns:
 //!
 //! ```text
 //! c_j = A_j [p*_j + (m_j s_j + M_{j+1} c_{j+1}) / M_j]
@@ -9,8 +11,9 @@
 //! f_i = A_i f_{i+1},   n_i = A_i (n_{i+1} + p*_i × f_{i+1}),   H_ij = n_i · z   for i < j
 //! ```
 //!
-//! c, the centre in frame j, is what the bracket of c_j divides by M_j. Everything with the index j is in frame j − 1,
-//! whose z is the axis of joint j. Rotations are two planar ones; E is symmetric, and half of it is computed.
+//! c, the centre in frame j, is what the bracket of c_j divides by M_j. Everything with the index j
+//! is in frame j − 1, whose z is the axis of joint j. Rotations are two planar ones; E is
+//! symmetric, and half of it is computed.
 
 use crate::chain::{Chain, Link, State};
 use crate::matrix::{Mat, cross, plus, times};
@@ -44,7 +47,8 @@ pub fn method_3<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T,
     h
 }
 
-/// c_j and E_j of a link and of what is behind it, of this mass, with its centre and inertia in frame j.
+/// c_j and E_j of a link and of what is behind it, of this mass, with its centre and inertia in
+/// frame j.
 #[inline(always)]
 fn composite_of<T: Number>(
     link: &Link<T>,

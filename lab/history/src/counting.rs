@@ -1,4 +1,5 @@
-//! A scalar that counts: products, sums (differences are sums) and quotients, for each thread its own count.
+//! A scalar that counts: products, sums (differences are sums) and quotients, for each thread its
+//! own count.
 
 extern crate std;
 

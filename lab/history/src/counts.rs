@@ -1,8 +1,8 @@
-//! Published and counted operations of the ancestors as polynomials of the number of joints, and term by term why they
-//! differ. A test counts, and holds each term.
+//! Published and counted operations of the ancestors as polynomials of the number of joints, and
+//! term by term why they differ. A test counts, and holds each term.
 //!
-//! The published polynomials are sums of whole products of matrices, and the reasons are inferred from that, not quoted.
-//! What fits no operation of the equations is called so.
+//! The published polynomials are sums of whole products of matrices, and the reasons are inferred
+//! from that, not quoted. What fits no operation of the equations is called so.
 
 pub use crate::polynomial::Polynomial;
 use crate::polynomial::{NONE, poly};

@@ -1,5 +1,5 @@
-//! Hollerbach (1980): Lagrange's equations over 3 × 3 matrices with recursions in both directions, O(n).
-//! Equations (12) to (17), with Ẅ_j of [`crate::waters`] over rotations alone:
+//! Hollerbach (1980): Lagrange's equations over 3 × 3 matrices with recursions in both directions,
+//! O(n). Equations (12) to (17), with Ẅ_j of [`crate::waters`] over rotations alone:
 //!
 //! ```text
 //! p̈_i = p̈_{i−1} + Ẅ_i p*_i
@@ -9,9 +9,10 @@
 //! τ_i = tr(∂W_i/∂q_i D_i) − gᵀ ∂W_i/∂q_i c_i
 //! ```
 //!
-//! n_i, J_i: `first_moment`, `second_moment`, about the origin of frame i. Hollerbach's origin of link i is on its
-//! own joint's axis; with Denavit and Hartenberg's frames, whose origin i is at the link's outer end, D_i and c_i are
-//! about the origin of frame i − 1, and p*_i e_iᵀ takes the place of his ⁱp_{i+1} e_{i+1}ᵀ.
+//! n_i, J_i: `first_moment`, `second_moment`, about the origin of frame i. Hollerbach's origin of
+//! link i is on its own joint's axis; with Denavit and Hartenberg's frames, whose origin i is at
+//! the link's outer end, D_i and c_i are about the origin of frame i − 1, and p*_i e_iᵀ takes the
+//! place of his ⁱp_{i+1} e_{i+1}ᵀ.
 
 use crate::chain::{Chain, State};
 use crate::matrix::{

@@ -1,5 +1,5 @@
-//! Hollerbach (1980): Lagrange's equations over 4 × 4 matrices with recursions in both directions, O(n).
-//! Equations (7) to (9), with Ẅ_j of [`crate::waters`]:
+//! Hollerbach (1980): Lagrange's equations over 4 × 4 matrices with recursions in both directions,
+//! O(n). Equations (7) to (9), with Ẅ_j of [`crate::waters`]:
 //!
 //! ```text
 //! D_i = J_i Ẅ_iᵀ + A_{i+1} D_{i+1}

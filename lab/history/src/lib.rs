@@ -1,12 +1,14 @@
-//! The ancestors of today's dynamics algorithms, from 1965 on, as they were published: to be tested, counted and
-//! measured, not to be used. `docs/history.md` has the figures.
+//! The ancestors of today's dynamics algorithms, from 1965 on, as they were published: to be
+//! tested, counted and measured, not to be used. `docs/history.md` has the figures.
 //!
-//! One algorithm a file, with the letters of its source; each takes sines and cosines from outside. They run on the
-//! host and on the target, in any [`Number`], and are never inlined, so that a call is what is measured.
+//! One algorithm a file, with the letters of its source; each takes sines and cosines from outside.
+//! They run on the host and on the target, in any [`Number`], and are never inlined, so that a call
+//! is what is measured.
 //!
-//! What counts as an operation is what Hollerbach (1980) counted: a product of 4 × 4 matrices is 64 products and 48
-//! sums and one of 3 × 3 matrices 27 and 18, with all their zeros and ones; Q A, the derivative of a matrix A, costs
-//! nothing; changes of sign and what the robot's constants allow to compute beforehand cost nothing.
+//! What counts as an operation is what Hollerbach (1980) counted: a product of 4 × 4 matrices is 64
+//! products and 48 sums and one of 3 × 3 matrices 27 and 18, with all their zeros and ones; Q A,
+//! the derivative of a matrix A, costs nothing; changes of sign and what the robot's constants
+//! allow to compute beforehand cost nothing.
 #![no_std]
 
 pub mod balafoutis_patel;

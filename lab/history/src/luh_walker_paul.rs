@@ -1,5 +1,5 @@
-//! Luh, Walker & Paul (1980): the recursive Newton-Euler equations in link coordinates, O(n); table 1, for joints that
-//! turn:
+//! Luh, Walker & Paul (1980): the recursive Newton-Euler equations in link coordinates, O(n); table
+//! 1, for joints that turn:
 //!
 //! ```text
 //! ω_i = A_iᵀ (ω_{i−1} + z q̇_i)
@@ -12,8 +12,9 @@
 //! τ_i = n_i · (A_iᵀ z),   ω_0 = ω̇_0 = 0,   v̇_0 = −g
 //! ```
 //!
-//! A_i: `rotation`, from frame i to frame i − 1; p*, s, J: `p`, `s`, `inertia`; p* + s is a constant of the link. The
-//! source's viscous friction b_i q̇_i is left out. z is (0, 0, 1): sums and products with its zeros are omitted.
+//! A_i: `rotation`, from frame i to frame i − 1; p*, s, J: `p`, `s`, `inertia`; p* + s is a
+//! constant of the link. The source's viscous friction b_i q̇_i is left out. z is (0, 0, 1): sums
+//! and products with its zeros are omitted.
 
 use crate::chain::{Chain, Link, State};
 use crate::matrix::{Mat, cross, dot, mul_vec, plus, times, transpose_mul_vec};

@@ -1,5 +1,5 @@
-//! Square matrices by rows and vectors, with the costs of the published counts: a product of D × D matrices takes D³
-//! products and D²(D − 1) sums, whatever zeros it has.
+//! Square matrices by rows and vectors, with the costs of the published counts: a product of D × D
+//! matrices takes D³ products and D²(D − 1) sums, whatever zeros it has.
 
 use core::array::from_fn;
 
@@ -30,8 +30,8 @@ pub fn mul_transposed<T: Number, const D: usize>(a: &Mat<T, D>, b: &Mat<T, D>) -
     from_fn(|i| from_fn(|j| dot(&a[i], &b[j])))
 }
 
-/// tr(A Bᵀ) as the published counts have it: the whole product, then D − 1 sums. A compiler may omit the product's
-/// entries that the trace does not need.
+/// tr(A Bᵀ) as the published counts have it: the whole product, then D − 1 sums. A compiler may
+/// omit the product's entries that the trace does not need.
 #[inline(always)]
 pub fn trace_of_product<T: Number, const D: usize>(a: &Mat<T, D>, b: &Mat<T, D>) -> T {
     let product = mul_transposed(a, b);

@@ -11,7 +11,8 @@ pub trait Number:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// The zero of an array that is filled later, and of a sum that has not begun; it counts as nothing.
+    /// The zero of an array that is filled later, and of a sum that has not begun; it counts as
+    /// nothing.
     const ZERO: Self;
 
     /// A constant of the robot, rounded.

@@ -1,15 +1,18 @@
-//! Uicker (1965) and Kahn (1969): Lagrange's equations over 4 × 4 matrices, O(n⁴). Hollerbach (1980), equation (3):
+//! Uicker (1965) and Kahn (1969): Lagrange's equations over 4 × 4 matrices, O(n⁴). Hollerbach
+//! (1980), equation (3):
 //!
 //! ```text
 //! τ_i = Σ_{j ≥ i} [ Σ_{k ≤ j} tr(∂W_j/∂q_i J_j ∂W_jᵀ/∂q_k) q̈_k
 //!                 + Σ_{k ≤ j} Σ_{l ≤ j} tr(∂W_j/∂q_i J_j ∂²W_jᵀ/∂q_k∂q_l) q̇_k q̇_l − m_j gᵀ ∂W_j/∂q_i r_j ]
 //! ```
 //!
-//! W_j: `w`, from frame j to the base; ∂W_j/∂q_i: `dw[i]`; ∂²W_j/∂q_k∂q_l: `ddw[k][l]`, l ≤ k; J_j: `pseudo_inertia`.
+//! W_j: `w`, from frame j to the base; ∂W_j/∂q_i: `dw[i]`; ∂²W_j/∂q_k∂q_l: `ddw[k][l]`, l ≤ k; J_j:
+//! `pseudo_inertia`.
 //!
-//! The count: one product for W_j, for each ∂W_j/∂q_i and for each ∂²W_j/∂q_k∂q_l; those of the inertia terms form
-//! ∂W_j/∂q_i J_j once for all k and use the symmetry in i and k; those of the velocity terms form it anew for all
-//! k and l and use no symmetry, as the leading terms of the published count do (130 products for each i, j, k, l).
+//! The count: one product for W_j, for each ∂W_j/∂q_i and for each ∂²W_j/∂q_k∂q_l; those of the
+//! inertia terms form ∂W_j/∂q_i J_j once for all k and use the symmetry in i and k; those of the
+//! velocity terms form it anew for all k and l and use no symmetry, as the leading terms of the
+//! published count do (130 products for each i, j, k, l).
 
 use core::array::from_fn;
 

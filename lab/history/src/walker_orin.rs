@@ -1,9 +1,12 @@
-//! Walker & Orin (1982): methods 1, 2 and 4 for the joint-space inertia matrix H, O(n²). H is M of today.
+//! Walker & Orin (1982): methods 1, 2 and 4 for the joint-space inertia matrix H, O(n²). H is M of
+//! today.
 //!
 //! Column j of H is the torque of a unit acceleration of joint j, with all speeds and gravity zero.
 //!
-//! - Method 1: all torques of each column, by [`crate::luh_walker_paul`] without its velocity terms.
-//! - Method 2: only what turns and only one triangle: links before j are at rest, and H is symmetric.
+//! - Method 1: all torques of each column, by [`crate::luh_walker_paul`] without its velocity
+//!   terms.
+//! - Method 2: only what turns and only one triangle: links before j are at rest, and H is
+//!   symmetric.
 //! - Method 3: [`crate::composite_bodies`].
 //! - Method 4: no H; H q̈ = τ by conjugate gradients, with H p as in method 1.
 
@@ -14,8 +17,8 @@ use crate::luh_walker_paul::inward;
 use crate::matrix::{Mat, cross, dot, mul_vec, plus, times, transpose_mul_vec};
 use crate::number::Number;
 
-/// H p: the torques of accelerations at rest and without gravity; the joints before `first` have none, and their
-/// torques are not computed.
+/// H p: the torques of accelerations at rest and without gravity; the joints before `first` have
+/// none, and their torques are not computed.
 #[inline(always)]
 fn product<T: Number, const N: usize>(
     chain: &Chain<T, N>,
@@ -75,8 +78,8 @@ pub fn method_4<T: Number + PartialOrd, const N: usize>(
     solve(chain, state, &[T::of(1.0); N], (N, T::ZERO)).0
 }
 
-/// The accelerations by method 4, and after how many steps the residual was below `tolerance` of its beginning. As
-/// many steps as joints suffice without rounding errors.
+/// The accelerations by method 4, and after how many steps the residual was below `tolerance` of
+/// its beginning. As many steps as joints suffice without rounding errors.
 #[inline(always)]
 pub fn solve<T: Number + PartialOrd, const N: usize>(
     chain: &Chain<T, N>,

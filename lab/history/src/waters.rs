@@ -1,5 +1,5 @@
-//! Waters (1979): Lagrange's equations over 4 × 4 matrices with velocities and accelerations by recursion, O(n²).
-//! Hollerbach (1980), equations (4) and (5):
+//! Waters (1979): Lagrange's equations over 4 × 4 matrices with velocities and accelerations by
+//! recursion, O(n²). Hollerbach (1980), equations (4) and (5):
 //!
 //! ```text
 //! Ẇ_j = Ẇ_{j−1} A_j + W_{j−1} ∂A_j/∂q_j q̇_j
@@ -9,7 +9,8 @@
 //!
 //! W_j: `w`; Ẇ_j, Ẅ_j: `wd`, `wdd`; ∂W_j/∂q_i: `dw[i]`; J_j: `pseudo_inertia`.
 //!
-//! The count forms each product of the equations when they name it: W_{j−1} ∂A_j three times, J_j Ẅ_jᵀ for each i.
+//! The count forms each product of the equations when they name it: W_{j−1} ∂A_j three times, J_j
+//! Ẅ_jᵀ for each i.
 
 use crate::chain::{Chain, State};
 use crate::matrix::{Mat, derivative, dot, mul, mul_vec, scaled, sum, trace_of_product};

@@ -1,5 +1,5 @@
-//! The operations of the ancestors, counted, against the table of published counts and of the reasons of all
-//! differences.
+//! The operations of the ancestors, counted, against the table of published counts and of the
+//! reasons of all differences.
 
 use history::chain::Chain;
 use history::composite_bodies::method_3;
@@ -69,8 +69,8 @@ fn every_difference_from_a_published_count_is_a_term() {
     }
 }
 
-/// Hollerbach's totals for n = 6 are those of the polynomials, but for two numbers of products: 66,271 is by 1,000 less
-/// than the polynomial without its constant, and 7,051 by 6 more.
+/// Hollerbach's totals for n = 6 are those of the polynomials, but for two numbers of products:
+/// 66,271 is by 1,000 less than the polynomial without its constant, and 7,051 by 6 more.
 #[test]
 fn published_polynomials_give_the_published_totals() {
     let totals = [

@@ -1,4 +1,5 @@
-//! Each ancestor against today's core, in f64, relative to full scale: the largest torque of the state.
+//! Each ancestor against today's core, in f64, relative to full scale: the largest torque of the
+//! state.
 
 use dynamics_core::algorithms::{crba, rnea};
 use dynamics_core::effects::RIGID_BODY;
@@ -153,7 +154,8 @@ fn conjugate_gradients_give_the_accelerations() {
         conjugate_gradients::<6>(),
         conjugate_gradients::<12>(),
     ];
-    // Without rounding errors as many as there are joints would suffice; docs/history.md names these.
+    // Without rounding errors as many as there are joints would suffice; docs/history.md names
+    // these.
     assert_eq!(steps, [2, 8, 19]);
 }
 

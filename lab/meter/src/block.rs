@@ -52,7 +52,8 @@ pub struct Block {
     start: u32,
     end: u32,
     insns: Box<[Insn]>,
-    /// Entry k is what the first k instructions cost when the block is entered with a clear pipe, and the pipe after them.
+    /// Entry k is what the first k instructions cost when the block is entered with a clear pipe,
+    /// and the pipe after them.
     from_clear: Box<[(Tally, Pipe)]>,
     marks: Box<[Mark]>,
     checkpoints: Box<[usize]>,
@@ -128,11 +129,13 @@ impl Block {
         }
     }
 
-    /// Cost of the first `count` instructions entered with the pipe in state `entry`, and its state after them.
+    /// Cost of the first `count` instructions entered with the pipe in state `entry`, and its state
+    /// after them.
     pub fn cost(&self, entry: Pipe, count: usize) -> (Tally, Pipe) {
         let (mut sum, mut pipe) = (Tally::default(), entry);
         for (insn, (before, clear)) in self.insns[..count].iter().zip(&self.from_clear) {
-            // As if it had been entered with a clear pipe, mostly after an instruction: so is the rest.
+            // As if it had been entered with a clear pipe, mostly after an instruction: so is the
+            // rest.
             if pipe == *clear {
                 let (all, after) = self.from_clear[count];
                 return (sum.plus(all.since(*before)), after);

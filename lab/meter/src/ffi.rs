@@ -26,8 +26,8 @@ const CAME_WITH: [(c_int, &CStr); 4] = [
     (2, c"qemu_plugin_scoreboard_new"),
 ];
 
-/// The version to ask for: the requested one if it is a number, or the newest of which the
-/// program that loads the plugin has a function. QEMU takes the versions between a least one and its own.
+/// The version to ask for: the requested one if it is a number, or the newest of which the program
+/// that loads the plugin has a function. QEMU takes the versions between a least one and its own.
 pub fn version_to_ask_for(requested: Option<&OsStr>, has: impl Fn(&CStr) -> bool) -> c_int {
     let requested = requested.and_then(|text| text.to_str()?.parse().ok());
     let guessed = || CAME_WITH.iter().find(|(_, name)| has(name));

@@ -16,7 +16,8 @@ fn by_hand() -> impl Iterator<Item = (&'static str, Sample)> {
     rows.filter_map(|(name, figures)| Some((name, sample(&format!("{figures} 0"), 0).ok()?)))
 }
 
-/// Compares the samples of a run of `meter_check` with those counted by hand and returns how many agree.
+/// Compares the samples of a run of `meter_check` with those counted by hand and returns how many
+/// agree.
 ///
 /// # Errors
 ///

@@ -44,8 +44,9 @@ pub enum Class {
     FloatMultiplyAdd,
     /// `VDIV`, `VSQRT`.
     FloatDivide,
-    /// No instruction of a Cortex-M4F: FPv5 (VSEL, VRINT, VMINNM …), f64 arithmetic, what ARMv8-M and v8.1-M added
-    /// (CSEL …, low-overhead loops, load-acquire and store-release), or none at all.
+    /// No instruction of a Cortex-M4F: FPv5 (VSEL, VRINT, VMINNM …), f64 arithmetic, what ARMv8-M
+    /// and v8.1-M added (CSEL …, low-overhead loops, load-acquire and store-release), or none at
+    /// all.
     Unknown,
 }
 
@@ -68,7 +69,8 @@ pub struct Insn {
     pub float: bool,
     /// Whether the instruction after it may be elsewhere.
     pub may_branch: bool,
-    /// Whether it calls or jumps to an address that it takes from a register or from memory, other than to return.
+    /// Whether it calls or jumps to an address that it takes from a register or from memory, other
+    /// than to return.
     pub indirect: bool,
 }
 

@@ -6,16 +6,15 @@
 //! qemu-system-arm … -plugin libcycle_meter.so,out=samples.txt -kernel firmware
 //! ```
 //!
-//! The firmware opens region k (0 to 7) with the instruction `dbg #2k` and closes it
-//! with `dbg #2k+1`, a hint that does nothing on silicon. Regions may nest and
-//! overlap. When QEMU exits, the plugin writes a line for each closed region (see
-//! [`parse_samples`]). As an ordinary library it reads that file, and decodes Thumb code for whoever checks
-//! a firmware ([`decode()`], [`relative()`]). It must be the
-//! only plugin that runs, on a machine with one processor, under QEMU 4.2 or later.
-//! It speaks versions 1 to [`NEWEST_INTERFACE`] of QEMU's plugin interface and looks at the QEMU
-//! that loads it to choose one; the environment variable [`INTERFACE`] sets another version, for
-//! a QEMU that refuses that one. QEMU's functions are looked up when the library is loaded, so it
-//! links anywhere.
+//! The firmware opens region k (0 to 7) with the instruction `dbg #2k` and closes it with
+//! `dbg #2k+1`, a hint that does nothing on silicon. Regions may nest and overlap. When QEMU exits,
+//! the plugin writes a line for each closed region (see [`parse_samples`]). As an ordinary library
+//! it reads that file, and decodes Thumb code for whoever checks a firmware ([`decode()`],
+//! [`relative()`]). It must be the only plugin that runs, on a machine with one processor, under
+//! QEMU 4.2 or later. It speaks versions 1 to [`NEWEST_INTERFACE`] of QEMU's plugin interface and
+//! looks at the QEMU that loads it to choose one; the environment variable [`INTERFACE`] sets
+//! another version, for a QEMU that refuses that one. QEMU's functions are looked up when the
+//! library is loaded, so it links anywhere.
 //!
 //! # What is exact
 //!
@@ -57,7 +56,8 @@
 //! - `VSTR` is given 1 cycle like `STR`, which the manual gives 2: the store buffer takes it.
 //! - An `IT` is often folded into its predecessor and then free; we charge it. A
 //!   predicated instruction costs the same whether its condition holds or not.
-//! - The multiply-accumulate takes its addend a cycle later than its factors; we charge all three alike.
+//! - The multiply-accumulate takes its addend a cycle later than its factors; we charge all three
+//!   alike.
 //! - Whether a branch was taken is told by the address after it. One to the very
 //!   next address counts as not taken.
 //! - A division still running when its region is closed is charged to whoever waits for it.

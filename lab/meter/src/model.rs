@@ -41,8 +41,8 @@ impl Reading {
         }
     }
 
-    /// Cycles of `SDIV` and `UDIV` (the manual says 2 to 12): a figure does not depend on the operands that a test
-    /// happened to use.
+    /// Cycles of `SDIV` and `UDIV` (the manual says 2 to 12): a figure does not depend on the
+    /// operands that a test happened to use.
     fn integer_divide(self) -> u32 {
         match self {
             Self::Least => 2,
@@ -177,7 +177,8 @@ mod tests {
         insns.iter().map(|insn| pipe.step(insn)).sum()
     }
 
-    /// The cycles by the least favourable, the chosen and the most favourable reading, from the fewest.
+    /// The cycles by the least favourable, the chosen and the most favourable reading, from the
+    /// fewest.
     fn bracket(insns: &[Insn]) -> [u32; 3] {
         [Reading::Least, Reading::Chosen, Reading::Most].map(|reading| read_as(reading, insns))
     }

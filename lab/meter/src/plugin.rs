@@ -33,8 +33,8 @@ struct Plugin {
 /// Set once by `qemu_plugin_install`, before QEMU can call anything else.
 static PLUGIN: AtomicPtr<Plugin> = AtomicPtr::new(ptr::null_mut());
 
-/// The requested version of the interface. QEMU reads it when it has loaded the library, before
-/// it calls anything in it, and each QEMU refuses versions that the other one takes: so it is written
+/// The requested version of the interface. QEMU reads it when it has loaded the library, before it
+/// calls anything in it, and each QEMU refuses versions that the other one takes: so it is written
 /// while the library is loaded, by [`choose_version`].
 #[allow(non_upper_case_globals, reason = "QEMU looks for this name")]
 #[unsafe(no_mangle)]

@@ -6,10 +6,11 @@
 //! 0 1204 1657 402 134217994
 //! ```
 //!
-//! After the header, which names the version of the format and the model, one line
-//! for each region that was closed, in the order of closing: region, instructions,
-//! cycles, floating-point operations, and the address of the mark that opened it. A last line `unmatched n` says that n markers opened an open region or
-//! closed a closed one; such a file is refused. A region still open at the exit is not in it.
+//! After the header, which names the version of the format and the model, one line for each region
+//! that was closed, in the order of closing: region, instructions, cycles, floating-point
+//! operations, and the address of the mark that opened it. A last line `unmatched n` says that n
+//! markers opened an open region or closed a closed one; such a file is refused. A region still
+//! open at the exit is not in it.
 
 use std::fmt::Write as _;
 

@@ -1,8 +1,8 @@
-//! Every effect once, with the parameters of an arm of the UR5e's size, those of the scene where it has them, to
-//! measure the cost of effects on the target and on the host.
+//! Every effect once, with the parameters of an arm of the UR5e's size, those of the scene where it
+//! has them, to measure the cost of effects on the target and on the host.
 //!
-//! A scene is a rigid body on earth and one effect more; of a rigid body's own terms, the rigid body
-//! without it. Except for gravity all numbers are assumed, of the order that such arms have.
+//! A scene is a rigid body on earth and one effect more; of a rigid body's own terms, the rigid
+//! body without it. Except for gravity all numbers are assumed, of the order that such arms have.
 
 use dynamics_core::effects::{
     Armature, AsymmetricCoulomb, BodyWrench, Cogging, Contact, ContactPoint, Coriolis, Coulomb,

@@ -4,7 +4,8 @@ use core::marker::PhantomData;
 
 use dynamics_core::model::{Model, Robot};
 
-/// The robot T under a name that is one word, which logs need; the reports put its own name in the place of it.
+/// The robot T under a name that is one word, which logs need; the reports put its own name in the
+/// place of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Own<T>(PhantomData<T>);
 

@@ -1,4 +1,5 @@
-//! Digests of what core and engine compute for the states that the oracle recorded: the same bits on every machine.
+//! Digests of what core and engine compute for the states that the oracle recorded: the same bits
+//! on every machine.
 
 use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY, smooth_sign};
 use dynamics_core::model::Robot;

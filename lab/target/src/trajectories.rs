@@ -16,7 +16,8 @@ pub const PANDA_PICK_AND_PLACE: [WayPoint<f32, 7>; 7] = [
 /// The standing posture of a quadruped's leg, rad.
 const STANDING: [f32; 3] = [0.0, 0.8, -1.6];
 
-/// Two steps of a quadruped's leg at a trot, one turned outwards: lifted, put ahead, drawn back under the body.
+/// Two steps of a quadruped's leg at a trot, one turned outwards: lifted, put ahead, drawn back
+/// under the body.
 pub const LEG_STEPS: [WayPoint<f32, 3>; 7] = [
     stop(STANDING, 0),
     pass([0.05, 0.95, -2.20], [0.0, -4.0, 0.0], 120),

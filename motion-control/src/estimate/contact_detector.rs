@@ -1,7 +1,8 @@
 //! Contacts: external torques beyond thresholds that follow the stated errors of the model.
 //!
-//! The observer filters the error of the model as it filters the torque of a contact, by a filter whose response is nowhere
-//! negative. With the same filter for a bound e of that error, |r| stays within the filtered e as long as the stated errors hold:
+//! The observer filters the error of the model as it filters the torque of a contact, by a filter
+//! whose response is nowhere negative. With the same filter for a bound e of that error, |r| stays
+//! within the filtered e as long as the stated errors hold:
 //!
 //! ```text
 //! threshold = margin + filtered e
@@ -20,8 +21,8 @@ mod tests;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DetectedContact<R> {
-    /// The outermost joint beyond its threshold. The contact is at its link, or further out where its force has no torque
-    /// about the outer joints.
+    /// The outermost joint beyond its threshold. The contact is at its link, or further out where
+    /// its force has no torque about the outer joints.
     pub joint: usize,
     /// The external torque of that joint, N·m or N.
     pub torque: R,
@@ -29,8 +30,9 @@ pub struct DetectedContact<R> {
 
 /// A detector of contacts of an arm without force sensors.
 ///
-/// The margin is for what is not an error of the model: the noise of the encoders. If that noise is Gaussian with the
-/// standard deviation σ in r, a margin of 4.9 σ is exceeded in one of 10⁶ ticks of each joint, one of 4.3 σ in 17.
+/// The margin is for what is not an error of the model: the noise of the encoders. If that noise is
+/// Gaussian with the standard deviation σ in r, a margin of 4.9 σ is exceeded in one of 10⁶ ticks
+/// of each joint, one of 4.3 σ in 17.
 ///
 /// ```
 /// use motion_control::{ContactDetector, ObserverConfig};
@@ -73,9 +75,9 @@ impl<R: Real, const V: usize, const ORDER: usize> ContactDetector<R, V, ORDER> {
         })
     }
 
-    /// A tick with a measurement: p and β as for [`MomentumObserver::update`], and for each joint a bound of the model's error,
-    /// N·m or N, such as 3 % of the torques of the rigid bodies, those of their accelerations included, and 10 % of those of
-    /// friction.
+    /// A tick with a measurement: p and β as for [`MomentumObserver::update`], and for each joint a
+    /// bound of the model's error, N·m or N, such as 3 % of the torques of the rigid bodies, those
+    /// of their accelerations included, and 10 % of those of friction.
     ///
     /// ```
     /// use motion_control::{ContactDetector, Fault, ObserverConfig};
@@ -88,7 +90,8 @@ impl<R: Real, const V: usize, const ORDER: usize> ContactDetector<R, V, ORDER> {
     /// ```
     ///
     /// # Errors
-    /// [`Fault::NotFinite`] names the first joint with a number that is not finite; the measurement then counts as lost.
+    /// [`Fault::NotFinite`] names the first joint with a number that is not finite; the measurement
+    /// then counts as lost.
     #[inline]
     pub fn update(
         &mut self,
@@ -138,7 +141,8 @@ impl<R: Real, const V: usize, const ORDER: usize> ContactDetector<R, V, ORDER> {
         self.observer.external_torque()
     }
 
-    /// The thresholds of the joints, N·m or N: the margin and the filtered bound of the model's error.
+    /// The thresholds of the joints, N·m or N: the margin and the filtered bound of the model's
+    /// error.
     ///
     /// ```
     /// use motion_control::{ContactDetector, ObserverConfig};

@@ -1,7 +1,9 @@
-//! The external torques of the joints from their momentum, without accelerations and without the inverse of M.
+//! The external torques of the joints from their momentum, without accelerations and without the
+//! inverse of M.
 //!
-//! De Luca & Mattone (2003); Haddadin, De Luca & Albu-Schäffer, "Robot collisions: a survey" (2017), (43) to (47). In
-//! continuous time ṙ = K (τ_ext − r); here exactly for torques that are constant over a tick:
+//! De Luca & Mattone (2003); Haddadin, De Luca & Albu-Schäffer, "Robot collisions: a survey"
+//! (2017), (43) to (47). In continuous time ṙ = K (τ_ext − r); here exactly for torques that are
+//! constant over a tick:
 //!
 //! ```text
 //! ṗ = τ + β + τ_ext                 β = Cᵀ q̇ − g − F, the drift
@@ -20,12 +22,15 @@ use dynamics_core::scalar::Real;
 #[cfg(test)]
 mod tests;
 
-/// The external torques of V joints, by an observer of the generalised momentum; ORDER poles lie at the bandwidth.
+/// The external torques of V joints, by an observer of the generalised momentum; ORDER poles lie at
+/// the bandwidth.
 ///
-/// A first-order observer is the usual one; a second-order one passes less of the noise of the velocities.
+/// A first-order observer is the usual one; a second-order one passes less of the noise of the
+/// velocities.
 ///
 /// # Cost
-/// 10 flops and 3 for each pole, for each joint, beside the model; a division after lost measurements.
+/// 10 flops and 3 for each pole, for each joint, beside the model; a division after lost
+/// measurements.
 ///
 /// ```
 /// use dynamics_core::algorithms::{MomentumAndDrift, momentum_and_drift, rnea};
@@ -89,12 +94,15 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
         })
     }
 
-    /// A tick with a measurement: the momentum p = M q̇ and β = Cᵀ q̇ − g − F of its positions and velocities, N·m·s and N·m.
+    /// A tick with a measurement: the momentum p = M q̇ and β = Cᵀ q̇ − g − F of its positions and
+    /// velocities, N·m·s and N·m.
     ///
-    /// Both are those of [`momentum_and_drift`](dynamics_core::algorithms::momentum_and_drift()) under the effects of the scene.
+    /// Both are those of [`momentum_and_drift`](dynamics_core::algorithms::momentum_and_drift())
+    /// under the effects of the scene.
     ///
     /// # Errors
-    /// [`Fault::NotFinite`] names the first joint with a number that is not finite; the measurement then counts as lost.
+    /// [`Fault::NotFinite`] names the first joint with a number that is not finite; the measurement
+    /// then counts as lost.
     #[inline]
     pub fn update(&mut self, p: &[R; V], beta: &[R; V]) -> Result<(), Fault> {
         if !sum(p, beta).is_finite() {
@@ -139,8 +147,9 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
             .map(|rate| (R::ONE - self.decay, rate))
     }
 
-    /// The torques of the drives from this tick to the next, N·m or N: to be called once in each tick, also in one whose
-    /// measurement is lost or rejected. The next measurement then gives the mean over all ticks since the last one.
+    /// The torques of the drives from this tick to the next, N·m or N: to be called once in each
+    /// tick, also in one whose measurement is lost or rejected. The next measurement then gives the
+    /// mean over all ticks since the last one.
     ///
     /// ```
     /// use motion_control::{MomentumObserver, ObserverConfig};
@@ -155,8 +164,8 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// A torque that is not finite counts as none. With load-dependent friction it is the part that the gears
-    /// [transmit](dynamics_core::algorithms::transmitted_torque()).
+    /// A torque that is not finite counts as none. With load-dependent friction it is the part that
+    /// the gears [transmit](dynamics_core::algorithms::transmitted_torque()).
     #[inline]
     pub fn drive(&mut self, tau: &[R; V]) {
         let all = sum(tau, &[]).is_finite();
@@ -169,7 +178,8 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
         self.decay -= self.decay * self.gap;
     }
 
-    /// The external torques r of the joints, N·m or N: positive if they push as a positive torque of the drive does.
+    /// The external torques r of the joints, N·m or N: positive if they push as a positive torque
+    /// of the drive does.
     #[inline]
     pub fn external_torque(&self) -> &[R; V] {
         let [.., last] = self.residuals.as_slice() else {
@@ -178,8 +188,8 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
         last
     }
 
-    /// The outermost joint whose |r| is beyond its threshold, N·m or N: a contact at its link, or further out where its force
-    /// has no torque about the outer joints.
+    /// The outermost joint whose |r| is beyond its threshold, N·m or N: a contact at its link, or
+    /// further out where its force has no torque about the outer joints.
     ///
     /// ```
     /// use motion_control::{MomentumObserver, ObserverConfig};
@@ -215,7 +225,8 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
     }
 }
 
-/// Moves the filters of a joint by the share of a tick: each follows the one before, the first one follows `input`.
+/// Moves the filters of a joint by the share of a tick: each follows the one before, the first one
+/// follows `input`.
 #[inline(always)]
 pub(crate) fn follow<R: Real, const V: usize>(
     filters: &mut [[R; V]],

@@ -31,8 +31,8 @@ pub struct Estimate<R, const V: usize> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ObserverConfig<R> {
-    /// Bandwidth ω_o, rad/s. A higher bandwidth follows faster and passes more of the quantisation: a step Δ of the
-    /// encoder changes the velocity by about ω_o² h Δ.
+    /// Bandwidth ω_o, rad/s. A higher bandwidth follows faster and passes more of the quantisation:
+    /// a step Δ of the encoder changes the velocity by about ω_o² h Δ.
     pub bandwidth: R,
     /// Nominal length h of a tick, s.
     pub tick: R,
@@ -64,8 +64,8 @@ pub(crate) fn one_less_decay<R: Real>(x: R) -> R {
 
 /// An observer of V joints with one bandwidth.
 ///
-/// With a known acceleration (that of the reference) the estimate does not lag while the arm accelerates. A non-finite
-/// input leaves the estimate unchanged.
+/// With a known acceleration (that of the reference) the estimate does not lag while the arm
+/// accelerates. A non-finite input leaves the estimate unchanged.
 ///
 /// ```
 /// use motion_control::{Observer, ObserverConfig};
@@ -103,8 +103,8 @@ impl<R: Real, const V: usize> Observer<R, V> {
 
     /// As [`Self::try_new`], without the check: for constant configurations.
     ///
-    /// A bandwidth or tick that is not a positive number leaves both gains at zero, and with them the velocity; ω_o h
-    /// counts up to 16.
+    /// A bandwidth or tick that is not a positive number leaves both gains at zero, and with them
+    /// the velocity; ω_o h counts up to 16.
     pub fn new(config: ObserverConfig<R>) -> Self {
         let ObserverConfig { bandwidth, tick } = config;
         let usable = tick.is_finite() & (tick > R::ZERO) & (bandwidth > R::ZERO);
@@ -139,10 +139,11 @@ impl<R: Real, const V: usize> Observer<R, V> {
         }
     }
 
-    /// The estimate after a measurement q (rad, m); the acceleration `qdd` has acted since the previous one.
+    /// The estimate after a measurement q (rad, m); the acceleration `qdd` has acted since the
+    /// previous one.
     ///
-    /// Cost: 10 flops per joint, with the same instructions for all data, except for the first measurement and
-    /// non-finite ones.
+    /// Cost: 10 flops per joint, with the same instructions for all data, except for the first
+    /// measurement and non-finite ones.
     #[inline]
     pub fn update(&mut self, q: &[R; V], qdd: &[R; V]) -> Estimate<R, V> {
         if !self.started {
@@ -176,11 +177,13 @@ impl<R: Real, const V: usize> Observer<R, V> {
         self.keep(next)
     }
 
-    /// The present estimate, after a measurement q (rad, m) of the previous tick, for encoders that latch a position at
-    /// the end of one frame and send it in the next. `qdd` has acted since then.
+    /// The present estimate, after a measurement q (rad, m) of the previous tick, for encoders that
+    /// latch a position at the end of one frame and send it in the next. `qdd` has acted since
+    /// then.
     ///
-    /// The prediction of the previous tick is corrected and then extrapolated: the poles are those of [`Self::update`],
-    /// but the estimate does not include a measurement of the present tick. The cost is that of [`Self::update`].
+    /// The prediction of the previous tick is corrected and then extrapolated: the poles are those
+    /// of [`Self::update`], but the estimate does not include a measurement of the present tick.
+    /// The cost is that of [`Self::update`].
     ///
     /// ```
     /// use motion_control::{Observer, ObserverConfig};
@@ -214,8 +217,8 @@ impl<R: Real, const V: usize> Observer<R, V> {
         &self.estimate
     }
 
-    /// As [`Self::update`] without acceleration, for an arm that sinks: a function of its own, so that the update of the
-    /// usual tick is inlined as before.
+    /// As [`Self::update`] without acceleration, for an arm that sinks: a function of its own, so
+    /// that the update of the usual tick is inlined as before.
     #[cold]
     #[inline(never)]
     pub(crate) fn follow(&mut self, q: &[R; V]) {
@@ -229,16 +232,16 @@ impl<R: Real, const V: usize> Observer<R, V> {
         self.keep(next);
     }
 
-    /// Replaces the positions by measured ones q (rad, m) after ticks without measurements; the velocities keep their
-    /// predicted values. A non-finite q changes nothing.
+    /// Replaces the positions by measured ones q (rad, m) after ticks without measurements; the
+    /// velocities keep their predicted values. A non-finite q changes nothing.
     pub fn correct_position(&mut self, q: &[R; V]) {
         if all_finite(q) {
             self.estimate.q = *q;
         }
     }
 
-    /// As [`Self::correct_position`], with positions q (rad, m) of the previous tick, extrapolated to the present one
-    /// at the predicted velocities.
+    /// As [`Self::correct_position`], with positions q (rad, m) of the previous tick, extrapolated
+    /// to the present one at the predicted velocities.
     pub fn correct_position_delayed(&mut self, q: &[R; V]) {
         if !all_finite(q) {
             return;
@@ -249,11 +252,13 @@ impl<R: Real, const V: usize> Observer<R, V> {
         }
     }
 
-    /// Moves the estimate by whole turns of the circles to within half a turn of `to`, rad: before an update with the
-    /// position of a joint that turns without end, of which the encoder measures the angle within a turn.
+    /// Moves the estimate by whole turns of the circles to within half a turn of `to`, rad: before
+    /// an update with the position of a joint that turns without end, of which the encoder measures
+    /// the angle within a turn.
     ///
     /// The velocity is then as accurate after any number of turns as in the first. A
-    /// [`MotionController`](crate::MotionController) [`OnCircles`](crate::OnCircles) does this in each tick.
+    /// [`MotionController`](crate::MotionController) [`OnCircles`](crate::OnCircles) does this in
+    /// each tick.
     ///
     /// ```
     /// use motion_control::{Circles, Observer, ObserverConfig};

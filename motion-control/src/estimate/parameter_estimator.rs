@@ -1,4 +1,5 @@
-//! The parameters of an arm from the torques of its joints: a recursive estimator of constant work, one row in each update.
+//! The parameters of an arm from the torques of its joints: a recursive estimator of constant work,
+//! one row in each update.
 //!
 //! Of a row yᵀ θ = z + noise of the standard deviation 1 and the covariance P:
 //!
@@ -7,10 +8,11 @@
 //! θ⁺ = θ + P y e / (1 + r)      (P⁺)⁻¹ = P⁻¹ + ε y yᵀ      ε = max(0, 1 − φ (1 + r) / r)
 //! ```
 //!
-//! With ε = 1 this is least squares. Kulhavý (1987) forgets the share φ in the direction of y alone: ε = 1 − φ (1 + r) / r. Where
-//! that is negative, the information of the direction would shrink, and with it that of directions which noise mixes in. Here it
-//! is kept at that point, so that P never grows; e r / (1 + r) still follows changes. The information is kept in [`factors`], which need
-//! no root and no difference.
+//! With ε = 1 this is least squares. Kulhavý (1987) forgets the share φ in the direction of y
+//! alone: ε = 1 − φ (1 + r) / r. Where that is negative, the information of the direction would
+//! shrink, and with it that of directions which noise mixes in. Here it is kept at that point, so
+//! that P never grows; e r / (1 + r) still follows changes. The information is kept in [`factors`],
+//! which need no root and no difference.
 
 mod config;
 mod factors;
@@ -33,7 +35,8 @@ use dynamics_core::scalar::Real;
 /// The numbers up to which no product overflows in f32.
 const LARGEST: f64 = 1e18;
 
-/// The rows of other joints that end a freeze: of five joints three time constants of their mean squares.
+/// The rows of other joints that end a freeze: of five joints three time constants of their mean
+/// squares.
 const OTHERS: u32 = 1024;
 
 /// The share of a row in the mean square of the innovations of its joint.
@@ -41,34 +44,41 @@ const RATE: f64 = 1.0 / 64.0;
 
 /// P parameters of an arm with V joints, estimated from one joint's torque in each update.
 ///
-/// A row is the torque per unit of each parameter, as a [`SelectedParameters`] gathers it. The residual is what the nominal model
-/// does not explain, and the estimate is the deviation from it: zero at the start.
+/// A row is the torque per unit of each parameter, as a [`SelectedParameters`] gathers it. The
+/// residual is what the nominal model does not explain, and the estimate is the deviation from it:
+/// zero at the start.
 ///
 /// # Forgetting
-/// Only the direction of the row, and never more than the row adds. No parameter becomes less certain, so that none drifts
-/// when the motion does not show it. What the motion shows follows changes within some 1/φ rows.
+/// Only the direction of the row, and never more than the row adds. No parameter becomes less
+/// certain, so that none drifts when the motion does not show it. What the motion shows follows
+/// changes within some 1/φ rows.
 ///
 /// # Faults
-/// The innovation of a row is what the estimate does not explain, divided by the standard deviation that noise and estimate imply. A
-/// row beyond `limit` is rejected. If the root mean square of a joint's innovations over some 64 rows exceeds `limit`/2, the
-/// estimate is frozen until it is at most 0.4 `limit`. A joint that then rests has no rows: the freeze also ends after 1,024
-/// rows of other joints within `limit`, without a row of that joint or of one above 0.4 `limit` between them. The mean square of the joint
-/// that rests is kept, so that the estimate freezes again at its next row if it still exceeds `limit`/2.
+/// The innovation of a row is what the estimate does not explain, divided by the standard deviation
+/// that noise and estimate imply. A row beyond `limit` is rejected. If the root mean square of a
+/// joint's innovations over some 64 rows exceeds `limit`/2, the estimate is frozen until it is at
+/// most 0.4 `limit`. A joint that then rests has no rows: the freeze also ends after 1,024 rows of
+/// other joints within `limit`, without a row of that joint or of one above 0.4 `limit` between
+/// them. The mean square of the joint that rests is kept, so that the estimate freezes again at its
+/// next row if it still exceeds `limit`/2.
 ///
 /// # Joints
-/// Parameters that have an effect on one joint alone, such as its friction, come last, joint by joint, `own` of each. They are
-/// correlated with those of other joints by the common parameters only, and a row is added where its joint has entries: of three
-/// common parameters and 21 of six joints, six or seven places in place of 24.
+/// Parameters that have an effect on one joint alone, such as its friction, come last, joint by
+/// joint, `own` of each. They are correlated with those of other joints by the common parameters
+/// only, and a row is added where its joint has entries: of three common parameters and 21 of six
+/// joints, six or seven places in place of 24.
 ///
 /// # Cost
-/// Some 3 n² + 35 n flops and n divisions for a row of n entries. A rejected row takes a third. 2.8 kB for 24 parameters.
+/// Some 3 n² + 35 n flops and n divisions for a row of n entries. A rejected row takes a third. 2.8
+/// kB for 24 parameters.
 ///
 /// # Source
-/// Gentleman, "Least squares computations by Givens transformations without square roots" (1973); Bierman, *Factorization Methods for
-/// Discrete Sequential Estimation* (1977), chapter V; Kulhavý, "Restricted exponential forgetting in real-time identification" (1987); without the growth
-/// of P, after Bittanti, Bolzern & Campi, "Convergence and exponential convergence of identification algorithms with directional
-/// forgetting factor" (1990), and Cao & Schwartz, "A directional forgetting algorithm based on the decomposition of the
-/// information matrix" (2000).
+/// Gentleman, "Least squares computations by Givens transformations without square roots" (1973);
+/// Bierman, *Factorization Methods for Discrete Sequential Estimation* (1977), chapter V; Kulhavý,
+/// "Restricted exponential forgetting in real-time identification" (1987); without the growth of P,
+/// after Bittanti, Bolzern & Campi, "Convergence and exponential convergence of identification
+/// algorithms with directional forgetting factor" (1990), and Cao & Schwartz, "A directional
+/// forgetting algorithm based on the decomposition of the information matrix" (2000).
 ///
 /// # Example
 /// ```
@@ -123,7 +133,8 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
         })
     }
 
-    /// Returns to the uncertainty of the prior with the estimate as it is, and ends a freeze: for an arm that has changed.
+    /// Returns to the uncertainty of the prior with the estimate as it is, and ends a freeze: for
+    /// an arm that has changed.
     ///
     /// ```
     /// use motion_control::{ParameterEstimator, ParameterEstimatorConfig};
@@ -141,11 +152,13 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
         self.frozen = None;
     }
 
-    /// Adds a row: the torque of this joint per unit of each parameter, and its measured less its nominal torque, N·m or N.
+    /// Adds a row: the torque of this joint per unit of each parameter, and its measured less its
+    /// nominal torque, N·m or N.
     ///
-    /// The nominal torque is at all times that of the nominal model from which the estimate deviates, also if the arm is controlled
-    /// by learned parameters: a residual against these would lack the deviation that the estimate already has. A row of a joint
-    /// that the robot does not have is left out.
+    /// The nominal torque is at all times that of the nominal model from which the estimate
+    /// deviates, also if the arm is controlled by learned parameters: a residual against these
+    /// would lack the deviation that the estimate already has. A row of a joint that the robot does
+    /// not have is left out.
     ///
     /// # Errors
     /// [`RejectedRow`] names the reason and the joint; the estimate is then unchanged.
@@ -200,8 +213,8 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
         })
     }
 
-    /// The torque of a row by the estimate, N·m or N: yᵀ θ, with the work of a rejected row. Zero for a joint that the robot does not
-    /// have.
+    /// The torque of a row by the estimate, N·m or N: yᵀ θ, with the work of a rejected row. Zero
+    /// for a joint that the robot does not have.
     #[inline]
     #[must_use]
     pub fn explained(&self, joint: usize, y: &[R; P]) -> R {
@@ -214,13 +227,15 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
         })
     }
 
-    /// The estimated deviations from the nominal parameters, in their units. Not for the tick: n² flops for each.
+    /// The estimated deviations from the nominal parameters, in their units. Not for the tick: n²
+    /// flops for each.
     #[must_use]
     pub fn estimate(&self) -> [R; P] {
         self.factors.estimate(&self.places)
     }
 
-    /// The standard deviation of each estimated parameter, if the noise is as stated and white. Not for the tick: n² flops for each.
+    /// The standard deviation of each estimated parameter, if the noise is as stated and white. Not
+    /// for the tick: n² flops for each.
     #[must_use]
     pub fn deviations(&self) -> [R; P] {
         self.factors.variances(&self.places).map(R::sqrt)
@@ -232,7 +247,8 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
         self.frozen
     }
 
-    /// The mean square of the innovations of each joint over some 64 rows: one if noise and model are as stated.
+    /// The mean square of the innovations of each joint over some 64 rows: one if noise and model
+    /// are as stated.
     #[must_use]
     pub fn consistency(&self) -> &[R; V] {
         &self.levels

@@ -1,22 +1,24 @@
-//! The inertial parameters of a load from the torques of the joints: recursive least squares by orthogonal transformations.
+//! The inertial parameters of a load from the torques of the joints: recursive least squares by
+//! orthogonal transformations.
 //!
-//! The information about φ is Uᵀ D U, with a unit upper triangle U and a diagonal D, and U φ = d. One orthogonal transformation T
-//! adds the rows of a tick, weighted by their noise (Bierman, *Factorization Methods for Discrete Sequential Estimation*, 1977,
-//! chapter V):
+//! The information about φ is Uᵀ D U, with a unit upper triangle U and a diagonal D, and U φ = d.
+//! One orthogonal transformation T adds the rows of a tick, weighted by their noise (Bierman,
+//! *Factorization Methods for Discrete Sequential Estimation*, 1977, chapter V):
 //!
 //! ```text
 //! T [ √D U  √D d ] = [ √D⁺ U⁺  √D⁺ d⁺ ]
 //!   [   Y     z  ]   [   0        e   ]
 //! ```
 //!
-//! T is a product of ten Householder reflections. Each eliminates a column y by the row (D, u). Of another column x it leaves
+//! T is a product of ten Householder reflections. Each eliminates a column y by the row (D, u). Of
+//! another column x it leaves
 //!
 //! ```text
 //! D⁺ = D + y·y      u⁺ = u + t / D⁺      x⁺ = x − y (u + t / (D⁺ + √(D D⁺)))      t = y·x − y·y u
 //! ```
 //!
-//! so that a tick without information changes no bit. No product Yᵀ Y of different columns is stored: the condition of the problem
-//! in f32 is that of Y, not of Yᵀ Y.
+//! so that a tick without information changes no bit. No product Yᵀ Y of different columns is
+//! stored: the condition of the problem in f32 is that of Y, not of Yᵀ Y.
 
 use core::fmt;
 
@@ -41,7 +43,8 @@ const RATE: f64 = 1.0 / 64.0;
 const FREEZES: f64 = 0.25;
 const THAWS: f64 = 0.16;
 
-/// The ticks after which another estimate may replace a frozen one: 16 time constants of its mean square.
+/// The ticks after which another estimate may replace a frozen one: 16 time constants of its mean
+/// square.
 const OTHER: u32 = 1024;
 /// The ticks from which on its mean square counts.
 const FIRST: u32 = 256;
@@ -50,21 +53,24 @@ const FIRST: u32 = 256;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PayloadEstimatorConfig<R, const V: usize> {
-    /// Standard deviation of the measured less the modelled torque of each joint in one tick, N·m or N.
+    /// Standard deviation of the measured less the modelled torque of each joint in one tick, N·m
+    /// or N.
     pub noise: [R; V],
-    /// Standard deviation of each parameter before the first tick, about zero: kg, kg·m, kg·m². It decides what is estimated
-    /// of a parameter that the motion does not show.
+    /// Standard deviation of each parameter before the first tick, about zero: kg, kg·m, kg·m². It
+    /// decides what is estimated of a parameter that the motion does not show.
     pub prior: [R; PARAMETERS],
-    /// The share of the information that a tick replaces at most, 0 to less than 1. 1/N forgets a load within a few times N ticks
-    /// of motion and then averages over some N ticks; 0 never forgets.
+    /// The share of the information that a tick replaces at most, 0 to less than 1. 1/N forgets a
+    /// load within a few times N ticks of motion and then averages over some N ticks; 0 never
+    /// forgets.
     pub forgetting: R,
-    /// The greatest root mean square of a tick's innovations, in standard deviations, of a tick that is used: 3 to 1000.
+    /// The greatest root mean square of a tick's innovations, in standard deviations, of a tick
+    /// that is used: 3 to 1000.
     pub limit: R,
 }
 
 impl<R: Real, const V: usize> PayloadEstimatorConfig<R, V> {
-    /// Checks that each standard deviation is between 10⁻⁶ and 10⁶ the forgetting at least 0 and less than 1,
-    /// and the limit between 3 and 1000.
+    /// Checks that each standard deviation is between 10⁻⁶ and 10⁶ the forgetting at least 0 and
+    /// less than 1, and the limit between 3 and 1000.
     ///
     /// # Errors
     /// [`ConfigError::OutOfRange`] names the number.
@@ -126,29 +132,32 @@ impl core::error::Error for RejectedMeasurement {}
 /// The inertial parameters of a load on one body, estimated from the torques of V joints.
 ///
 /// Each tick adds the torques that the model without the load does not explain, and the body's
-/// [columns of the regressor](dynamics_core::algorithms::regressor_columns). The work is the same in every tick, and the covariance
-/// is never formed.
+/// [columns of the regressor](dynamics_core::algorithms::regressor_columns). The work is the same
+/// in every tick, and the covariance is never formed.
 ///
 /// # Forgetting
-/// D_k is the information about parameter k given those after it. In each tick it loses the configured share, but never more than
-/// the tick adds to it. Therefore no D_k ever falls, nor does the determinant of the information: what the motion does not show
-/// is not forgotten and does not drift.
+/// D_k is the information about parameter k given those after it. In each tick it loses the
+/// configured share, but never more than the tick adds to it. Therefore no D_k ever falls, nor does
+/// the determinant of the information: what the motion does not show is not forgotten and does not
+/// drift.
 ///
 /// # Faults
-/// ‖e‖² is the square of the tick's innovations in units of the standard deviations that noise and estimate imply. A tick whose
-/// innovations have a root mean square beyond `limit` is rejected; the factors of the next tick are computed into a second set, so
-/// that it changes nothing. If the root mean square over some 64 ticks exceeds `limit`/2, the estimate is frozen until it explains
-/// the torques again, within 0.4 `limit`. Meanwhile another estimate begins in the second set. If this one explains the torques
-/// after 1,024 ticks or more, by parameters within `limit` times the prior, it replaces the frozen one: the load has changed, or the
-/// first ticks were wrong. A model that is wrong is explained by no load, and the estimate stays frozen.
+/// ‖e‖² is the square of the tick's innovations in units of the standard deviations that noise and
+/// estimate imply. A tick whose innovations have a root mean square beyond `limit` is rejected; the
+/// factors of the next tick are computed into a second set, so that it changes nothing. If the root
+/// mean square over some 64 ticks exceeds `limit`/2, the estimate is frozen until it explains the
+/// torques again, within 0.4 `limit`. Meanwhile another estimate begins in the second set. If this
+/// one explains the torques after 1,024 ticks or more, by parameters within `limit` times the
+/// prior, it replaces the frozen one: the load has changed, or the first ticks were wrong. A model
+/// that is wrong is explained by no load, and the estimate stays frozen.
 ///
 /// # Cost
-/// [`Self::update`] takes some 2,200 flops for six joints, 10 reciprocal roots and 20 divisions; [`Self::update_joints`] 1,300
-/// for three of them; [`Self::inertia`] 90 flops.
+/// [`Self::update`] takes some 2,200 flops for six joints, 10 reciprocal roots and 20 divisions;
+/// [`Self::update_joints`] 1,300 for three of them; [`Self::inertia`] 90 flops.
 ///
 /// # Source
-/// Bierman (1977), chapter V; the forgetting after Kulhavý, "Restricted exponential forgetting in real-time identification"
-/// (1987).
+/// Bierman (1977), chapter V; the forgetting after Kulhavý, "Restricted exponential forgetting in
+/// real-time identification" (1987).
 ///
 /// # Example
 /// ```
@@ -220,7 +229,8 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
         })
     }
 
-    /// Forgets the load and ends a freeze: for another load, or none: at once, without the ticks of a freeze.
+    /// Forgets the load and ends a freeze: for another load, or none: at once, without the ticks of
+    /// a freeze.
     pub fn restart(&mut self) {
         self.factors = [Factors::of(self.start); 2];
         (self.second, self.level, self.freeze) = (false, R::ONE, None);
@@ -244,8 +254,8 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
         if self.second { second } else { first }
     }
 
-    /// Adds a tick: the body's [columns](dynamics_core::algorithms::regressor_columns) of the regressor, and the measured torques
-    /// less those of the model without the load, N·m or N.
+    /// Adds a tick: the body's [columns](dynamics_core::algorithms::regressor_columns) of the
+    /// regressor, and the measured torques less those of the model without the load, N·m or N.
     ///
     /// # Errors
     /// [`RejectedMeasurement`] names the reason; the estimate is then unchanged.
@@ -258,8 +268,9 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
         self.update_joints(core::array::from_fn::<_, V, _>(|i| i), y, residual)
     }
 
-    /// As [`Self::update`], with these joints only: half of them in each tick in turn cost less, and after two ticks the
-    /// estimate has all of them. A joint that the robot does not have is left out.
+    /// As [`Self::update`], with these joints only: half of them in each tick in turn cost less,
+    /// and after two ticks the estimate has all of them. A joint that the robot does not have is
+    /// left out.
     ///
     /// ```
     /// use motion_control::{PayloadEstimator, PayloadEstimatorConfig};
@@ -323,10 +334,12 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
         Ok(())
     }
 
-    /// The estimated inertia of the load in the frame of its body, about that frame's origin: kg, kg·m, kg·m².
+    /// The estimated inertia of the load in the frame of its body, about that frame's origin: kg,
+    /// kg·m, kg·m².
     ///
-    /// It need not be that of a body: [`Payload::try_new`](dynamics_core::effects::Payload::try_new) refuses an impossible one. Where the
-    /// motion does not show the moments of inertia, use mass and centre of mass alone.
+    /// It need not be that of a body:
+    /// [`Payload::try_new`](dynamics_core::effects::Payload::try_new) refuses an impossible one.
+    /// Where the motion does not show the moments of inertia, use mass and centre of mass alone.
     #[must_use]
     pub fn inertia(&self) -> SpatialInertia<R> {
         let right = self.factors().rows.map(|[.., d]| d);
@@ -334,7 +347,8 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
     }
 
     /// The standard deviation of each estimated parameter, kg, kg·m and kg·m² in the order of
-    /// [`SpatialInertia::parameters`], if the noise is as stated and white. Not for the tick: some 1,000 flops.
+    /// [`SpatialInertia::parameters`], if the noise is as stated and white. Not for the tick: some
+    /// 1,000 flops.
     ///
     /// ```
     /// use motion_control::{PayloadEstimator, PayloadEstimatorConfig};
@@ -387,7 +401,8 @@ fn reason<R: Real, const N: usize, const V: usize>(
 struct Freeze<R> {
     /// The frozen parameters.
     parameters: [R; PARAMETERS],
-    /// The mean square of the innovations of the estimate that began with the freeze, and its ticks.
+    /// The mean square of the innovations of the estimate that began with the freeze, and its
+    /// ticks.
     level: R,
     ticks: u32,
 }
@@ -417,7 +432,8 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
         if self.second { first } else { second }
     }
 
-    /// Whether no parameter of the other estimate is beyond the limit of its deviation before the first tick.
+    /// Whether no parameter of the other estimate is beyond the limit of its deviation before the
+    /// first tick.
     fn other_is_expected(&mut self) -> bool {
         let (most, start) = (self.most, self.start);
         let other = self.other();
@@ -485,7 +501,8 @@ impl<R: Real> Factors<R> {
         }
     }
 
-    /// T: these from the factors of the tick before and from its rows. Returns the mean square of e.
+    /// T: these from the factors of the tick before and from its rows. Returns the mean square of
+    /// e.
     #[inline(never)] // shared by the tick and that of a freeze: 3 kB
     fn transform<const N: usize>(
         &mut self,

@@ -1,12 +1,14 @@
 //! The wrench at a body from the external torques of the joints, by least squares.
 //!
-//! With τ = Jᵀ f, noise of the standard deviations σ_j in τ, and a wrench of the expected size s, the most probable x = f / s:
+//! With τ = Jᵀ f, noise of the standard deviations σ_j in τ, and a wrench of the expected size s,
+//! the most probable x = f / s:
 //!
 //! ```text
 //! (Σ_j c_j c_jᵀ + 1) x = Σ_j c_j τ_j / σ_j        c_j = s (J e_j) / σ_j
 //! ```
 //!
-//! The matrix is positive definite at singular postures too: a wrench without a torque about any joint is estimated as zero.
+//! The matrix is positive definite at singular postures too: a wrench without a torque about any
+//! joint is estimated as zero.
 
 use crate::limits::{ConfigError, ConfigParameter, Fault};
 use dynamics_core::algorithms::shifted_solution;
@@ -20,14 +22,18 @@ mod tests;
 /// The roundings of the trace that the matrix is shifted by.
 const ROUNDINGS: f64 = 2.0;
 
-/// The sizes of the wrenches at a tip, and of the noise in the external torques: for [`TipWrench::try_new`].
+/// The sizes of the wrenches at a tip, and of the noise in the external torques: for
+/// [`TipWrench::try_new`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TipWrenchConfig<R, const V: usize> {
-    /// The standard deviation of the noise in the external torque of each joint, N·m or N, from 10⁻⁶ to 10⁶.
+    /// The standard deviation of the noise in the external torque of each joint, N·m or N, from
+    /// 10⁻⁶ to 10⁶.
     pub noise: [R; V],
-    /// The largest force that is expected, N: far beyond noise / lever, the estimate does not depend on it.
+    /// The largest force that is expected, N: far beyond noise / lever, the estimate does not
+    /// depend on it.
     pub force: R,
-    /// The largest couple that is expected, N·m; zero for a contact at one point, which exerts none.
+    /// The largest couple that is expected, N·m; zero for a contact at one point, which exerts
+    /// none.
     pub couple: R,
 }
 
@@ -87,17 +93,19 @@ impl<R: Real, const V: usize> TipWrench<R, V> {
         })
     }
 
-    /// The wrench fˣ that a body's surroundings exert on it, N·m and N, in the frame and about the point of its `jacobian`.
+    /// The wrench fˣ that a body's surroundings exert on it, N·m and N, in the frame and about the
+    /// point of its `jacobian`.
     ///
-    /// `external` are the torques of a [`MomentumObserver`](crate::MomentumObserver). Of an arm of fewer than six joints, and
-    /// at a singular posture, it is the smallest wrench that explains them.
+    /// `external` are the torques of a [`MomentumObserver`](crate::MomentumObserver). Of an arm of
+    /// fewer than six joints, and at a singular posture, it is the smallest wrench that explains
+    /// them.
     ///
     /// # Cost
     /// Constant work: 60 flops a joint, some 200 more and 6 divisions.
     ///
     /// # Errors
-    /// [`Fault::NotFinite`] names the first joint with a number that is not finite, or joint 0 if products of finite numbers
-    /// overflow.
+    /// [`Fault::NotFinite`] names the first joint with a number that is not finite, or joint 0 if
+    /// products of finite numbers overflow.
     ///
     /// # Source
     /// Haddadin, De Luca & Albu-Schäffer, "Robot collisions: a survey" (2017), section VI.
@@ -119,7 +127,8 @@ impl<R: Real, const V: usize> TipWrench<R, V> {
         // In two parts, since the sums of the whole matrix are more than the M4F has registers.
         add_rows::<R, V, 0, 2>(&scaled, &mut a, &mut b);
         add_rows::<R, V, 2, 6>(&scaled, &mut a, &mut b);
-        // Eigenvalues below the roundings of the largest are not known: a shift of that size keeps them from growing.
+        // Eigenvalues below the roundings of the largest are not known: a shift of that size keeps
+        // them from growing.
         let trace = (0..6).fold(R::ZERO, |sum, i| sum + a[i][i]);
         let shift = R::ONE + trace * (R::EPSILON * R::from_f64(ROUNDINGS));
         let x = shifted_solution(&a, shift, &b);

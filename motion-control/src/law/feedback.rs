@@ -19,8 +19,8 @@ pub struct Gains<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> Gains<R, V> {
-    /// Gains with which each joint by itself is a damped oscillator of natural frequency `omega_n` (rad/s) and damping
-    /// ratio `zeta`: K_p = M_jj ω_n², K_d = 2 ζ ω_n M_jj.
+    /// Gains with which each joint by itself is a damped oscillator of natural frequency `omega_n`
+    /// (rad/s) and damping ratio `zeta`: K_p = M_jj ω_n², K_d = 2 ζ ω_n M_jj.
     ///
     /// `diagonal`: that of M at a representative configuration, kg·m² or kg.
     ///

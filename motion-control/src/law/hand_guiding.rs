@@ -1,7 +1,8 @@
-//! Hand guiding of an arm without torque sensors: friction compensation that stays passive, virtual walls, locked joints.
+//! Hand guiding of an arm without torque sensors: friction compensation that stays passive, virtual
+//! walls, locked joints.
 //!
-//! Of the modelled friction F̂, which exceeds the true friction F at most by the share ε, and of the errors e of the torques
-//! that this one is added to:
+//! Of the modelled friction F̂, which exceeds the true friction F at most by the share ε, and of
+//! the errors e of the torques that this one is added to:
 //!
 //! ```text
 //! τ_c = s max(σ |F̂| − e, 0) sgn F̂      σ (1 + ε) ≤ 1      ⟹  |τ_c| + e ≤ |F| wherever e ≤ σ |F̂|
@@ -10,8 +11,9 @@
 //! τ_l = K (q_l − q) − D q̇, limited to ±τ_max
 //! ```
 //!
-//! No acceleration is needed. Colgate & Schenkel (1997) have the passivity of walls in discrete time; Armstrong-Hélouvry,
-//! Dupont & Canudas de Wit (1994) the compensation of friction and its limit cycles.
+//! No acceleration is needed. Colgate & Schenkel (1997) have the passivity of walls in discrete
+//! time; Armstrong-Hélouvry, Dupont & Canudas de Wit (1994) the compensation of friction and its
+//! limit cycles.
 
 use crate::entry;
 use crate::estimate::Estimate;
@@ -28,16 +30,19 @@ pub use config::{HandGuidingConfig, LimitedSpring};
 
 /// The law of an arm that a hand moves: torques to add to the compensation of gravity.
 ///
-/// - **Friction** is compensated in part, and never by more than there is: with a model that over-estimates it at most by the
-///   stated share, the power of compensation and true friction together is nowhere positive. True friction whose sign is
-///   steeper than that of the model, or which sticks, exceeds the model near rest, where it is then compensated less; a
-///   true sign that is wider than that of the model would not be.
-/// - **Walls** at bounds of the joints push back and never pull; their damping acts only on motion into them.
+/// - **Friction** is compensated in part, and never by more than there is: with a model that
+///   over-estimates it at most by the stated share, the power of compensation and true friction
+///   together is nowhere positive. True friction whose sign is steeper than that of the model, or
+///   which sticks, exceeds the model near rest, where it is then compensated less; a true sign that
+///   is wider than that of the model would not be.
+/// - **Walls** at bounds of the joints push back and never pull; their damping acts only on motion
+///   into them.
 /// - **Locked joints** are held where they were locked, and their friction is not compensated.
 ///
 /// Joints that are circles ([`Self::on_circles`]) are held and pushed by the short way.
 ///
-/// Directions of the tip are locked by a [`CartesianImpedance`](crate::CartesianImpedance) of these directions alone.
+/// Directions of the tip are locked by a [`CartesianImpedance`](crate::CartesianImpedance) of these
+/// directions alone.
 ///
 /// ```
 /// use motion_control::{Estimate, HandGuiding, HandGuidingConfig, LimitedSpring};
@@ -93,8 +98,8 @@ impl<R: Real, const V: usize> HandGuiding<R, V> {
         })
     }
 
-    /// The same law for joints of which those of [`Circles::bits`] are points on a circle: walls within a turn push towards
-    /// the nearest end of their range, and a lock pulls the short way.
+    /// The same law for joints of which those of [`Circles::bits`] are points on a circle: walls
+    /// within a turn push towards the nearest end of their range, and a lock pulls the short way.
     ///
     /// # Errors
     /// [`ConfigError::Limits`] if walls of a circle count turns.
@@ -121,11 +126,12 @@ impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
         self.held.map(|held| held.is_some())
     }
 
-    /// Locks these joints and no others: joints that were free are held at the positions q, rad or m, joints that were
-    /// locked remain where they are held.
+    /// Locks these joints and no others: joints that were free are held at the positions q, rad or
+    /// m, joints that were locked remain where they are held.
     ///
     /// # Errors
-    /// [`Fault::NotFinite`] names the first joint to be locked whose position is not finite; nothing is changed then.
+    /// [`Fault::NotFinite`] names the first joint to be locked whose position is not finite;
+    /// nothing is changed then.
     ///
     /// ```
     /// # use motion_control::{Fault, HandGuiding, HandGuidingConfig, LimitedSpring};
@@ -150,14 +156,17 @@ impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
         Ok(())
     }
 
-    /// The torques to add to the compensation of gravity, N·m or N: finite whatever the arguments are.
+    /// The torques to add to the compensation of gravity, N·m or N: finite whatever the arguments
+    /// are.
     ///
-    /// `friction` is F̂, [`rnea`](dynamics_core::algorithms::rnea()) under the friction of the scene alone at the estimated velocities.
-    /// `errors` bound how far the other torques are off, for example 3 % of gravity: by so much less is friction compensated,
-    /// so that a released arm comes to rest. Their sign does not count.
+    /// `friction` is F̂, [`rnea`](dynamics_core::algorithms::rnea()) under the friction of the
+    /// scene alone at the estimated velocities. `errors` bound how far the other torques are off,
+    /// for example 3 % of gravity: by so much less is friction compensated, so that a released arm
+    /// comes to rest. Their sign does not count.
     ///
-    /// A velocity that is not finite counts as zero; without a finite position there is neither wall nor lock, without finite
-    /// friction and errors no compensation. Friction that does not oppose the velocity is not compensated.
+    /// A velocity that is not finite counts as zero; without a finite position there is neither
+    /// wall nor lock, without finite friction and errors no compensation. Friction that does not
+    /// oppose the velocity is not compensated.
     ///
     /// # Cost
     /// By count: some 35 flops a joint, the same for all data.

@@ -1,7 +1,7 @@
 //! Hybrid motion and force control in the operational space.
 //!
-//! Khatib (1987), section VI: F = Λ (Ω ẍ* + Ω̄ a − J̇ q̇) + Ω̄ f*, τ = Jᵀ F + C q̇ + g. The selection Ω is
-//! the choice of an [`TaskCommand`] for each direction of the task.
+//! Khatib (1987), section VI: F = Λ (Ω ẍ* + Ω̄ a − J̇ q̇) + Ω̄ f*, τ = Jᵀ F + C q̇ + g. The
+//! selection Ω is the choice of an [`TaskCommand`] for each direction of the task.
 
 use dynamics_core::algorithms::OperationalSpace;
 use dynamics_core::scalar::{Matrix, Real, Vector};
@@ -24,18 +24,21 @@ impl<R: Real> TaskFrame<R> {
         axes: R::Mat3::IDENTITY,
     };
 
-    /// The directions of a task in three coordinates: the position of the body's origin along the axes, m.
+    /// The directions of a task in three coordinates: the position of the body's origin along the
+    /// axes, m.
     ///
-    /// For [`dynamics_core::algorithms::task_jacobian`] of a Jacobian in the frame `LocalWorldAligned`.
+    /// For [`dynamics_core::algorithms::task_jacobian`] of a Jacobian in the frame
+    /// `LocalWorldAligned`.
     #[inline(always)]
     pub fn place(&self) -> [Force<R>; 3] {
         self.axes.cols().map(|axis| Force::new(R::Vec3::ZERO, axis))
     }
 
-    /// The directions of a task in six coordinates: rotations about the axes, and the position along them.
+    /// The directions of a task in six coordinates: rotations about the axes, and the position
+    /// along them.
     ///
-    /// A rotation is expressed as the path of a point at `radius`, m, so that all coordinates are lengths; 1 m gives
-    /// rad.
+    /// A rotation is expressed as the path of a point at `radius`, m, so that all coordinates are
+    /// lengths; 1 m gives rad.
     #[inline(always)]
     pub fn turn_and_place(&self, radius: R) -> [Force<R>; 6] {
         let [x, y, z] = self.place();
@@ -44,7 +47,8 @@ impl<R: Real> TaskFrame<R> {
     }
 }
 
-/// The command along one direction of a task, a motion or a force: Khatib's selection matrix, as a type.
+/// The command along one direction of a task, a motion or a force: Khatib's selection matrix, as a
+/// type.
 #[doc(alias = "selection matrix")]
 #[doc(alias = "compliance selection")]
 #[doc(alias = "Aim")]
@@ -64,11 +68,13 @@ pub enum TaskCommand<R> {
     },
 }
 
-/// A motion along one direction of a task that follows x_d as a damped oscillator: for [`TaskCommand::motion`].
+/// A motion along one direction of a task that follows x_d as a damped oscillator: for
+/// [`TaskCommand::motion`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TaskMotion<R> {
-    /// x_d − x, m; of a rotation a component of [`orientation_error`], times the radius that its direction has.
+    /// x_d − x, m; of a rotation a component of [`orientation_error`], times the radius that its
+    /// direction has.
     pub error: R,
     /// ẋ_d − ẋ, m/s.
     pub error_rate: R,
@@ -80,7 +86,8 @@ pub struct TaskMotion<R> {
     pub zeta: R,
 }
 
-/// A force along one direction of a task, and the damping of the motion in contact: for [`TaskCommand::force`].
+/// A force along one direction of a task, and the damping of the motion in contact: for
+/// [`TaskCommand::force`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TaskForce<R> {
@@ -137,9 +144,9 @@ impl<R: Real> TaskCommand<R> {
 
 /// Computes the torques of a task of motions and forces, N·m or N.
 ///
-/// `drift`: J̇ q̇ along the task's directions; `bias`: torques at q̈ = 0 of all effects on the joints (velocity
-/// products, gravity, friction): Khatib's μ and p, in joint space. Torques that do not act on the task may be added
-/// through [`OperationalSpace::null_space_torque`].
+/// `drift`: J̇ q̇ along the task's directions; `bias`: torques at q̈ = 0 of all effects on the
+/// joints (velocity products, gravity, friction): Khatib's μ and p, in joint space. Torques that do
+/// not act on the task may be added through [`OperationalSpace::null_space_torque`].
 ///
 /// # Cost
 /// 2 M (M + V) + 2 M + V flops for all data.
@@ -215,7 +222,8 @@ pub fn hybrid_motion_force<R: Real, const M: usize, const V: usize>(
     tau
 }
 
-/// The rotation from an attitude to the desired one as a vector: its sine along its axis, in base coordinates.
+/// The rotation from an attitude to the desired one as a vector: its sine along its axis, in base
+/// coordinates.
 ///
 /// It is zero only at the desired attitude and at a rotation by π from it.
 ///

@@ -1,20 +1,22 @@
 //! Cartesian impedance control with null space: a spring and a damper between a body and its goal.
 //!
-//! Albu-Schäffer, Ott, Frese & Hirzinger, "Cartesian impedance control of redundant robots: recent results with the
-//! DLR-light-weight-arms" (2003); Khatib (1987) for the null space. The inertia Λ is not shaped, so that no force need be
-//! measured. The damping is that of double diagonalisation: Λ = Q Qᵀ, K = Q Ω² Qᵀ, D = 2 ζ Q Ω Qᵀ. With S = √K Λ⁻¹ √K =
-//! U Ω² Uᵀ, Q is √K U Ω⁻¹, and D needs no inverse of Λ⁻¹, which is singular where the arm is:
+//! Albu-Schäffer, Ott, Frese & Hirzinger, "Cartesian impedance control of redundant robots: recent
+//! results with the DLR-light-weight-arms" (2003); Khatib (1987) for the null space. The inertia Λ
+//! is not shaped, so that no force need be measured. The damping is that of double diagonalisation:
+//! Λ = Q Qᵀ, K = Q Ω² Qᵀ, D = 2 ζ Q Ω Qᵀ. With S = √K Λ⁻¹ √K = U Ω² Uᵀ, Q is √K U Ω⁻¹, and D needs
+//! no inverse of Λ⁻¹, which is singular where the arm is:
 //!
 //! ```text
 //! D = 2 ζ √K U Ω⁻¹ Uᵀ √K,   Λ = √K U Ω⁻² Uᵀ √K
 //! ```
 //!
-//! For a mode slower than ω_min, 1/Ω is continued by its tangent, as a function of Ω², and at most 1.5/ω_min. The null space has
-//! the same modes: of a slow one Ω² (1/Ω)² goes to zero with Ω, without a jump in value or slope, and the posture moves the body
-//! where the spring cannot.
+//! For a mode slower than ω_min, 1/Ω is continued by its tangent, as a function of Ω², and at most
+//! 1.5/ω_min. The null space has the same modes: of a slow one Ω² (1/Ω)² goes to zero with Ω,
+//! without a jump in value or slope, and the posture moves the body where the spring cannot.
 //!
-//! The modes follow the arm from tick to tick (`impedance/modes.rs`). Whatever they are, U is orthogonal and 1/Ω positive: the
-//! damping is positive, and the arm passive, also where they are not yet those of the posture.
+//! The modes follow the arm from tick to tick (`impedance/modes.rs`). Whatever they are, U is
+//! orthogonal and 1/Ω positive: the damping is positive, and the arm passive, also where they are
+//! not yet those of the posture.
 
 mod modes;
 #[cfg(test)]
@@ -31,16 +33,18 @@ use modes::{Modes, combine, dot};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ImpedanceConfig<R, const M: usize> {
-    /// Stiffness K along each direction of the task, N/m, or N·m/rad if the direction is a couple of 1 N·m.
+    /// Stiffness K along each direction of the task, N/m, or N·m/rad if the direction is a couple
+    /// of 1 N·m.
     pub stiffness: [R; M],
     /// Damping ratio ζ of every mode.
     pub zeta: R,
-    /// ω_min, rad/s: modes down to this natural frequency have the damping ratio ζ; slower ones, near a singularity, have
-    /// less, since no damping exceeds 3 ζ K/ω_min.
+    /// ω_min, rad/s: modes down to this natural frequency have the damping ratio ζ; slower ones,
+    /// near a singularity, have less, since no damping exceeds 3 ζ K/ω_min.
     pub slowest: R,
 }
 
-/// A spring and a damper between a body and its goal, along M directions of a task; it keeps the modes of the last tick.
+/// A spring and a damper between a body and its goal, along M directions of a task; it keeps the
+/// modes of the last tick.
 ///
 /// # Example
 /// ```
@@ -95,7 +99,8 @@ pub struct TaskDeviation<R, const M: usize> {
 pub struct ImpedanceTorque<R, const V: usize> {
     /// τ, N·m or N: finite.
     pub tau: [R; V],
-    /// Regular if all modes are faster than ω_min; else the square of the slowest one's frequency over ω_min².
+    /// Regular if all modes are faster than ω_min; else the square of the slowest one's frequency
+    /// over ω_min².
     pub conditioning: Conditioning<R>,
     /// How the modes were found.
     pub modes: ModeSearch,
@@ -107,12 +112,14 @@ pub struct ImpedanceTorque<R, const V: usize> {
 pub enum ModeSearch {
     /// By one pass, from those of the last tick.
     Followed,
-    /// By more passes, at most eight: at the start, after a jump of the posture, after numbers that were not finite.
+    /// By more passes, at most eight: at the start, after a jump of the posture, after numbers that
+    /// were not finite.
     Searched {
         /// How many.
         passes: usize,
     },
-    /// Eight passes left some of them coupled: the damping is positive, but its ratio is not ζ to the last digits.
+    /// Eight passes left some of them coupled: the damping is positive, but its ratio is not ζ to
+    /// the last digits.
     Coupled,
 }
 
@@ -153,16 +160,19 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
         })
     }
 
-    /// The damping D by double diagonalisation, N·s/m or N·m·s/rad, and whether all modes have the damping ratio ζ.
+    /// The damping D by double diagonalisation, N·s/m or N·m·s/rad, and whether all modes have the
+    /// damping ratio ζ.
     ///
-    /// It is that of [`CartesianImpedance::torque`], from eigenvectors that are computed anew, without memory. If no mode is
-    /// slower than ω_min, D Λ⁻¹ D = 4 ζ² K. `mobility` is Λ⁻¹ of the task, which may be singular.
+    /// It is that of [`CartesianImpedance::torque`], from eigenvectors that are computed anew,
+    /// without memory. If no mode is slower than ω_min, D Λ⁻¹ D = 4 ζ² K. `mobility` is Λ⁻¹ of the
+    /// task, which may be singular.
     ///
     /// # Shape
     /// M × M, symmetric.
     ///
     /// # Cost
-    /// 3 M (M − 1) (18 M + 50) + 3 M³ flops, with 3 M (M − 1) divisions, in f64 a sixth more: the same for all data.
+    /// 3 M (M − 1) (18 M + 50) + 3 M³ flops, with 3 M (M − 1) divisions, in f64 a sixth more: the
+    /// same for all data.
     ///
     /// # Errors
     /// None; from numbers that are not finite it is not finite and not regular.
@@ -210,35 +220,42 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
         (d, Conditioning::Damped { smallest })
     }
 
-    /// The torque of each motor, N·m or N, that makes the body behave as a mass on a spring with a damper.
+    /// The torque of each motor, N·m or N, that makes the body behave as a mass on a spring with a
+    /// damper.
     ///
     /// ```text
     /// τ = τ_b + Jᵀ (K x̃ + D x̃̇) + (1 − Jᵀ J̄ᵀ) τ_n
     /// ```
     ///
-    /// `rows` is J along the directions of the task, by [`task_jacobian`](dynamics_core::algorithms::task_jacobian()) or
-    /// [`jacobian_rows`](dynamics_core::algorithms::jacobian_rows()); `solve` solves M x = τ with the factors of core or engine.
+    /// `rows` is J along the directions of the task, by
+    /// [`task_jacobian`](dynamics_core::algorithms::task_jacobian()) or
+    /// [`jacobian_rows`](dynamics_core::algorithms::jacobian_rows()); `solve` solves M x = τ with
+    /// the factors of core or engine.
     ///
-    /// A constant force F on the body displaces it by K⁻¹ F. `bias` is τ_b: gravity and friction, with which the arm is
-    /// passive at a goal at rest, the posture apart, if rotational stiffnesses are equal; for a goal that moves,
-    /// [`rnea_two_velocities`](dynamics_core::algorithms::rnea_two_velocities()) of the joint velocities that follow it.
-    /// `posture` is τ_n = K_n (q_n − q) − D_n q̇, for example by [`feedback`](crate::feedback()); it does not act on the
-    /// task where all modes are faster than ω_min. Some damping in it is needed near singularities also for arms without
-    /// redundancy: there the task damps not all joints.
+    /// A constant force F on the body displaces it by K⁻¹ F. `bias` is τ_b: gravity and friction,
+    /// with which the arm is passive at a goal at rest, the posture apart, if rotational
+    /// stiffnesses are equal; for a goal that moves,
+    /// [`rnea_two_velocities`](dynamics_core::algorithms::rnea_two_velocities()) of the joint
+    /// velocities that follow it. `posture` is τ_n = K_n (q_n − q) − D_n q̇, for example by
+    /// [`feedback`](crate::feedback()); it does not act on the task where all modes are faster than
+    /// ω_min. Some damping in it is needed near singularities also for arms without redundancy:
+    /// there the task damps not all joints.
     ///
-    /// Every number is finite in singular postures too, and nothing jumps there: the spring and the damper are bounded,
-    /// and Jᵀ goes to zero along the lost direction. Velocities are damped by at most 3 ζ K/ω_min.
+    /// Every number is finite in singular postures too, and nothing jumps there: the spring and the
+    /// damper are bounded, and Jᵀ goes to zero along the lost direction. Velocities are damped by
+    /// at most 3 ζ K/ω_min.
     ///
     /// # Cost
-    /// A pass and 6 M (M + V) flops; a pass is M solutions and M (M − 1) (5 M + 14) + 3 M (M + 1) V flops: the same for all data,
-    /// singular postures among them. One pass is the rule for an arm that moves; in f32 some ticks take two if every joint turns
-    /// by 3 mrad in a tick. [`ImpedanceTorque::modes`] names those with more, eight at most. The first call takes some four:
-    /// make it before the loop runs. A pass leaves a relative error of the damping of 10⁻⁵ at most; in f64, of 10⁻¹² at most,
-    /// two passes are the rule.
+    /// A pass and 6 M (M + V) flops; a pass is M solutions and M (M − 1) (5 M + 14) + 3 M (M + 1) V
+    /// flops: the same for all data, singular postures among them. One pass is the rule for an arm
+    /// that moves; in f32 some ticks take two if every joint turns by 3 mrad in a tick.
+    /// [`ImpedanceTorque::modes`] names those with more, eight at most. The first call takes some
+    /// four: make it before the loop runs. A pass leaves a relative error of the damping of 10⁻⁵ at
+    /// most; in f64, of 10⁻¹² at most, two passes are the rule.
     ///
     /// # Errors
-    /// [`Fault::NotFinite`] names the first joint whose torque is not finite, by numbers that are not finite or beyond the
-    /// scalar's range. The next tick searches its modes anew.
+    /// [`Fault::NotFinite`] names the first joint whose torque is not finite, by numbers that are
+    /// not finite or beyond the scalar's range. The next tick searches its modes anew.
     ///
     /// # Source
     /// Albu-Schäffer, Ott, Frese & Hirzinger (2003); Khatib (1987), (53).
@@ -302,7 +319,8 @@ fn inverse_root<R: Real>(square: R, slowest: R) -> R {
     (if square > slowest { square } else { slowest }).rsqrt()
 }
 
-/// 1/Ω by the one that is at most 1/ω_min; below ω_min the tangent to it as a function of Ω², a Newton step towards it.
+/// 1/Ω by the one that is at most 1/ω_min; below ω_min the tangent to it as a function of Ω², a
+/// Newton step towards it.
 #[cfg_attr(optimised, inline(always))]
 fn period<R: Real>(square: R, r: R) -> R {
     let half = R::from_f64(0.5);

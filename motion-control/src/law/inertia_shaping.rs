@@ -1,12 +1,15 @@
-//! Less apparent inertia of an arm without torque sensors: the observed external torques, amplified.
+//! Less apparent inertia of an arm without torque sensors: the observed external torques,
+//! amplified.
 //!
-//! With r the external torques of a momentum observer of bandwidth K, an amplification k and a damping d:
+//! With r the external torques of a momentum observer of bandwidth K, an amplification k and a
+//! damping d:
 //!
 //! ```text
 //! τ = k dead(r) − d q̇, limited      dead(r) = r − clamp(r, ±δ)      r = K/(s + K) τ_ext
 //! ```
 //!
-//! One joint of inertia M has towards the hand, where the dead band and the limit do not act, the impedance
+//! One joint of inertia M has towards the hand, where the dead band and the limit do not act, the
+//! impedance
 //!
 //! ```text
 //! Z(s) = τ_ext / q̇ = (M s + d) (s + K) / (s + K (1 + k))
@@ -14,9 +17,10 @@
 //! |Z(jω)|² / (ω M)² = (1 + x k²) (1 + x) / (1 + x (1 + k)²)      x = (K/ω)², with d = k K M
 //! ```
 //!
-//! Below K/(1 + k) the joint is a damper d/(1 + k), above K it has its inertia. Colgate & Hogan, "Robust control of dynamically
-//! interacting systems" (1988), have the condition: a passive impedance is stable in contact with everything passive. The least
-//! of the last line is 3/4, at k = 1 and ω = √2 K: a passive joint is at most 13 % lighter, and heavier below K √(k/2).
+//! Below K/(1 + k) the joint is a damper d/(1 + k), above K it has its inertia. Colgate & Hogan,
+//! "Robust control of dynamically interacting systems" (1988), have the condition: a passive
+//! impedance is stable in contact with everything passive. The least of the last line is 3/4, at k
+//! = 1 and ω = √2 K: a passive joint is at most 13 % lighter, and heavier below K √(k/2).
 
 use crate::entry;
 use crate::limits::{ConfigError, ConfigParameter};
@@ -32,9 +36,11 @@ mod tests;
 pub struct InertiaShapingConfig<R, const V: usize> {
     /// k: slow pushes act with 1 + k of their torque.
     pub amplification: R,
-    /// δ of each joint, N·m or N: external torques up to here are errors of the model, and are not amplified.
+    /// δ of each joint, N·m or N: external torques up to here are errors of the model, and are not
+    /// amplified.
     pub dead_band: [R; V],
-    /// d of each joint, N·m·s/rad or N·s/m; [`InertiaShaping::passive_damping`] has the least one of a passive arm.
+    /// d of each joint, N·m·s/rad or N·s/m; [`InertiaShaping::passive_damping`] has the least one
+    /// of a passive arm.
     pub damping: [R; V],
     /// The greatest torque of each joint, N·m or N.
     pub torque: [R; V],
@@ -43,9 +49,10 @@ pub struct InertiaShapingConfig<R, const V: usize> {
 /// The law of an arm that a hand moves with less than its inertia: torques to add to those of
 /// [`HandGuiding`](crate::HandGuiding).
 ///
-/// It amplifies what a [`MomentumObserver`](crate::MomentumObserver) finds. The observer lags, and an amplified lag
-/// pushes a stiff hand to and fro: without enough damping the arm oscillates in contact. With enough of it, the arm is hardly
-/// lighter: by at most 13 % at one frequency of the motion. Less damping relies on the damping of the hand.
+/// It amplifies what a [`MomentumObserver`](crate::MomentumObserver) finds. The observer lags, and
+/// an amplified lag pushes a stiff hand to and fro: without enough damping the arm oscillates in
+/// contact. With enough of it, the arm is hardly lighter: by at most 13 % at one frequency of the
+/// motion. Less damping relies on the damping of the hand.
 ///
 /// ```
 /// use dynamics_core::Core;
@@ -96,11 +103,12 @@ impl<R: Real, const V: usize> InertiaShaping<R, V> {
         Ok(Self { config })
     }
 
-    /// The least damping of each joint with which an arm of the mass matrix M is passive, N·m·s/rad or N·s/m, for this
-    /// amplification and this bandwidth of the observer, rad/s: k K Σ_j |M_ij|.
+    /// The least damping of each joint with which an arm of the mass matrix M is passive, N·m·s/rad
+    /// or N·s/m, for this amplification and this bandwidth of the observer, rad/s: k K Σ_j |M_ij|.
     ///
-    /// D − k K M is then dominated by its diagonal, and therefore positive semidefinite (Gershgorin, 1931). It holds at the posture
-    /// of M; take the largest of the postures in which the arm is guided.
+    /// D − k K M is then dominated by its diagonal, and therefore positive semidefinite
+    /// (Gershgorin, 1931). It holds at the posture of M; take the largest of the postures in which
+    /// the arm is guided.
     #[must_use]
     pub fn passive_damping(amplification: R, bandwidth: R, m: &MassMatrix<R, V>) -> [R; V] {
         core::array::from_fn(|i| {
@@ -109,8 +117,8 @@ impl<R: Real, const V: usize> InertiaShaping<R, V> {
         })
     }
 
-    /// The torques to add, N·m or N, from the external torques of the observer and the estimated velocities: finite whatever
-    /// the arguments are. A number that is not finite counts as zero.
+    /// The torques to add, N·m or N, from the external torques of the observer and the estimated
+    /// velocities: finite whatever the arguments are. A number that is not finite counts as zero.
     ///
     /// # Cost
     /// 5 flops and 4 comparisons a joint, the same for all data.

@@ -1,9 +1,10 @@
 //! Torque between two computations of the dynamics, for loops that tick faster than they compute.
 //!
-//! A loop computes in every `TICKS`-th tick and passes the result to `update`, which returns the torque of that tick;
-//! in the other ticks, `hold` returns it. The error grows with `TICKS` and with the speed of the arm. It is largest
-//! where the jerk of the reference jumps, as at the way-points of [`Trajectory`](crate::Trajectory), unless the
-//! dynamics are computed in such ticks. Errors and savings are in `docs/accuracy.md` in the repository.
+//! A loop computes in every `TICKS`-th tick and passes the result to `update`, which returns the
+//! torque of that tick; in the other ticks, `hold` returns it. The error grows with `TICKS` and
+//! with the speed of the arm. It is largest where the jerk of the reference jumps, as at the
+//! way-points of [`Trajectory`](crate::Trajectory), unless the dynamics are computed in such ticks.
+//! Errors and savings are in `docs/accuracy.md` in the repository.
 
 use dynamics_core::algorithms::MassMatrix;
 use dynamics_core::scalar::Real;
@@ -131,7 +132,8 @@ impl<R: Real, const V: usize, const TICKS: usize> Interpolator<R, V, TICKS> {
         }
     }
 
-    /// Updates the state in a tick that has computed the torque of `TICKS` ticks later; returns the torque of this tick.
+    /// Updates the state in a tick that has computed the torque of `TICKS` ticks later; returns the
+    /// torque of this tick.
     #[inline(always)]
     pub fn update(&mut self, ahead: [R; V]) -> [R; V] {
         self.torque = self.ahead;
@@ -161,8 +163,8 @@ fn slope<R: Real, const V: usize, const TICKS: usize>(b: &[R; V], a: &[R; V]) ->
     slope
 }
 
-/// τ = b + M q̈ with the M of the last computation and the q̈ of now; b, the bias τ − M q̈, is extrapolated linearly from
-/// the last two.
+/// τ = b + M q̈ with the M of the last computation and the q̈ of now; b, the bias τ − M q̈, is
+/// extrapolated linearly from the last two.
 ///
 /// Exact where the acceleration jumps, which the others see a period late.
 ///

@@ -1,7 +1,7 @@
 //! The control law of Slotine & Li, which keeps the arm passive.
 //!
-//! Slotine & Li, "On the adaptive control of robot manipulators" (1987); Slotine & Li, *Applied Nonlinear Control* (1991),
-//! chapter 9.
+//! Slotine & Li, "On the adaptive control of robot manipulators" (1987); Slotine & Li, *Applied
+//! Nonlinear Control* (1991), chapter 9.
 //!
 //! ```text
 //! q̇_r = q̇_d + Λ (q_d − q)      q̈_r = q̈_d + Λ (q̇_d − q̇)      s = q̇ − q̇_r
@@ -38,10 +38,12 @@ pub struct SlidingVariable<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> PassivityGains<R, V> {
-    /// The sliding variable s = q̇ − q̇_r, rad/s or m/s, with q̇_r = q̇_d + Λ (q_d − q) and its rate.
+    /// The sliding variable s = q̇ − q̇_r, rad/s or m/s, with q̇_r = q̇_d + Λ (q_d − q) and its
+    /// rate.
     ///
-    /// For a law of one's own with [`rnea_two_velocities`](dynamics_core::algorithms::rnea_two_velocities()), for example one whose
-    /// dynamics use sines and cosines that are computed already.
+    /// For a law of one's own with
+    /// [`rnea_two_velocities`](dynamics_core::algorithms::rnea_two_velocities()), for example one
+    /// whose dynamics use sines and cosines that are computed already.
     ///
     /// # Cost
     /// 7 flops for each joint.
@@ -83,19 +85,21 @@ impl<R: Real, const V: usize> PassivityGains<R, V> {
 /// q̇_r = q̇_d + Λ (q_d − q)      s = q̇ − q̇_r
 /// ```
 ///
-/// As Ṁ = C + Cᵀ, with an exact model d/dt (½ sᵀ M s) = −sᵀ K_D s: s and with it the error of tracking
-/// decay at any speed, without the inverse or the measured acceleration that computed torque needs to be exact. A model
-/// that is off leaves an error: at rest Λ⁻¹ K_D⁻¹ times the error of g + F.
+/// As Ṁ = C + Cᵀ, with an exact model d/dt (½ sᵀ M s) = −sᵀ K_D s: s and with it the error of
+/// tracking decay at any speed, without the inverse or the measured acceleration that computed
+/// torque needs to be exact. A model that is off leaves an error: at rest Λ⁻¹ K_D⁻¹ times the error
+/// of g + F.
 ///
-/// Friction is that at the measured velocity. To compensate that of the reference, so that an estimated friction that is
-/// too large does not push, leave it out of `effects` and add it at q̇_r.
+/// Friction is that at the measured velocity. To compensate that of the reference, so that an
+/// estimated friction that is too large does not push, leave it out of `effects` and add it at
+/// q̇_r.
 ///
 /// # Shape
 /// V; the position coordinates are as many, as in every [`State`] of the controller.
 ///
 /// # Cost
-/// That of [`rnea_two_velocities`](dynamics_core::algorithms::rnea_two_velocities()) and 9 flops for each joint, the same
-/// instructions for all data.
+/// That of [`rnea_two_velocities`](dynamics_core::algorithms::rnea_two_velocities()) and 9 flops
+/// for each joint, the same instructions for all data.
 ///
 /// # Errors
 /// None; a non-finite input gives a non-finite output, which [`crate::MotionController`] rejects.

@@ -8,9 +8,11 @@ use dynamics_core::spatial::Motion;
 #[cfg(test)]
 mod tests;
 
-/// The motion from a pose to the desired one: [`quaternion_error`], rad, and the difference of the origins, m, in base axes.
+/// The motion from a pose to the desired one: [`quaternion_error`], rad, and the difference of the
+/// origins, m, in base axes.
 ///
-/// Its power with the directions of a task gives [`TaskDeviation::position`](crate::TaskDeviation::position): see
+/// Its power with the directions of a task gives
+/// [`TaskDeviation::position`](crate::TaskDeviation::position): see
 /// [`CartesianImpedance`](crate::CartesianImpedance). 70 flops.
 ///
 /// ```
@@ -30,11 +32,13 @@ pub fn pose_error<R: Real>(pose: &Pose<R>, wanted: &Pose<R>) -> Motion<R> {
     )
 }
 
-/// The shortest rotation from an attitude to the desired one as a vector: 2 sin(θ/2) along its axis, in base coordinates.
+/// The shortest rotation from an attitude to the desired one as a vector: 2 sin(θ/2) along its
+/// axis, in base coordinates.
 ///
-/// That is twice the vector part of the unit quaternion whose scalar part is not negative: the angle θ itself within θ³/24.
-/// Its length grows up to θ = π, where it is 2; there both directions are equally short, and it is one of them. With equal
-/// stiffnesses its couple is that of the potential 4 K (1 − cos(θ/2)).
+/// That is twice the vector part of the unit quaternion whose scalar part is not negative: the
+/// angle θ itself within θ³/24. Its length grows up to θ = π, where it is 2; there both directions
+/// are equally short, and it is one of them. With equal stiffnesses its couple is that of the
+/// potential 4 K (1 − cos(θ/2)).
 ///
 /// # Cost
 /// 67 flops, the same instructions for all data.
@@ -43,9 +47,9 @@ pub fn pose_error<R: Real>(pose: &Pose<R>, wanted: &Pose<R>) -> Motion<R> {
 /// None; a non-finite input gives a non-finite output.
 ///
 /// # Source
-/// Shepperd, "Quaternion from rotation matrix" (1978), which divides by the largest of the four components; Caccavale,
-/// Natale, Siciliano & Villani, "Resolved-acceleration control of robot manipulators: a critical review with
-/// experiments" (1998).
+/// Shepperd, "Quaternion from rotation matrix" (1978), which divides by the largest of the four
+/// components; Caccavale, Natale, Siciliano & Villani, "Resolved-acceleration control of robot
+/// manipulators: a critical review with experiments" (1998).
 ///
 /// ```
 /// use motion_control::{orientation_error, quaternion_error};

@@ -10,15 +10,17 @@ use dynamics_core::state::manifold::nearest_turn;
 #[cfg(test)]
 mod tests;
 
-/// The joints whose positions are points on a circle: q and q + 2π are one place, and the way between two places is the
-/// short one.
+/// The joints whose positions are points on a circle: q and q + 2π are one place, and the way
+/// between two places is the short one.
 ///
-/// The position of every other joint is a number on a line, of which the turns count: that of a prismatic joint, of a
-/// revolute joint with stops, and of a continuous joint whose cables a further turn would wind. Which of these a continuous
-/// joint is, is your choice: [`Circles::of`] takes all of a model, [`Circles::counted`] takes one of them out.
+/// The position of every other joint is a number on a line, of which the turns count: that of a
+/// prismatic joint, of a revolute joint with stops, and of a continuous joint whose cables a
+/// further turn would wind. Which of these a continuous joint is, is your choice: [`Circles::of`]
+/// takes all of a model, [`Circles::counted`] takes one of them out.
 ///
-/// A [`MotionController`](crate::MotionController) has the choice in its type, [`OnCircles`](crate::OnCircles), so that
-/// lines cost nothing. Joints are numbered from 0, up to 127.
+/// A [`MotionController`](crate::MotionController) has the choice in its type,
+/// [`OnCircles`](crate::OnCircles), so that lines cost nothing. Joints are numbered from 0, up to
+/// 127.
 ///
 /// ```
 /// use dynamics_core::{model::Robot, robots::Gen3};
@@ -41,9 +43,9 @@ impl Circles {
 
     /// The continuous joints of a model whose coordinates are those of the controller.
     ///
-    /// A continuous joint that its description limits to a range of more than a turn is a line: the limits count turns.
-    /// Joints with numbers above 127 are lines, too. Where the controller's coordinates are those of motors, take
-    /// [`Circles::through`] of this.
+    /// A continuous joint that its description limits to a range of more than a turn is a line: the
+    /// limits count turns. Joints with numbers above 127 are lines, too. Where the controller's
+    /// coordinates are those of motors, take [`Circles::through`] of this.
     pub const fn of<const B: usize, const Q: usize, const V: usize>(
         model: &Model<f64, B, Q, V>,
     ) -> Self {
@@ -61,8 +63,8 @@ impl Circles {
         circles
     }
 
-    /// The motors that are circles where these joints are: a whole turn of such a motor is a whole number of turns of each
-    /// joint that it moves.
+    /// The motors that are circles where these joints are: a whole turn of such a motor is a whole
+    /// number of turns of each joint that it moves.
     ///
     /// ```
     /// use dynamics_core::drivetrain::Transmission;
@@ -139,7 +141,8 @@ impl Circles {
         Self(bits)
     }
 
-    /// The same places, rad, moved by whole turns to within half a turn of `to`; of lines, the same positions.
+    /// The same places, rad, moved by whole turns to within half a turn of `to`; of lines, the same
+    /// positions.
     ///
     /// ```
     /// use motion_control::Circles;
@@ -157,9 +160,10 @@ impl Circles {
         near
     }
 
-    /// Moves each point by whole turns, so that the way to it from the one before is the short one: the first to within half
-    /// a turn of zero. [`Trajectory`](crate::Trajectory) and [`PathSpline`](crate::PathSpline) go where the numbers of their
-    /// way-points lead, turns included; call this for way-points that name places.
+    /// Moves each point by whole turns, so that the way to it from the one before is the short one:
+    /// the first to within half a turn of zero. [`Trajectory`](crate::Trajectory) and
+    /// [`PathSpline`](crate::PathSpline) go where the numbers of their way-points lead, turns
+    /// included; call this for way-points that name places.
     ///
     /// ```
     /// use motion_control::{Circles, WayPoint};
@@ -178,7 +182,8 @@ impl Circles {
         }
     }
 
-    /// Checks that no circle has a range of positions that counts turns: either it has no bounds, or two within a turn.
+    /// Checks that no circle has a range of positions that counts turns: either it has no bounds,
+    /// or two within a turn.
     ///
     /// # Errors
     /// [`SafetyLimitsError::CountsTurns`] names the first joint with its range.
@@ -209,8 +214,8 @@ impl Circles {
         Ok(())
     }
 
-    /// The point from which the turns of each circle are counted: the middle of its range, or `q` where it has none. A line is not
-    /// moved, wherever this is.
+    /// The point from which the turns of each circle are counted: the middle of its range, or `q`
+    /// where it has none. A line is not moved, wherever this is.
     #[inline]
     pub(crate) fn centres<R: Real, const V: usize>(
         middle: &[R; V],

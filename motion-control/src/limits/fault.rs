@@ -20,7 +20,8 @@ pub enum Fault {
     },
     /// There is no measurement in this tick.
     Stale,
-    /// The previous tick was begun but not ended with a torque: the drives still apply an older one.
+    /// The previous tick was begun but not ended with a torque: the drives still apply an older
+    /// one.
     Unfinished,
     /// The measured position is not finite.
     NotFinite {
@@ -32,7 +33,8 @@ pub enum Fault {
         /// The joint.
         joint: usize,
     },
-    /// The measured position differs from the last accepted one by more than the joint can have moved.
+    /// The measured position differs from the last accepted one by more than the joint can have
+    /// moved.
     Jump {
         /// The joint.
         joint: usize,
@@ -57,7 +59,8 @@ pub enum Fault {
         /// The joint.
         joint: usize,
     },
-    /// The encoder did not change while the reference moved; see [`FrozenEncoder`](crate::FrozenEncoder).
+    /// The encoder did not change while the reference moved; see
+    /// [`FrozenEncoder`](crate::FrozenEncoder).
     Frozen {
         /// The joint.
         joint: usize,
@@ -67,7 +70,8 @@ pub enum Fault {
         /// The joint.
         joint: usize,
     },
-    /// The reference moved further in a tick than the joint can; see [`ReferenceStep`](crate::ReferenceStep).
+    /// The reference moved further in a tick than the joint can; see
+    /// [`ReferenceStep`](crate::ReferenceStep).
     Reference {
         /// The joint.
         joint: usize,
@@ -89,13 +93,13 @@ pub enum Fault {
     Restarted,
     /// The brake did not accept its command.
     Brake,
-    /// A stop from outside the loop: an emergency stop, a safety controller, an operator, a contact. See
-    /// [`MotionController::stop`](crate::MotionController::stop).
+    /// A stop from outside the loop: an emergency stop, a safety controller, an operator, a
+    /// contact. See [`MotionController::stop`](crate::MotionController::stop).
     #[doc(alias = "e-stop")]
     #[doc(alias = "emergency stop")]
     External,
-    /// The encoder can have turned by half a turn since its last reading: its count does not say where the joint is. No
-    /// ride-through ends it: the driver has to be told where the joint is.
+    /// The encoder can have turned by half a turn since its last reading: its count does not say
+    /// where the joint is. No ride-through ends it: the driver has to be told where the joint is.
     LostTurn {
         /// The joint.
         joint: usize,
@@ -104,7 +108,8 @@ pub enum Fault {
 
 impl Fault {
     /// The text of the fault with the joint's name in place of its number, where `names` has one:
-    /// [`Model::coordinate_names`](dynamics_core::model::Model::coordinate_names), or the joints of an imported robot.
+    /// [`Model::coordinate_names`](dynamics_core::model::Model::coordinate_names), or the joints of
+    /// an imported robot.
     ///
     /// ```
     /// use motion_control::Fault;

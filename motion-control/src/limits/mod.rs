@@ -1,4 +1,5 @@
-//! What a command may be: limits, faults and what follows from them, the command itself, errors of configurations.
+//! What a command may be: limits, faults and what follows from them, the command itself, errors of
+//! configurations.
 
 pub(crate) mod circles;
 pub(crate) mod command;

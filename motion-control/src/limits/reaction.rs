@@ -5,7 +5,8 @@ use crate::limits::Fault;
 #[cfg(test)]
 mod tests;
 
-/// The reaction of a [`MotionController`](crate::MotionController) to a fault, by [`Fault::reaction`].
+/// The reaction of a [`MotionController`](crate::MotionController) to a fault, by
+/// [`Fault::reaction`].
 ///
 /// | reaction | while the fault lasts | after it |
 /// |---|---|---|
@@ -18,17 +19,19 @@ mod tests;
 pub enum Reaction {
     /// [`report`](crate::MotionController::report): the fault may pass.
     RideThrough,
-    /// [`stop_by`](crate::MotionController::stop_by) with the configured category: the motion must not go on, the drives
-    /// and the measurements are usable.
+    /// [`stop_by`](crate::MotionController::stop_by) with the configured category: the motion must
+    /// not go on, the drives and the measurements are usable.
     ControlledStop,
-    /// [`stop`](crate::MotionController::stop): a drive, a model or a memory that a deceleration needs is not usable.
+    /// [`stop`](crate::MotionController::stop): a drive, a model or a memory that a deceleration
+    /// needs is not usable.
     TorqueOff,
 }
 
 impl Fault {
     /// The reaction to this fault, whichever joint has it.
     ///
-    /// A torque that is not finite is ridden through only in [`Mode::Full`](crate::Mode::Full): in a hold it switches off.
+    /// A torque that is not finite is ridden through only in [`Mode::Full`](crate::Mode::Full): in
+    /// a hold it switches off.
     ///
     /// ```
     /// use motion_control::{Fault, Reaction};

@@ -11,7 +11,8 @@ mod tests;
 
 /// The limits of each joint that a [`MotionController`](crate::MotionController) enforces.
 ///
-/// They can be made from the [`JointLimits`] of a robot's description; the rate of the torque is then unlimited:
+/// They can be made from the [`JointLimits`] of a robot's description; the rate of the torque is
+/// then unlimited:
 ///
 /// ```
 /// use motion_control::SafetyLimits;
@@ -71,7 +72,8 @@ impl<R: Real, const V: usize> SafetyLimits<R, V> {
         }
     }
 
-    /// The same limits with a range of positions that is smaller by `margin` (rad or m) at both ends.
+    /// The same limits with a range of positions that is smaller by `margin` (rad or m) at both
+    /// ends.
     pub fn with_position_margin(self, margin: R) -> Self {
         Self {
             lower: self.lower.map(|lower| lower + margin),
@@ -88,10 +90,12 @@ impl<R: Real, const V: usize> SafetyLimits<R, V> {
         }
     }
 
-    /// Checks that every limit allows some motion or torque, as [`crate::MotionController::try_new`] requires.
+    /// Checks that every limit allows some motion or torque, as
+    /// [`crate::MotionController::try_new`] requires.
     ///
-    /// Positions, speeds and rates may be unlimited (infinite), torques may not. Zero is a valid limit, such as of a joint
-    /// that stays on its brake; [`MotionControllerConfig::advice`](crate::MotionControllerConfig::advice) names a rate of
+    /// Positions, speeds and rates may be unlimited (infinite), torques may not. Zero is a valid
+    /// limit, such as of a joint that stays on its brake;
+    /// [`MotionControllerConfig::advice`](crate::MotionControllerConfig::advice) names a rate of
     /// zero.
     ///
     /// ```
@@ -104,8 +108,8 @@ impl<R: Real, const V: usize> SafetyLimits<R, V> {
     /// ```
     ///
     /// # Errors
-    /// [`SafetyLimitsError`] names the joint, the limit and its value: NaN, negative, infinite for a torque, or a range of
-    /// positions that is empty.
+    /// [`SafetyLimitsError`] names the joint, the limit and its value: NaN, negative, infinite for
+    /// a torque, or a range of positions that is empty.
     pub fn check(&self) -> Result<(), SafetyLimitsError> {
         let limits = [
             (LimitKind::Torque, &self.torque),
@@ -193,7 +197,8 @@ impl fmt::Display for LimitKind {
     }
 }
 
-/// The reason why the limits of a joint are rejected: the joint, the limit and its value. Joints are numbered from 0.
+/// The reason why the limits of a joint are rejected: the joint, the limit and its value. Joints
+/// are numbered from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -255,7 +260,8 @@ impl SafetyLimitsError {
     }
 
     /// The text of the error with the joint's name in place of its number, where `names` has one:
-    /// [`Model::coordinate_names`](dynamics_core::model::Model::coordinate_names), or the joints of an imported robot.
+    /// [`Model::coordinate_names`](dynamics_core::model::Model::coordinate_names), or the joints of
+    /// an imported robot.
     pub const fn named<'a>(&self, names: &'a [&'a str]) -> impl fmt::Display + 'a {
         Named {
             error: *self,

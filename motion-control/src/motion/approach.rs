@@ -19,14 +19,16 @@ pub(crate) const SPEED: f64 = 15.0 / 8.0;
 /// The greatest of |q̈| T²/|D|, at s = 1/2 ± √3/6: 10/√3.
 pub(crate) const ACCELERATION: f64 = 5.773_502_691_896_258;
 
-/// A motion that is preceded by the path to its start, from rest to rest within the limits of the joints.
+/// A motion that is preceded by the path to its start, from rest to rest within the limits of the
+/// joints.
 ///
-/// Each joint moves monotonically, so that the path stays within the bounds that its ends are in. It knows no obstacles:
-/// [`Self::first_point`] and [`Self::last_point`] name its ends, for a check of the path by the application.
+/// Each joint moves monotonically, so that the path stays within the bounds that its ends are in.
+/// It knows no obstacles: [`Self::first_point`] and [`Self::last_point`] name its ends, for a check
+/// of the path by the application.
 ///
-/// A joint that is a circle goes the short way, or within its bounds where it has some. The path then begins on the turn of
-/// the motion: its first point is the place of the arm, moved by whole turns. A joint whose turns count goes as far as the
-/// numbers say, which is how to ask for turns.
+/// A joint that is a circle goes the short way, or within its bounds where it has some. The path
+/// then begins on the turn of the motion: its first point is the place of the arm, moved by whole
+/// turns. A joint whose turns count goes as far as the numbers say, which is how to ask for turns.
 ///
 /// ```
 /// use motion_control::{Approach, Circles, MotionLimits, Reference, SafetyLimits, Trajectory, WayPoint};
@@ -64,14 +66,16 @@ pub struct Approach<'a, R, const V: usize, T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum ApproachError {
-    /// The arm is not stopped, its position is not known, or the motion has begun: see [`ResetError`].
+    /// The arm is not stopped, its position is not known, or the motion has begun: see
+    /// [`ResetError`].
     Reset(ResetError),
     /// A position of the arm or of the motion's start is not finite.
     NotFinite {
         /// The joint.
         joint: usize,
     },
-    /// The arm is outside its bounds, from which [`BackOff`](crate::BackOff) leads back, or the start of the motion is.
+    /// The arm is outside its bounds, from which [`BackOff`](crate::BackOff) leads back, or the
+    /// start of the motion is.
     Position {
         /// The joint.
         joint: usize,
@@ -138,8 +142,9 @@ impl fmt::Display for ApproachError {
 impl core::error::Error for ApproachError {}
 
 impl<'a, R: Real, const V: usize, T: Reference<R, V>> Approach<'a, R, V, T> {
-    /// The path from the positions `from` (rad, m) to the start of `motion`, in as few ticks of `tick` seconds as the
-    /// motion limits allow, and then the motion. The joints of `circles` go the short way.
+    /// The path from the positions `from` (rad, m) to the start of `motion`, in as few ticks of
+    /// `tick` seconds as the motion limits allow, and then the motion. The joints of `circles` go
+    /// the short way.
     ///
     /// # Errors
     /// [`ApproachError`] names the joint and the limit.
@@ -201,7 +206,8 @@ impl<'a, R: Real, const V: usize, T: Reference<R, V>> Approach<'a, R, V, T> {
         self.path.ticks()
     }
 
-    /// The positions at which the path begins, rad or m; those of circles on the turn of the motion.
+    /// The positions at which the path begins, rad or m; those of circles on the turn of the
+    /// motion.
     pub fn first_point(&self) -> &[R; V] {
         &self.ends[0]
     }
@@ -231,8 +237,9 @@ impl<R: Real, const V: usize, T: Reference<R, V>> Reference<R, V> for Approach<'
 }
 
 impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
-    /// Plans the path of a stopped arm from its measured position to the start of a motion, however far away, and sets
-    /// the clock to its begin; [`Self::reset`] with the returned reference then starts the arm.
+    /// Plans the path of a stopped arm from its measured position to the start of a motion, however
+    /// far away, and sets the clock to its begin; [`Self::reset`] with the returned reference then
+    /// starts the arm.
     ///
     /// ```
     /// # use motion_control::*;
@@ -283,7 +290,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     }
 }
 
-/// Two places on a circle as the ends of the way between them, rad: the short one, or that within the bounds.
+/// Two places on a circle as the ends of the way between them, rad: the short one, or that within
+/// the bounds.
 fn short_way<R: Real>(from: R, to: R, lower: R, upper: R) -> (R, R) {
     if lower.is_finite() {
         let middle = R::from_f64(0.5) * (lower + upper);
@@ -334,8 +342,8 @@ pub(crate) fn path<R: Real, const V: usize>(
     tick: R,
     limits: &[MotionLimits<R>; V],
 ) -> Result<Trajectory<R, V, 2>, ApproachError> {
-    // What rounding may add to a peak in f32; and a path of no distance takes a tick. A time that cannot be counted
-    // becomes the greatest count.
+    // What rounding may add to a peak in f32; and a path of no distance takes a tick. A time that
+    // cannot be counted becomes the greatest count.
     let ticks = seconds / tick * R::from_f64(1.0 + 1e-5);
     let ticks = ticks.to_u32().saturating_add(1);
     let stop = |q, ticks| WayPoint {

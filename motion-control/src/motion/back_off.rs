@@ -27,14 +27,15 @@ pub struct BackOffConfig<R> {
 ///
 /// Of a joint beyond its bound:
 ///
-/// - positions are accepted up to the innermost one so far and the plausible step of one tick; further out, the arm is
-///   stopped in the same tick by [`Fault::Position`], without ride-through;
-/// - torques that point outward are limited to τ_max v/v_max, where v is the speed at which the joint moves inward: they
-///   brake it, and are zero at rest;
+/// - positions are accepted up to the innermost one so far and the plausible step of one tick;
+///   further out, the arm is stopped in the same tick by [`Fault::Position`], without ride-through;
+/// - torques that point outward are limited to τ_max v/v_max, where v is the speed at which the
+///   joint moves inward: they brake it, and are zero at rest;
 /// - the reference moves inward only, and never further out than the joint is.
 ///
-/// Outside of [`Self::tick`] the configured bounds apply: another tick of the controller stops the arm. At the end the
-/// arm is held by a stop of category 2; [`MotionController::approach`] and [`MotionController::reset`] lead on.
+/// Outside of [`Self::tick`] the configured bounds apply: another tick of the controller stops the
+/// arm. At the end the arm is held by a stop of category 2; [`MotionController::approach`] and
+/// [`MotionController::reset`] lead on.
 ///
 /// ```
 /// use motion_control::*;
@@ -75,7 +76,8 @@ pub struct BackOff<R, const V: usize> {
     /// 1 beyond the greatest position, −1 beyond the least, 0 within them.
     outward: [R; V],
     velocity: R,
-    /// The speeds of the joints without the acceleration of the reference, which a blocked joint does not have.
+    /// The speeds of the joints without the acceleration of the reference, which a blocked joint
+    /// does not have.
     speeds: Observer<R, V>,
     tick: u32,
     done: bool,
@@ -138,7 +140,8 @@ impl<R: Real, const V: usize> BackOff<R, V> {
         })
     }
 
-    /// Runs one tick of the controller, as [`MotionController::tick`]; the reference is that of the path back.
+    /// Runs one tick of the controller, as [`MotionController::tick`]; the reference is that of the
+    /// path back.
     ///
     /// A command in [`Mode::Stopped`] ends the return: start another one.
     pub fn tick<A: MeasurementAge>(

@@ -1,4 +1,5 @@
-//! The reaction of an arm to a contact: it stops, goes back along its path, or floats, and is then held until a reset.
+//! The reaction of an arm to a contact: it stops, goes back along its path, or floats, and is then
+//! held until a reset.
 //!
 //! ```text
 //!            contact                 stop, the end of the retraction, at rest without a contact, a lasting fault
@@ -32,21 +33,23 @@ use travelled_path::TravelledPath;
 pub enum ContactResponse<R> {
     /// The arm is decelerated: a stop of category 2.
     Stop,
-    /// The reference stops and goes back along its path, from rest where the arm is. The gap from there to the newest point
-    /// of the path fades over the whole retraction.
+    /// The reference stops and goes back along its path, from rest where the arm is. The gap from
+    /// there to the newest point of the path fades over the whole retraction.
     Retract {
-        /// How far from the newest point of the path, rad or m: the sum over the path of the steps of the joint that moves
-        /// most. The points are apart by a fraction 1/(N − 1) of it.
+        /// How far from the newest point of the path, rad or m: the sum over the path of the steps
+        /// of the joint that moves most. The points are apart by a fraction 1/(N − 1) of it.
         distance: R,
         /// Greatest speed and acceleration of the reference in the retraction, of all joints.
         limits: MotionLimits<R>,
     },
-    /// The arm follows the contact: the reference is the estimate of the joints with q̈ = −d q̇, so that feedback is zero
-    /// and the law is left with gravity, friction and damping. The law must produce q̈, with the inertia of the arm: one of
-    /// gravity and friction alone leaves the arm undamped up to the speed limit of the supervisor.
+    /// The arm follows the contact: the reference is the estimate of the joints with q̈ = −d q̇, so
+    /// that feedback is zero and the law is left with gravity, friction and damping. The law must
+    /// produce q̈, with the inertia of the arm: one of gravity and friction alone leaves the arm
+    /// undamped up to the speed limit of the supervisor.
     ///
-    /// An arm that is released comes to rest only if the friction that its law leaves out is larger than the error of its
-    /// gravity: let the law compensate a share of the friction in [`ContactPhase::Floating`].
+    /// An arm that is released comes to rest only if the friction that its law leaves out is larger
+    /// than the error of its gravity: let the law compensate a share of the friction in
+    /// [`ContactPhase::Floating`].
     Float {
         /// d, 1/s.
         damping: R,
@@ -66,7 +69,8 @@ pub struct ContactReactionConfig<R> {
 }
 
 impl<R: Real> ContactReactionConfig<R> {
-    /// Checks that every number is finite and greater than zero; a limit of acceleration may be infinite.
+    /// Checks that every number is finite and greater than zero; a limit of acceleration may be
+    /// infinite.
     ///
     /// # Errors
     /// [`ConfigError::OutOfRange`] names the number.
@@ -98,26 +102,30 @@ pub enum ContactPhase {
     Retracting,
     /// The arm can be moved by hand.
     Floating,
-    /// The arm is held by a stop with [`Fault::External`], or stopped by another fault, until [`ContactReaction::reset`].
+    /// The arm is held by a stop with [`Fault::External`], or stopped by another fault, until
+    /// [`ContactReaction::reset`].
     Held,
 }
 
-/// The reaction of an arm to the contacts of a [`ContactDetector`](crate::ContactDetector): the second step of the ticks of
-/// a [`MotionController`], in place of [`ObservedTick::reference`].
+/// The reaction of an arm to the contacts of a [`ContactDetector`](crate::ContactDetector): the
+/// second step of the ticks of a [`MotionController`], in place of [`ObservedTick::reference`].
 ///
-/// N points of the reference's path are kept, at distances along it and not in time, so that an arm that has paused goes
-/// back as far as one that moves. The retraction is a cubic B-spline of them, whose speed and acceleration have closed bounds.
+/// N points of the reference's path are kept, at distances along it and not in time, so that an arm
+/// that has paused goes back as far as one that moves. The retraction is a cubic B-spline of them,
+/// whose speed and acceleration have closed bounds.
 ///
-/// A lasting fault ends the reaction, and so does a contact during the retraction, once there was none for `release_ticks`; a
-/// second contact before that has no further reaction. The arm is then held. Torques pass the gate of the supervisor as in any
-/// tick. A stop that you require stays until a reset: an arm does not float again after it.
+/// A lasting fault ends the reaction, and so does a contact during the retraction, once there was
+/// none for `release_ticks`; a second contact before that has no further reaction. The arm is then
+/// held. Torques pass the gate of the supervisor as in any tick. A stop that you require stays
+/// until a reset: an arm does not float again after it.
 ///
-/// The clock of the motion stands still from the contact to the reset; only for an arm that is stopped at once it first advances
-/// by 1/λ, as in any hold. Ticks that were missed ([`MotionController::missed`]) do not count in a retraction.
+/// The clock of the motion stands still from the contact to the reset; only for an arm that is
+/// stopped at once it first advances by 1/λ, as in any hold. Ticks that were missed
+/// ([`MotionController::missed`]) do not count in a retraction.
 ///
 /// # Cost
-/// By count: 5 V flops in a tick that follows the motion; some 27 V and 60 in a retraction; 7 N V and one root more in the tick
-/// of a contact.
+/// By count: 5 V flops in a tick that follows the motion; some 27 V and 60 in a retraction; 7 N V
+/// and one root more in the tick of a contact.
 ///
 /// ```
 /// use motion_control::*;
@@ -202,10 +210,11 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
         self.quiet >= self.config.release_ticks
     }
 
-    /// The second step of a tick: the reference of the motion, or that of the reaction to a contact.
+    /// The second step of a tick: the reference of the motion, or that of the reaction to a
+    /// contact.
     ///
-    /// `contact` is what [`ContactDetector::update`](crate::ContactDetector::update) returns for the estimate of this tick; a
-    /// fault of it starts no reaction and releases no arm.
+    /// `contact` is what [`ContactDetector::update`](crate::ContactDetector::update) returns for
+    /// the estimate of this tick; a fault of it starts no reaction and releases no arm.
     pub fn reference<'a, A: MeasurementAge, T: Reference<R, V>>(
         &mut self,
         observed: ObservedTick<'a, R, V, A>,
@@ -257,7 +266,8 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
             (phase, _) => {
                 let tick = observed.reference(motion);
                 match (phase, tick.mode()) {
-                    // An arm on its brake, or one without a measurement yet, is not on its reference.
+                    // An arm on its brake, or one without a measurement yet, is not on its
+                    // reference.
                     (_, Mode::Stopped) => self.path.clear(),
                     (ContactPhase::Watching, _) => {
                         let q = &tick.reference().q;
@@ -275,11 +285,12 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
 
     /// Returns the arm to its motion after a contact, as [`MotionController::reset`].
     ///
-    /// If the arm is too far from its motion, [`MotionController::approach`] plans the path; reset with it.
+    /// If the arm is too far from its motion, [`MotionController::approach`] plans the path; reset
+    /// with it.
     ///
     /// # Errors
-    /// [`ResetError::Contact`] unless the arm is [released](Self::released); as [`MotionController::reset`] otherwise. The
-    /// controller is then unchanged.
+    /// [`ResetError::Contact`] unless the arm is [released](Self::released); as
+    /// [`MotionController::reset`] otherwise. The controller is then unchanged.
     pub fn reset<A: MeasurementAge, T: Reference<R, V>>(
         &mut self,
         controller: &mut MotionController<R, V, A>,
@@ -293,7 +304,8 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
         Ok(())
     }
 
-    /// Whether a contact moves a held arm again. A stop that was required by others is not the reaction's to release.
+    /// Whether a contact moves a held arm again. A stop that was required by others is not the
+    /// reaction's to release.
     fn floats_again(&self, supervisor: &Supervisor<R, V>) -> bool {
         let floats = matches!(self.config.response, ContactResponse::Float { .. });
         floats & supervisor.stands_by_one_stop()

@@ -1,8 +1,11 @@
-//! A control loop without its control law and devices: observer, supervisor, clock and the reaction to faults.
+//! A control loop without its control law and devices: observer, supervisor, clock and the reaction
+//! to faults.
 //!
-//! A tick has four steps: [`MotionController::observe`] checks the measurement and updates the estimate,
-//! [`ObservedTick::reference`](crate::ObservedTick::reference) gives the reference of the joints, the caller's law computes torques, and
-//! [`ReferencedTick::command`](crate::ReferencedTick::command) limits them. [`MotionController::tick`] does all four with the law as a closure.
+//! A tick has four steps: [`MotionController::observe`] checks the measurement and updates the
+//! estimate, [`ObservedTick::reference`](crate::ObservedTick::reference) gives the reference of the
+//! joints, the caller's law computes torques, and
+//! [`ReferencedTick::command`](crate::ReferencedTick::command) limits them.
+//! [`MotionController::tick`] does all four with the law as a closure.
 //!
 //! | a fault lasts | reference | estimate |
 //! |---|---|---|
@@ -10,8 +13,8 @@
 //! | `hold_ticks` more | [`hold`](crate::hold()): q̈ = −λ q̇ where the arm is; the trajectory's clock stands still | predicted |
 //! | longer | the same, with zero torque on the brake, latched | as measured |
 //!
-//! After the fault a separate reference leads back onto the trajectory (`resume.rs`). The reasons, with
-//! figures, are in `docs/decisions/0003-faults.md` of the repository.
+//! After the fault a separate reference leads back onto the trajectory (`resume.rs`). The reasons,
+//! with figures, are in `docs/decisions/0003-faults.md` of the repository.
 
 use core::fmt;
 use core::marker::PhantomData;
@@ -38,8 +41,8 @@ mod sealed {
     pub trait Sealed {}
 }
 
-/// The age of the measurements of a [`MotionController`], a property of the encoders, as a
-/// type; [`OnCircles`](crate::OnCircles) of it is that of a controller with joints that are circles.
+/// The age of the measurements of a [`MotionController`], a property of the encoders, as a type;
+/// [`OnCircles`](crate::OnCircles) of it is that of a controller with joints that are circles.
 pub trait MeasurementAge: sealed::Sealed {
     /// The joints whose positions are points on a circle.
     #[doc(hidden)]
@@ -58,8 +61,8 @@ pub trait MeasurementAge: sealed::Sealed {
     fn correct_position<R: Real, const V: usize>(observer: &mut Observer<R, V>, q: &[R; V]);
 }
 
-/// The positions are those of the previous tick: for encoders that latch at the end of a frame and send in the next
-/// one.
+/// The positions are those of the previous tick: for encoders that latch at the end of a frame and
+/// send in the next one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PreviousTick;
 
@@ -108,14 +111,17 @@ pub enum ResetError {
     NotStopped,
     /// There was no measurement in the last tick.
     NoMeasurement,
-    /// There is a contact, or there was one too recently: see [`ContactReaction`](crate::ContactReaction).
+    /// There is a contact, or there was one too recently: see
+    /// [`ContactReaction`](crate::ContactReaction).
     Contact,
-    /// The joint is outside its bounds: [`BackOff`](crate::BackOff) leads it back, or a person moves it.
+    /// The joint is outside its bounds: [`BackOff`](crate::BackOff) leads it back, or a person
+    /// moves it.
     OutOfBounds {
         /// The joint.
         joint: usize,
     },
-    /// A joint is further than the restart distance from the point at which its trajectory continues.
+    /// A joint is further than the restart distance from the point at which its trajectory
+    /// continues.
     TooFar {
         /// The joint.
         joint: usize,
@@ -140,9 +146,10 @@ impl core::error::Error for ResetError {}
 
 /// The controller of a robot's motion: the state of a control loop, and its reaction to faults.
 ///
-/// It is independent of devices and of the model: its inputs are positions, its outputs torques, and the caller
-/// supplies the control law. `A` is the age of the measurements: [`PreviousTick`] for encoders that answer with the
-/// angle of the tick before, [`CurrentTick`] for those of this tick.
+/// It is independent of devices and of the model: its inputs are positions, its outputs torques,
+/// and the caller supplies the control law. `A` is the age of the measurements: [`PreviousTick`]
+/// for encoders that answer with the angle of the tick before, [`CurrentTick`] for those of this
+/// tick.
 ///
 /// ```
 /// use motion_control::*;
@@ -197,11 +204,12 @@ pub struct MotionController<R, const V: usize, A = PreviousTick> {
 impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// A controller at the start of the trajectory, for an arm that holds its position there.
     ///
-    /// The first tick should follow within one tick, or the arm must stand still until then. For an arm on its brake, or
-    /// at a position that is not known yet, use [`Self::on_brake`].
+    /// The first tick should follow within one tick, or the arm must stand still until then. For an
+    /// arm on its brake, or at a position that is not known yet, use [`Self::on_brake`].
     ///
     /// # Errors
-    /// [`ConfigError`], as [`MotionControllerConfig::check`], and as [`Circles::check`] for joints that are circles.
+    /// [`ConfigError`], as [`MotionControllerConfig::check`], and as [`Circles::check`] for joints
+    /// that are circles.
     pub fn try_new(config: MotionControllerConfig<R, V>) -> Result<Self, ConfigError> {
         config.check()?;
         A::CIRCLES.check(&config.supervisor.limits)?;
@@ -210,9 +218,11 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
 
     /// As [`Self::try_new`], without the check: for constant configurations.
     ///
-    /// If a limit allows no motion or torque ([`SafetyLimits::check`](crate::SafetyLimits::check)), or counts the turns of a
-    /// circle ([`Circles::check`]), the arm is stopped by [`Fault::Limits`], and a reset does not restart it. If the tick is not a positive number, no step of the joints is
-    /// plausible; a resolution that is not a positive number is treated as zero.
+    /// If a limit allows no motion or torque ([`SafetyLimits::check`](crate::SafetyLimits::check)),
+    /// or counts the turns of a circle ([`Circles::check`]), the arm is stopped by
+    /// [`Fault::Limits`], and a reset does not restart it. If the tick is not a positive number, no
+    /// step of the joints is plausible; a resolution that is not a positive number is treated as
+    /// zero.
     pub fn new(config: MotionControllerConfig<R, V>) -> Self {
         let mut supervisor = Supervisor::new(config.supervisor);
         if let Err(error) = A::CIRCLES.check(&config.supervisor.limits) {
@@ -237,8 +247,9 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
 
     /// The same controller for an arm that is on its brake when the firmware starts.
     ///
-    /// It is stopped without a fault: its commands have zero torque and the brake set until [`Self::reset`], which
-    /// compares the measured position with the first point of the trajectory.
+    /// It is stopped without a fault: its commands have zero torque and the brake set until
+    /// [`Self::reset`], which compares the measured position with the first point of the
+    /// trajectory.
     ///
     /// ```
     /// use motion_control::{Mode, MotionController, MotionControllerConfig, ResetError};
@@ -273,10 +284,10 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
 
     /// Reports ticks that have passed without a call, as counted by a timer.
     ///
-    /// Call it before the next tick. The estimate is extrapolated, the plausible range of positions grows, and the
-    /// trajectory advances, unless the arm is held or returns. Ticks beyond the longest tolerated fault are not
-    /// predicted: more of them stop the arm by [`Fault::Missed`], since its drives have applied an old torque for as
-    /// long.
+    /// Call it before the next tick. The estimate is extrapolated, the plausible range of positions
+    /// grows, and the trajectory advances, unless the arm is held or returns. Ticks beyond the
+    /// longest tolerated fault are not predicted: more of them stop the arm by [`Fault::Missed`],
+    /// since its drives have applied an old torque for as long.
     ///
     /// # Cost
     /// One prediction and one point of the trajectory per missed tick.
@@ -324,10 +335,12 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
 
 /// Stops and faults from outside the controller.
 impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
-    /// Stops the arm from the next tick on, for an external reason such as a failed drive or an emergency stop.
+    /// Stops the arm from the next tick on, for an external reason such as a failed drive or an
+    /// emergency stop.
     ///
-    /// The stop is latched until [`Self::reset`], with its first reason. While a stop is still required after a reset,
-    /// call this function in every tick. [`ReferencedTick::stop`](crate::ReferencedTick::stop) acts in the present tick.
+    /// The stop is latched until [`Self::reset`], with its first reason. While a stop is still
+    /// required after a reset, call this function in every tick.
+    /// [`ReferencedTick::stop`](crate::ReferencedTick::stop) acts in the present tick.
     #[doc(alias = "e-stop")]
     #[doc(alias = "emergency stop")]
     #[cold]
@@ -335,7 +348,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         self.supervisor.stop(fault);
     }
 
-    /// The same controller with another stop category for lasting faults than [`StopCategory::ControlledOff`].
+    /// The same controller with another stop category for lasting faults than
+    /// [`StopCategory::ControlledOff`].
     ///
     /// ```
     /// use motion_control::{Fault, Mode, MotionController, MotionControllerConfig, StopCategory};
@@ -368,8 +382,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         self
     }
 
-    /// Stops the arm by a category, for a reason that leaves the drives usable: an operator, a safety controller, a
-    /// lost connection. The stop begins in the next tick.
+    /// Stops the arm by a category, for a reason that leaves the drives usable: an operator, a
+    /// safety controller, a lost connection. The stop begins in the next tick.
     ///
     /// The stop is latched until [`Self::reset`], with its first reason. A later call with
     /// [`StopCategory::TorqueOff`] ends a controlled stop at once.
@@ -378,17 +392,19 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         self.supervisor.stop_by(fault, category);
     }
 
-    /// Reports a fault that the controller cannot detect, which is then a fault of the next tick: ridden through, held
-    /// and stopped as any other. While it lasts, report it in every tick.
+    /// Reports a fault that the controller cannot detect, which is then a fault of the next tick:
+    /// ridden through, held and stopped as any other. While it lasts, report it in every tick.
     ///
-    /// For faults that allow no deceleration, see [`Self::stop`]; for a stop without ride-through, [`Self::stop_by`].
+    /// For faults that allow no deceleration, see [`Self::stop`]; for a stop without ride-through,
+    /// [`Self::stop_by`].
     #[cold]
     pub fn report(&mut self, fault: Fault) {
         self.supervisor.report(fault);
     }
 
-    /// Reacts to a fault that the controller cannot detect, by its [`Fault::reaction`]. Between two ticks the reaction
-    /// begins in the next one. While the fault lasts, call this function in every tick.
+    /// Reacts to a fault that the controller cannot detect, by its [`Fault::reaction`]. Between two
+    /// ticks the reaction begins in the next one. While the fault lasts, call this function in
+    /// every tick.
     ///
     /// ```
     /// use motion_control::{Fault, Mode, MotionController, MotionControllerConfig};
@@ -444,8 +460,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         }
     }
 
-    /// The estimate of a stopped arm: at rest where the brake holds it, or the motion of one that sinks. Without a
-    /// usable measurement the velocity is zero, and with it the damping.
+    /// The estimate of a stopped arm: at rest where the brake holds it, or the motion of one that
+    /// sinks. Without a usable measurement the velocity is zero, and with it the damping.
     fn stopped_estimate(&mut self, measured: Result<&[R; V], Fault>) {
         let last = self.observer.estimate().q;
         match measured {
@@ -480,8 +496,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         done
     }
 
-    /// While the arm is held, the reference is its estimated position with a decaying velocity, so that the same law
-    /// brings all joints to rest together. Then the return onto the trajectory.
+    /// While the arm is held, the reference is its estimated position with a decaying velocity, so
+    /// that the same law brings all joints to rest together. Then the return onto the trajectory.
     #[cold]
     #[inline(never)]
     fn recovery_reference<T: Reference<R, V>>(&mut self, trajectory: &T, full: bool) {
@@ -491,7 +507,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         } else {
             self.stop_reference()
         };
-        // A state of six joints in one piece would be copied by `memcpy`, which adds 0.9 kB to a tick's code.
+        // A state of six joints in one piece would be copied by `memcpy`, which adds 0.9 kB to a
+        // tick's code.
         self.reference.q = q;
         self.reference.qd = qd;
         self.reference.qdd = qdd;
@@ -504,8 +521,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         }
     }
 
-    /// Updates the reference of the joints by one that is not the trajectory's, whose clock stands still: a return onto it
-    /// begins in each of these ticks.
+    /// Updates the reference of the joints by one that is not the trajectory's, whose clock stands
+    /// still: a return onto it begins in each of these ticks.
     #[cold]
     fn replace_reference(&mut self, reference: &State<R, V, V>) {
         if self.resume.active() {
@@ -524,8 +541,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         self.resume.decay_rate()
     }
 
-    /// Decelerates the arm at its present position. The clock stops when the deceleration begins, and the return is
-    /// initialised again in each of these ticks.
+    /// Decelerates the arm at its present position. The clock stops when the deceleration begins,
+    /// and the return is initialised again in each of these ticks.
     fn stop_reference(&mut self) -> State<R, V, V> {
         if self.resume.active() {
             self.clock = self.resume.cancel();
@@ -534,7 +551,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         }
         let estimate = *self.observer.estimate();
         self.resume.start(&estimate, self.clock);
-        // With a reference at the estimate, errors of the model would let an arm that is held for long drift.
+        // With a reference at the estimate, errors of the model would let an arm that is held for
+        // long drift.
         self.standing =
             self.supervisor.stands() & (self.standing | self.supervisor.at_rest(&estimate.qd));
         if self.standing {
@@ -551,10 +569,11 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         !self.dead_reckoning & self.observer.started()
     }
 
-    /// Starts a stopped arm, at power-up or after a fault: clears the fault and leads the arm onto its trajectory.
+    /// Starts a stopped arm, at power-up or after a fault: clears the fault and leads the arm onto
+    /// its trajectory.
     ///
-    /// The brake holds until the torque that keeps the arm at rest is reached, a few ticks later. An arm that is held
-    /// by a stop of category 2 stays under power.
+    /// The brake holds until the torque that keeps the arm at rest is reached, a few ticks later.
+    /// An arm that is held by a stop of category 2 stays under power.
     ///
     /// # Errors
     /// [`ResetError`]; the controller is then unchanged.
@@ -588,7 +607,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         Ok(())
     }
 
-    /// Sets the clock of a stopped arm to the begin of another trajectory. Further ticks without a reset keep it.
+    /// Sets the clock of a stopped arm to the begin of another trajectory. Further ticks without a
+    /// reset keep it.
     pub(crate) fn begin_anew(&mut self) {
         self.clock = 0;
         // The clock of a stop is that of the return, which begins again in each of its ticks.

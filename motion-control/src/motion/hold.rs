@@ -4,14 +4,16 @@ use crate::estimate::Estimate;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
-/// The reference of an arm in [`Mode::Hold`](crate::Mode::Hold): its estimated position, with a velocity that decays,
-/// q̈ = −λ q̇.
+/// The reference of an arm in [`Mode::Hold`](crate::Mode::Hold): its estimated position, with a
+/// velocity that decays, q̈ = −λ q̇.
 ///
-/// Inverse dynamics of this reference decelerates all joints together; `decay` is λ in 1/s, about ω_n of the feedback.
+/// Inverse dynamics of this reference decelerates all joints together; `decay` is λ in 1/s, about
+/// ω_n of the feedback.
 ///
-/// The feedback of this reference is zero. Damping by K_d in place of this acceleration reverses joints: the joint that
-/// decelerates accelerates the others. With λ = 2 ζ ω_n a fast arm needs more torque than it has. A law without inertia
-/// in its feed-forward uses this reference with q̇ = 0, and K_d decelerates the joints.
+/// The feedback of this reference is zero. Damping by K_d in place of this acceleration reverses
+/// joints: the joint that decelerates accelerates the others. With λ = 2 ζ ω_n a fast arm needs
+/// more torque than it has. A law without inertia in its feed-forward uses this reference with q̇ =
+/// 0, and K_d decelerates the joints.
 ///
 /// # Cost
 /// 1 flop per joint, with the same instructions for all data.

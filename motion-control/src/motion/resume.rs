@@ -1,8 +1,8 @@
 //! The return onto a trajectory that was stopped during a fault.
 //!
-//! Two references that both have finite accelerations: one that comes to rest from the position and velocity of the
-//! arm, a(t) with ȧ' = −λ ȧ, and the trajectory q(σ), whose time starts at zero rate. With x the share of the return
-//! from 0 to 1 over T and w = x³ (10 − 15 x + 6 x²),
+//! Two references that both have finite accelerations: one that comes to rest from the position and
+//! velocity of the arm, a(t) with ȧ' = −λ ȧ, and the trajectory q(σ), whose time starts at zero
+//! rate. With x the share of the return from 0 to 1 over T and w = x³ (10 − 15 x + 6 x²),
 //!
 //! ```text
 //! r = a + w (q(σ) − a)        σ' = w
@@ -43,8 +43,8 @@ pub(crate) struct ResumeTrajectory<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
-    /// A return that has not begun, in ticks of `tick` seconds: for an arm whose speed decays at the rate `decay`, 1/s,
-    /// over an even number of `ticks`, to which an odd one is rounded up.
+    /// A return that has not begun, in ticks of `tick` seconds: for an arm whose speed decays at
+    /// the rate `decay`, 1/s, over an even number of `ticks`, to which an odd one is rounded up.
     pub(crate) fn new(tick: R, decay: R, ticks: u32) -> Self {
         let half = ticks.div_ceil(2).max(1);
         let ticks_inv = R::from_f64(0.5) / real(half);
@@ -97,9 +97,9 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
         self.active = true;
     }
 
-    /// The tick from which a trajectory should continue for an arm that leaves it at the tick `clock` with a decaying
-    /// speed: 1 / λ later the trajectory is near the point at which the arm comes to rest, so that the return does not
-    /// lead backwards.
+    /// The tick from which a trajectory should continue for an arm that leaves it at the tick
+    /// `clock` with a decaying speed: 1 / λ later the trajectory is near the point at which the arm
+    /// comes to rest, so that the return does not lead backwards.
     pub(crate) fn resume_tick(&self, clock: u32) -> u32 {
         clock.saturating_add(self.lead)
     }
@@ -142,7 +142,8 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
 
     /// w and its derivatives by the time.
     fn weights(&self, x: R) -> [R; 3] {
-        // One by one: at opt-level s an array of them is converted while the code runs, in software.
+        // One by one: at opt-level s an array of them is converted while the code runs, in
+        // software.
         let (six, ten) = (R::from_f64(6.0), R::from_f64(10.0));
         let (fifteen, thirty) = (R::from_f64(15.0), R::from_f64(30.0));
         let (xx, r) = (x * x, R::ONE - x);

@@ -15,7 +15,8 @@ pub struct PathPoint<R, const V: usize> {
     pub curvature: [R; V],
 }
 
-/// A path q(s) of V joints for 0 ≤ s ≤ 1, of which q″ is continuous: what [`TimedPath`](crate::TimedPath) gives a time.
+/// A path q(s) of V joints for 0 ≤ s ≤ 1, of which q″ is continuous: what
+/// [`TimedPath`](crate::TimedPath) gives a time.
 ///
 /// ```
 /// use motion_control::{GeometricPath, PathPoint};
@@ -33,8 +34,8 @@ pub trait GeometricPath<R: Real, const V: usize> {
     /// The point at s.
     fn point(&self, s: R) -> PathPoint<R, V>;
 
-    /// s of a point of a grid with this number of segments: from 0 to 1, in ascending order. Where q″ has a corner, there should be
-    /// a point.
+    /// s of a point of a grid with this number of segments: from 0 to 1, in ascending order. Where
+    /// q″ has a corner, there should be a point.
     fn grid_point(&self, point: usize, segments: usize) -> R {
         if point < segments {
             real::<R>(point as u32) / real(segments as u32)

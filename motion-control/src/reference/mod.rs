@@ -35,8 +35,8 @@ use dynamics_core::state::State;
 /// assert_eq!(Rest([0.1, 0.2]).at(7).q, [0.1, 0.2]);
 /// ```
 pub trait Reference<R, const V: usize> {
-    /// Position, velocity and acceleration at a tick, rad and s or m and s; after the end, the final state of the
-    /// motion (a trajectory is then at rest).
+    /// Position, velocity and acceleration at a tick, rad and s or m and s; after the end, the
+    /// final state of the motion (a trajectory is then at rest).
     fn at(&self, tick: u32) -> State<R, V, V>;
 
     /// Ticks from start to end.

@@ -1,17 +1,19 @@
 //! A smooth path of the joints near way-points: the smoothing spline of Reinsch.
 //!
-//! Reinsch, "Smoothing by Spline Functions", *Numerische Mathematik* 10 (1967): of all functions, the natural cubic spline with
-//! knots at t_k minimises ∫ q″² dt + Σ (q(t_k) − y_k)²/λ. With the steps h_k = t_{k+1} − t_k, the second derivatives γ at the
-//! knots, which are zero at both ends, and the values a,
+//! Reinsch, "Smoothing by Spline Functions", *Numerische Mathematik* 10 (1967): of all functions,
+//! the natural cubic spline with knots at t_k minimises ∫ q″² dt + Σ (q(t_k) − y_k)²/λ. With the
+//! steps h_k = t_{k+1} − t_k, the second derivatives γ at the knots, which are zero at both ends,
+//! and the values a,
 //!
 //! ```text
 //! (T + λ Qᵀ W Q) γ = Qᵀ y      a = y − λ W Q γ
 //! T: (h_{k−1} + h_k)/3 on and h_k/6 beside the diagonal      Q: columns 1/h_{k−1}, −1/h_{k−1} − 1/h_k, 1/h_k
 //! ```
 //!
-//! W is the unit matrix with zeros at both ends, so that the path begins and ends at its way-points. λ = 0 is the interpolating
-//! spline with its tridiagonal system. The knots are at the lengths of the polygon through the way-points in spacings, so that
-//! most steps are about 1 and the systems are well conditioned in f32.
+//! W is the unit matrix with zeros at both ends, so that the path begins and ends at its
+//! way-points. λ = 0 is the interpolating spline with its tridiagonal system. The knots are at the
+//! lengths of the polygon through the way-points in spacings, so that most steps are about 1 and
+//! the systems are well conditioned in f32.
 
 use crate::entry;
 use crate::real;
@@ -26,8 +28,8 @@ mod tests;
 
 pub use error::PathSplineError;
 
-/// λ of the smoothest path: in a system of f32 rounding is still below 10⁻³ of the curvature. It flattens waves of less than
-/// about sixty spacings.
+/// λ of the smoothest path: in a system of f32 rounding is still below 10⁻³ of the curvature. It
+/// flattens waves of less than about sixty spacings.
 const SMOOTHEST: f64 = 8192.0;
 /// λ below which nothing is smoothed.
 const LEAST: f64 = 1e-6;
@@ -70,17 +72,19 @@ impl<R: Real, const V: usize, const N: usize> PathSpline<R, V, N> {
         deviation: [R::ZERO; V],
     };
 
-    /// Replaces the path by one near `points` (rad, m), off them by at most `tolerance` of each joint; at the first and the last
-    /// point it is not off.
+    /// Replaces the path by one near `points` (rad, m), off them by at most `tolerance` of each
+    /// joint; at the first and the last point it is not off.
     ///
-    /// The smoothing λ is the greatest that the tolerance allows, the same for all joints and points, so that the sharpest corner
-    /// decides: a tolerance of zero is a path through all points, with the noise of the encoders in its curvature. `spacing` (rad,
-    /// m) is the usual distance of points of each joint alone, as of [`TaughtPath`](crate::TaughtPath); lengths along the path
-    /// are counted in it. Between its points the path is off the polygon by the sagitta of its arc.
+    /// The smoothing λ is the greatest that the tolerance allows, the same for all joints and
+    /// points, so that the sharpest corner decides: a tolerance of zero is a path through all
+    /// points, with the noise of the encoders in its curvature. `spacing` (rad, m) is the usual
+    /// distance of points of each joint alone, as of [`TaughtPath`](crate::TaughtPath); lengths
+    /// along the path are counted in it. Between its points the path is off the polygon by the
+    /// sagitta of its arc.
     ///
     /// # Cost
-    /// At most twelve factorisations of a system of N rows with five diagonals, with solutions for V joints; not for a tick. 3 N
-    /// numbers on the stack.
+    /// At most twelve factorisations of a system of N rows with five diagonals, with solutions for
+    /// V joints; not for a tick. 3 N numbers on the stack.
     ///
     /// # Errors
     /// [`PathSplineError`]; the path is then empty, at rest at zero.
@@ -153,7 +157,8 @@ impl<R: Real, const V: usize, const N: usize> PathSpline<R, V, N> {
                 if !next.is_finite() {
                     return Err(PathSplineError::TooLong);
                 }
-                // Neighbours that are much nearer than others have a step that rounding would change.
+                // Neighbours that are much nearer than others have a step that rounding would
+                // change.
                 let apart = next - t > R::from_f64(64.0) * R::EPSILON * next;
                 if !apart {
                     return Err(PathSplineError::Coincident { point });
@@ -203,7 +208,8 @@ impl<R: Real, const V: usize, const N: usize> PathSpline<R, V, N> {
 }
 
 impl<R: Real, const V: usize, const N: usize> GeometricPath<R, V> for PathSpline<R, V, N> {
-    /// The point at s; before 0 and after 1 that at the end. Cost: a binary search, a division, and 20 flops a joint.
+    /// The point at s; before 0 and after 1 that at the end. Cost: a binary search, a division, and
+    /// 20 flops a joint.
     #[inline]
     fn point(&self, s: R) -> PathPoint<R, V> {
         let length = self.length();
@@ -242,7 +248,8 @@ impl<R: Real, const V: usize, const N: usize> GeometricPath<R, V> for PathSpline
         }
     }
 
-    /// Points at all knots, with the same number of segments between them or one more, if there are as many segments as spans.
+    /// Points at all knots, with the same number of segments between them or one more, if there are
+    /// as many segments as spans.
     fn grid_point(&self, point: usize, segments: usize) -> R {
         let spans = self.count.saturating_sub(1);
         let uniform = || real::<R>(point as u32) / real(segments as u32);

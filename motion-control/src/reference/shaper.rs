@@ -1,8 +1,9 @@
 //! References that leave no vibration: zero-vibration shapers.
 //!
-//! A reference is replaced by a sum of itself at several delays, so that the vibrations that each part excites cancel:
-//! Singer & Seering (1990). Of a vibration of frequency ω and damping ratio ζ, with T = π / ω√(1 − ζ²) and
-//! K = exp(−ζπ/√(1 − ζ²)), ZV has the amplitudes 1 and K over their sum at 0 and T, ZVD 1, 2K and K² at 0, T and 2T.
+//! A reference is replaced by a sum of itself at several delays, so that the vibrations that each
+//! part excites cancel: Singer & Seering (1990). Of a vibration of frequency ω and damping ratio ζ,
+//! with T = π / ω√(1 − ζ²) and K = exp(−ζπ/√(1 − ζ²)), ZV has the amplitudes 1 and K over their sum
+//! at 0 and T, ZVD 1, 2K and K² at 0, T and 2T.
 
 use core::fmt;
 
@@ -17,8 +18,9 @@ use dynamics_core::state::State;
 #[cfg(test)]
 mod tests;
 
-/// A vibration of a machine, such as a mode of a link that bends: the frequency is that with the joints clamped, which
-/// [`Modes::frequencies`](dynamics_core::flexible::Modes::frequencies) has for a configuration.
+/// A vibration of a machine, such as a mode of a link that bends: the frequency is that with the
+/// joints clamped, which [`Modes::frequencies`](dynamics_core::flexible::Modes::frequencies) has
+/// for a configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vibration<R> {
     /// The link that vibrates, for messages.
@@ -33,9 +35,10 @@ pub struct Vibration<R> {
 
 /// The delays and amplitudes of which a shaped reference is the sum: at most N.
 ///
-/// ZV leaves some π/2 of the error of the frequency, 8 % of the vibration at 5 %, and delays by half a period; ZVD leaves
-/// its square, 0.6 %, and delays by a whole one. A delay between two ticks is divided between them, so that a vibration
-/// has its impulses on both: for several vibrations the lists multiply, 3, 9, 27 with ZV and 5, 25 with ZVD.
+/// ZV leaves some π/2 of the error of the frequency, 8 % of the vibration at 5 %, and delays by
+/// half a period; ZVD leaves its square, 0.6 %, and delays by a whole one. A delay between two
+/// ticks is divided between them, so that a vibration has its impulses on both: for several
+/// vibrations the lists multiply, 3, 9, 27 with ZV and 5, 25 with ZVD.
 ///
 /// ```
 /// use motion_control::{Shaper, Vibration};
@@ -87,9 +90,9 @@ impl<R: Real, const N: usize, const CIRCLES: u128> Shaper<R, N, CIRCLES> {
 }
 
 impl<R: Real, const N: usize> Shaper<R, N> {
-    /// The same shaper for a reference whose numbers leap by whole turns: those of the joints of [`Circles::bits`] are moved
-    /// to within half a turn of the present one before they are added. The numbers of a
-    /// [`Trajectory`](crate::Trajectory) do not leap, and need this not.
+    /// The same shaper for a reference whose numbers leap by whole turns: those of the joints of
+    /// [`Circles::bits`] are moved to within half a turn of the present one before they are added.
+    /// The numbers of a [`Trajectory`](crate::Trajectory) do not leap, and need this not.
     #[must_use]
     pub fn on_circles<const CIRCLES: u128>(self) -> Shaper<R, N, CIRCLES> {
         Shaper {
@@ -100,8 +103,9 @@ impl<R: Real, const N: usize> Shaper<R, N> {
     /// Zero vibration: two impulses for each vibration. The tick is in s.
     ///
     /// # Errors
-    /// [`ShaperError`] names the link and the mode: a frequency that is not positive or is not finite, a damping ratio
-    /// outside 0 ≤ ζ < 1, a tick that is not positive, a delay of more than 10⁶ ticks, more impulses than N.
+    /// [`ShaperError`] names the link and the mode: a frequency that is not positive or is not
+    /// finite, a damping ratio outside 0 ≤ ζ < 1, a tick that is not positive, a delay of more than
+    /// 10⁶ ticks, more impulses than N.
     pub fn zv(vibrations: &[Vibration<R>], tick: R) -> Result<Self, ShaperError> {
         Self::of(vibrations, tick, |k| [R::ONE, k, R::ZERO])
     }

@@ -1,7 +1,7 @@
 //! Way-points of an arm that is guided by hand.
 //!
-//! The distance of two way-points counts the joints by their spacings d: |Δ|² = Σ (Δq_j / d_j)². A way-point is stored where
-//! the arm is at least at the distance 1 from the last one.
+//! The distance of two way-points counts the joints by their spacings d: |Δ|² = Σ (Δq_j / d_j)². A
+//! way-point is stored where the arm is at least at the distance 1 from the last one.
 
 use crate::entry;
 use crate::limits::{Circles, ConfigError, ConfigParameter};
@@ -12,11 +12,13 @@ use dynamics_core::state::all_finite;
 #[cfg(test)]
 mod tests;
 
-/// The way-points of an arm that is guided by hand: at most N of them, at distances that are stated.
+/// The way-points of an arm that is guided by hand: at most N of them, at distances that are
+/// stated.
 ///
-/// [`Self::record`] is called in each tick while a hand moves the arm ([`HandGuiding`](crate::HandGuiding)), [`Self::end`] once
-/// after it; [`Self::spline`] then makes the path that [`TimedPath`](crate::TimedPath) gives a time. How fast and how evenly the
-/// hand moved leaves no trace.
+/// [`Self::record`] is called in each tick while a hand moves the arm
+/// ([`HandGuiding`](crate::HandGuiding)), [`Self::end`] once after it; [`Self::spline`] then makes
+/// the path that [`TimedPath`](crate::TimedPath) gives a time. How fast and how evenly the hand
+/// moved leaves no trace.
 ///
 /// ```
 /// use motion_control::{Recorded, TaughtPath};
@@ -53,7 +55,8 @@ pub enum Recorded {
     Stored,
     /// They are nearer to the last way-point than the spacing, and are not stored.
     Near,
-    /// They would be a way-point, but there are N already. All of these are kept; the path ends at the last one.
+    /// They would be a way-point, but there are N already. All of these are kept; the path ends at
+    /// the last one.
     Full,
     /// A position is not finite; nothing is stored.
     NotFinite {
@@ -63,9 +66,11 @@ pub enum Recorded {
 }
 
 impl<R: Real, const V: usize, const N: usize> TaughtPath<R, V, N> {
-    /// No way-points, with these spacings d of the joints, rad or m; N ≥ 2, which the compiler checks.
+    /// No way-points, with these spacings d of the joints, rad or m; N ≥ 2, which the compiler
+    /// checks.
     ///
-    /// A spacing of fifty times the noise of the encoders leaves little of the noise in the curvature of the path.
+    /// A spacing of fifty times the noise of the encoders leaves little of the noise in the
+    /// curvature of the path.
     ///
     /// # Errors
     /// [`ConfigError::OutOfRange`] if a spacing is not a positive number.
@@ -83,8 +88,9 @@ impl<R: Real, const V: usize, const N: usize> TaughtPath<R, V, N> {
         })
     }
 
-    /// The same for joints of which those of [`Circles::bits`] are circles: the way-points of these are on the turn of the one before, so that the
-    /// path is the way that the hand went, through a seam of the measurement, too.
+    /// The same for joints of which those of [`Circles::bits`] are circles: the way-points of these
+    /// are on the turn of the one before, so that the path is the way that the hand went, through a
+    /// seam of the measurement, too.
     #[must_use]
     pub fn on_circles<const CIRCLES: u128>(self) -> TaughtPath<R, V, N, CIRCLES> {
         let Self {
@@ -128,10 +134,11 @@ impl<R: Real, const V: usize, const N: usize, const CIRCLES: u128> TaughtPath<R,
         }
     }
 
-    /// Ends the path at q (rad, m), wherever that is: the last way-point moves there if it is nearer than half the spacing, else
-    /// q is a further one.
+    /// Ends the path at q (rad, m), wherever that is: the last way-point moves there if it is
+    /// nearer than half the spacing, else q is a further one.
     ///
-    /// [`Recorded::Near`] says that the arm has not moved since the first way-point, which remains the only one.
+    /// [`Recorded::Near`] says that the arm has not moved since the first way-point, which remains
+    /// the only one.
     pub fn end(&mut self, q: &[R; V]) -> Recorded {
         if let Some(joint) = not_finite(q) {
             return Recorded::NotFinite { joint };
@@ -165,8 +172,9 @@ impl<R: Real, const V: usize, const N: usize, const CIRCLES: u128> TaughtPath<R,
         self.count = 0;
     }
 
-    /// The smooth path near the way-points: off them by at most `tolerance` (rad, m) of each joint, as smooth as that allows;
-    /// through them where it is zero. See [`PathSpline::fit`], which needs less of the stack.
+    /// The smooth path near the way-points: off them by at most `tolerance` (rad, m) of each joint,
+    /// as smooth as that allows; through them where it is zero. See [`PathSpline::fit`], which
+    /// needs less of the stack.
     ///
     /// # Errors
     /// As [`PathSpline::fit`].

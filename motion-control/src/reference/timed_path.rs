@@ -1,19 +1,21 @@
 //! The fastest motion along a path within the limits of the joints: reachability analysis.
 //!
-//! Pham & Pham, "A New Approach to Time-Optimal Path Parameterization Based on Reachability Analysis", *IEEE Transactions on
-//! Robotics* 34 (2018). With x = ṡ² and u = s̈ the torques and accelerations along q(s) are linear,
+//! Pham & Pham, "A New Approach to Time-Optimal Path Parameterization Based on Reachability
+//! Analysis", *IEEE Transactions on Robotics* 34 (2018). With x = ṡ² and u = s̈ the torques and
+//! accelerations along q(s) are linear,
 //!
 //! ```text
 //! τ = a u + b x + c + friction      c = ID(q, 0, 0)   a = ID(q, 0, q′) − c   b = ID(q, q′, q″) − c
 //! q̈ = q′ u + q″ x                   x_{k+1} = x_k + 2 Δ u_k
 //! ```
 //!
-//! Backward along the grid, K_k is the set of those x from which u leads into K_{k+1} within the limits; forward, x takes the
-//! greatest u that leads into K_{k+1}. Each segment has the limits at both of its ends ("first-order interpolation" in section
-//! III-C of the paper), with one u.
+//! Backward along the grid, K_k is the set of those x from which u leads into K_{k+1} within the
+//! limits; forward, x takes the greatest u that leads into K_{k+1}. Each segment has the limits at
+//! both of its ends ("first-order interpolation" in section III-C of the paper), with one u.
 //!
-//! Here the torques at rest are within their limits at every grid point, else the path is refused. Then x = u = 0 is within all
-//! limits, every K_k is an interval from zero, and no stage is infeasible.
+//! Here the torques at rest are within their limits at every grid point, else the path is refused.
+//! Then x = u = 0 is within all limits, every K_k is an interval from zero, and no stage is
+//! infeasible.
 
 use crate::entry;
 use crate::real;
@@ -34,14 +36,15 @@ mod tests;
 pub use error::TimedPathError;
 pub use limits::{JointFriction, PathLimits};
 
-/// The fastest motion along a path, from rest to rest, within limits of torque, speed and acceleration: the reference of a
-/// controller.
+/// The fastest motion along a path, from rest to rest, within limits of torque, speed and
+/// acceleration: the reference of a controller.
 ///
-/// The limits hold at the M points of [`GeometricPath::grid_point`], and between them up to what the coefficients curve in a segment:
-/// the excess decreases with the square of M, and the time that is lost with M. The guide has both for paths of the UR5e. Where a
-/// limit of torque or acceleration is reached, the torques jump: a limit of [`SafetyLimits::rate`](crate::SafetyLimits::rate) has
-/// to admit this. What the feedback needs has to be left by the limits of
-/// torque.
+/// The limits hold at the M points of [`GeometricPath::grid_point`], and between them up to what
+/// the coefficients curve in a segment: the excess decreases with the square of M, and the time
+/// that is lost with M. The guide has both for paths of the UR5e. Where a limit of torque or
+/// acceleration is reached, the torques jump: a limit of
+/// [`SafetyLimits::rate`](crate::SafetyLimits::rate) has to admit this. What the feedback needs has
+/// to be left by the limits of torque.
 ///
 /// ```
 /// use motion_control::{GeometricPath, JointFriction, MotionLimits, PathLimits, PathPoint, Reference, TimedPath};
@@ -83,22 +86,27 @@ struct GridPoint<R> {
     s: R,
     /// ṡ, 1/s; while the motion is planned, x = ṡ².
     rate: R,
-    /// The time at which the motion is there: the whole ticks, and the rest. While the motion is planned, the rest is x₀ of the
-    /// segment that follows: where the bound of viscous friction touches it.
+    /// The time at which the motion is there: the whole ticks, and the rest. While the motion is
+    /// planned, the rest is x₀ of the segment that follows: where the bound of viscous friction
+    /// touches it.
     ticks: u32,
     rest: R,
 }
 
 impl<'a, R: Real, P, const M: usize> TimedPath<'a, R, P, M> {
-    /// The fastest motion along `path` with M ≥ 3 grid points, which the compiler checks, and ticks of `tick` seconds.
+    /// The fastest motion along `path` with M ≥ 3 grid points, which the compiler checks, and ticks
+    /// of `tick` seconds.
     ///
-    /// `inverse_dynamics` returns the torques of a state, with gravity, inertia and velocity products and without friction, which
-    /// is in the limits: [`Core::rnea`](dynamics_core::Core::rnea) or [`Engine::rnea`](dynamics_core::Engine::rnea) with such effects.
+    /// `inverse_dynamics` returns the torques of a state, with gravity, inertia and velocity
+    /// products and without friction, which is in the limits:
+    /// [`Core::rnea`](dynamics_core::Core::rnea) or [`Engine::rnea`](dynamics_core::Engine::rnea)
+    /// with such effects.
     ///
     /// # Cost
-    /// Not for a tick. In two passes along the grid, with viscous friction in six: at each point four calls of the inverse
-    /// dynamics, the fourth for the check that there is no friction in them, and one linear program of two variables, solved by
-    /// eliminating one of them: at most (4 V + 1)² pairs of limits. Constant memory: no coefficients are stored.
+    /// Not for a tick. In two passes along the grid, with viscous friction in six: at each point
+    /// four calls of the inverse dynamics, the fourth for the check that there is no friction in
+    /// them, and one linear program of two variables, solved by eliminating one of them: at most (4
+    /// V + 1)² pairs of limits. Constant memory: no coefficients are stored.
     ///
     /// # Errors
     /// [`TimedPathError`] names the joint and the point of the grid.
@@ -206,9 +214,11 @@ impl<'a, R: Real, P, const M: usize> TimedPath<'a, R, P, M> {
 impl<R: Real, P: GeometricPath<R, V>, const V: usize, const M: usize> Reference<R, V>
     for TimedPath<'_, R, P, M>
 {
-    /// The reference at a tick counted from the start; from [`Self::ticks`] on, at rest at the end of the path.
+    /// The reference at a tick counted from the start; from [`Self::ticks`] on, at rest at the end
+    /// of the path.
     ///
-    /// Cost: a binary search among M points, a division, some 15 flops, and the point of the path with 4 flops a joint.
+    /// Cost: a binary search among M points, a division, some 15 flops, and the point of the path
+    /// with 4 flops a joint.
     #[inline]
     fn at(&self, tick: u32) -> State<R, V, V> {
         let past = |at: &GridPoint<R>| at.ticks < tick || (at.ticks == tick && at.rest <= R::ZERO);

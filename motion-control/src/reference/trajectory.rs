@@ -41,8 +41,8 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
     /// The trajectory through `points`, with ticks of `tick` seconds; W ≥ 1, which the compiler
     /// checks.
     ///
-    /// The peaks that are compared with `limits` are exact, up to rounding. Positions between way-points that pass at
-    /// speed may overshoot them.
+    /// The peaks that are compared with `limits` are exact, up to rounding. Positions between
+    /// way-points that pass at speed may overshoot them.
     ///
     /// # Errors
     /// [`TrajectoryError`] names the way-point, the joint, and what was needed and allowed.
@@ -72,8 +72,8 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
         segments: Segments::REST,
     };
 
-    /// Replaces the trajectory in its place by the one through `points`, as [`Self::new`], which takes several times the
-    /// size of the trajectory on the stack; this takes none of it.
+    /// Replaces the trajectory in its place by the one through `points`, as [`Self::new`], which
+    /// takes several times the size of the trajectory on the stack; this takes none of it.
     ///
     /// # Errors
     /// As [`Self::new`]; the trajectory is then as before.
@@ -102,11 +102,13 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
         })
     }
 
-    /// The reference at a tick counted from the start; from [`Self::ticks`] on, at rest at the last way-point.
+    /// The reference at a tick counted from the start; from [`Self::ticks`] on, at rest at the last
+    /// way-point.
     ///
-    /// Time is counted in integers, and in fractions only within a segment, so that the accuracy does not decrease with
-    /// time. Cost: about 45 flops for the segment and 17 per joint, no division, and 4 instructions per way-point to
-    /// find the segment; the same instructions for all ticks.
+    /// Time is counted in integers, and in fractions only within a segment, so that the accuracy
+    /// does not decrease with time. Cost: about 45 flops for the segment and 17 per joint, no
+    /// division, and 4 instructions per way-point to find the segment; the same instructions for
+    /// all ticks.
     ///
     /// ```
     /// use motion_control::{MotionLimits, Trajectory, WayPoint};

@@ -1,7 +1,9 @@
-//! Faults that a supervisor does not see in one measurement or one torque: small detectors that a loop composes.
+//! Faults that a supervisor does not see in one measurement or one torque: small detectors that a
+//! loop composes.
 //!
 //! Each is optional and has its own memory. A detector's fault is the measurement of the tick
-//! ([`FrozenEncoder`]), or goes to [`MotionController::report`](crate::MotionController::report) or `stop_by`.
+//! ([`FrozenEncoder`]), or goes to [`MotionController::report`](crate::MotionController::report) or
+//! `stop_by`.
 
 use crate::limits::{Circles, Fault};
 use dynamics_core::scalar::Real;
@@ -16,11 +18,12 @@ pub use detect::{Detect, Detectors};
 
 /// Detects encoders whose positions do not change while their references move.
 ///
-/// A joint that a gear or an obstacle blocks gives the same fault: its encoder has to be looked at in either case.
+/// A joint that a gear or an obstacle blocks gives the same fault: its encoder has to be looked at
+/// in either case.
 ///
 /// # Cost
-/// One joint is compared in each tick, in rotation: a position that froze is reported after two comparisons of its joint at
-/// the earliest, up to 2 V − 1 ticks later.
+/// One joint is compared in each tick, in rotation: a position that froze is reported after two
+/// comparisons of its joint at the earliest, up to 2 V − 1 ticks later.
 ///
 /// ```
 /// use motion_control::{Fault, FrozenEncoder};
@@ -37,7 +40,8 @@ pub struct FrozenEncoder<R, const V: usize, const CIRCLES: u128 = 0> {
     encoders: [Encoder<R>; V],
     /// Comparisons without a change that precede the one which reports it.
     patience: u32,
-    /// The joint that is compared next; V if none is: before the first comparison, and while one is frozen.
+    /// The joint that is compared next; V if none is: before the first comparison, and while one is
+    /// frozen.
     joint: usize,
     frozen: Option<usize>,
 }
@@ -53,8 +57,9 @@ struct Encoder<R> {
 }
 
 impl<R: Real, const V: usize> FrozenEncoder<R, V> {
-    /// A detector that reports a position that is the same for `ticks` ticks while the reference has moved further than
-    /// `distance`, rad or m: ten steps of the encoder, and more than the play and friction of the gear hide.
+    /// A detector that reports a position that is the same for `ticks` ticks while the reference
+    /// has moved further than `distance`, rad or m: ten steps of the encoder, and more than the
+    /// play and friction of the gear hide.
     pub const fn new(distance: [R; V], ticks: u32) -> Self {
         let mut encoders = [Encoder::NEW; V];
         let mut joint = 0;
@@ -71,8 +76,8 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
         }
     }
 
-    /// The same detector for joints of which those of [`Circles::bits`] are circles: a reference that moves by a whole turn
-    /// has not moved.
+    /// The same detector for joints of which those of [`Circles::bits`] are circles: a reference
+    /// that moves by a whole turn has not moved.
     #[must_use]
     pub const fn on_circles<const CIRCLES: u128>(self) -> FrozenEncoder<R, V, CIRCLES> {
         let Self {
@@ -91,8 +96,9 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
 }
 
 impl<R: Real, const V: usize, const CIRCLES: u128> FrozenEncoder<R, V, CIRCLES> {
-    /// Compares the measured position of a joint with the one when it was compared before; `reference` is the reference of
-    /// the joints that acted in between, [`MotionController::reference`](crate::MotionController::reference).
+    /// Compares the measured position of a joint with the one when it was compared before;
+    /// `reference` is the reference of the joints that acted in between,
+    /// [`MotionController::reference`](crate::MotionController::reference).
     ///
     /// # Errors
     /// [`Fault::Frozen`] names the joint, in each tick until its position changes.
@@ -120,8 +126,8 @@ impl<R: Real, const V: usize, const CIRCLES: u128> FrozenEncoder<R, V, CIRCLES> 
         Ok(())
     }
 
-    /// The first tick, before which no reference acted; or one with a frozen joint, whose position alone is compared: the
-    /// reference of a held arm may come back.
+    /// The first tick, before which no reference acted; or one with a frozen joint, whose position
+    /// alone is compared: the reference of a held arm may come back.
     #[cold]
     #[inline(never)]
     fn compare_none(&mut self, q: &[R; V]) -> Result<(), Fault> {
@@ -140,8 +146,8 @@ impl<R: Real, const V: usize, const CIRCLES: u128> FrozenEncoder<R, V, CIRCLES> 
         Ok(())
     }
 
-    /// Forgets what was measured: in each tick with the brake set, since the reference of an arm that is started leaps to
-    /// where it is.
+    /// Forgets what was measured: in each tick with the brake set, since the reference of an arm
+    /// that is started leaps to where it is.
     #[cold]
     pub fn restart(&mut self) {
         (self.joint, self.frozen) = (V, None);
@@ -166,8 +172,9 @@ impl<R: Real> Encoder<R> {
 
 /// Detects torques that stay at their limits.
 ///
-/// A held arm is decelerated with q̈ = −λ q̇: choose [`decay_rate`](crate::MotionControllerConfig::decay_rate) such that this
-/// torque is below the limits at the speeds of the motion, or a hold becomes a stop.
+/// A held arm is decelerated with q̈ = −λ q̇: choose
+/// [`decay_rate`](crate::MotionControllerConfig::decay_rate) such that this torque is below the
+/// limits at the speeds of the motion, or a hold becomes a stop.
 ///
 /// ```
 /// use motion_control::{Fault, Saturation};
@@ -198,7 +205,8 @@ impl<R: Real, const V: usize> Saturation<R, V> {
     /// Counts the torques of a command.
     ///
     /// # Errors
-    /// [`Fault::Saturated`] names the first joint, in each tick until its torque is below the limit.
+    /// [`Fault::Saturated`] names the first joint, in each tick until its torque is below the
+    /// limit.
     #[inline(always)]
     pub fn check(&mut self, torque: &[R; V]) -> Result<(), Fault> {
         // Not `any`: joints need not wait for each other's verdict.
@@ -259,7 +267,8 @@ impl<R: Real, const V: usize> ReferenceStep<R, V> {
         }
     }
 
-    /// The same detector for joints of which those of [`Circles::bits`] are circles: a step of a whole turn is none.
+    /// The same detector for joints of which those of [`Circles::bits`] are circles: a step of a
+    /// whole turn is none.
     ///
     /// ```
     /// use dynamics_core::state::State;

@@ -5,10 +5,12 @@ use crate::limits::Fault;
 use crate::limits::Mode;
 use dynamics_core::scalar::Real;
 
-/// How an arm is stopped: the stop categories of IEC 60204-1 (2016), 9.2.2, and the lowering of an arm without brakes.
+/// How an arm is stopped: the stop categories of IEC 60204-1 (2016), 9.2.2, and the lowering of an
+/// arm without brakes.
 ///
-/// A fault that outlasts the ride-through and a [`stop_by`](crate::MotionController::stop_by) choose among them;
-/// [`stop`](crate::MotionController::stop) is at once, for faults that leave no torque to decelerate with, such as a failed drive.
+/// A fault that outlasts the ride-through and a [`stop_by`](crate::MotionController::stop_by)
+/// choose among them; [`stop`](crate::MotionController::stop) is at once, for faults that leave no
+/// torque to decelerate with, such as a failed drive.
 ///
 /// | category | first | then | power |
 /// |---|---|---|---|
@@ -17,8 +19,8 @@ use dynamics_core::scalar::Real;
 /// | 2, [`Self::ControlledHold`] | [`Mode::Hold`] for `hold_ticks` | held in [`Mode::Hold`] until a reset | stays on |
 /// | none, [`Self::DampedLowering`] | [`Mode::Hold`] for `hold_ticks` | τ = −d q̇, no brake needed | on while the arm sinks |
 ///
-/// Category 2 needs measurements: if they fail for longer than `hold_ticks`, it ends as category 1. The controlled part
-/// is not safety-rated: keep a safe torque off in hardware.
+/// Category 2 needs measurements: if they fail for longer than `hold_ticks`, it ends as category 1.
+/// The controlled part is not safety-rated: keep a safe torque off in hardware.
 ///
 /// ```
 /// use motion_control::{Fault, Mode, MotionController, MotionControllerConfig, StopCategory};
@@ -56,7 +58,8 @@ pub enum StopCategory<R, const V: usize> {
     ControlledHold,
     /// For an arm without brakes: the arm is decelerated, then sinks against a damping.
     DampedLowering {
-        /// d of each joint, N·m·s/rad or N·s/m. The arm sinks at the torque of gravity divided by d.
+        /// d of each joint, N·m·s/rad or N·s/m. The arm sinks at the torque of gravity divided by
+        /// d.
         damping: [R; V],
     },
 }

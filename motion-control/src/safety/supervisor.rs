@@ -9,9 +9,9 @@
 //!    └──────────────────────────────────────────────────────────────┘ reset()
 //! ```
 //!
-//! [`StopCategory`](crate::StopCategory) chooses what `Hold` and `Stopped` are for an arm. Ticks with a fault are counted
-//! until `reentry_ticks` consecutive ticks had none. The state from tick to tick (last good positions, last torques,
-//! counters) is updated only by accepted values.
+//! [`StopCategory`](crate::StopCategory) chooses what `Hold` and `Stopped` are for an arm. Ticks
+//! with a fault are counted until `reentry_ticks` consecutive ticks had none. The state from tick
+//! to tick (last good positions, last torques, counters) is updated only by accepted values.
 //!
 //! | state | mode | leads to |
 //! |---|---|---|
@@ -36,22 +36,25 @@ mod stop;
 #[cfg(test)]
 mod tests;
 
-/// The greatest plausible distance of a measurement from the last accepted one, in steps at full speed; the resolution
-/// of the encoder is added. Speed itself is checked with the velocity of the observer.
+/// The greatest plausible distance of a measurement from the last accepted one, in steps at full
+/// speed; the resolution of the encoder is added. Speed itself is checked with the velocity of the
+/// observer.
 const JUMP: f64 = 2.0;
 /// Positions beyond this are as good as infinite, in f64 too.
 const FAR: f64 = f32::MAX as f64;
-/// Beyond this, rad, f32 has no sine accurate to 10⁻⁷: positions beyond it are rejected for all limits. Of a joint that
-/// is a circle the angle within a turn is measured, `MultiTurnEncoder::within_turn` of `joint-drivers`.
+/// Beyond this, rad, f32 has no sine accurate to 10⁻⁷: positions beyond it are rejected for all
+/// limits. Of a joint that is a circle the angle within a turn is measured,
+/// `MultiTurnEncoder::within_turn` of `joint-drivers`.
 const RANGE: f64 = 1e4;
 /// The same for the angle of a circle in f64, rad: its turns are subtracted.
 const FAR_ANGLE: f64 = 1e8;
 
-/// Value of `ramp` during a stop if the current tick has a fault: the increment at the begin of the next tick wraps it to
-/// zero, so that this tick does not count as a good one.
+/// Value of `ramp` during a stop if the current tick has a fault: the increment at the begin of the
+/// next tick wraps it to zero, so that this tick does not count as a good one.
 const NOT_COUNTED: u32 = u32::MAX;
 
-/// The parameters of the safety gate of a [`MotionController`](crate::MotionController): those of the arm and of the loop.
+/// The parameters of the safety gate of a [`MotionController`](crate::MotionController): those of
+/// the arm and of the loop.
 ///
 /// ```
 /// use motion_control::{SafetyLimits, SupervisorConfig};
@@ -72,21 +75,23 @@ pub struct SupervisorConfig<R, const V: usize> {
     pub limits: SafetyLimits<R, V>,
     /// Nominal length of a tick, s.
     pub tick: R,
-    /// Step of the encoders, rad or m, by which a slow joint may seem to exceed its greatest speed; zero for none.
+    /// Step of the encoders, rad or m, by which a slow joint may seem to exceed its greatest speed;
+    /// zero for none.
     pub resolution: R,
     /// Ticks with a fault for which the arm stays in [`Mode::Full`]: the prediction of an observer
-    /// replaces the measurements, and the last torque replaces a torque that is not finite. Excessive speed has no
-    /// ride-through.
+    /// replaces the measurements, and the last torque replaces a torque that is not finite.
+    /// Excessive speed has no ride-through.
     pub ride_through_ticks: u32,
     /// Ticks with a fault after those for which the arm is held, before it is stopped.
     pub hold_ticks: u32,
-    /// Consecutive ticks without a fault after which earlier faults are no longer counted, and ticks of the return to
-    /// the trajectory.
+    /// Consecutive ticks without a fault after which earlier faults are no longer counted, and
+    /// ticks of the return to the trajectory.
     pub reentry_ticks: u32,
 }
 
 impl<R: Real, const V: usize> SupervisorConfig<R, V> {
-    /// Checks that every number is within its range and that every limit allows some motion or torque.
+    /// Checks that every number is within its range and that every limit allows some motion or
+    /// torque.
     ///
     /// # Errors
     /// [`ConfigError`]; if a limit is wrong, with the joint, the limit and its value.
@@ -101,7 +106,8 @@ impl<R: Real, const V: usize> SupervisorConfig<R, V> {
 /// What the supervisor does with the arm, from tick to tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum State {
-    /// The torque of the law was not finite: the arm is held in the next tick, whatever is measured.
+    /// The torque of the law was not finite: the arm is held in the next tick, whatever is
+    /// measured.
     Torqueless,
     /// The full law; faults are ridden through.
     Full,
@@ -147,8 +153,9 @@ impl State {
     }
 }
 
-/// The safety gate that every measurement and every torque passes in each tick. Its steps are [`Self::accept_positions`]
-/// or [`Self::accept_fault`], then [`Self::check_speed`], then [`Self::gate`].
+/// The safety gate that every measurement and every torque passes in each tick. Its steps are
+/// [`Self::accept_positions`] or [`Self::accept_fault`], then [`Self::check_speed`], then
+/// [`Self::gate`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Supervisor<R, const V: usize> {
     /// Greatest torque, its greatest change in a tick, and greatest speed.
@@ -195,12 +202,13 @@ pub(crate) struct Supervisor<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
-    /// A supervisor of an arm that holds its position, at full authority from the first tick; the torque rises from
-    /// zero at the allowed rate.
+    /// A supervisor of an arm that holds its position, at full authority from the first tick; the
+    /// torque rises from zero at the allowed rate.
     ///
-    /// If a limit allows no motion or torque ([`SafetyLimits::check`]), the arm is stopped by [`Fault::Limits`], and a
-    /// reset does not restart it. If the tick is not a positive number, no step of the joints is plausible; a resolution
-    /// that is not a positive number is treated as zero.
+    /// If a limit allows no motion or torque ([`SafetyLimits::check`]), the arm is stopped by
+    /// [`Fault::Limits`], and a reset does not restart it. If the tick is not a positive number, no
+    /// step of the joints is plausible; a resolution that is not a positive number is treated as
+    /// zero.
     pub(crate) fn new(config: SupervisorConfig<R, V>) -> Self {
         let (limits, tick) = (&config.limits, config.tick);
         let unusable = limits.check().err().map(|error| Fault::Limits {
@@ -258,7 +266,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
     }
 
-    /// The same supervisor for an arm that is on its brake: stopped without a fault until [`Self::reset`].
+    /// The same supervisor for an arm that is on its brake: stopped without a fault until
+    /// [`Self::reset`].
     pub(crate) fn on_brake(mut self) -> Self {
         if matches!(self.state, State::Full) {
             self.state = self.stopping.stopped(self.stopping.configured);
@@ -274,8 +283,9 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         (self.state, self.fault) = (State::Unusable(fault), Some(fault));
     }
 
-    /// The measured positions, of circles within half a turn of the middles of their ranges; the last good ones of circles
-    /// without a range follow by whole turns. `None` if a number has lost the digits of its angle, or is none.
+    /// The measured positions, of circles within half a turn of the middles of their ranges; the
+    /// last good ones of circles without a range follow by whole turns. `None` if a number has lost
+    /// the digits of its angle, or is none.
     pub(crate) fn turn_to(&mut self, circles: Circles, q: &[R; V]) -> Option<[R; V]> {
         let far = R::select(FAR_ANGLE, RANGE as f32);
         if !q.iter().all(|q| q.abs() <= far) {
@@ -297,7 +307,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.known
     }
 
-    /// Reports ticks that have passed without a call, as counted by a timer: the joints may have moved.
+    /// Reports ticks that have passed without a call, as counted by a timer: the joints may have
+    /// moved.
     #[cold]
     pub(crate) fn missed(&mut self, ticks: u32) {
         self.ticks_since_good += real(ticks);
@@ -334,8 +345,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
     }
 
-    /// As [`Self::accept_positions`], with the fault that prevented them: a function of its own, so that the usual tick
-    /// has no case for it.
+    /// As [`Self::accept_positions`], with the fault that prevented them: a function of its own, so
+    /// that the usual tick has no case for it.
     #[cold]
     #[inline(never)]
     pub(crate) fn accept_fault(&mut self, fault: Fault) {
@@ -361,8 +372,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.mode()
     }
 
-    /// Ends a tick: limits the torques of the law and returns the command to the drives. The velocities damp a stopped
-    /// arm that sinks.
+    /// Ends a tick: limits the torques of the law and returns the command to the drives. The
+    /// velocities damp a stopped arm that sinks.
     #[inline]
     pub(crate) fn gate(&mut self, tau: &[R; V], qd: &[R; V]) -> Command<R, V> {
         let mut off = R::ZERO;
@@ -371,8 +382,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         let limits = self.torque_limit.iter().zip(&self.rate_limit);
         for ((out, (&tau, &last)), (&most, &rate)) in torque.iter_mut().zip(wanted).zip(limits) {
             let next = tau.clamped(-most, most).clamped(last - rate, last + rate);
-            // Zero if no torque was limited, and not finite if a torque is not; the factor keeps the sum of finite
-            // terms from overflowing.
+            // Zero if no torque was limited, and not finite if a torque is not; the factor keeps
+            // the sum of finite terms from overflowing.
             off += (next - tau).abs() * R::from_f64(1.0 / 64.0);
             *out = next;
         }
@@ -391,7 +402,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.command_otherwise(qd, limited)
     }
 
-    /// The command of an arm that is held or stopped: a function of its own, so that the usual tick has no case for it.
+    /// The command of an arm that is held or stopped: a function of its own, so that the usual tick
+    /// has no case for it.
     #[cold]
     #[inline(never)]
     fn command_otherwise(&mut self, qd: &[R; V], limited: bool) -> Command<R, V> {
@@ -415,8 +427,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
     }
 
-    /// The begin of a tick in the states that the usual tick does not know: out of its machine code, which would have a
-    /// table of jumps.
+    /// The begin of a tick in the states that the usual tick does not know: out of its machine
+    /// code, which would have a table of jumps.
     #[cold]
     #[inline(never)]
     fn begin_otherwise(&mut self) {
@@ -463,7 +475,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.ramp.saturating_add(1).min(self.reentry_ticks)
     }
 
-    /// The previous tick ended without a torque: a fault of this tick, even if the previous one had another fault.
+    /// The previous tick ended without a torque: a fault of this tick, even if the previous one had
+    /// another fault.
     #[cold]
     fn unfinished(&mut self) {
         self.faulted = false;
@@ -569,8 +582,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
     }
 
-    /// The progress of the return to the full law in this tick, 0 to 1, for the reference. It is zero while the arm is held
-    /// and before the brake opens.
+    /// The progress of the return to the full law in this tick, 0 to 1, for the reference. It is
+    /// zero while the arm is held and before the brake opens.
     #[inline(always)]
     pub(crate) fn authority(&self) -> R {
         if !matches!(self.state, State::Full) | self.braked {
@@ -582,15 +595,16 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
     }
 
-    /// Restarts the arm with zero torque and the brake set: clears a latched fault and accepts the next positions that are
-    /// within their limits.
+    /// Restarts the arm with zero torque and the brake set: clears a latched fault and accepts the
+    /// next positions that are within their limits.
     ///
     /// The brake opens when the torque of the law is reached; then [`Self::authority`] rises.
     pub(crate) fn reset(&mut self) {
         self.known = false;
         self.accepted = false;
         self.ticks_since_good = R::from_f64(FAR);
-        // The rate is limited from the torque of the drives: that of a sinking arm, or of a stop without a tick since.
+        // The rate is limited from the torque of the drives: that of a sinking arm, or of a stop
+        // without a tick since.
         if !matches!(self.mode(), Mode::Stopped) {
             self.torque = [R::ZERO; V];
         }

@@ -1,13 +1,15 @@
-//! Ticks that were missed or took too long, by the count of a timer, and what a watchdog is fed with.
+//! Ticks that were missed or took too long, by the count of a timer, and what a watchdog is fed
+//! with.
 
 use crate::limits::{Fault, Status};
 
-/// Counts the ticks of a loop by the count of a timer that advances by one per period and wraps around.
+/// Counts the ticks of a loop by the count of a timer that advances by one per period and wraps
+/// around.
 ///
-/// A tick has a begin and an end, which the types enforce. The begin gives the number of missed ticks, for
-/// [`MotionController::missed`](crate::MotionController::missed); the end needs the status of the tick's command and gives a
-/// [`CompletedTick`], which alone feeds a [`Watchdog`], or [`Fault::Overrun`], for
-/// [`MotionController::report`](crate::MotionController::report).
+/// A tick has a begin and an end, which the types enforce. The begin gives the number of missed
+/// ticks, for [`MotionController::missed`](crate::MotionController::missed); the end needs the
+/// status of the tick's command and gives a [`CompletedTick`], which alone feeds a [`Watchdog`], or
+/// [`Fault::Overrun`], for [`MotionController::report`](crate::MotionController::report).
 ///
 /// ```
 /// use motion_control::{CompletedTick, Fault, Mode, Status, TickCounter, Watchdog};
@@ -45,7 +47,8 @@ pub struct CountedTick {
     missed: u32,
 }
 
-/// The proof that a tick had a command and ended within its period. Only [`CountedTick::end`] makes one.
+/// The proof that a tick had a command and ended within its period. Only [`CountedTick::end`] makes
+/// one.
 ///
 /// ```compile_fail,E0423
 /// let tick = motion_control::CompletedTick(());
@@ -55,7 +58,8 @@ pub struct CompletedTick(());
 
 /// A hardware watchdog, which resets the processor unless it is fed in time.
 ///
-/// Every feed takes one completed tick: a loop that hangs, or whose ticks take too long, starves it.
+/// Every feed takes one completed tick: a loop that hangs, or whose ticks take too long, starves
+/// it.
 ///
 /// ```compile_fail,E0382
 /// # use motion_control::{CompletedTick, Watchdog};
@@ -92,7 +96,8 @@ impl CountedTick {
         self.missed
     }
 
-    /// Ends the tick at the count `now` of the timer, after its command has been written to the drives.
+    /// Ends the tick at the count `now` of the timer, after its command has been written to the
+    /// drives.
     ///
     /// # Errors
     /// [`Fault::Overrun`] if the timer has advanced since the begin.

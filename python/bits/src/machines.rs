@@ -1,4 +1,5 @@
-//! A four-bar linkage, by general loops and as a linkage, and a beam with an arm: `tests/machines.py` has them as files.
+//! A four-bar linkage, by general loops and as a linkage, and a beam with an arm:
+//! `tests/machines.py` has them as files.
 
 use dynamics_core::Core;
 use dynamics_core::clusters::{Branch, Clustered, ClusteredRobot, Differential, Driven, FourBar};

@@ -1,5 +1,5 @@
-//! Reads rows of f32 (q, q̇, q̈, τ of a state) and writes what `Core` and `Engine` compute for a robot that is known at
-//! compile time, as firmware does: the referee of the wheel's bits.
+//! Reads rows of f32 (q, q̇, q̈, τ of a state) and writes what `Core` and `Engine` compute for a
+//! robot that is known at compile time, as firmware does: the referee of the wheel's bits.
 //!
 //! ```console
 //! robot-dynamics-bits ur5e "core rnea" < states > results

@@ -1,6 +1,8 @@
-//! Inverse dynamics by `Engine`, the form that is specialised to a robot at compile time, over rows of numbers.
+//! Inverse dynamics by `Engine`, the form that is specialised to a robot at compile time, over rows
+//! of numbers.
 //!
-//! A scene of the engine is known to the compiler: the wheel has those of rigid bodies, of bias and of gravity.
+//! A scene of the engine is known to the compiler: the wheel has those of rigid bodies, of bias and
+//! of gravity.
 
 use dynamics_core::Engine;
 use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};

@@ -40,13 +40,15 @@ pub struct Call<'a, D, P, R: Real, const V: usize> {
 pub trait Algorithm: Sync {
     /// Whether the library has a form of it for some kinds of robots.
     const FAST: bool = false;
-    /// Whether it computes what fills the model up, too, with the inertia 1: M then has its factors.
+    /// Whether it computes what fills the model up, too, with the inertia 1: M then has its
+    /// factors.
     const WHOLE: bool = false;
     /// Whether it computes several states at once: its only comparisons are those of pivots, and of
     /// placements, which its states share.
     const LANES: bool = false;
 
-    /// Computes one row, of a scene with the products of accelerations (A), of velocities (C) and effects at bodies (X).
+    /// Computes one row, of a scene with the products of accelerations (A), of velocities (C) and
+    /// effects at bodies (X).
     ///
     /// # Errors
     /// Why this state has no result.

@@ -1,4 +1,5 @@
-//! From what is known at run time to the types of the library: the scene's terms become parameters of a type.
+//! From what is known at run time to the types of the library: the scene's terms become parameters
+//! of a type.
 
 use dynamics_core::model::RobotModel;
 use dynamics_core::scalar::Real;

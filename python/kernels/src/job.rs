@@ -176,7 +176,8 @@ impl<R: Real> Row<R> for One<'_, '_, R> {
 }
 
 impl<R: Copy + Send + Sync> Job<'_, R> {
-    /// Computes all rows, on all cores if there are many. `part` computes the rows of a part of the job.
+    /// Computes all rows, on all cores if there are many. `part` computes the rows of a part of the
+    /// job.
     ///
     /// # Errors
     /// The first row that cannot be computed.

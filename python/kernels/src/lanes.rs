@@ -1,9 +1,11 @@
-//! Eight f32 side by side as one scalar of the library: its algorithms then compute eight states at once.
+//! Eight f32 side by side as one scalar of the library: its algorithms then compute eight states at
+//! once.
 //!
-//! Each operation is that of IEEE 754 in every lane, in the order of the algorithm, so that a lane has the bits of f32
-//! alone. Sines, exponentials and conversions are those of the library, lane by lane. A comparison holds if it holds in
-//! all lanes: the algorithms over revolute joints compare only whether a pivot is large enough, and a block of states
-//! in which one is not is computed again one by one.
+//! Each operation is that of IEEE 754 in every lane, in the order of the algorithm, so that a lane
+//! has the bits of f32 alone. Sines, exponentials and conversions are those of the library, lane by
+//! lane. A comparison holds if it holds in all lanes: the algorithms over revolute joints compare
+//! only whether a pivot is large enough, and a block of states in which one is not is computed
+//! again one by one.
 
 use std::array::from_fn;
 use std::cmp::Ordering;

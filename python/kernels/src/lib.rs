@@ -1,7 +1,7 @@
 //! The library's algorithms over rows of numbers, for robots and scenes that are known at run time.
 //!
-//! All machine code of the algorithms is in this crate, which compiles in minutes; the extension module beside it, which
-//! knows Python, compiles in seconds.
+//! All machine code of the algorithms is in this crate, which compiles in minutes; the extension
+//! module beside it, which knows Python, compiles in seconds.
 
 mod algorithm;
 mod algorithms;
@@ -200,7 +200,8 @@ impl WithLanes for f32 {
             return over(algorithm, models, setting, rows);
         };
         let mut first = 0;
-        // Each turn ends all rows, or the block in which a state is singular, whose states are then found one by one.
+        // Each turn ends all rows, or the block in which a state is singular, whose states are then
+        // found one by one.
         while first < count {
             let mut rest = rows.part(first * LANES, rows.rows);
             let mut blocks = Blocks {

@@ -1,4 +1,5 @@
-//! Loops of closed form on a robot that is known at run time: the library's clusters, and which coordinates they drive.
+//! Loops of closed form on a robot that is known at run time: the library's clusters, and which
+//! coordinates they drive.
 
 use dynamics_core::clusters::{
     Belt, Cluster, ClusterMotion, ClusterProblem, Delta, Differential, FiveBar, FourBar,
@@ -123,8 +124,9 @@ impl Linkages {
     /// Linkages that drive these velocity coordinates.
     ///
     /// # Errors
-    /// Another number of coordinates than a linkage has, one that the robot does not have, that is driven twice or is
-    /// not the derivative of a position, or bodies that are on two bodies outside.
+    /// Another number of coordinates than a linkage has, one that the robot does not have, that is
+    /// driven twice or is not the derivative of a position, or bodies that are on two bodies
+    /// outside.
     pub fn of(bodies: &Bodies, given: Vec<(Linkage, Vec<usize>)>) -> Result<Self, Misfit> {
         let Counts { v, .. } = bodies.counts();
         let mut of = vec![None; v];

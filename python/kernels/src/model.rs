@@ -1,8 +1,8 @@
 //! A robot as a model of the library whose size is chosen at run time.
 //!
-//! The library's models have their sizes in their types. A robot is therefore filled up to the next of four sizes; the
-//! algorithms see the robot's own bodies only ([`Cut`]), so that they make the same operations as over a model of the
-//! exact size, and compute the same bits.
+//! The library's models have their sizes in their types. A robot is therefore filled up to the next
+//! of four sizes; the algorithms see the robot's own bodies only ([`Cut`]), so that they make the
+//! same operations as over a model of the exact size, and compute the same bits.
 
 use dynamics_core::model::{
     BASE, Body, Joint, JointKind, JointKinds, JointLimits, Link, LinkView, Model, RobotModel,

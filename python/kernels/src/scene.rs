@@ -1,7 +1,8 @@
 //! A scene that is composed at run time: which of the library's effects act.
 //!
-//! The terms of the equations of motion are parameters of the type, as in a scene of the library, so that a term that
-//! is not named costs nothing; the other effects are lists, in the order in which the user named them.
+//! The terms of the equations of motion are parameters of the type, as in a scene of the library,
+//! so that a term that is not named costs nothing; the other effects are lists, in the order in
+//! which the user named them.
 
 use dynamics_core::effects::{
     AsymmetricCoulomb, BodyState, BodyWrench, Cogging, ConstantTorque, Contact, Coulomb, Effect,
@@ -54,11 +55,12 @@ pub struct Parts<R: Real, const V: usize> {
     pub gears: Option<LoadFriction<R, V>>,
 }
 
-/// A scene: whether it has the products of accelerations (A), of velocities (C), effects at bodies or gears (X), and
-/// friction of gears and rotors that spin (X and S): some algorithms of the library have none.
+/// A scene: whether it has the products of accelerations (A), of velocities (C), effects at bodies
+/// or gears (X), and friction of gears and rotors that spin (X and S): some algorithms of the
+/// library have none.
 ///
-/// The second field is whether the friction of gears acts: forward dynamics takes the motors' torques through the gears
-/// and then computes its bias without them.
+/// The second field is whether the friction of gears acts: forward dynamics takes the motors'
+/// torques through the gears and then computes its bias without them.
 pub struct Scene<
     'a,
     R: Real,

@@ -143,7 +143,8 @@ impl Spec {
         }
     }
 
-    /// Whether a scene may contain several: as in the library, whose compiler refuses two of the others.
+    /// Whether a scene may contain several: as in the library, whose compiler refuses two of the
+    /// others.
     pub fn may_repeat(&self) -> bool {
         matches!(
             self,
@@ -205,11 +206,12 @@ impl Spec {
     }
 }
 
-/// Why the effects cannot act on a robot of so many velocity coordinates; `alone` says whether a coordinate is its
-/// joint's only one, `body` finds a body.
+/// Why the effects cannot act on a robot of so many velocity coordinates; `alone` says whether a
+/// coordinate is its joint's only one, `body` finds a body.
 ///
 /// # Errors
-/// A list of another length, a rotor at a joint of several coordinates, or a body that the robot does not have.
+/// A list of another length, a rotor at a joint of several coordinates, or a body that the robot
+/// does not have.
 pub fn fit(
     specs: &[Spec],
     v: usize,

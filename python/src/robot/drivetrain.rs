@@ -12,13 +12,15 @@ use robot_dynamics_kernels::spec::Spec;
 
 #[pymethods]
 impl Robot {
-    /// Inverse dynamics with elastic joints: of each motor, reflected to the joint, its torque, N·m or N, position, rad
-    /// or m, and velocity, rad/s or m/s, each (…, nv), for a motion of the links with four derivatives: q (…, nq), q̇,
-    /// q̈, jerk, rad/s³ or m/s³, and snap (…, nv), rad/s⁴ or m/s⁴.
+    /// Inverse dynamics with elastic joints: of each motor, reflected to the joint, its torque, N·m
+    /// or N, position, rad or m, and velocity, rad/s or m/s, each (…, nv), for a motion of the
+    /// links with four derivatives: q (…, nq), q̇, q̈, jerk, rad/s³ or m/s³, and snap (…, nv),
+    /// rad/s⁴ or m/s⁴.
     ///
-    /// Of each joint, (nv,): the stiffness of the transmission, N·m/rad or N/m, the inertia of the rotor, kg·m² or kg,
-    /// and the viscous friction of the motor, N·m·s/rad or N·s/m, reflected. Effects act on the links; wrenches,
-    /// rotors that spin, friction of gears and a moving base have no place.
+    /// Of each joint, (nv,): the stiffness of the transmission, N·m/rad or N/m, the inertia of the
+    /// rotor, kg·m² or kg, and the viscous friction of the motor, N·m·s/rad or N·s/m, reflected.
+    /// Effects act on the links; wrenches, rotors that spin, friction of gears and a moving base
+    /// have no place.
     ///
     /// Raises MultiDofJoint for a joint of several coordinates.
     #[pyo3(signature = (q, qd, qdd, jerk, snap, stiffness, rotor, friction, effects = None))]

@@ -12,8 +12,8 @@ use crate::error::wanted;
 
 #[pymethods]
 impl Robot {
-    /// Inverse dynamics: the torques (…, nv), N·m or N, for q (…, nq), q̇ and q̈ (…, nv). Equations (3) to (8) of
-    /// Featherstone and Orin.
+    /// Inverse dynamics: the torques (…, nv), N·m or N, for q (…, nq), q̇ and q̈ (…, nv). Equations
+    /// (3) to (8) of Featherstone and Orin.
     #[pyo3(signature = (q, qd, qdd, effects = None, form = "core"))]
     fn rnea<'py>(
         &self,
@@ -74,8 +74,8 @@ impl Robot {
         )
     }
 
-    /// The torques (…, nv), N·m or N, that hold the robot against gravity at q (…, nq). Of the effects only Gravity
-    /// and loads act.
+    /// The torques (…, nv), N·m or N, that hold the robot against gravity at q (…, nq). Of the
+    /// effects only Gravity and loads act.
     #[pyo3(signature = (q, effects = None, form = "core"))]
     fn gravity<'py>(
         &self,
@@ -100,7 +100,8 @@ impl Robot {
         self.one(py, by, &effects, &[self.q(q)], &[self.counts.v])
     }
 
-    /// M q̈_r + C(q, q̇) q̇_r + g and the other effects, (…, nv): q (…, nq), q̇, q̈_r and q̇_r (…, nv).
+    /// M q̈_r + C(q, q̇) q̇_r + g and the other effects, (…, nv): q (…, nq), q̇, q̈_r and q̇_r (…,
+    /// nv).
     #[pyo3(signature = (q, qd, qdd, qd_r, effects = None))]
     fn rnea_two_velocities<'py>(
         &self,
@@ -126,7 +127,8 @@ impl Robot {
         )
     }
 
-    /// M(q), the joint-space inertia matrix (…, nv, nv), kg·m² or kg, with the motors' `Armature`; q (…, nq).
+    /// M(q), the joint-space inertia matrix (…, nv, nv), kg·m² or kg, with the motors' `Armature`;
+    /// q (…, nq).
     #[pyo3(signature = (q, effects = None))]
     fn crba<'py>(
         &self,
@@ -144,7 +146,8 @@ impl Robot {
         )
     }
 
-    /// Forward dynamics by articulated bodies: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ (…, nv).
+    /// Forward dynamics by articulated bodies: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ
+    /// (…, nv).
     #[pyo3(signature = (q, qd, tau, effects = None))]
     fn aba<'py>(
         &self,
@@ -165,7 +168,8 @@ impl Robot {
         )
     }
 
-    /// Forward dynamics by M and its factors: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ (…, nv).
+    /// Forward dynamics by M and its factors: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ
+    /// (…, nv).
     #[pyo3(signature = (q, qd, tau, effects = None))]
     fn forward_dynamics<'py>(
         &self,
@@ -186,8 +190,9 @@ impl Robot {
         )
     }
 
-    /// Forward dynamics by M and its factors, with the error that rounding leaves: q̈ and its estimated error, each
-    /// (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ (…, nv). It says whether float32 serves for a robot and a state.
+    /// Forward dynamics by M and its factors, with the error that rounding leaves: q̈ and its
+    /// estimated error, each (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ (…, nv). It says
+    /// whether float32 serves for a robot and a state.
     #[pyo3(signature = (q, qd, tau, effects = None))]
     fn forward_dynamics_with_error<'py>(
         &self,
@@ -208,8 +213,9 @@ impl Robot {
         )
     }
 
-    /// Torques and accelerations, each (…, nv), where of each coordinate one is given: its torque, or, where
-    /// ``accelerated`` is not zero, its acceleration. q (…, nq), q̇, given and accelerated (…, nv).
+    /// Torques and accelerations, each (…, nv), where of each coordinate one is given: its torque,
+    /// or, where ``accelerated`` is not zero, its acceleration. q (…, nq), q̇, given and
+    /// accelerated (…, nv).
     #[pyo3(signature = (q, qd, given, accelerated, effects = None))]
     fn hybrid_dynamics<'py>(
         &self,
@@ -236,7 +242,8 @@ impl Robot {
         )
     }
 
-    /// What of the motors' torques τ (…, nv) arrives behind the friction of the gears (`LoadFriction`), (…, nv).
+    /// What of the motors' torques τ (…, nv) arrives behind the friction of the gears
+    /// (`LoadFriction`), (…, nv).
     #[pyo3(signature = (q, qd, tau, effects = None))]
     fn transmitted_torque<'py>(
         &self,
@@ -298,8 +305,8 @@ impl Robot {
         )
     }
 
-    /// J (…, 6, nv), J M⁻¹ (…, 6, nv), Λ⁻¹ and Λ (…, 6, 6) of a body, Λ damped by ``damping`` relative to the largest
-    /// eigenvalue of Λ⁻¹ where it is nearly singular; q (…, nq).
+    /// J (…, 6, nv), J M⁻¹ (…, 6, nv), Λ⁻¹ and Λ (…, 6, 6) of a body, Λ damped by ``damping``
+    /// relative to the largest eigenvalue of Λ⁻¹ where it is nearly singular; q (…, nq).
     #[pyo3(signature = (q, body, frame = "local", effects = None, damping = 1e-6))]
     fn operational_space<'py>(
         &self,

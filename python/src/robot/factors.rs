@@ -9,8 +9,8 @@ use crate::effects::given as effects_of;
 
 #[pymethods]
 impl Robot {
-    /// M(q) (…, nv, nv), kg·m² or kg, and J (…, 6, nv) of a body in its own frame, angular rows first, at once; q
-    /// (…, nq).
+    /// M(q) (…, nv, nv), kg·m² or kg, and J (…, 6, nv) of a body in its own frame, angular rows
+    /// first, at once; q (…, nq).
     #[pyo3(signature = (q, body, effects = None))]
     fn crba_jacobian<'py>(
         &self,
@@ -31,9 +31,10 @@ impl Robot {
         )
     }
 
-    /// The factors of M = Lᵀ D L: L (…, nv, nv), lower triangular with a unit diagonal, and the reciprocals of D
-    /// (…, nv), 1/(kg·m²) or 1/kg; M (…, nv, nv), kg·m² or kg, of which the entries up to the diagonal are read. L is
-    /// zero wherever M is: of two coordinates on different branches.
+    /// The factors of M = Lᵀ D L: L (…, nv, nv), lower triangular with a unit diagonal, and the
+    /// reciprocals of D (…, nv), 1/(kg·m²) or 1/kg; M (…, nv, nv), kg·m² or kg, of which the
+    /// entries up to the diagonal are read. L is zero wherever M is: of two coordinates on
+    /// different branches.
     ///
     /// Raises NotPositiveDefinite with the joint that moves no inertia.
     fn ltdl<'py>(&self, py: Python<'py>, m: &Array<'py>) -> PyResult<Bound<'py, PyTuple>> {
@@ -47,8 +48,8 @@ impl Robot {
         )
     }
 
-    /// x (…, nv) with M x = τ, rad/s² or m/s², by the factors of `ltdl`: L (…, nv, nv), the reciprocals of D and τ
-    /// (…, nv), N·m or N.
+    /// x (…, nv) with M x = τ, rad/s² or m/s², by the factors of `ltdl`: L (…, nv, nv), the
+    /// reciprocals of D and τ (…, nv), N·m or N.
     fn solve<'py>(
         &self,
         py: Python<'py>,
@@ -69,7 +70,8 @@ impl Robot {
         )
     }
 
-    /// M⁻¹ (…, nv, nv), 1/(kg·m²) or 1/kg, by the factors of `ltdl`: L (…, nv, nv) and the reciprocals of D (…, nv).
+    /// M⁻¹ (…, nv, nv), 1/(kg·m²) or 1/kg, by the factors of `ltdl`: L (…, nv, nv) and the
+    /// reciprocals of D (…, nv).
     fn inverse<'py>(
         &self,
         py: Python<'py>,
@@ -85,8 +87,9 @@ impl Robot {
         )
     }
 
-    /// The factor of M = Lᵀ L: L (…, nv, nv), lower triangular, √kg·m or √kg, and the reciprocals of its diagonal
-    /// (…, nv); M (…, nv, nv), kg·m² or kg, of which the entries up to the diagonal are read.
+    /// The factor of M = Lᵀ L: L (…, nv, nv), lower triangular, √kg·m or √kg, and the reciprocals
+    /// of its diagonal (…, nv); M (…, nv, nv), kg·m² or kg, of which the entries up to the diagonal
+    /// are read.
     ///
     /// Raises NotPositiveDefinite with the joint that moves no inertia.
     fn cholesky<'py>(&self, py: Python<'py>, m: &Array<'py>) -> PyResult<Bound<'py, PyTuple>> {
@@ -100,8 +103,8 @@ impl Robot {
         )
     }
 
-    /// x (…, nv) with M x = τ, rad/s² or m/s², by the factor of `cholesky`: L (…, nv, nv), the reciprocals of its
-    /// diagonal and τ (…, nv), N·m or N.
+    /// x (…, nv) with M x = τ, rad/s² or m/s², by the factor of `cholesky`: L (…, nv, nv), the
+    /// reciprocals of its diagonal and τ (…, nv), N·m or N.
     fn cholesky_solve<'py>(
         &self,
         py: Python<'py>,
@@ -122,8 +125,8 @@ impl Robot {
         )
     }
 
-    /// The factors of `ltdl` without M, by the spatial operators of articulated bodies: L (…, nv, nv) and the
-    /// reciprocals of D (…, nv), 1/(kg·m²) or 1/kg; q (…, nq).
+    /// The factors of `ltdl` without M, by the spatial operators of articulated bodies: L (…, nv,
+    /// nv) and the reciprocals of D (…, nv), 1/(kg·m²) or 1/kg; q (…, nq).
     #[pyo3(signature = (q, effects = None))]
     fn spatial_operator_ltdl<'py>(
         &self,
@@ -143,7 +146,8 @@ impl Robot {
         )
     }
 
-    /// M(q)⁻¹ (…, nv, nv), 1/(kg·m²) or 1/kg, without M, by the spatial operators of articulated bodies; q (…, nq).
+    /// M(q)⁻¹ (…, nv, nv), 1/(kg·m²) or 1/kg, without M, by the spatial operators of articulated
+    /// bodies; q (…, nq).
     #[pyo3(signature = (q, effects = None))]
     fn spatial_operator_inverse<'py>(
         &self,
@@ -180,9 +184,9 @@ impl Robot {
         )
     }
 
-    /// The estimated error (…, nv), rad/s² or m/s², that rounding leaves in a solution q̈ (…, nv) of M q̈ = b: M
-    /// (…, nv, nv), L and the reciprocals of D of `ltdl`, q̈, and the sums of the magnitudes of the terms of b
-    /// (…, nv), N·m or N.
+    /// The estimated error (…, nv), rad/s² or m/s², that rounding leaves in a solution q̈ (…, nv)
+    /// of M q̈ = b: M (…, nv, nv), L and the reciprocals of D of `ltdl`, q̈, and the sums of the
+    /// magnitudes of the terms of b (…, nv), N·m or N.
     fn acceleration_error<'py>(
         &self,
         py: Python<'py>,

@@ -22,8 +22,8 @@ impl Robot {
         )
     }
 
-    /// J (…, 6, nv) of a body with v = J q̇, angular rows first; q (…, nq). ``frame``: "local", "world" or
-    /// "local_world_aligned".
+    /// J (…, 6, nv) of a body with v = J q̇, angular rows first; q (…, nq). ``frame``: "local",
+    /// "world" or "local_world_aligned".
     #[pyo3(signature = (q, body, frame = "local"))]
     fn jacobian<'py>(
         &self,
@@ -67,8 +67,8 @@ impl Robot {
         )
     }
 
-    /// Rotation matrices (…, bodies, 3, 3) from each body's frame to the base's, and positions (…, bodies, 3), m; q
-    /// (…, nq).
+    /// Rotation matrices (…, bodies, 3, 3) from each body's frame to the base's, and positions (…,
+    /// bodies, 3), m; q (…, nq).
     #[pyo3(signature = (q))]
     fn poses<'py>(&self, py: Python<'py>, q: &Array<'py>) -> PyResult<Bound<'py, PyTuple>> {
         self.several(
@@ -80,8 +80,8 @@ impl Robot {
         )
     }
 
-    /// Spatial velocities (rad/s, m/s) and accelerations (rad/s², m/s²) of all bodies, each (…, bodies, 6), angular
-    /// part first; q (…, nq), q̇ and q̈ (…, nv).
+    /// Spatial velocities (rad/s, m/s) and accelerations (rad/s², m/s²) of all bodies, each (…,
+    /// bodies, 6), angular part first; q (…, nq), q̇ and q̈ (…, nv).
     #[pyo3(signature = (q, qd, qdd, frame = "local", effects = None))]
     fn kinematics<'py>(
         &self,
@@ -103,7 +103,8 @@ impl Robot {
         )
     }
 
-    /// Mass (…), kg, position (…, 3), m, and velocity (…, 3), m/s, of the centre of mass; q (…, nq), q̇ (…, nv).
+    /// Mass (…), kg, position (…, 3), m, and velocity (…, 3), m/s, of the centre of mass; q (…,
+    /// nq), q̇ (…, nv).
     #[pyo3(signature = (q, qd, effects = None))]
     fn center_of_mass<'py>(
         &self,
@@ -139,7 +140,8 @@ impl Robot {
         )
     }
 
-    /// q (…, nq) with quaternions of unit length, and angles of continuous joints within half a turn.
+    /// q (…, nq) with quaternions of unit length, and angles of continuous joints within half a
+    /// turn.
     ///
     /// Raises NoAttitude for a quaternion of length zero.
     fn normalise<'py>(&self, py: Python<'py>, q: &Array<'py>) -> PyResult<Array<'py>> {

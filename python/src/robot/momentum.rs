@@ -40,7 +40,8 @@ impl Robot {
         self.one(py, Which::PotentialEnergy, &effects, &[self.q(q)], &[])
     }
 
-    /// The momentum of all bodies about the base's origin (…, 6): N·m·s, then N·s; q (…, nq), q̇ (…, nv).
+    /// The momentum of all bodies about the base's origin (…, 6): N·m·s, then N·s; q (…, nq), q̇
+    /// (…, nv).
     #[pyo3(signature = (q, qd, effects = None))]
     fn momentum<'py>(
         &self,
@@ -59,7 +60,8 @@ impl Robot {
         )
     }
 
-    /// The momentum of all bodies about their centre of mass (…, 6): N·m·s, then N·s; q (…, nq), q̇ (…, nv).
+    /// The momentum of all bodies about their centre of mass (…, 6): N·m·s, then N·s; q (…, nq), q̇
+    /// (…, nv).
     #[pyo3(signature = (q, qd, effects = None))]
     fn centroidal_momentum<'py>(
         &self,
@@ -135,8 +137,8 @@ impl Robot {
         )
     }
 
-    /// q̇ (…, nv) with the rates of the free base for which the momentum of all bodies about the base's origin is h
-    /// (…, 6); q (…, nq), q̇ (…, nv).
+    /// q̇ (…, nv) with the rates of the free base for which the momentum of all bodies about the
+    /// base's origin is h (…, 6); q (…, nq), q̇ (…, nv).
     #[pyo3(signature = (q, qd, h, effects = None))]
     fn base_velocity_from_momentum<'py>(
         &self,

@@ -9,8 +9,8 @@ use crate::error::wanted;
 
 #[pymethods]
 impl Robot {
-    /// Y (…, nv, bodies, 10) with τ = Y φ, φ of a body: m, m c (3), then Ixx, Ixy, Iyy, Ixz, Iyz, Izz about the
-    /// origin of its frame whose z is the joint's axis; q (…, nq), q̇ and q̈ (…, nv).
+    /// Y (…, nv, bodies, 10) with τ = Y φ, φ of a body: m, m c (3), then Ixx, Ixy, Iyy, Ixz, Iyz,
+    /// Izz about the origin of its frame whose z is the joint's axis; q (…, nq), q̇ and q̈ (…, nv).
     #[pyo3(signature = (q, qd, qdd, effects = None))]
     fn regressor<'py>(
         &self,
@@ -58,8 +58,8 @@ impl Robot {
         )
     }
 
-    /// The row (…, bodies, 10) of one velocity coordinate in `regressor`, given by its number or its joint, by powers of the bodies; q (…, nq), q̇ and q̈
-    /// (…, nv).
+    /// The row (…, bodies, 10) of one velocity coordinate in `regressor`, given by its number or
+    /// its joint, by powers of the bodies; q (…, nq), q̇ and q̈ (…, nv).
     #[pyo3(signature = (q, qd, qdd, coordinate, effects = None))]
     fn regressor_row<'py>(
         &self,
@@ -81,8 +81,8 @@ impl Robot {
         )
     }
 
-    /// φ (bodies, 10) of `regressor`, float64: the inertial parameters of the bodies with the loads on them, kg, kg·m
-    /// and kg·m².
+    /// φ (bodies, 10) of `regressor`, float64: the inertial parameters of the bodies with the loads
+    /// on them, kg, kg·m and kg·m².
     #[pyo3(signature = (effects = None))]
     fn inertial_parameters<'py>(
         &self,
@@ -100,8 +100,9 @@ impl Robot {
         )
     }
 
-    /// The regressor of friction (…, nv, 2): of each coordinate q̇ for the coefficient of `Viscous`, N·m·s/rad or
-    /// N·s/m, and the smooth sign of `Coulomb` of this width, rad/s or m/s, for its torque, N·m or N; q̇ (…, nv).
+    /// The regressor of friction (…, nv, 2): of each coordinate q̇ for the coefficient of
+    /// `Viscous`, N·m·s/rad or N·s/m, and the smooth sign of `Coulomb` of this width, rad/s or m/s,
+    /// for its torque, N·m or N; q̇ (…, nv).
     fn friction_regressor<'py>(
         &self,
         py: Python<'py>,

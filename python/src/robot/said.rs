@@ -126,9 +126,9 @@ impl Robot {
 
 #[pymethods]
 impl Robot {
-    /// Advice on the file, as ``cargo xtask import`` prints it, but for what that finds at
-    /// random states: impossible inertias, numbers in other units, limits of torque below gravity's,
-    /// and what is left out. Options in it are those of the command: ``--motors`` is ``actuated`` of
+    /// Advice on the file, as ``cargo xtask import`` prints it, but for what that finds at random
+    /// states: impossible inertias, numbers in other units, limits of torque below gravity's, and
+    /// what is left out. Options in it are those of the command: ``--motors`` is ``actuated`` of
     /// `Loops`. Empty for a robot of the library.
     #[getter]
     fn advice(&self) -> Vec<PyAdvice> {

@@ -1,4 +1,5 @@
-//! Positions, velocities and accelerations of joints in the library's coordinates, from one-coordinate chains.
+//! Positions, velocities and accelerations of joints in the library's coordinates, from
+//! one-coordinate chains.
 
 use dynamics_core::glam::{DMat3, DQuat, DVec3};
 
@@ -6,7 +7,8 @@ use super::dual::Dual;
 use super::energy::{axes, identity, moved};
 use crate::description::Kind;
 
-/// The motion of a joint in the library's coordinates, and the derivatives ∂v/∂u̇, a column for each coordinate u.
+/// The motion of a joint in the library's coordinates, and the derivatives ∂v/∂u̇, a column for
+/// each coordinate u.
 #[derive(Clone, Debug)]
 pub struct JointMotion {
     /// Position: (x, y, z, w) of a quaternion first.

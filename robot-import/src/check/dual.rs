@@ -1,4 +1,5 @@
-//! Dual numbers a + b ε, ε² = 0: a value and its derivative, of numbers that may be dual themselves.
+//! Dual numbers a + b ε, ε² = 0: a value and its derivative, of numbers that may be dual
+//! themselves.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -8,7 +9,8 @@ pub trait Number:
 {
     /// A constant.
     fn constant(x: f64) -> Self;
-    /// The product with a constant: half the work of that with a number whose derivatives are zero, and the same bits.
+    /// The product with a constant: half the work of that with a number whose derivatives are zero,
+    /// and the same bits.
     fn scaled(self, by: f64) -> Self;
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);

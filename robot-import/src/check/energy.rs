@@ -1,11 +1,13 @@
 //! Inverse dynamics by Lagrange's equations of the file's links.
 //!
-//! d/dt ∂L/∂u̇ − ∂L/∂u = τ with L = Σ ½ tr(Ȧ J Ȧᵀ) + Σ m gᵀ c over all links of the file, A a link's 4 × 4 pose and J
-//! its pseudo-inertia, is τᵢ = Σ tr(∂A/∂uᵢ J (Ä − G)ᵀ), G the acceleration of gravity as such a matrix (Uicker 1965). A link
-//! outward of coordinate i has ∂A/∂uᵢ = Qᵢ A with the same Qᵢ, so that the sum is one of A J (Ä − G)ᵀ over them, and the work
-//! grows with the number of links (Hollerbach 1980). Ä and Qᵢ are derivatives by dual numbers. It shares no code with the
-//! library, and nothing with the importer but the numbers of the file: no link is merged, no axis is aligned, and a ball joint
-//! or a free joint is a chain of joints of one coordinate each.
+//! d/dt ∂L/∂u̇ − ∂L/∂u = τ with L = Σ ½ tr(Ȧ J Ȧᵀ) + Σ m gᵀ c over all links of the file, A a
+//! link's 4 × 4 pose and J its pseudo-inertia, is τᵢ = Σ tr(∂A/∂uᵢ J (Ä − G)ᵀ), G the acceleration
+//! of gravity as such a matrix (Uicker 1965). A link outward of coordinate i has ∂A/∂uᵢ = Qᵢ A with
+//! the same Qᵢ, so that the sum is one of A J (Ä − G)ᵀ over them, and the work grows with the
+//! number of links (Hollerbach 1980). Ä and Qᵢ are derivatives by dual numbers. It shares no code
+//! with the library, and nothing with the importer but the numbers of the file: no link is merged,
+//! no axis is aligned, and a ball joint or a free joint is a chain of joints of one coordinate
+//! each.
 
 use dynamics_core::glam::DVec3;
 
@@ -18,8 +20,8 @@ use crate::selection::{Role, Selected};
 /// g of [`dynamics_core::effects::Gravity::EARTH`], m/s².
 const G: f64 = 9.81;
 
-/// One-coordinate joints in place of a joint's, each with the component of its axis: turns about x, y, z are 0 to 2,
-/// translations along them 3 to 5.
+/// One-coordinate joints in place of a joint's, each with the component of its axis: turns about x,
+/// y, z are 0 to 2, translations along them 3 to 5.
 pub const BALL: [usize; 3] = [2, 1, 0];
 /// Of a planar joint.
 pub const PLANE: [usize; 3] = [3, 4, 2];

@@ -13,11 +13,11 @@ use crate::number::Attitude;
 use crate::selection::Selected;
 use crate::tree::Tree;
 
-/// The largest difference between frames on the tree's bodies and on the file's links at random positions: of origins in m, of
-/// axes of length one.
+/// The largest difference between frames on the tree's bodies and on the file's links at random
+/// positions: of origins in m, of axes of length one.
 ///
-/// The links' poses are those of the energies that torques are checked with, the bodies' those of the library; the tree has the
-/// numbers of the file, not the exact ones.
+/// The links' poses are those of the energies that torques are checked with, the bodies' those of
+/// the library; the tree has the numbers of the file, not the exact ones.
 ///
 /// # Errors
 /// A robot that is too large, or that the library refuses.

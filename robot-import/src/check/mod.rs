@@ -22,7 +22,8 @@ use random::Random;
 
 /// The number of states.
 pub const STATES: usize = 100;
-/// The largest random position, rad or m: attitudes within a quarter turn keep the chain of a ball joint away from its singularity.
+/// The largest random position, rad or m: attitudes within a quarter turn keep the chain of a ball
+/// joint away from its singularity.
 const SIZE: f64 = 1.2;
 /// The largest difference of torques, of full scale.
 pub const MOST: f64 = 1e-10;
@@ -42,7 +43,8 @@ pub struct Checked {
     pub f32: f64,
     /// Of the frames of written loops from those on the file's links, m, if there are some.
     pub loops: Option<f64>,
-    /// The logarithm of the condition number of M, the largest of the states, or of the first of them for a large robot.
+    /// The logarithm of the condition number of M, the largest of the states, or of the first of
+    /// them for a large robot.
     pub condition: f64,
     /// The motions and the torques, for peers.
     #[serde(skip)]
@@ -173,8 +175,8 @@ fn largest(a: &[f64], b: &[f64]) -> f64 {
     })
 }
 
-/// The decadic logarithm of the ratio of the largest pivot of M to the smallest: a bound from below of that of the
-/// condition number. Infinite if M is not positive definite.
+/// The decadic logarithm of the ratio of the largest pivot of M to the smallest: a bound from below
+/// of that of the condition number. Infinite if M is not positive definite.
 fn condition(m: &[Vec<f64>]) -> f64 {
     let mut rest: Vec<Vec<f64>> = m.to_vec();
     let (mut most, mut least) = (0.0_f64, f64::INFINITY);

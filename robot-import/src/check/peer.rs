@@ -1,8 +1,9 @@
 //! Torques by Pinocchio or MuJoCo, where a Python has them.
 //!
-//! A description from elsewhere is hostile until it is read. The Python is isolated: it sees neither the current folder nor
-//! the user's variables and packages, runs in an empty folder of its own, and has bounds of time and output. It gets the text
-//! of the description as data on its stdin, so that a peer opens no file for it.
+//! A description from elsewhere is hostile until it is read. The Python is isolated: it sees
+//! neither the current folder nor the user's variables and packages, runs in an empty folder of its
+//! own, and has bounds of time and output. It gets the text of the description as data on its
+//! stdin, so that a peer opens no file for it.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -18,7 +19,8 @@ use crate::selection::{Role, Selected};
 use crate::tree::Tree;
 
 const SCRIPT: &str = include_str!("peer.py");
-/// The exit status of the script where there is no package, or a kind of joint that it does not compare.
+/// The exit status of the script where there is no package, or a kind of joint that it does not
+/// compare.
 const NO_PEER: i32 = 3;
 
 /// The Python that has the peers.
@@ -104,7 +106,8 @@ struct Answer {
     torques: Vec<Vec<f64>>,
 }
 
-/// The torques of a check compared with those of a peer, which reads `text`; why not, if there is none.
+/// The torques of a check compared with those of a peer, which reads `text`; why not, if there is
+/// none.
 ///
 /// # Errors
 /// [`NoPeer`].
@@ -224,10 +227,12 @@ fn locked_at(kind: Kind, position: f64) -> Vec<f64> {
 /// The script on a request, isolated and within its bounds.
 fn started(python: &Python, request: Vec<u8>) -> Result<Ended, NoPeer> {
     let failed = |reason: String| NoPeer::Failed(format!("{}: {reason}", python.program));
-    // Not the current folder, where modules may be that came with the description; MuJoCo writes its log there, too.
+    // Not the current folder, where modules may be that came with the description; MuJoCo writes
+    // its log there, too.
     let folder = tempfile::tempdir().map_err(|error| failed(error.to_string()))?;
     let isolation: &[&str] = match python.environment {
-        // Without -P, which Python has from 3.11 on, the script itself takes the folder from its path.
+        // Without -P, which Python has from 3.11 on, the script itself takes the folder from its
+        // path.
         true => &[],
         false => &["-I"],
     };

@@ -44,7 +44,8 @@ pub enum Failure {
     Bytes,
 }
 
-/// Runs a command with a text on its stdin, in a group of processes of its own, which is ended with it.
+/// Runs a command with a text on its stdin, in a group of processes of its own, which is ended with
+/// it.
 ///
 /// # Errors
 /// [`Failure`].
@@ -58,7 +59,8 @@ pub fn run(command: &mut Command, input: Vec<u8>, bounds: Bounds) -> Result<Ende
         .stderr(Stdio::piped());
     let mut child = piped.spawn().map_err(Failure::System)?;
     if let Some(mut stdin) = child.stdin.take() {
-        // A process that does not read must not block this one; one that ends early says why on stderr.
+        // A process that does not read must not block this one; one that ends early says why on
+        // stderr.
         thread::spawn(move || stdin.write_all(&input));
     }
     let stdout = in_thread(child.stdout.take(), move |pipe| {

@@ -114,7 +114,8 @@ impl Board {
     }
 }
 
-/// The text for so many joints: a line that ends in the number of another joint is left out, and the mark of a table's row.
+/// The text for so many joints: a line that ends in the number of another joint is left out, and
+/// the mark of a table's row.
 pub(super) fn of_joints(text: &str, joints: usize) -> String {
     let number = |line: &str, start: &str, end: &str| {
         let (_, marked) = line.rsplit_once(start)?;

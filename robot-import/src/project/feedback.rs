@@ -1,8 +1,9 @@
-//! The feedback, motion and drives of a project for a robot, from its inertia and the stiffness of gravity, and what
-//! no feedback holds, in words.
+//! The feedback, motion and drives of a project for a robot, from its inertia and the stiffness of
+//! gravity, and what no feedback holds, in words.
 //!
-//! The template's law takes gravity at the reference and has the stiffness ω² M, so that ω² M + ∂g/∂q has to be positive definite
-//! wherever the robot comes: else gravity pulls it away from its reference faster than the feedback returns it.
+//! The template's law takes gravity at the reference and has the stiffness ω² M, so that ω² M +
+//! ∂g/∂q has to be positive definite wherever the robot comes: else gravity pulls it away from its
+//! reference faster than the feedback returns it.
 
 use crate::description::Kind;
 use crate::error::Result;
@@ -15,7 +16,8 @@ pub const OMEGA_N: f64 = 25.0;
 const MOST_OMEGA_N: f64 = 80.0;
 /// The share of the feedback's stiffness that gravity may take.
 const SHARE: f64 = 0.5;
-/// Configurations within the limits at which inertia and gravity are looked at, besides the start of the motion.
+/// Configurations within the limits at which inertia and gravity are looked at, besides the start
+/// of the motion.
 const SAMPLES: usize = 64;
 /// The range of a joint without limits, to both sides, rad or m: the way of the excitation.
 const FREE: f64 = 1.6;
@@ -23,21 +25,24 @@ const FREE: f64 = 1.6;
 const RESOLUTION: f64 = std::f64::consts::TAU / 16_384.0;
 /// The bandwidth of the observer, rad/s: as in the template's `control.rs`.
 const OBSERVER: f64 = 250.0;
-/// So many steps of its encoder a joint's range has at least, or it stands still: as in the template's `scene.rs`.
+/// So many steps of its encoder a joint's range has at least, or it stands still: as in the
+/// template's `scene.rs`.
 const NARROW: f64 = 32.0;
 /// As in the template's `scene.rs`, rad/s².
 const MOST_ACCELERATION: f64 = 1e5;
 
-/// The dry friction of a joint relative to its inertia up to which feedback by that inertia holds it, rad/s²; at twice this it
-/// does not.
+/// The dry friction of a joint relative to its inertia up to which feedback by that inertia holds
+/// it, rad/s²; at twice this it does not.
 const MOST_STOPPING: f64 = 5e5;
 
-/// The numbers of a project that depend on the robot's inertia, and what its user has to know of them.
+/// The numbers of a project that depend on the robot's inertia, and what its user has to know of
+/// them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feedback {
     /// The natural frequency, rad/s.
     pub omega_n: f64,
-    /// The limits of the project at a joint, where it does otherwise than the file says: a sentence each.
+    /// The limits of the project at a joint, where it does otherwise than the file says: a sentence
+    /// each.
     pub words: Vec<String>,
 }
 
@@ -51,7 +56,8 @@ impl Default for Feedback {
 }
 
 impl Feedback {
-    /// The feedback of a tree of joints of one degree of freedom each; 25 rad/s and no words for others.
+    /// The feedback of a tree of joints of one degree of freedom each; 25 rad/s and no words for
+    /// others.
     ///
     /// # Errors
     /// As of [`AnyModel::of`].
@@ -161,7 +167,8 @@ impl Feedback {
         }
     }
 
-    /// The greatest torque that the feedback asks for when all encoders are half a step off, from a row of M.
+    /// The greatest torque that the feedback asks for when all encoders are half a step off, from a
+    /// row of M.
     fn of_rounding(&self, tree: &Tree, mass: &[f64]) -> f64 {
         let of = |(mass, body): (&f64, &Body)| mass.abs() * 0.5 * RESOLUTION * ratio(body.kind);
         let moved: f64 = mass.iter().zip(&tree.bodies).map(of).sum();
@@ -223,7 +230,8 @@ impl Place {
         factor(&stiffness).err()
     }
 
-    /// The inertia of each joint with all others free to give way, 1/(M⁻¹)ⱼⱼ, or the joint that moves none.
+    /// The inertia of each joint with all others free to give way, 1/(M⁻¹)ⱼⱼ, or the joint that
+    /// moves none.
     fn inertia(&self) -> std::result::Result<Vec<f64>, usize> {
         let n = self.mass.len();
         let factor = factor(&self.mass)?;
@@ -242,7 +250,8 @@ impl Place {
     }
 }
 
-/// L below the diagonal and D on it, of a symmetric matrix L D Lᵀ; the row of the first pivot that is not positive.
+/// L below the diagonal and D on it, of a symmetric matrix L D Lᵀ; the row of the first pivot that
+/// is not positive.
 fn factor(matrix: &[Vec<f64>]) -> std::result::Result<Vec<Vec<f64>>, usize> {
     let mut rows = matrix.to_vec();
     for k in 0..rows.len() {
@@ -355,7 +364,8 @@ fn needed(tree: &Tree, model: &AnyModel, home: &[f64]) -> Vec<f64> {
     needed
 }
 
-/// A configuration within the limits: a sequence that fills the box evenly, Roberts (2018), by the roots of x^(n+1) = x + 1.
+/// A configuration within the limits: a sequence that fills the box evenly, Roberts (2018), by the
+/// roots of x^(n+1) = x + 1.
 fn sample(tree: &Tree, k: usize) -> Vec<f64> {
     let n = tree.bodies.len();
     let mut root = 2.0_f64;

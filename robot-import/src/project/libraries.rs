@@ -1,4 +1,5 @@
-//! The library's crates as a project carries them: their sources, and manifests that need no workspace.
+//! The library's crates as a project carries them: their sources, and manifests that need no
+//! workspace.
 
 use super::{Library, ProjectError};
 
@@ -12,7 +13,8 @@ struct Crate {
 const CRATES: &[Crate] = include!(concat!(env!("OUT_DIR"), "/crates.rs"));
 /// The manifest of the repository, from which those of its crates inherit.
 const WORKSPACE: &str = include_str!("../../../Cargo.toml");
-/// The versions of the registry's crates that the repository's tests have compiled. Cargo drops what a project does not use.
+/// The versions of the registry's crates that the repository's tests have compiled. Cargo drops
+/// what a project does not use.
 pub(super) const LOCK: &str = include_str!("../../../Cargo.lock");
 const LICENCES: [(&str, &str); 2] = [
     (

@@ -1,8 +1,10 @@
-//! A project outside the repository: firmware in Rust, for a board or simulated, or a static library for C.
+//! A project outside the repository: firmware in Rust, for a board or simulated, or a static
+//! library for C.
 //!
-//! The templates are in `template/rust`, `template/c` and `template/board`; the first two are templates of `cargo generate` as
-//! well. A placeholder is replaced by text, nothing else: no condition, no loop. Of a board's files, lines of joints that the
-//! robot does not have are left out.
+//! The templates are in `template/rust`, `template/c` and `template/board`; the first two are
+//! templates of `cargo generate` as well. A placeholder is replaced by text, nothing else: no
+//! condition, no loop. Of a board's files, lines of joints that the robot does not have are left
+//! out.
 
 mod board;
 mod choice;
@@ -72,7 +74,8 @@ pub struct RobotFile {
     pub v: usize,
     /// Whether joints are coupled (mimic joints): the projects drive each joint by itself.
     pub coupled: bool,
-    /// Which of `VISCOUS`, `COULOMB`, `ARMATURE`, `SPRING` have a number other than zero. The others are left out of the scene.
+    /// Which of `VISCOUS`, `COULOMB`, `ARMATURE`, `SPRING` have a number other than zero. The
+    /// others are left out of the scene.
     pub effects: FileEffects,
     /// The feedback of its project.
     pub feedback: Feedback,
@@ -169,7 +172,8 @@ pub enum RobotOnly {
 const COUPLED: &str = "the joints coupled by `COUPLING` are driven each by itself in this project: use the \
                        Transmission in src/robot.rs where a motor moves several of them";
 
-/// Fails if a folder has files, or a project cannot have its name: what can be said before the robot is read.
+/// Fails if a folder has files, or a project cannot have its name: what can be said before the
+/// robot is read.
 ///
 /// # Errors
 /// [`ProjectError::NotEmpty`], [`ProjectError::Name`].
@@ -185,7 +189,8 @@ pub fn check_folder(folder: &Path, name: &str) -> Result<(), ProjectError> {
     check_name(name)
 }
 
-/// Writes a project into a folder that is empty or not there, and formats it if rustfmt is installed.
+/// Writes a project into a folder that is empty or not there, and formats it if rustfmt is
+/// installed.
 ///
 /// # Errors
 /// [`ProjectError`]; no file that was there is overwritten.
@@ -285,14 +290,16 @@ fn write(
     Ok(())
 }
 
-/// Formats Rust files, where rustfmt is installed: how long a line is depends on the project's name.
+/// Formats Rust files, where rustfmt is installed: how long a line is depends on the project's
+/// name.
 fn format(files: &[PathBuf], libraries: &Path) {
     let sources = (files.iter()).filter(|path| {
         path.extension().is_some_and(|end| end == "rs") && !path.starts_with(libraries)
     });
     let mut rustfmt = Command::new("rustfmt");
     rustfmt.args(["--quiet", "--edition", "2024"]);
-    // In the project: a `rust-toolchain.toml` of the current folder would name the program that runs.
+    // In the project: a `rust-toolchain.toml` of the current folder would name the program that
+    // runs.
     if let Some(folder) = files.first().and_then(|file| file.parent()) {
         rustfmt.current_dir(folder);
     }
@@ -378,7 +385,8 @@ fn optional(dependency: &str) -> String {
     dependency.trim_end_matches(" }").to_owned() + ", optional = true }"
 }
 
-/// The text with each `{{placeholder}}` replaced by its value; values are not searched for further ones.
+/// The text with each `{{placeholder}}` replaced by its value; values are not searched for further
+/// ones.
 fn substitute(text: &str, values: &[Value]) -> String {
     let mut parts = text.split("{{");
     let mut result = parts.next().unwrap_or_default().to_owned();
@@ -396,7 +404,8 @@ fn substitute(text: &str, values: &[Value]) -> String {
 }
 
 impl FileEffects {
-    /// The names to import, the type and the value of a scene of these effects of the rigid body and those of the file.
+    /// The names to import, the type and the value of a scene of these effects of the rigid body
+    /// and those of the file.
     fn in_scene(self, rigid_body: &[&str]) -> (String, String, String) {
         let of_file = [
             (self.viscous, "Viscous", "VISCOUS"),

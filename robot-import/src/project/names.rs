@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 use super::ProjectError;
 use crate::text::{c_comment, string_literal};
 
-/// Names that no crate with these dependencies can have: Rust's keywords, its libraries and its primitive types, which a
-/// crate of their name would hide in programs and tests; Cargo's folders; the dependencies; the program `watch`.
+/// Names that no crate with these dependencies can have: Rust's keywords, its libraries and its
+/// primitive types, which a crate of their name would hide in programs and tests; Cargo's folders;
+/// the dependencies; the program `watch`.
 const RESERVED: &str = "
     abstract as async await become box break const continue crate do dyn else enum extern false final fn for gen if impl
     in let loop macro match mod move mut override priv pub ref return self static struct super trait true try type
@@ -53,9 +54,9 @@ pub(super) fn toml_string(text: &str) -> Option<String> {
     Some(format!("\"{escaped}\""))
 }
 
-/// The lines of a C enumeration of joints, or of other parts, each with another constant: `kind` and the name in upper case,
-/// with the part's number where another one or the header, whose constants are `taken`, has the same. A comment has the
-/// name where the constant does not tell it.
+/// The lines of a C enumeration of joints, or of other parts, each with another constant: `kind`
+/// and the name in upper case, with the part's number where another one or the header, whose
+/// constants are `taken`, has the same. A comment has the name where the constant does not tell it.
 pub(super) fn enumerators(prefix: &str, kind: &str, parts: &[String], taken: &[&str]) -> String {
     let plain: Vec<String> = parts.iter().map(|part| constant(part)).collect();
     let is_single = |name: &String| {
@@ -86,7 +87,8 @@ pub(super) fn enumerators(prefix: &str, kind: &str, parts: &[String], taken: &[&
     lines.join("\n")
 }
 
-/// The name in upper case with an underscore for each other character; empty if there would be nothing else.
+/// The name in upper case with an underscore for each other character; empty if there would be
+/// nothing else.
 fn constant(name: &str) -> String {
     if !name.contains(|c: char| c.is_ascii_alphanumeric()) {
         return String::new();

@@ -1,5 +1,5 @@
-//! The files of the templates. The suffix `.liquid`, which `cargo generate` removes, keeps Cargo from reading manifests
-//! with placeholders.
+//! The files of the templates. The suffix `.liquid`, which `cargo generate` removes, keeps Cargo
+//! from reading manifests with placeholders.
 
 /// A file of a template.
 #[derive(Debug)]
@@ -106,7 +106,8 @@ pub(super) const RTIC: &[File] = &[
     file!("board/common" / "src/main.rs" ".liquid"),
 ];
 
-/// The constants of C that templates define or use, without the prefix that the project's name is to them.
+/// The constants of C that templates define or use, without the prefix that the project's name is
+/// to them.
 pub(super) fn constants(templates: &[File]) -> Vec<&'static str> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let of = |text: &'static str| {

@@ -375,7 +375,8 @@ fn no_two_joints_have_one_constant() {
     let expected = "    ARM_JOINT_A_B_0_0 = 0, /* \"a-b\" */\n    ARM_JOINT_A_B_1 = 1, /* \"a.b\" */\n    \
                     ARM_JOINT_A_B_0 = 2,\n    ARM_JOINT_C = 3,";
     assert_eq!(lines(&["a-b", "a.b", "a_b_0", "c"]), expected);
-    // Names without a letter of ASCII, names that are each other's numbered form, and the header's own.
+    // Names without a letter of ASCII, names that are each other's numbered form, and the header's
+    // own.
     let all = ["", "é", "-", "1", "a", "A", "a_4", "a_4_4", "a 5"];
     let text = lines(&all);
     let mut names: Vec<&str> = text

@@ -6,7 +6,8 @@ use crate::description::shortened;
 use crate::error::{Problem, Result};
 use crate::limits::MOST_DECLARATION;
 
-/// The text of a file, and a sentence if it is not of the encoding that it declares, or of UTF-8 if it declares none.
+/// The text of a file, and a sentence if it is not of the encoding that it declares, or of UTF-8 if
+/// it declares none.
 ///
 /// # Errors
 /// An encoding that is not known, by its name, and bytes that are none of it.

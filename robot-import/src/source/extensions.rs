@@ -1,4 +1,5 @@
-//! Extensions of URDF that readers in use know: read where its meaning is documented, and named where it is left out.
+//! Extensions of URDF that readers in use know: read where its meaning is documented, and named
+//! where it is left out.
 //!
 //! | read | meaning, and by whom |
 //! |---|---|
@@ -196,7 +197,8 @@ fn is_number(text: &str) -> bool {
     words.peek().is_some() && words.all(|word| word.parse::<f64>().is_ok())
 }
 
-/// The names of the elements in a part of a link or a joint, and of its attributes, that have numbers and are none of the core's.
+/// The names of the elements in a part of a link or a joint, and of its attributes, that have
+/// numbers and are none of the core's.
 fn unknown(node: Node<'_, '_>, names: &mut BTreeSet<String>) {
     let own = tag(node);
     match CORE.iter().find(|(other, _)| *other == own) {
@@ -356,7 +358,8 @@ fn ros2_control(node: Node<'_, '_>, found: &mut Found) {
     }
 }
 
-/// Springs of `<gazebo reference="JOINT">`, and the names of what else it states of a link's or a joint's motion.
+/// Springs of `<gazebo reference="JOINT">`, and the names of what else it states of a link's or a
+/// joint's motion.
 fn gazebo(
     node: Node<'_, '_>,
     joints: &mut [Joint],

@@ -23,7 +23,8 @@ use crate::description::{Description, Format, Kind, Pose, shortened};
 use crate::error::{ImportError, Problem, Result};
 use crate::limits::{LEAST, MOST, MOST_BYTES, MOST_LINKS, MOST_OF_JOINT, STACK};
 
-/// Runs what is recursive in the nesting of a file on a stack that is large enough, whichever thread calls.
+/// Runs what is recursive in the nesting of a file on a stack that is large enough, whichever
+/// thread calls.
 fn on_a_large_stack<T: Send>(work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
     // WebAssembly has no threads: its only stack is as large as its linker was told.
     if cfg!(target_family = "wasm") {
@@ -69,7 +70,8 @@ pub fn read(path: &Path) -> Result<Description> {
     read_below(path, None)
 }
 
-/// The robot that a file describes, which may include files below a folder that its user names, besides those beside it.
+/// The robot that a file describes, which may include files below a folder that its user names,
+/// besides those beside it.
 ///
 /// # Errors
 /// As [`read`].
@@ -80,8 +82,8 @@ pub fn read_below(path: &Path, include_root: Option<&Path>) -> Result<Descriptio
     Ok(robot)
 }
 
-/// The description in a file as another reader is given it: a URDF as it is, an MJCF with its included files and without the
-/// names of others, so that the reader opens none.
+/// The description in a file as another reader is given it: a URDF as it is, an MJCF with its
+/// included files and without the names of others, so that the reader opens none.
 ///
 /// # Errors
 /// As [`read`].
@@ -97,7 +99,8 @@ pub fn for_peer(path: &Path, include_root: Option<&Path>) -> Result<String> {
     })
 }
 
-/// A URDF with its numbers as every reader takes them, without blanks and line ends around them, which XML allows.
+/// A URDF with its numbers as every reader takes them, without blanks and line ends around them,
+/// which XML allows.
 ///
 /// # Errors
 /// As [`read`].
@@ -110,7 +113,8 @@ pub fn with_plain_numbers(path: &Path) -> Result<String> {
     })
 }
 
-/// The text of a file that is not too large, and a sentence if it is not of the encoding that it declares.
+/// The text of a file that is not too large, and a sentence if it is not of the encoding that it
+/// declares.
 fn text(path: &Path) -> Result<(String, Option<String>)> {
     let unreadable = |reason: std::io::Error| Problem::File {
         path: path.display().to_string(),
@@ -202,7 +206,8 @@ fn few_enough(count: usize) -> Result<()> {
     .into())
 }
 
-/// What both formats require: few enough links, different names, numbers of a robot's size, joints that are a tree.
+/// What both formats require: few enough links, different names, numbers of a robot's size, joints
+/// that are a tree.
 fn check(robot: &Description) -> Result<()> {
     few_enough(robot.links.len().max(robot.joints.len()))?;
     let links = robot.links.iter().map(|link| (&link.name, link.line));

@@ -1,5 +1,5 @@
-//! The text of a document with its numbers as every reader takes them: some refuse blanks and line ends around a number,
-//! which XML allows.
+//! The text of a document with its numbers as every reader takes them: some refuse blanks and line
+//! ends around a number, which XML allows.
 
 use std::fmt::Write as _;
 

@@ -1,8 +1,10 @@
-//! Texts that TinyXML-2, the reader of urdfdom and of MuJoCo, takes although they are not well-formed XML, made well-formed.
+//! Texts that TinyXML-2, the reader of urdfdom and of MuJoCo, takes although they are not
+//! well-formed XML, made well-formed.
 //!
-//! One pass over the text, linear in its length, of which the bounds of a hostile file are part: nesting and attributes are
-//! counted before a tree is built. What is changed keeps its line, and what is inserted is remembered, so that positions in
-//! errors are those of the file. Document types that could expand something are refused, not tolerated.
+//! One pass over the text, linear in its length, of which the bounds of a hostile file are part:
+//! nesting and attributes are counted before a tree is built. What is changed keeps its line, and
+//! what is inserted is remembered, so that positions in errors are those of the file. Document
+//! types that could expand something are refused, not tolerated.
 
 use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
@@ -67,7 +69,8 @@ struct Pass<'t> {
     depth: usize,
     /// The end of the root's name.
     root: Option<usize>,
-    /// The prefixes that the root declares, those that elements around the position do, and those that are used.
+    /// The prefixes that the root declares, those that elements around the position do, and those
+    /// that are used.
     of_root: BTreeSet<&'t str>,
     declared: HashMap<&'t str, usize>,
     declared_at: Vec<(usize, &'t str)>,
@@ -457,7 +460,8 @@ impl<'t> Pass<'t> {
         Ok(Next::At(at))
     }
 
-    /// An attribute: a declaration of a prefix below the root is left out, as names are taken with their prefixes.
+    /// An attribute: a declaration of a prefix below the root is left out, as names are taken with
+    /// their prefixes.
     fn attribute(
         &mut self,
         name: Range<usize>,
@@ -582,7 +586,8 @@ fn is_blank(text: &str) -> bool {
     text.bytes().all(|byte| byte.is_ascii_whitespace())
 }
 
-/// Whether what follows an `&` makes it a reference of XML: to a character, or one of the five names.
+/// Whether what follows an `&` makes it a reference of XML: to a character, or one of the five
+/// names.
 fn is_reference(rest: &str) -> bool {
     let word = rest
         .as_bytes()

@@ -212,7 +212,8 @@ fn quaternion(
     Ok((rotation, exact))
 }
 
-/// The orientation that version 1.0 does not have, as a sentence, where a link or a joint states it.
+/// The orientation that version 1.0 does not have, as a sentence, where a link or a joint states
+/// it.
 fn ignored_quaternion(node: Node<'_, '_>) -> Option<String> {
     node.attribute("quat_xyzw")?;
     let part = node.ancestors().skip(1).find(|node| {

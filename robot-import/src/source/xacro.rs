@@ -1,4 +1,5 @@
-//! Files of xacro, the macros of ROS: a URDF is what they expand to, and they are not expanded here.
+//! Files of xacro, the macros of ROS: a URDF is what they expand to, and they are not expanded
+//! here.
 
 use roxmltree::Node;
 
@@ -54,7 +55,8 @@ fn is_of_xacro(node: Node<'_, '_>) -> bool {
     xml::tag(node).starts_with("xacro:") || namespace.contains("xacro")
 }
 
-/// Fails at the first element or text that xacro would have expanded, other than in what is not read.
+/// Fails at the first element or text that xacro would have expanded, other than in what is not
+/// read.
 ///
 /// # Errors
 /// With line and element.
@@ -81,8 +83,8 @@ fn is_text(text: &str) -> bool {
     text.contains("${") || text.contains("$(")
 }
 
-/// The elements that are none of URDF, such as calls of macros without a prefix, and texts of xacro in what is not read; a
-/// sentence each.
+/// The elements that are none of URDF, such as calls of macros without a prefix, and texts of xacro
+/// in what is not read; a sentence each.
 pub fn left_out(root: Node<'_, '_>) -> Vec<String> {
     let lines = Lines::of(root.document().input_text());
     let line = |node| lines.line(xml::offset(node));

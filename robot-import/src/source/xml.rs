@@ -1,4 +1,5 @@
-//! XML with the limits of a robot's file: no document types that expand, and errors that name line and element.
+//! XML with the limits of a robot's file: no document types that expand, and errors that name line
+//! and element.
 
 use roxmltree::{Document, Node, ParsingOptions};
 
@@ -29,7 +30,8 @@ impl<'t> Xml<'t> {
         Ok(Self(Tolerant::of(text.trim_start_matches('\u{feff}'))?))
     }
 
-    /// The parsed file: entities other than the five of XML, and with them all expansion, are refused with the document type.
+    /// The parsed file: entities other than the five of XML, and with them all expansion, are
+    /// refused with the document type.
     ///
     /// # Errors
     /// The defect of the form, with line and column.
@@ -56,7 +58,8 @@ impl<'t> Xml<'t> {
     }
 }
 
-/// The name of an element as the file has it, with its prefix: readers of robots know no namespaces.
+/// The name of an element as the file has it, with its prefix: readers of robots know no
+/// namespaces.
 pub fn tag<'a>(node: Node<'a, '_>) -> &'a str {
     let name = node.tag_name().name();
     if node.tag_name().namespace().is_none() {

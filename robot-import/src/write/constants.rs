@@ -1,4 +1,5 @@
-//! The constants beside the robot in the Rust file: effects, their scene, and the coupling of joints.
+//! The constants beside the robot in the Rust file: effects, their scene, and the coupling of
+//! joints.
 
 use crate::number::literal;
 use crate::tree::{Body, Tree};
@@ -12,7 +13,8 @@ fn per_coordinate(tree: &Tree, of: fn(&Body) -> f64) -> Vec<f64> {
     each.collect::<Vec<_>>().concat()
 }
 
-/// The effects that the file states, and the scene of those that are not zero, which the compiler checks at its line.
+/// The effects that the file states, and the scene of those that are not zero, which the compiler
+/// checks at its line.
 pub fn effects(tree: &Tree, type_name: &str) -> String {
     let text = |values: &[f64]| {
         let values: Vec<String> = values.iter().map(|&x| literal(x)).collect();
@@ -57,7 +59,8 @@ pub fn effects(tree: &Tree, type_name: &str) -> String {
         "\n/// Viscous friction, N·m·s/rad or N·s/m.\npub const VISCOUS: Viscous<f32, V> = Viscous({});\n\
          /// Coulomb friction, N·m or N, full beyond 0.02 rad/s or m/s.\n\
          pub const COULOMB: Coulomb<f32, V> = Coulomb {{ torque: {}, width: Width::f32(0.02) }};\n\
-         /// Inertia of the rotors at the joints, kg·m² or kg.\npub const ARMATURE: Armature<f32, V> = Armature({});\n{spring}\
+         /// Inertia of the rotors at the joints, kg·m² or kg.\npub const ARMATURE: Armature<f32, V>
+         /// = Armature({});\n{spring}\
          \n/// The rigid body, and the effects that the description states.\n\
          pub const SCENE: ({}) = ::dynamics_core::Core::<{type_name}>::scene_f32(({}));\n",
         text(&viscous),
@@ -85,7 +88,8 @@ pub fn coupling(tree: &Tree) -> String {
     let m = leaders.len();
     format!(
         "\n/// The number of motors.\npub const M: usize = {m};\n\
-         /// The joints' positions from the motors'.\npub const COUPLING: Transmission<f32, M, V> = \
+         /// The joints' positions from the motors'.\npub const COUPLING: Transmission<f32, M, V> =
+         /// \
          Transmission {{ matrix: [{}], offset: [{}] }};\n",
         rows.join(", "),
         offsets.join(", "),

@@ -135,7 +135,8 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
     out
 }
 
-/// Which bodies have an inertia that no body has, each on a line of a comment: such a robot is computed with all the same.
+/// Which bodies have an inertia that no body has, each on a line of a comment: such a robot is
+/// computed with all the same.
 fn inertias(tree: &Tree) -> String {
     let each = tree.bodies.iter().filter_map(|body| {
         let words = sentence(&impossible(body.inertia.inertia, TOLERANCE)?);

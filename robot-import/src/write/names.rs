@@ -3,8 +3,8 @@
 use crate::limits::MOST_TYPE_NAME;
 use crate::text::code_span;
 
-/// What the type cannot be called: each constant of the file, each item of the library that it imports, the keyword,
-/// and what Rust has in scope everywhere, which `use robot::*` would hide.
+/// What the type cannot be called: each constant of the file, each item of the library that it
+/// imports, the keyword, and what Rust has in scope everywhere, which `use robot::*` would hide.
 const TAKEN: &str = "
     ARMATURE B BODIES COULOMB COUPLING JOINTS M N Q SCENE SPRING V VISCOUS
     ArmModel Armature BASE Body BodyFrame Coriolis Coulomb Gravity Inertia Joint JointLimits LoopJoint LoopRobot Loops
@@ -54,7 +54,8 @@ fn chosen(name: &str) -> (String, Option<String>) {
     (chosen, reason)
 }
 
-/// The type's name: the robot's in CamelCase, or one like it that collides with nothing in the file.
+/// The type's name: the robot's in CamelCase, or one like it that collides with nothing in the
+/// file.
 ///
 /// ```
 /// use robot_import::write::type_name;

@@ -12,8 +12,8 @@ pub fn formatted(source: &str) -> String {
 }
 
 fn run_rustfmt(source: &str) -> std::io::Result<Option<String>> {
-    // Not the current folder: a `rust-toolchain.toml` beside a description names the program that runs, and a `rustfmt.toml` its
-    // settings.
+    // Not the current folder: a `rust-toolchain.toml` beside a description names the program that
+    // runs, and a `rustfmt.toml` its settings.
     let folder = tempfile::tempdir()?;
     let mut child = Command::new("rustfmt")
         .args(["--edition", "2024"])

@@ -25,7 +25,8 @@ fn read(text: &str) -> Description {
     parse(text, Path::new(".")).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
-/// A robot of one joint: attributes of the root, what is beside its parts, in its joint, and in its inertia.
+/// A robot of one joint: attributes of the root, what is beside its parts, in its joint, and in its
+/// inertia.
 fn robot(root: &str, beside: &str, joint: &str, inertial: &str) -> String {
     format!(
         "<robot name='r' {root}>\n<link name='a'/>\n<link name='b'><inertial>{inertial}<mass value='2'/><inertia ixx='0.01' ixy='0' \

@@ -202,7 +202,8 @@ fn position(j: usize, follows: &Couplings, locks: &[Option<f64>], free: &[f64]) 
     }
 }
 
-/// The bodies of the coupled robot are where those of the file without couplings are at the positions of the definition.
+/// The bodies of the coupled robot are where those of the file without couplings are at the
+/// positions of the definition.
 #[test]
 fn random_chains_with_locks_move_by_their_definition() {
     let mut random = Random(7);

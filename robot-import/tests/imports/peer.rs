@@ -239,7 +239,8 @@ fn a_peer_that_disagrees_is_quoted() {
     );
 }
 
-/// The peer has no torque where a number has a blank before it, and says so; else it has the import's, which it is given.
+/// The peer has no torque where a number has a blank before it, and says so; else it has the
+/// import's, which it is given.
 #[cfg(unix)]
 #[test]
 fn a_peer_that_drops_a_number_with_blanks_is_advice() {
@@ -336,7 +337,8 @@ fn mujoco() -> Option<String> {
         .then_some(python)
 }
 
-/// Files, each with words of what the import says that it leaves out; none where it carries the term.
+/// Files, each with words of what the import says that it leaves out; none where it carries the
+/// term.
 const TERMS: [(&str, &[&str]); 20] = [
     ("actuator_armature", &[]),
     ("actuator_damping", &[]),

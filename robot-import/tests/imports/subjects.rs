@@ -281,7 +281,8 @@ fn numbers_of_one_body_or_joint_are_named_with_it() {
         words.contains("elbow_link: Its inertia of 0.0170 kg·m² is more than"),
         "{words}"
     );
-    // kg·mm² of a part within 2 m of radius of gyration is named by the library, beyond by the importer.
+    // kg·mm² of a part within 2 m of radius of gyration is named by the library, beyond by the
+    // importer.
     let words = at(
         2,
         "ixx='0.001' ixy='0' ixz='0' iyy='0.005' iyz='0' izz='0.005'",

@@ -7,7 +7,8 @@ use robot_import::source::read;
 
 use super::hostile::{GEOM, model};
 
-/// The attributes of a body, whether its rotation is one of quarter turns, and the number of reports.
+/// The attributes of a body, whether its rotation is one of quarter turns, and the number of
+/// reports.
 #[test]
 fn roundings_of_quarter_turns_are_exact() {
     let cases = [
@@ -63,7 +64,8 @@ fn roundings_of_quarter_turns_are_exact() {
     }
 }
 
-/// In radians a right angle is always a rounding, in degrees only the noise of a computation is one.
+/// In radians a right angle is always a rounding, in degrees only the noise of a computation is
+/// one.
 #[test]
 fn right_angles_in_radians_are_roundings() {
     for (euler, quarter) in [

@@ -1,4 +1,5 @@
-//! Models outside of the subset that is read: refused by a sentence that names the line and the element.
+//! Models outside of the subset that is read: refused by a sentence that names the line and the
+//! element.
 
 use super::hostile::{GEOM, model};
 

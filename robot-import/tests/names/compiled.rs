@@ -38,7 +38,8 @@ impl Drop for Folder {
     }
 }
 
-/// The libraries that this test was built with, and with it what is written can be compiled against.
+/// The libraries that this test was built with, and with it what is written can be compiled
+/// against.
 fn dependencies() -> PathBuf {
     let own = env::current_exe().expect("the test program");
     own.parent().expect("its folder").to_path_buf()
@@ -76,7 +77,8 @@ pub fn gains<L: Law<1>>(gains: ::motion_control::Gains<f32, 1>, state: &::dynami
 pub fn brake() -> impl ::embedded_hal::digital::OutputPin { NoBrake }
 ";
 
-/// The newest libraries that were built with each other. The folder can have several of each crate, for other features.
+/// The newest libraries that were built with each other. The folder can have several of each crate,
+/// for other features.
 fn externs() -> &'static Externs {
     static EXTERNS: OnceLock<Externs> = OnceLock::new();
     EXTERNS.get_or_init(|| {
@@ -213,7 +215,8 @@ impl Batch {
         tests.map(str::to_owned).collect()
     }
 
-    /// Fails with what rustdoc warns of, or with a module whose documentation has more than prose, lists and names.
+    /// Fails with what rustdoc warns of, or with a module whose documentation has more than prose,
+    /// lists and names.
     pub fn document(&self) -> Result<(), String> {
         let out = self.folder.0.join("html");
         let path = out.display().to_string();
@@ -228,7 +231,8 @@ impl Batch {
             assert!(!docs.is_empty(), "{html}");
             for doc in docs {
                 let doc = doc.split("</details>").next().unwrap_or_default();
-                // The headings of a file's head, with their links to themselves, and its list of changes.
+                // The headings of a file's head, with their links to themselves, and its list of
+                // changes.
                 let own = [
                     "<a class=\"doc-anchor\"",
                     "<h2 id=\"source\">",

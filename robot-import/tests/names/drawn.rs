@@ -10,8 +10,8 @@ use robot_import::project::{RobotFile, files};
 use robot_import::text::{code_span, doc_name, doc_sentence, visible};
 use robot_import::write::{given_type_name, type_name};
 
-/// Words of Rust, of C, of the library, of the written files, and texts that mean something to a compiler, to Markdown
-/// or to a terminal.
+/// Words of Rust, of C, of the library, of the written files, and texts that mean something to a
+/// compiler, to Markdown or to a terminal.
 #[rustfmt::skip]
 const WORDS: &[&str] = &[
     "", " ", "robot", "Robot", "model", "body", "joint", "self", "Self", "crate", "super", "fn", "type", "async",
@@ -93,7 +93,8 @@ fn compiles(drawn: &[(Names, RobotFile)]) {
     let (mut batch, mut headers) = (Batch::new(), Vec::new());
     for (k, (_, robot)) in drawn.iter().enumerate() {
         let [firmware, library] = [false, true].map(|c| project(&number(k), robot.clone(), c));
-        // The libraries of projects take longer: a robot of three has one, in Rust and in C by turns.
+        // The libraries of projects take longer: a robot of three has one, in Rust and in C by
+        // turns.
         match k % 6 {
             0 => batch.project(&firmware),
             3 => batch.project(&library),

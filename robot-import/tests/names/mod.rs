@@ -1,4 +1,5 @@
-//! Whatever a robot, a link, a joint or a project is called, what is written of it compiles, and nothing of a name is code.
+//! Whatever a robot, a link, a joint or a project is called, what is written of it compiles, and
+//! nothing of a name is code.
 
 pub mod compiled;
 mod drawn;
@@ -40,7 +41,8 @@ fn attribute(name: &str) -> String {
 const INERTIAL: &str = r#"<inertial><origin xyz=".1 0 .05"/><mass value="1"/><inertia ixx=".02" ixy="0" ixz="0" iyy=".02" iyz="0" izz=".03"/></inertial>"#;
 
 impl Names {
-    /// Two joints, of which the second follows the first, with friction, roundings and a fixed link.
+    /// Two joints, of which the second follows the first, with friction, roundings and a fixed
+    /// link.
     fn urdf(&self) -> String {
         let [base, a, b, fixed] = self.links.each_ref().map(|name| attribute(name));
         let [j, k, weld, _] = self.joints.each_ref().map(|name| attribute(name));
@@ -69,7 +71,8 @@ impl Names {
         .concat()
     }
 
-    /// Two bodies whose ends meet, with a spring and a balanced weight, which the import leaves out and names.
+    /// Two bodies whose ends meet, with a spring and a balanced weight, which the import leaves out
+    /// and names.
     fn mjcf(&self) -> String {
         let [_, a, b, _] = self.links.each_ref().map(|name| attribute(name));
         let [j, k, end, _] = self.joints.each_ref().map(|name| attribute(name));

@@ -53,8 +53,8 @@ fn text(project: &Project, path: &str) -> String {
     file.unwrap_or_else(|| panic!("no {path}")).1
 }
 
-/// Compiles programs and tests of firmware, and headers for C, of projects of these names. Their libraries differ in the
-/// robot's file alone: one stands for all, under each name.
+/// Compiles programs and tests of firmware, and headers for C, of projects of these names. Their
+/// libraries differ in the robot's file alone: one stands for all, under each name.
 fn compile(names: &[String]) {
     let folder = Folder::new();
     for (path, text) in files(&project("arm", robot("arm"), false)).expect("a legal name") {

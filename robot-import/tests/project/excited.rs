@@ -1,4 +1,5 @@
-//! The robot of a project along the motion that shows its parameters, of which `arm` is the library.
+//! The robot of a project along the motion that shows its parameters, of which `arm` is the
+//! library.
 
 use arm::control::{FeedForward, controller, gains};
 use arm::excitation::Excitation;

@@ -1,5 +1,5 @@
-//! The library of a project for a board on this computer: it starts on its brake, follows its motion after a reset, and
-//! notices that encoders which always read zero do not move.
+//! The library of a project for a board on this computer: it starts on its brake, follows its
+//! motion after a reset, and notices that encoders which always read zero do not move.
 
 use core::convert::Infallible;
 

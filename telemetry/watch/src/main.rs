@@ -34,7 +34,8 @@ struct Args {
     /// Show nothing, and print a summary as JSON at the end
     #[arg(long)]
     json: bool,
-    /// Take no more than the ticks that are due: a program that runs faster than the machine then waits
+    /// Take no more than the ticks that are due: a program that runs faster than the machine then
+    /// waits
     #[arg(long)]
     pace: bool,
     /// Start this program, which connects to the TCP port that replaces {port} in its arguments

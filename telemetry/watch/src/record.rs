@@ -182,7 +182,8 @@ fn titles(joints: usize) -> String {
     titles + "\n"
 }
 
-/// The time is that of the tick's number; it is empty until the machine has said how long a tick is.
+/// The time is that of the tick's number; it is empty until the machine has said how long a tick
+/// is.
 fn line(tick: &Tick, period: Option<u32>) -> String {
     let status = tick.status;
     let fault = status

@@ -113,7 +113,8 @@ fn joint_row(view: &View, number: usize, joint: &Joint) -> Row<'static> {
     ])
 }
 
-/// A joint's position between its limits: the estimate as a block, the reference as a line where it differs.
+/// A joint's position between its limits: the estimate as a block, the reference as a line where it
+/// differs.
 fn position_bar(axis: Option<&Axis>, joint: &Joint) -> String {
     let Some(limits) = axis.map(|axis| axis.limits) else {
         return String::new();

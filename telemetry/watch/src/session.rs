@@ -49,7 +49,8 @@ impl Options {
     };
 }
 
-/// Reads until the source ends, the user ends it, a signal does, or its time is over; returns what is known then.
+/// Reads until the source ends, the user ends it, a signal does, or its time is over; returns what
+/// is known then.
 ///
 /// # Errors
 /// The source fails or is silent for [`PATIENCE`]; the record or the terminal cannot be written.

@@ -137,7 +137,8 @@ impl Built {
         Ok(Self { meter, runs })
     }
 
-    /// Runs the ones under the other, as many at a time as there are cores, and returns them in their order.
+    /// Runs the ones under the other, as many at a time as there are cores, and returns them in
+    /// their order.
     pub fn measure(&self, workspace: &Workspace, tools: &Tools) -> Result<Vec<Measured>> {
         tools.qemu.interface(&self.meter)?;
         let (runs, meter, next) = (&self.runs, &self.meter, AtomicUsize::new(0));
@@ -157,8 +158,8 @@ impl Built {
         done.into_iter().filter_map(OnceLock::into_inner).collect()
     }
 
-    /// Whether the runs failed because QEMU does not take the meter: it said so, or it is so new that
-    /// the meter may be what made it fail.
+    /// Whether the runs failed because QEMU does not take the meter: it said so, or it is so new
+    /// that the meter may be what made it fail.
     fn lacks_the_meter(&self, tools: &Tools, why: &Error) -> bool {
         let refused = tools.qemu.interface(&self.meter).is_err();
         refused || (matches!(why, Error::Qemu { .. }) && !tools.qemu.is_known())
@@ -203,7 +204,8 @@ pub fn measure(
     })
 }
 
-/// The brackets of the longest tick with feed-forward and of its phases, by two more runs side by side.
+/// The brackets of the longest tick with feed-forward and of its phases, by two more runs side by
+/// side.
 ///
 /// # Errors
 /// A run logs other bytes, or executes other instructions, than the measured one.
@@ -241,7 +243,8 @@ pub fn brackets(
         .collect()
 }
 
-/// Runs a scene, with the meter and its file or without, and returns what it said, and that as it came.
+/// Runs a scene, with the meter and its file or without, and returns what it said, and that as it
+/// came.
 fn record(
     tools: &Tools,
     scene: Scene,
@@ -263,7 +266,8 @@ fn record(
     Ok((recording, raw))
 }
 
-/// Refuses a run that is not a repetition of the first: whose log has other bytes, or whose regions have other instructions.
+/// Refuses a run that is not a repetition of the first: whose log has other bytes, or whose regions
+/// have other instructions.
 fn same_run(first: &(Vec<u8>, String), log: &[u8], samples: &[Sample]) -> Result<()> {
     refuse_if!(
         first.0 != log,

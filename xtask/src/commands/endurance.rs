@@ -1,4 +1,5 @@
-//! `cargo xtask fuzz`, `cargo xtask soak`, `cargo xtask miri`: what takes longer than CI has time for.
+//! `cargo xtask fuzz`, `cargo xtask soak`, `cargo xtask miri`: what takes longer than CI has time
+//! for.
 
 use std::process::ExitCode;
 

@@ -1,5 +1,5 @@
-//! `cargo xtask identify`: the parameters of a robot's file from a recording, by the package `identify`; `cargo xtask certify`: proven
-//! rounding errors, by the package `certification`.
+//! `cargo xtask identify`: the parameters of a robot's file from a recording, by the package
+//! `identify`; `cargo xtask certify`: proven rounding errors, by the package `certification`.
 
 use std::process::ExitCode;
 
@@ -11,8 +11,9 @@ use crate::kit::workspace::Workspace;
 /// A recording, and options of the package `identify`.
 #[derive(clap::Args)]
 pub struct Args {
-    /// The record of `cargo xtask watch`, --robot FILE, and other options: --name, --effects, --validate, --width, --cutoff, --out,
-    /// --picture, --json, and those of `import` that select joints
+    /// The record of `cargo xtask watch`, --robot FILE, and other options: --name, --effects,
+    /// --validate, --width, --cutoff, --out, --picture, --json, and those of `import` that select
+    /// joints
     #[arg(value_name = "CSV", required = true, num_args = 1.., trailing_var_arg = true, allow_hyphen_values = true)]
     pub arguments: Vec<String>,
 }
@@ -20,8 +21,9 @@ pub struct Args {
 /// Options of the package `certification`.
 #[derive(clap::Args)]
 pub struct Certify {
-    /// --robot NAME|FILE, and other options: --function, --box, --acceleration, --speed, --range, --parts, --states, --json, --picture,
-    /// --gappa, --write-docs, --hashes, and those of `import` that select joints
+    /// --robot NAME|FILE, and other options: --function, --box, --acceleration, --speed, --range,
+    /// --parts, --states, --json, --picture, --gappa, --write-docs, --hashes, and those of `import`
+    /// that select joints
     #[arg(
         value_name = "OPTION",
         trailing_var_arg = true,

@@ -1,4 +1,5 @@
-//! `cargo xtask import`: a robot from a file, by the crate `robot-import`, and what its inverse dynamics costs.
+//! `cargo xtask import`: a robot from a file, by the crate `robot-import`, and what its inverse
+//! dynamics costs.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -35,7 +36,8 @@ pub fn new(args: &New) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The commands of QEMU that a project's text recommends, with the folder of an unpacked QEMU on the PATH.
+/// The commands of QEMU that a project's text recommends, with the folder of an unpacked QEMU on
+/// the PATH.
 fn with_path(text: &str, folder: Option<&Path>) -> String {
     let Some(folder) = folder else {
         return text.to_owned();

@@ -44,7 +44,8 @@ pub fn check(workspace: &Workspace, options: Options) -> Result<String> {
     last_line(node.arg("--host-bits").arg(&bits))
 }
 
-/// A script that tests; the step is skipped where its programs are not there and may not be installed.
+/// A script that tests; the step is skipped where its programs are not there and may not be
+/// installed.
 fn test(workspace: &Workspace, options: Options, name: &str) -> Result<Command> {
     let skip = |why: Error| Error::Skipped(why.to_string());
     let node = script(workspace, options, name, &[BUILD, TEST].concat()).map_err(skip)?;

@@ -1,4 +1,5 @@
-//! `cargo xtask watch`: the telemetry of a machine, live; and the check that telemetry never delays a tick.
+//! `cargo xtask watch`: the telemetry of a machine, live; and the check that telemetry never delays
+//! a tick.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -28,7 +29,8 @@ const TICKS: usize = 3000;
 const TICK: u8 = 0;
 const RECORD: u8 = 6;
 const MASKED: u8 = 7;
-/// The longest stretch with interrupts masked, in instructions, and the most that a record takes: what the guide says.
+/// The longest stretch with interrupts masked, in instructions, and the most that a record takes:
+/// what the guide says.
 const LONGEST: u64 = 10;
 const KEPT: u64 = 39;
 
@@ -43,7 +45,8 @@ pub struct Args {
     /// Run the project of `cargo xtask new` in this folder in QEMU
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["port", "scene", "faults"])]
     project: Option<PathBuf>,
-    /// Move the project's robot along a motion that shows its parameters, for `cargo xtask identify`
+    /// Move the project's robot along a motion that shows its parameters, for
+    /// `cargo xtask identify`
     #[arg(long, requires = "project")]
     excite: bool,
     /// End the project's program after so many ticks
@@ -138,9 +141,9 @@ pub fn firmware(workspace: &Workspace, tools: &Tools, bin: &str) -> Result<PathB
     Ok(built?.remove(0))
 }
 
-/// Fails if a tick costs something else with a listener, without one, or with a queue that nobody empties; if a full
-/// queue costs more than one with room; if a frame is lost on the line; or if interrupts are masked for longer than
-/// stated.
+/// Fails if a tick costs something else with a listener, without one, or with a queue that nobody
+/// empties; if a full queue costs more than one with room; if a frame is lost on the line; or if
+/// interrupts are masked for longer than stated.
 pub fn check(workspace: &Workspace, tools: &Tools, plugin: &Path) -> Result<String> {
     shell::cargo(workspace.cargo("test").args(["--package", LISTENER]))?;
     let name = format!("watch_{}", SCENES[0]);
@@ -188,7 +191,8 @@ fn longest(samples: &[Sample]) -> u64 {
     sums.max().unwrap_or(u64::MAX)
 }
 
-/// Fails if a function masks interrupts that is neither the initialisation, the interrupt, nor the log.
+/// Fails if a function masks interrupts that is neither the initialisation, the interrupt, nor the
+/// log.
 fn masked_nowhere_else(image: &Image) -> Result<()> {
     const KNOWN: [&str; 4] = [
         "cortex_m_rt_main",
@@ -207,8 +211,8 @@ fn masked_nowhere_else(image: &Image) -> Result<()> {
     }
 }
 
-/// Fails if the listener's summary lacks a tick, has a bad frame, or an event: nothing disturbs the arm, and its
-/// detectors must not find anything.
+/// Fails if the listener's summary lacks a tick, has a bad frame, or an event: nothing disturbs the
+/// arm, and its detectors must not find anything.
 fn every_tick_arrived(json: &str) -> Result<()> {
     let summary: Value = serde_json::from_str(json)
         .map_err(|e| check!("`{LISTENER}` printed what is not understood: {e}"))?;

@@ -1,5 +1,5 @@
-//! Debian packages: installed by apt-get, which removes none of the user's; one that conflicts with an installed one is
-//! unpacked in a folder of its own.
+//! Debian packages: installed by apt-get, which removes none of the user's; one that conflicts with
+//! an installed one is unpacked in a folder of its own.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -14,7 +14,8 @@ const UNPACKABLE: &str = "qemu-system-";
 
 /// Makes apt-get wait for another process that installs packages, which it otherwise refuses to do.
 const WAITS: [&str; 2] = ["-o", "DPkg::Lock::Timeout=600"];
-/// Two steps of the tests may need packages at once; the lock of the package lists has no such option.
+/// Two steps of the tests may need packages at once; the lock of the package lists has no such
+/// option.
 static INSTALLING: Mutex<()> = Mutex::new(());
 
 /// The environment variable that replaces the folder of unpacked packages.
@@ -29,7 +30,8 @@ fn folder() -> Option<PathBuf> {
     })
 }
 
-/// The folder in which a program of an unpacked package lies, if the user's own PATH has none of its name.
+/// The folder in which a program of an unpacked package lies, if the user's own PATH has none of
+/// its name.
 pub fn unpacked(program: &str) -> Option<PathBuf> {
     let folder = folder()?.join("usr/bin");
     let found = shell::which(program)?;
@@ -106,8 +108,9 @@ impl Changes {
     }
 }
 
-/// Installs Debian packages. None that the user has is removed: a package that conflicts with one of them is unpacked in
-/// the folder of [`extend_path`], beside the packages that it depends on, which are installed.
+/// Installs Debian packages. None that the user has is removed: a package that conflicts with one
+/// of them is unpacked in the folder of [`extend_path`], beside the packages that it depends on,
+/// which are installed.
 ///
 /// # Errors
 /// apt-get fails, or a package that would remove another needs to be installed to work.
@@ -163,7 +166,8 @@ pub fn install(packages: &[&str]) -> Result<()> {
     unpack(&folder, &folder.join("archives"), &conflicting, &[])
 }
 
-/// Downloads packages into a folder and unpacks them in another, without installing them. The options are apt-get's.
+/// Downloads packages into a folder and unpacks them in another, without installing them. The
+/// options are apt-get's.
 ///
 /// # Errors
 /// A package cannot be downloaded or unpacked.

@@ -10,8 +10,8 @@ use crate::kit::table::{Table, thousands};
 /// The page that explains the missed bars.
 const RECORD: &str = "decisions/0002-bars.md";
 
-/// The share by which a cost may be larger with another compiler than the one that the budget or page
-/// names.
+/// The share by which a cost may be larger with another compiler than the one that the budget or
+/// page names.
 pub const OTHER_RUSTC: f64 = 0.03;
 
 /// The end of the name of a scene's bar.
@@ -101,7 +101,8 @@ impl Compared {
     }
 }
 
-/// Fails if a figure of the row or pair `key` misses its bar; a figure without a bar is not compared.
+/// Fails if a figure of the row or pair `key` misses its bar; a figure without a bar is not
+/// compared.
 pub fn hold<const N: usize>(bars: &Bars, key: &str, figures: [(&str, f64); N]) -> Result<()> {
     for (figure, measured) in figures {
         let compared = Compared::of(bars, key, figure, measured);
@@ -111,7 +112,8 @@ pub fn hold<const N: usize>(bars: &Bars, key: &str, figures: [(&str, f64); N]) -
     Ok(())
 }
 
-/// The largest of some figures: the one that is not a number, if there is one, which `f64::max` would drop; 0 of none.
+/// The largest of some figures: the one that is not a number, if there is one, which `f64::max`
+/// would drop; 0 of none.
 pub fn largest(figures: impl Iterator<Item = f64>) -> f64 {
     figures.fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a })
 }

@@ -1,9 +1,11 @@
-//! Modelled cycles by the most and the least favourable reading of the manual, where it leaves room.
+//! Modelled cycles by the most and the least favourable reading of the manual, where it leaves
+//! room.
 
 use crate::kit::error::{Result, refuse_if};
 use crate::kit::table::thousands;
 
-/// The readings by the names that the cycle meter has for them, beside the chosen one of every other figure.
+/// The readings by the names that the cycle meter has for them, beside the chosen one of every
+/// other figure.
 pub const READINGS: [&str; 2] = ["least", "most"];
 
 /// The fewest and the most cycles.

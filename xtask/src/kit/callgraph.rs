@@ -108,8 +108,8 @@ impl Function {
 
     /// Where it jumps or calls through a register, if what it reaches is not known.
     ///
-    /// A jump into a table of branches is known: LLVM writes the table behind the jump, where its entries are instructions of the
-    /// function like any other.
+    /// A jump into a table of branches is known: LLVM writes the table behind the jump, where its
+    /// entries are instructions of the function like any other.
     pub fn unknown_jump(&self) -> Option<u64> {
         let all = self.instructions();
         let place = all.iter().enumerate().position(|(i, one)| {
@@ -200,7 +200,8 @@ impl<'a> Reach<'a> {
     }
 }
 
-/// The number of functions that the ticks of an image reach; fails if one of them is f64 arithmetic, a sine of libm or a panic.
+/// The number of functions that the ticks of an image reach; fails if one of them is f64
+/// arithmetic, a sine of libm or a panic.
 pub fn f32_only(elf: &Path, is_tick: fn(&str) -> bool) -> Result<usize> {
     let image = Image::read(elf)?;
     let reach = Reach::of(&image, |function| function.is_named(is_tick))?;
@@ -255,7 +256,8 @@ mod tests {
 
     #[test]
     fn a_jump_into_a_table_of_branches_is_followed() {
-        // addw r1, pc, #4; add.w r2, r1, r9, lsl #2; mov pc, r2; nop; b.w 0x2000; then with a table elsewhere, and without one
+        // addw r1, pc, #4; add.w r2, r1, r9, lsl #2; mov pc, r2; nop; b.w 0x2000; then with a table
+        // elsewhere, and without one
         let code = [
             0xF20F, 0x0108, 0xEB01, 0x0289, 0x4697, 0xBF00, 0xF000, 0xBFF8,
         ];

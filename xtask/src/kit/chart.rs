@@ -64,7 +64,8 @@ pub fn svg(size: (u32, u32), draw: impl FnOnce(&Area<'_>) -> Outcome) -> Result<
     themed(&svg)
 }
 
-/// The picture with rules that swap its colours on a dark screen. A viewer that knows none shows it as it is drawn.
+/// The picture with rules that swap its colours on a dark screen. A viewer that knows none shows it
+/// as it is drawn.
 fn themed(svg: &str) -> Result<String> {
     let themes = THEME.map(|(RGBColor(r, g, b), dark)| (format!("#{r:02X}{g:02X}{b:02X}"), dark));
     for colour in svg.split("=\"#").skip(1) {
@@ -122,8 +123,9 @@ pub fn dot(area: &Area<'_>, at: Place, radius: i32, colour: RGBColor) -> Outcome
     Ok(area.draw(&Circle::new(at, radius, colour.filled()))?)
 }
 
-/// Names beside strokes of their colours and widths, or dots where that is 0, in as many lines as they take; returns the lower edge. plotters' own
-/// legend box comes out misshapen, since the widths of texts in an SVG are not known.
+/// Names beside strokes of their colours and widths, or dots where that is 0, in as many lines as
+/// they take; returns the lower edge. plotters' own legend box comes out misshapen, since the
+/// widths of texts in an SVG are not known.
 pub fn legend(
     area: &Area<'_>,
     entries: impl IntoIterator<Item = (String, RGBColor, u32)>,
@@ -161,7 +163,8 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// With a value at every multiple of `step`, two or five times a power of ten, so that there are some `count`.
+    /// With a value at every multiple of `step`, two or five times a power of ten, so that there
+    /// are some `count`.
     pub fn linear(name: &'static str, ends: [f64; 2], count: usize, room: u32) -> Self {
         let rough = (ends[1] - ends[0]) / count as f64;
         let ten = 10_f64.powf(rough.log10().floor());
@@ -322,7 +325,8 @@ pub enum Shape {
 /// A name, and what stands in its row: values with their shapes, and words right of each.
 pub type Row = (String, Vec<(f64, Shape, RGBColor, String)>);
 
-/// Rows of dots over an axis, with their names in the room left of it. Dots need no zero, so the axis may be logarithmic.
+/// Rows of dots over an axis, with their names in the room left of it. Dots need no zero, so the
+/// axis may be logarithmic.
 pub fn rows(area: &Area<'_>, top: u32, (x, room): (&Axis, u32), rows: &[Row]) -> Drawn<Plot> {
     let mut y = Axis::linear("", [0.0, rows.len() as f64], 1, room);
     y.ticks.clear();

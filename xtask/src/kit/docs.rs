@@ -53,8 +53,8 @@ impl Page<'_> {
         Ok(format!("{before}{begin}\n{generated}{end}{after}"))
     }
 
-    /// Fails unless the text between the markers is this one; or close to it, if `rustc` is the compiler that
-    /// its figures depend on and another one wrote them.
+    /// Fails unless the text between the markers is this one; or close to it, if `rustc` is the
+    /// compiler that its figures depend on and another one wrote them.
     pub fn check(&self, workspace: &Workspace, text: &str, rustc: Option<&str>) -> Result<()> {
         let page = workspace::read(&workspace.root.join(self.file))?;
         let written = self.written(&page)?;
@@ -137,9 +137,9 @@ pub fn rustc_of(page: &str) -> Option<&str> {
     after.lines().next()?.trim_end().strip_suffix('.')
 }
 
-/// Fails unless what was written is what would be written now with the compiler `rustc`. If the text
-/// names another one, only the words are compared: the step `costs` and `budgets.toml` bound its
-/// figures. If it names none, or `rustc` is empty, nothing but the same will do.
+/// Fails unless what was written is what would be written now with the compiler `rustc`. If the
+/// text names another one, only the words are compared: the step `costs` and `budgets.toml` bound
+/// its figures. If it names none, or `rustc` is empty, nothing but the same will do.
 pub fn compare(file: &str, command: &str, written: &str, fresh: &str, rustc: &str) -> Result<()> {
     let [written, fresh] = [written, fresh].map(seal::unsealed);
     let same_figures = rustc.is_empty() || rustc_of(written).is_none_or(|by| by == rustc);
@@ -155,7 +155,8 @@ pub fn compare(file: &str, command: &str, written: &str, fresh: &str, rustc: &st
     }
 }
 
-/// A page without its figures, the rules and the padding that are as wide as they are, and the name of its compiler.
+/// A page without its figures, the rules and the padding that are as wide as they are, and the name
+/// of its compiler.
 fn words(page: &str) -> String {
     let lines = page.lines().map(|line| {
         let end = line.find(MEASURED).map(|at| at + MEASURED.len());
@@ -186,8 +187,9 @@ fn first_difference<'a>(old: &'a str, new: &'a str) -> Option<(&'a str, &'a str)
     }
 }
 
-/// Fails unless a picture is what would be drawn now. If its figures were measured with another compiler
-/// (`same_figures` is false), its numbers may be others, but neither its words nor the shapes that it is made of.
+/// Fails unless a picture is what would be drawn now. If its figures were measured with another
+/// compiler (`same_figures` is false), its numbers may be others, but neither its words nor the
+/// shapes that it is made of.
 pub fn compare_picture(
     workspace: &Workspace,
     file: &str,

@@ -83,8 +83,8 @@ impl Image {
     }
 }
 
-/// What of a section lies in flash: initial values do, and are copied to RAM at start-up. Constants that the linker has merged
-/// are in sections of strings.
+/// What of a section lies in flash: initial values do, and are copied to RAM at start-up. Constants
+/// that the linker has merged are in sections of strings.
 fn is_in_flash(section: &object::Section<'_, '_>) -> bool {
     use SectionKind::{Data, ReadOnlyData, ReadOnlyString, Text};
     matches!(section.kind(), Text | ReadOnlyData | ReadOnlyString | Data)
@@ -157,8 +157,8 @@ pub fn is_panic(symbol: &str) -> bool {
     parts.split(' ').any(|part| symbol.contains(part))
 }
 
-/// Whether a symbol is f64 arithmetic of the compiler's runtime, or a sine, cosine or tangent of libm: the f32 functions
-/// of libm's compute in f64 inside, but for the arc tangent.
+/// Whether a symbol is f64 arithmetic of the compiler's runtime, or a sine, cosine or tangent of
+/// libm: the f32 functions of libm's compute in f64 inside, but for the arc tangent.
 pub fn is_f64(symbol: &str) -> bool {
     let has = |parts: &str| parts.split(' ').any(|part| symbol.contains(part));
     let conversions = "__aeabi_f2d __aeabi_i2d __aeabi_ui2d __aeabi_l2d __aeabi_ul2d";

@@ -23,7 +23,8 @@ pub fn build_bins(
     build_with(workspace, toolchain, profile, "", bins, None)
 }
 
-/// The same of bins that are built for features only, with a variable of the environment that names a file which they include.
+/// The same of bins that are built for features only, with a variable of the environment that names
+/// a file which they include.
 pub fn build_with(
     workspace: &Workspace,
     toolchain: Toolchain,
@@ -50,7 +51,8 @@ pub fn variable(included: &Path) -> (&'static str, &Path) {
     ("OWN_ROBOT", included)
 }
 
-/// Builds bins of the firmware with these features for the robots of a file that they include, and returns their ELFs.
+/// Builds bins of the firmware with these features for the robots of a file that they include, and
+/// returns their ELFs.
 pub fn build_own(
     workspace: &Workspace,
     toolchain: Toolchain,

@@ -8,13 +8,15 @@ use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::shell;
 use crate::kit::workspace::Workspace;
 
-/// Packages of the host whose crates are built together, whichever of their programs is wanted: another selection, or a feature more
-/// or less, has other features of the crates below, which would be compiled once more.
+/// Packages of the host whose crates are built together, whichever of their programs is wanted:
+/// another selection, or a feature more or less, has other features of the crates below, which
+/// would be compiled once more.
 pub struct Together {
     packages: &'static str,
     /// Those of which programs are built with the same crates, but no tests.
     programs: &'static str,
-    /// What the tests of a full run have besides: further robots, scalars and hours of claims that are tested without.
+    /// What the tests of a full run have besides: further robots, scalars and hours of claims that
+    /// are tested without.
     pub full: &'static str,
     folder: &'static str,
 }
@@ -24,7 +26,8 @@ pub const SHARED: Together = Together {
     packages: "--workspace --exclude xtask --exclude telemetry-watch --exclude firmware-demo --exclude lab-target \
          --exclude identification --exclude identify --exclude simulation-tests --exclude play",
     programs: "",
-    // What computes for minutes is optimised, which would take the compiler longer than the parts of an everyday run.
+    // What computes for minutes is optimised, which would take the compiler longer than the parts
+    // of an everyday run.
     full: "--features guide/full,host-tests/full,robot-import/full,specialised-tests/full \
          --config profile.dev.package.long-cases.opt-level=2 --config profile.dev.package.flexible-tests.opt-level=2",
     folder: "debug",

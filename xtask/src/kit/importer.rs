@@ -67,7 +67,8 @@ pub fn is_measurable(robot: &Robot) -> bool {
     bodies == v && q == v && v <= MOST_JOINTS
 }
 
-/// Builds the firmware's bin for some robots and runs it under the meter; a robot's rows have its number as name.
+/// Builds the firmware's bin for some robots and runs it under the meter; a robot's rows have its
+/// number as name.
 pub fn measure(
     workspace: &Workspace,
     tools: &Tools,

@@ -34,8 +34,8 @@ pub fn read(path: &Path) -> Result<Vec<Sample>> {
 /// The name of what a tick does outside its phases: moving their results, and its own entry.
 pub const BETWEEN: &str = "between";
 
-/// The cost of each of [`REGIONS`] and then of what is [`BETWEEN`] them, over the ticks that `counts`
-/// picks by their number.
+/// The cost of each of [`REGIONS`] and then of what is [`BETWEEN`] them, over the ticks that
+/// `counts` picks by their number.
 ///
 /// # Errors
 /// A region does not occur once in each tick, or the number of ticks is not `ticks`.

@@ -1,4 +1,5 @@
-//! The parts of studies and commands: programs that run, firmware and its costs, tables, pictures and pages.
+//! The parts of studies and commands: programs that run, firmware and its costs, tables, pictures
+//! and pages.
 
 pub mod apt;
 pub mod bars;

@@ -38,7 +38,8 @@ impl Args {
             .collect()
     }
 
-    /// The robot, if there is a file; fails if the firmware does not take it, or not so many joints.
+    /// The robot, if there is a file; fails if the firmware does not take it, or not so many
+    /// joints.
     pub fn robot(&self, workspace: &Workspace, most: u64) -> Result<Option<OwnRobot>> {
         let Some(file) = &self.file else {
             return Ok(None);
@@ -75,7 +76,8 @@ impl OwnRobot {
     }
 }
 
-/// The reason why a firmware for this number of joints does not take the robot of a report, if there is one.
+/// The reason why a firmware for this number of joints does not take the robot of a report, if
+/// there is one.
 fn refusal(report: &Value, most: u64) -> Option<String> {
     let [bodies, q, v] = [0, 1, 2].map(|i| report["sizes"][i].as_u64().unwrap_or_default());
     if bodies != v || q != v {

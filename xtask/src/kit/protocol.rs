@@ -211,7 +211,8 @@ impl Recording {
         runs.find(|run| (&*run.plant, &*run.law) == (plant, law))
     }
 
-    /// The laws on a plant in the order in which they ran, but for those that lack an effect; PD last.
+    /// The laws on a plant in the order in which they ran, but for those that lack an effect; PD
+    /// last.
     pub fn laws(&self, plant: &str) -> Vec<&str> {
         let runs = self.runs.iter().filter(|run| run.plant == plant);
         let laws = runs.map(|run| &*run.law);

@@ -35,7 +35,8 @@ pub const DONE: &str = "done";
 /// The longest silence of a firmware.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// The first QEMU that has plugins, and the first of which it is not known whether it takes the meter.
+/// The first QEMU that has plugins, and the first of which it is not known whether it takes the
+/// meter.
 const KNOWN: std::ops::Range<(u32, u32)> = (4, 2)..(11, 0);
 
 /// The time limit for QEMU to load the meter and exit.
@@ -45,8 +46,8 @@ const LOADING: Duration = Duration::from_secs(30);
 pub struct Qemu {
     pub version: String,
     program: PathBuf,
-    /// Whether it takes the meter, once that was tried: with which version of the plugin interface, if not
-    /// the one that the meter chooses; or why it does not.
+    /// Whether it takes the meter, once that was tried: with which version of the plugin interface,
+    /// if not the one that the meter chooses; or why it does not.
     interface: OnceLock<std::result::Result<Option<i32>, String>>,
 }
 
@@ -55,7 +56,8 @@ pub struct Run<'a> {
     pub elf: &'a Path,
     /// The cycle meter and the file that it writes, if its regions are to be measured.
     pub meter: Option<(&'a Path, &'a Path)>,
-    /// By which of [`READINGS`](crate::kit::bracket::READINGS) the meter counts cycles, or nothing for the chosen one.
+    /// By which of [`READINGS`](crate::kit::bracket::READINGS) the meter counts cycles, or nothing
+    /// for the chosen one.
     pub reading: &'a str,
     /// Whether it logs, and then ends with [`DONE`]; one that does not must stay silent.
     pub logs: bool,
@@ -120,8 +122,8 @@ impl Qemu {
         KNOWN.contains(&release(&self.version))
     }
 
-    /// With which version of the plugin interface it takes the meter, if not the one that the meter chooses.
-    /// It is tried, once: what QEMU says of itself tells too little.
+    /// With which version of the plugin interface it takes the meter, if not the one that the meter
+    /// chooses. It is tried, once: what QEMU says of itself tells too little.
     ///
     /// # Errors
     /// It does not take the meter.
@@ -144,7 +146,8 @@ impl Qemu {
         })
     }
 
-    /// Starts QEMU with the meter and without a machine, and leaves; or says why it would not start.
+    /// Starts QEMU with the meter and without a machine, and leaves; or says why it would not
+    /// start.
     fn load(&self, meter: &Path, interface: Option<i32>) -> std::result::Result<(), String> {
         let mut command = Command::new(&self.program);
         command
@@ -252,8 +255,8 @@ impl Qemu {
         Ok(())
     }
 
-    /// Runs a firmware of which nothing is known on a board for so long at most, and returns whether it
-    /// ended by itself; what it prints is shown if it is text.
+    /// Runs a firmware of which nothing is known on a board for so long at most, and returns
+    /// whether it ended by itself; what it prints is shown if it is text.
     ///
     /// # Errors
     /// QEMU cannot run it, or ends with another code than zero.

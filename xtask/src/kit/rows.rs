@@ -1,4 +1,5 @@
-//! The costs of the firmware's functions: runs bins that announce their calls under the meter and cuts its samples by their logs.
+//! The costs of the firmware's functions: runs bins that announce their calls under the meter and
+//! cuts its samples by their logs.
 
 use std::path::{Path, PathBuf};
 
@@ -49,7 +50,8 @@ pub struct Row {
 
 #[cfg(test)]
 impl Row {
-    /// A row for tests, of robot, algorithm, form and inputs, with sines and cosines computed inside.
+    /// A row for tests, of robot, algorithm, form and inputs, with sines and cosines computed
+    /// inside.
     pub fn sample([robot, algorithm, form, inputs]: [&str; 4], cycles: u64) -> Self {
         let spread = Spread {
             min: cycles,
@@ -94,7 +96,8 @@ impl Row {
     }
 }
 
-/// Builds these bins in a profile, runs each of them under the meter, and returns their rows in order.
+/// Builds these bins in a profile, runs each of them under the meter, and returns their rows in
+/// order.
 pub fn measure(
     workspace: &Workspace,
     tools: &Tools,
@@ -141,8 +144,9 @@ pub fn run(
     Ok((rows, lines))
 }
 
-/// Runs a bin under the meter for what its rows take, not how long their code is: of code that calls through
-/// registers nobody knows. By a reading of the manual, or the chosen one if it is empty.
+/// Runs a bin under the meter for what its rows take, not how long their code is: of code that
+/// calls through registers nobody knows. By a reading of the manual, or the chosen one if it is
+/// empty.
 pub fn run_for_time(
     tools: &Tools,
     meter: &Path,
@@ -212,8 +216,8 @@ fn cut(
     Ok(rows)
 }
 
-/// Instructions and literals of the function at an address and of all that it calls, but for those that are
-/// left out by their names.
+/// Instructions and literals of the function at an address and of all that it calls, but for those
+/// that are left out by their names.
 pub fn code_bytes(image: &Image, address: u64, left_out: impl Fn(&str) -> bool) -> Result<u64> {
     if !image.functions.iter().any(|f| f.address == address) {
         bail!("the firmware has no function at {address:#x}");

@@ -8,7 +8,8 @@ use indicatif::{MultiProgress, ProgressDrawTarget};
 pub static SPINNERS: LazyLock<MultiProgress> =
     LazyLock::new(|| MultiProgress::with_draw_target(target()));
 
-/// The place where spinners and bars are drawn: none if the user wants plain text or the terminal is limited to it.
+/// The place where spinners and bars are drawn: none if the user wants plain text or the terminal
+/// is limited to it.
 pub fn target() -> ProgressDrawTarget {
     let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");

@@ -114,8 +114,8 @@ impl Options {
         self.yes || is_ci()
     }
 
-    /// The options of a step that runs beside others, where a question would stand among their output: it installs what
-    /// the user has agreed to, and nothing else.
+    /// The options of a step that runs beside others, where a question would stand among their
+    /// output: it installs what the user has agreed to, and nothing else.
     pub fn without_questions(self) -> Self {
         Self {
             no_install: !self.agrees(),

@@ -23,8 +23,9 @@ pub fn run(command: &mut Command) -> Result<()> {
     succeeded(command, status)
 }
 
-/// Runs a command whose output and errors are the user's, and returns how it ended. Where stdout is a terminal it stays
-/// in the foreground group, whose programs alone may read from the terminal; elsewhere it ends with xtask.
+/// Runs a command whose output and errors are the user's, and returns how it ended. Where stdout is
+/// a terminal it stays in the foreground group, whose programs alone may read from the terminal;
+/// elsewhere it ends with xtask.
 pub fn run_for_user(command: &mut Command) -> Result<ExitStatus> {
     let status = if std::io::stdout().is_terminal() {
         command.status()
@@ -54,8 +55,8 @@ pub fn capture(command: &mut Command) -> Result<String> {
     Ok(output_of(command)?.0)
 }
 
-/// Runs cargo and returns its stdout. Its warnings are shown, except rustc's about target features that it
-/// forwards to LLVM, of which one sentence says that there are some.
+/// Runs cargo and returns its stdout. Its warnings are shown, except rustc's about target features
+/// that it forwards to LLVM, of which one sentence says that there are some.
 pub fn cargo(command: &mut Command) -> Result<String> {
     let (stdout, stderr) = output_of(command)?;
     let warnings = flags::sifted(&stderr);

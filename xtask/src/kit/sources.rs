@@ -22,8 +22,8 @@ pub fn sources(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// The lines of code of a source that rustfmt has written, with their numbers from 1: none that are blank, comments,
-/// or of an item behind `#[cfg(test)]`.
+/// The lines of code of a source that rustfmt has written, with their numbers from 1: none that are
+/// blank, comments, or of an item behind `#[cfg(test)]`.
 pub fn code(source: &str) -> impl Iterator<Item = (usize, &str)> {
     enum Test {
         /// Its attribute stands at this depth; the item has not opened its brace yet.

@@ -19,8 +19,8 @@ pub enum System {
     Other,
 }
 
-/// Each system, the words of `/etc/os-release` that it goes by, and what gets the user a QEMU there; Debian's is
-/// installed by [`apt`](crate::kit::apt).
+/// Each system, the words of `/etc/os-release` that it goes by, and what gets the user a QEMU
+/// there; Debian's is installed by [`apt`](crate::kit::apt).
 #[rustfmt::skip]
 const SYSTEMS: [(System, &[&str], &str); 7] = [
     (System::Debian, &["debian"], ""),

@@ -61,7 +61,8 @@ impl Table {
 /// The heading of a column, and its cell in a row.
 pub type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> String);
 
-/// Markdown for a terminal: tables without bars and no wider than it is, and neither comments nor pictures.
+/// Markdown for a terminal: tables without bars and no wider than it is, and neither comments nor
+/// pictures.
 pub fn plain(markdown: &str) -> String {
     let (stdout, mut text) = (Term::stdout(), String::new());
     let room = match stdout.size_checked() {
@@ -86,7 +87,8 @@ pub fn plain(markdown: &str) -> String {
     text + &folded(&table, room)
 }
 
-/// The rows of a table, all of equal widths: columns beyond the room follow below, behind the first one again.
+/// The rows of a table, all of equal widths: columns beyond the room follow below, behind the first
+/// one again.
 fn folded(rows: &[Vec<&str>], room: usize) -> String {
     let widths = rows.first().map_or_else(Vec::new, |head| {
         head.iter()

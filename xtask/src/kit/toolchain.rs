@@ -103,8 +103,9 @@ fn native_paths() -> Option<&'static str> {
     paths.as_deref()
 }
 
-/// The setting of cargo by which a compiler that has the sources of core, rustup's component rust-src, writes their paths as one that
-/// has none: the firmware's messages name them, so that its size would depend on the component.
+/// The setting of cargo by which a compiler that has the sources of core, rustup's component
+/// rust-src, writes their paths as one that has none: the firmware's messages name them, so that
+/// its size would depend on the component.
 fn recorded_paths(sysroot: &Path, version: &str) -> Option<String> {
     let hash = version
         .lines()
@@ -136,8 +137,8 @@ pub fn rustup(toolchain: &str, program: &str) -> Command {
     command
 }
 
-/// Rids a command of what `cargo run` and rustup's shims left in the environment: library paths and variables that
-/// lead back to the other compiler.
+/// Rids a command of what `cargo run` and rustup's shims left in the environment: library paths and
+/// variables that lead back to the other compiler.
 fn clear(command: &mut Command) {
     let left = "CARGO RUSTC RUSTDOC LD_LIBRARY_PATH RUSTUP_TOOLCHAIN RUST_RECURSION_COUNT";
     for (name, _) in std::env::vars_os() {

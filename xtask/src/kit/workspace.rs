@@ -9,8 +9,8 @@ use serde_json::Value;
 use crate::kit::error::{Error, Result, check};
 use crate::kit::shell;
 
-/// The packages whose bins run on the target: the demo's scenes, and what the laboratory measures. Cargo finds a bin
-/// and a feature in the one that has it.
+/// The packages whose bins run on the target: the demo's scenes, and what the laboratory measures.
+/// Cargo finds a bin and a feature in the one that has it.
 pub const FIRMWARE: [&str; 2] = ["firmware-demo", LAB];
 pub const LAB: &str = "lab-target";
 
@@ -21,7 +21,8 @@ pub struct Workspace {
     pub target: PathBuf,
     /// The directory for reports, if it is not the workspace.
     pub reports: Option<PathBuf>,
-    /// Whether this is a full run of the tests, in which the host's programs are built with the features of its tests.
+    /// Whether this is a full run of the tests, in which the host's programs are built with the
+    /// features of its tests.
     pub full: bool,
     /// The firmware's bins that need no feature.
     pub bins: Vec<String>,
@@ -151,7 +152,8 @@ pub fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<()> {
     write_whole(&[(path.to_owned(), contents)])
 }
 
-/// Writes files so that none is ever half-written: all beside their places first, then each is moved there.
+/// Writes files so that none is ever half-written: all beside their places first, then each is
+/// moved there.
 pub fn write_whole<T: AsRef<[u8]>>(files: &[(PathBuf, T)]) -> Result<()> {
     // The suffix follows the whole name: files of one stem may differ in their endings alone.
     let beside = |path: &Path| {

@@ -1,4 +1,5 @@
-//! `cargo xtask accuracy`: what accuracy costs in time, for every way to compute that the library offers.
+//! `cargo xtask accuracy`: what accuracy costs in time, for every way to compute that the library
+//! offers.
 
 mod choice;
 mod code;
@@ -53,13 +54,15 @@ pub struct Args {
     #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
     #[arg(requires = "chosen", conflicts_with = "cycles")]
     error: Option<Allowed>,
-    /// Choose the cheapest configuration that is proven to be off by no more than this in any state of the joints' box: 0.01Nm
+    /// Choose the cheapest configuration that is proven to be off by no more than this in any state
+    /// of the joints' box: 0.01Nm
     #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
     #[arg(requires = "chosen", conflicts_with_all = ["cycles", "error"])]
     proven_error: Option<Allowed>,
     #[command(flatten)]
     state_box: proven::StateBox,
-    /// Prove the errors of the page's robots anew, and rewrite the page by its record with them: takes an hour of processor time
+    /// Prove the errors of the page's robots anew, and rewrite the page by its record with them:
+    /// takes an hour of processor time
     #[arg(long, conflicts_with_all = ["chosen", "measure", "json"])]
     prove: bool,
     /// Measure single changes anew and rewrite the rest of the page by its record
@@ -162,7 +165,8 @@ fn show(budget: Budget, points: &[Point], json: bool) -> Result<()> {
     }
 }
 
-/// Fails unless what single changes cost and lose is what the page says; else says how many there are.
+/// Fails unless what single changes cost and lose is what the page says; else says how many there
+/// are.
 pub fn check(bench: &Bench<'_>) -> Result<String> {
     let (workspace, tools) = (bench.workspace, bench.tools()?);
     let plan = Plan {
@@ -204,7 +208,8 @@ pub fn check(bench: &Bench<'_>) -> Result<String> {
     ))
 }
 
-/// Rewrites the page's parts that this run has all of, and their pictures; all of them or none. What is recorded keeps its compiler.
+/// Rewrites the page's parts that this run has all of, and their pictures; all of them or none.
+/// What is recorded keeps its compiler.
 fn write(
     workspace: &Workspace,
     measured: &Measured,

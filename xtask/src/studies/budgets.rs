@@ -11,7 +11,8 @@ use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::workspace::{self, Workspace};
 use crate::studies::scenes::report::Report;
 
-/// The same share for flash, which contains the compiler's own library: rustc 1.99.1 takes 4.4 % more.
+/// The same share for flash, which contains the compiler's own library: rustc 1.99.1 takes 4.4 %
+/// more.
 const OTHER_RUSTC_FLASH: f64 = 0.06;
 
 /// The figures that bars are set for.

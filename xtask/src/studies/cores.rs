@@ -1,5 +1,5 @@
-//! `cargo xtask cores`: the control loop of two scenes on four cores that QEMU emulates. The torques must have the same
-//! bits on all of them and on the host, and the stack of a tick a bound.
+//! `cargo xtask cores`: the control loop of two scenes on four cores that QEMU emulates. The
+//! torques must have the same bits on all of them and on the host, and the stack of a tick a bound.
 
 mod boards;
 mod frame;
@@ -45,7 +45,8 @@ struct Report {
     rustc: String,
 }
 
-/// Builds and runs every core that can be, prints what the others lack, and writes the page if wanted.
+/// Builds and runs every core that can be, prints what the others lack, and writes the page if
+/// wanted.
 pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let workspace = Workspace::for_reports()?;
     setup::for_demo(options)?;

@@ -19,8 +19,8 @@ use crate::studies::{budgets, drawn};
 
 pub use report::Report;
 
-/// Two bins for each robot, inverse dynamics and the rest, but one for the SO-101, two for robots with loops, and one for links that bend: the
-/// compiler builds them side by side.
+/// Two bins for each robot, inverse dynamics and the rest, but one for the SO-101, two for robots
+/// with loops, and one for links that bend: the compiler builds them side by side.
 pub const BINS: [&str; 13] = [
     "costs_ur5e",
     "forward_ur5e",
@@ -121,8 +121,8 @@ fn report(workspace: &Workspace, tools: &Tools, rows: Vec<Row>, bars: Bars) -> R
     })
 }
 
-/// Fails unless the page says what every row costs today and every bar holds. A full run measures all
-/// robots and compares the whole page, an everyday run the rows of the first robot.
+/// Fails unless the page says what every row costs today and every bar holds. A full run measures
+/// all robots and compares the whole page, an everyday run the rows of the first robot.
 pub fn check(bench: &Bench<'_>) -> Result<String> {
     let (workspace, tools) = (bench.workspace, bench.tools()?);
     let report = match bench.full {

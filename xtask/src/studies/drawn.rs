@@ -27,7 +27,8 @@ pub fn write(workspace: &Workspace, file: &str) -> Result<()> {
     workspace::write(&picture, draw(&workspace::read(&page)?)?)
 }
 
-/// The first cells of the first table below a heading, and the numbers in a column: of a range the larger one.
+/// The first cells of the first table below a heading, and the numbers in a column: of a range the
+/// larger one.
 fn column<'a>(page: &'a str, heading: &str, column: usize) -> Vec<(&'a str, f64)> {
     let parts = page.split("\n## ");
     let own = parts.filter(|part| part.lines().next() == Some(heading));

@@ -27,7 +27,8 @@ const BINS: [&str; 5] = [
 ];
 const HOST_BIN: &str = "effects";
 
-/// The scene that others are compared with, and the prefix of the names of those without a term of it.
+/// The scene that others are compared with, and the prefix of the names of those without a term of
+/// it.
 const RIGID: &str = "rigid_body";
 const WITHOUT: &str = "less_";
 

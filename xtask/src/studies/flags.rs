@@ -1,5 +1,5 @@
-//! `cargo xtask flags`: what other flags of the compiler and other profiles cost, and which functions of Rust's own crates a tick
-//! contains.
+//! `cargo xtask flags`: what other flags of the compiler and other profiles cost, and which
+//! functions of Rust's own crates a tick contains.
 
 mod profiles;
 
@@ -63,7 +63,8 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
         rows.retain(is_shown);
         lines.push(rows);
         if name == QUALIFIABLE {
-            // Without scopes in the debug information, functions of one name could not be told apart.
+            // Without scopes in the debug information, functions of one name could not be told
+            // apart.
             let debug = Some(("CARGO_PROFILE_RELEASE_DEBUG", "limited"));
             core = functions_of_rust(&build(&[SCENE], debug)?[0])?;
         }
@@ -110,7 +111,8 @@ fn table(lines: &[Vec<Row>]) -> Result<Table> {
     Ok(table)
 }
 
-/// By source file, the functions of Rust's own crates whose code a tick contains: those that were inlined into it too.
+/// By source file, the functions of Rust's own crates whose code a tick contains: those that were
+/// inlined into it too.
 fn functions_of_rust(elf: &Path) -> Result<BTreeMap<String, BTreeSet<String>>> {
     let wrong = |error| check!("the debug information of {}: {error}", elf.display());
     let bytes = std::fs::read(elf).map_err(Error::file("read", elf))?;
@@ -136,7 +138,8 @@ fn functions_of_rust(elf: &Path) -> Result<BTreeMap<String, BTreeSet<String>>> {
                 continue;
             };
             let name = function.demangle().map_err(wrong)?;
-            // Where the compiler has merged instructions, a function of another crate may have a line of this one.
+            // Where the compiler has merged instructions, a function of another crate may have a
+            // line of this one.
             let is_core = name.starts_with("core::") || name.starts_with('<');
             if is_core || !path.starts_with("core/") {
                 let names = found.entry(path.replace("/src/", "/")).or_default();

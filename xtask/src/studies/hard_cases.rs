@@ -63,7 +63,8 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
 }
 
 impl Row {
-    /// The error as a share of its bound; a bound of zero is of a claim, which holds without an error.
+    /// The error as a share of its bound; a bound of zero is of a claim, which holds without an
+    /// error.
     fn share(&self) -> f64 {
         match (self.error, self.bound) {
             (Some(0.0), _) => 0.0,
@@ -74,7 +75,8 @@ impl Row {
 }
 
 impl Suite {
-    /// The row of a case with the largest share of its bound, of those of a scalar, or of the naive ones.
+    /// The row of a case with the largest share of its bound, of those of a scalar, or of the naive
+    /// ones.
     fn worst(&self, case: &Case, which: &str) -> Option<&Row> {
         let naive = |row: &&Row| match row.verdict == "shown" {
             true => which == "naive",
@@ -125,7 +127,8 @@ fn summary(suite: &Suite) -> String {
     )
 }
 
-/// The page with the figures that are known to be beyond the bounds of the suite, and the first words of their row.
+/// The page with the figures that are known to be beyond the bounds of the suite, and the first
+/// words of their row.
 const DECISION: &str = "docs/decisions/0002-bars.md";
 const KNOWN: &str = "`aba` in f32, case 87 of the [suite]";
 

@@ -121,7 +121,8 @@ impl Report {
         table
     }
 
-    /// The ancestors that take fewer cycles than the core over this number of links, each with its share of them.
+    /// The ancestors that take fewer cycles than the core over this number of links, each with its
+    /// share of them.
     fn fewer_at(&self, joints: usize) -> Vec<String> {
         let cycles = |key: &str| self.at(key, joints).map(|row| row.cycles.max as f64);
         let of = |all: &[(&str, &str)], core: &str| -> Vec<String> {

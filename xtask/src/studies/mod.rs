@@ -133,7 +133,8 @@ mod tests {
     use super::study::Held;
     use crate::kit::docs::repository::{read, root};
 
-    /// The files that no study writes: those of the demo, which the step `readme` compares, and two pictures.
+    /// The files that no study writes: those of the demo, which the step `readme` compares, and two
+    /// pictures.
     const OF_THE_DEMO: [&str; 6] = [
         "README.md",
         "docs/scenes.md",

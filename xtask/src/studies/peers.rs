@@ -26,14 +26,16 @@ use crate::studies::peers::tools::Peers;
 use crate::studies::scenes::first_screen;
 use crate::studies::{budgets, drawn};
 
-/// ID(q, q̇, q̈), ID(q, q̇, 0), ID(q, 0, 0), the mass matrix, FD(q, q̇, τ), and Λ⁻¹ of the tip of an arm.
+/// ID(q, q̇, q̈), ID(q, q̇, 0), ID(q, 0, 0), the mass matrix, FD(q, q̇, τ), and Λ⁻¹ of the tip of
+/// an arm.
 const ALGORITHMS: [&str; 6] = ["rnea", "bias", "gravity", "crba", "aba", "osim"];
 const PRECISIONS: [&str; 2] = ["f32", "f64"];
 const PAGE: &str = "docs/peers.md";
 /// The most seconds of processor time of a release build of firmware with one function.
 const BUILD: f64 = 60.0;
 
-/// The number of outputs of an algorithm with this number of velocity coordinates; of a matrix one triangle counts.
+/// The number of outputs of an algorithm with this number of velocity coordinates; of a matrix one
+/// triangle counts.
 fn outputs(algorithm: &str, velocities: usize) -> usize {
     match algorithm {
         "crba" => velocities * (velocities + 1) / 2,

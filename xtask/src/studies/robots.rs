@@ -1,4 +1,5 @@
-//! `cargo xtask robots`: the robots of published packages, imported, checked and measured; rewrites docs/robots.md.
+//! `cargo xtask robots`: the robots of published packages, imported, checked and measured; rewrites
+//! docs/robots.md.
 
 mod page;
 

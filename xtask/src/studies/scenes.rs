@@ -1,4 +1,5 @@
-//! All scenes in one table: what a tick costs and how well it tracks, and what each effect is worth.
+//! All scenes in one table: what a tick costs and how well it tracks, and what each effect is
+//! worth.
 
 pub mod first_screen;
 pub mod plot;
@@ -33,8 +34,8 @@ fn foot(reports: &[&Report]) -> String {
     format!("{MODEL}. Measured with {rustc}.")
 }
 
-/// A row per scene, set off from those below it: one per effect, with what is saved and lost without it, and one
-/// per other law that the scene compares.
+/// A row per scene, set off from those below it: one per effect, with what is saved and lost
+/// without it, and one per other law that the scene compares.
 fn table(reports: &[&Report], set_off: impl Fn(&str) -> String) -> Table {
     let head = "scene, − effect, other law|tick, cycles|of its period|tick's code, B|flash, B|RAM, B|\
                 error RMS, mrad|max|bound|of PD's|safety gate";

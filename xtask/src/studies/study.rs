@@ -1,5 +1,5 @@
-//! A study: it measures something and keeps a page. Its command, its page and pictures, its JSON and its step of the
-//! tests follow from its row in `STUDIES`.
+//! A study: it measures something and keeps a page. Its command, its page and pictures, its JSON
+//! and its step of the tests follow from its row in `STUDIES`.
 
 use std::cell::OnceCell;
 use std::process::ExitCode;
@@ -31,7 +31,8 @@ pub struct Study {
 pub enum Held {
     /// A step of `cargo xtask test`, for this claim.
     Step(Lane, Scope, &'static str),
-    /// Nothing measures them anew in a test, for this reason; a test checks what the page says of its bars.
+    /// Nothing measures them anew in a test, for this reason; a test checks what the page says of
+    /// its bars.
     Bars(&'static str),
 }
 
@@ -63,8 +64,8 @@ pub enum Scope {
     Named,
 }
 
-/// One of the two rows of steps that run side by side: cargo builds for the host and for the target in
-/// different directories, and the one keeps no core busy while the other links or emulates.
+/// One of the two rows of steps that run side by side: cargo builds for the host and for the target
+/// in different directories, and the one keeps no core busy while the other links or emulates.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Lane {
     Host,
@@ -99,7 +100,8 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// The compiler of the firmware and the emulator, set up when the first study asks: a study of the host needs none.
+    /// The compiler of the firmware and the emulator, set up when the first study asks: a study of
+    /// the host needs none.
     pub fn tools(&self) -> Result<&Tools> {
         if let Some(tools) = self.tools.get() {
             return Ok(tools);
@@ -118,7 +120,8 @@ impl<'a> Bench<'a> {
 pub struct Found {
     /// The page, or its part.
     pub text: String,
-    /// The lines of another page, the README or one of the guide, between the markers of the study's name, if it has any.
+    /// The lines of another page, the README or one of the guide, between the markers of the
+    /// study's name, if it has any.
     pub brief: Option<(&'static str, String)>,
     pub picture: Option<String>,
     pub json: String,
@@ -183,7 +186,8 @@ impl Study {
         }
     }
 
-    /// Fails unless all bars hold and the files are what would be written now; else says what was measured.
+    /// Fails unless all bars hold and the files are what would be written now; else says what was
+    /// measured.
     pub fn check(&self, bench: &Bench<'_>) -> Result<String> {
         match self.form {
             Form::Own(_, _, check) | Form::Demo(check) => check(bench),

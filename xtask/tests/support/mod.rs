@@ -64,7 +64,8 @@ pub fn outcome(command: &mut Command) -> (Option<i32>, String, String) {
 const CODE: u32 = 0x40;
 const FLASH: u32 = 0x0800_0000;
 
-/// A firmware of one function, `tick`, that passes region 0 three times with two instructions in it.
+/// A firmware of one function, `tick`, that passes region 0 three times with two instructions in
+/// it.
 pub fn three_passages(end: &[u16]) -> Vec<u8> {
     let passages = [
         0x2403, // movs r4, #3

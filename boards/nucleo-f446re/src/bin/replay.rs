@@ -1,5 +1,5 @@
-//! The digest of the torques and the cycles of a tick on the board, to compare with `docs/boards.md` and `docs/scenes.md`;
-//! no encoder and no drive is needed.
+//! The digest of the torques and the cycles of a tick on the board, to compare with
+//! `docs/boards.md` and `docs/scenes.md`; no encoder and no drive is needed.
 //!
 //! ```text
 //! cargo build --release -p nucleo-f446re --target thumbv7em-none-eabihf
@@ -20,7 +20,8 @@ mod firmware {
     use stm32f4xx_hal::prelude::*;
     use stm32f4xx_hal::rcc::Config;
 
-    /// 168 MHz from the 8 MHz of the ST-LINK: five wait states of the flash at 3.3 V, with its accelerator.
+    /// 168 MHz from the 8 MHz of the ST-LINK: five wait states of the flash at 3.3 V, with its
+    /// accelerator.
     fn clocks() -> Config {
         Config::hse(8.MHz())
             .bypass_hse_oscillator()

@@ -1,5 +1,5 @@
-//! The control loop of the scene `ur5e` on encoders and drives: the firmware of a project for this board, with this robot in
-//! place of the user's. Nothing is simulated.
+//! The control loop of the scene `ur5e` on encoders and drives: the firmware of a project for this
+//! board, with this robot in place of the user's. Nothing is simulated.
 #![cfg_attr(target_arch = "arm", no_std, no_main)]
 
 #[cfg(target_arch = "arm")]

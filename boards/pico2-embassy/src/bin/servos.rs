@@ -1,5 +1,5 @@
-//! The servo bus of an SO-101 on a serial port of Embassy, which the driver has to compile with: positions of all
-//! servos, and the duties that damp them, 500 times a second.
+//! The servo bus of an SO-101 on a serial port of Embassy, which the driver has to compile with:
+//! positions of all servos, and the duties that damp them, 500 times a second.
 #![cfg_attr(target_arch = "arm", no_std, no_main)]
 
 #[cfg(target_arch = "arm")]

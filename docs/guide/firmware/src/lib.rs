@@ -1,4 +1,5 @@
-//! The common part of the programs of the guide's page on firmware: the arm of the page, and a placeholder for the board.
+//! The common part of the programs of the guide's page on firmware: the arm of the page, and a
+//! placeholder for the board.
 #![no_std]
 
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
@@ -67,7 +68,8 @@ impl Arm {
         }
     }
 
-    /// Computes the command of one tick from the positions of the joints, or from the fault that prevented their measurement.
+    /// Computes the command of one tick from the positions of the joints, or from the fault that
+    /// prevented their measurement.
     pub fn tick(&mut self, measured: Result<&[f32; 6], Fault>) -> Command<f32, 6> {
         let gains = &self.gains;
         self.controller

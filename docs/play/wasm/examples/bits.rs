@@ -1,4 +1,5 @@
-//! The digests of the step `bits`, computed in WebAssembly: `docs/play/test/bits.mjs` prints them as the host's bin does.
+//! The digests of the step `bits`, computed in WebAssembly: `docs/play/test/bits.mjs` prints them
+//! as the host's bin does.
 
 use std::cell::RefCell;
 use std::fmt::Write;

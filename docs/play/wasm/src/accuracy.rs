@@ -1,4 +1,5 @@
-//! The ways to compute inverse dynamics that docs/accuracy.md compares: those that compute in every tick, by their keys.
+//! The ways to compute inverse dynamics that docs/accuracy.md compares: those that compute in every
+//! tick, by their keys.
 
 use dynamics_core::model::{Pruned, Robot};
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
@@ -59,8 +60,8 @@ fn of<T: Robot<B, N, N>, const B: usize, const N: usize>(
     }
 }
 
-/// The torque of a robot in a state by the way of a key, which leaves out the level of optimisation; none if this page
-/// does not have that way, or the robot no recorded front.
+/// The torque of a robot in a state by the way of a key, which leaves out the level of
+/// optimisation; none if this page does not have that way, or the robot no recorded front.
 pub fn by(robot: &str, key: &str, motion: &Motion) -> Option<Vec<f64>> {
     fn state<const N: usize>(motion: &Motion) -> State<f32, N, N> {
         let row = |xs: &[f64]| std::array::from_fn(|i| xs.get(i).map_or(0.0, |&x| x as f32));

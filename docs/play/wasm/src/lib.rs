@@ -1,7 +1,8 @@
 //! The library in the browser: what the page of docs/play calls, compiled to WebAssembly.
 //!
-//! The page writes a request as JSON into the memory that [`reserve`] gives, calls [`call`], and reads the answer, JSON
-//! again, at [`answer`]. Nothing here computes dynamics: it selects what the library computes, and names its errors.
+//! The page writes a request as JSON into the memory that [`reserve`] gives, calls [`call`], and
+//! reads the answer, JSON again, at [`answer`]. Nothing here computes dynamics: it selects what the
+//! library computes, and names its errors.
 //!
 //! | module | what |
 //! |---|---|

@@ -1,4 +1,5 @@
-//! A robot that is known at run time: poses, torques effect by effect in f32 and f64, and the joints that reach a point.
+//! A robot that is known at run time: poses, torques effect by effect in f32 and f64, and the
+//! joints that reach a point.
 
 use dynamics_core::algorithms::{
     Damping, OperationalSpace, frame, jacobian, poses, rnea, task_jacobian,
@@ -193,8 +194,9 @@ impl<const B: usize, const Q: usize, const V: usize> Sized<B, Q, V> {
         self.joints().map(|(_, _, at)| all[at].to_f64()).collect()
     }
 
-    /// The torques of the effects that are on. Velocity products are left out by a velocity of zero and inertia by an
-    /// acceleration of zero, so that one instance of inverse dynamics serves every choice.
+    /// The torques of the effects that are on. Velocity products are left out by a velocity of zero
+    /// and inertia by an acceleration of zero, so that one instance of inverse dynamics serves
+    /// every choice.
     fn torques<R: Real>(
         &self,
         model: &Model<R, B, Q, V>,
@@ -227,8 +229,8 @@ impl<const B: usize, const Q: usize, const V: usize> Sized<B, Q, V> {
         tau
     }
 
-    /// The torque of friction and rotor of a joint. They are the same on every robot: a joint without mass has them too, so
-    /// that one instance of inverse dynamics serves all.
+    /// The torque of friction and rotor of a joint. They are the same on every robot: a joint
+    /// without mass has them too, so that one instance of inverse dynamics serves all.
     fn friction_of<R: Real>(&self, number: usize, qd: f64, qdd: f64, on: &On) -> R {
         let Some(friction) = &self.friction else {
             return R::ZERO;

@@ -1,5 +1,5 @@
-//! "Disturb me": the plant of a scene with its own control loop, encoders, drives and supervisor, which the page pushes and
-//! whose inputs it spoils.
+//! "Disturb me": the plant of a scene with its own control loop, encoders, drives and supervisor,
+//! which the page pushes and whose inputs it spoils.
 
 use std::cell::Cell;
 use std::convert::Infallible;

@@ -1,5 +1,5 @@
-//! The bus of an SO-101: the request that the page sends, and the positions in what the servos reply, by the library's own
-//! driver. The page moves the bytes.
+//! The bus of an SO-101: the request that the page sends, and the positions in what the servos
+//! reply, by the library's own driver. The page moves the bytes.
 
 use std::convert::Infallible;
 

@@ -41,8 +41,8 @@ fn widened<const B: usize, const Q: usize, const V: usize>(
     wide
 }
 
-/// The error of f32 forward dynamics, and what it is estimated to be, both relative to the largest acceleration, in
-/// twenty states.
+/// The error of f32 forward dynamics, and what it is estimated to be, both relative to the largest
+/// acceleration, in twenty states.
 fn measured<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
     q_within: f64,

@@ -12,7 +12,8 @@ use crate::spatial::{Motion, Xform};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<R: Real> {
-    /// Rotation of coordinates from the body's frame to the base's; its columns are the body's axes.
+    /// Rotation of coordinates from the body's frame to the base's; its columns are the body's
+    /// axes.
     pub rot: R::Mat3,
     /// The origin of the body's frame, in base coordinates, m.
     pub pos: R::Vec3,
@@ -73,10 +74,11 @@ mod sealed {
     impl Sealed for super::LocalWorldAligned {}
 }
 
-/// A frame in which the motion of a body is expressed: [`Local`], [`World`] or [`LocalWorldAligned`].
+/// A frame in which the motion of a body is expressed: [`Local`], [`World`] or
+/// [`LocalWorldAligned`].
 ///
-/// The frame is a type, not a flag, so that it is fixed at compile time. For a body with the angular velocity ω and the
-/// origin p:
+/// The frame is a type, not a flag, so that it is fixed at compile time. For a body with the
+/// angular velocity ω and the origin p:
 ///
 /// | frame | axes | reference point | bias acceleration J̇ q̇ |
 /// |---|---|---|---|
@@ -90,7 +92,8 @@ pub trait Frame: sealed::Sealed + Copy {
     fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R>;
     /// Transforms a motion of the body at `pose` from [`LocalWorldAligned`] to this frame.
     fn from_aligned<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R>;
-    /// The difference of the acceleration in this frame and the spatial one; v is the velocity in this frame.
+    /// The difference of the acceleration in this frame and the spatial one; v is the velocity in
+    /// this frame.
     #[cfg_attr(optimised, inline(always))]
     fn classical_term<R: Real>(v: Motion<R>) -> Motion<R> {
         let _ = v;
@@ -166,8 +169,8 @@ impl Frame for LocalWorldAligned {
     }
 }
 
-/// The classical acceleration, ω̇ and p̈ of the body's origin p, from the spatial acceleration a and the velocity v in
-/// the same frame.
+/// The classical acceleration, ω̇ and p̈ of the body's origin p, from the spatial acceleration a
+/// and the velocity v in the same frame.
 ///
 /// rad/s² and m/s².
 ///

@@ -1,7 +1,7 @@
 //! The geometric Jacobian of a body, and its bias acceleration J̇ q̇.
 //!
-//! Featherstone, RBDA (2008), section 4.1: the column of a coordinate is that of S at its joint, transformed to the
-//! body; zero for joints that do not move the body.
+//! Featherstone, RBDA (2008), section 4.1: the column of a coordinate is that of S at its joint,
+//! transformed to the body; zero for joints that do not move the body.
 
 use core::borrow::Borrow;
 
@@ -13,7 +13,8 @@ use crate::scalar::{Matrix, Real};
 use crate::spatial::{Motion, Xform};
 use crate::state::{Configuration, RobotState};
 
-/// The geometric Jacobian J of `body` in a [`Frame`] with v = J q̇, by columns, one for each coordinate.
+/// The geometric Jacobian J of `body` in a [`Frame`] with v = J q̇, by columns, one for each
+/// coordinate.
 ///
 /// ω in rad/s and velocity in m/s per rad/s or m/s; the force f on the body b is in the same frame:
 ///
@@ -26,8 +27,8 @@ use crate::state::{Configuration, RobotState};
 /// 6 × V; zero for the base, NaN for a body that the robot does not have.
 ///
 /// # Cost
-/// O(depth): 81 flops for each revolute joint between body and base, and 39 (`Local`), 69 (`LocalWorldAligned`) or 81
-/// (`World`) for each coordinate.
+/// O(depth): 81 flops for each revolute joint between body and base, and 39 (`Local`), 69
+/// (`LocalWorldAligned`) or 81 (`World`) for each coordinate.
 ///
 /// # Source
 /// RBDA (2008), section 4.1.
@@ -87,8 +88,8 @@ where
 
 /// The acceleration J̇ q̇ of `body` at q̈ = 0, in a [`Frame`], rad/s² and m/s².
 ///
-/// It is the derivative of J q̇ in that frame's coordinates: in `LocalWorldAligned` ω̇ and p̈, in the others the
-/// spatial acceleration. `state.qdd` is not read.
+/// It is the derivative of J q̇ in that frame's coordinates: in `LocalWorldAligned` ω̇ and p̈, in
+/// the others the spatial acceleration. `state.qdd` is not read.
 ///
 /// ```text
 /// v̇_b = J q̈ + J̇ q̇

@@ -29,7 +29,8 @@ pub struct Kinematics<R: Real, const B: usize> {
 }
 
 impl<R: Real, const B: usize> Kinematics<R, B> {
-    /// The velocity of `body`, rad/s and m/s, in a [`Frame`]; NaN for a body that the robot does not have.
+    /// The velocity of `body`, rad/s and m/s, in a [`Frame`]; NaN for a body that the robot does
+    /// not have.
     #[cfg_attr(optimised, inline(always))]
     pub fn velocity<F: Frame>(&self, body: usize, frame: F) -> Motion<R> {
         let _ = frame;
@@ -50,8 +51,8 @@ impl<R: Real, const B: usize> Kinematics<R, B> {
         }
     }
 
-    /// The classical acceleration of `body`: ω̇ and p̈ of its origin, rad/s² and m/s², without gravity, along the axes
-    /// of a [`Frame`] at its reference point.
+    /// The classical acceleration of `body`: ω̇ and p̈ of its origin, rad/s² and m/s², without
+    /// gravity, along the axes of a [`Frame`] at its reference point.
     #[cfg_attr(optimised, inline(always))]
     pub fn classical<F: Frame>(&self, body: usize, frame: F) -> Motion<R> {
         classical(self.acceleration(body, frame), self.velocity(body, frame))
@@ -101,8 +102,8 @@ where
 
 /// Pose, velocity and acceleration of every body, on a base that moves as the effects specify.
 ///
-/// `state.qdd` is read. Of the effects, only a given motion v₀, a₀ of the base is included, not gravity. The results
-/// are along the present axes of the base.
+/// `state.qdd` is read. Of the effects, only a given motion v₀, a₀ of the base is included, not
+/// gravity. The results are along the present axes of the base.
 ///
 /// # Shape
 /// B.

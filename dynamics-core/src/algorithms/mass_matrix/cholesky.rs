@@ -1,7 +1,7 @@
 //! M = Lᵀ L, without the entries that are zero by the branches of the tree.
 //!
-//! Featherstone, RBDA (2008), section 6.5, table 6.4. [`ltdl`](crate::algorithms::ltdl()) computes the factors without
-//! roots, and is preferable, except where a root of M is needed: M⁻¹ = L⁻¹ L⁻ᵀ.
+//! Featherstone, RBDA (2008), section 6.5, table 6.4. [`ltdl`](crate::algorithms::ltdl()) computes
+//! the factors without roots, and is preferable, except where a root of M is needed: M⁻¹ = L⁻¹ L⁻ᵀ.
 
 use crate::algorithms::MassMatrix;
 use crate::algorithms::NotPositiveDefinite;
@@ -87,8 +87,8 @@ where
 }
 
 impl<R: Real, const V: usize> Cholesky<R, V> {
-    /// The factor whose L has these rows, √kg·m or √kg, of which the entries below the diagonal are read, and these
-    /// reciprocals of its diagonal.
+    /// The factor whose L has these rows, √kg·m or √kg, of which the entries below the diagonal are
+    /// read, and these reciprocals of its diagonal.
     #[must_use]
     pub const fn from_rows(rows: [[R; V]; V], l_inv: [R; V]) -> Self {
         Self { rows, l_inv }

@@ -1,7 +1,7 @@
 //! M = Lᵀ D L and M x = τ, without the entries that are zero by the branches of the tree.
 //!
-//! Featherstone, RBDA (2008), section 6.5, tables 6.3 and 6.5: from the tips to the base, so that no zero is filled.
-//! All loops run over the ancestors of a coordinate, λ(i), λ(λ(i)) …
+//! Featherstone, RBDA (2008), section 6.5, tables 6.3 and 6.5: from the tips to the base, so that
+//! no zero is filled. All loops run over the ancestors of a coordinate, λ(i), λ(λ(i)) …
 
 use crate::algorithms::NotPositiveDefinite;
 use crate::algorithms::{Ltdl, MassMatrix};
@@ -9,13 +9,14 @@ use crate::model::{BASE, RobotModel};
 use crate::scalar::Real;
 use crate::state::entry;
 
-/// How many roundings of M_ii a pivot must exceed: less is a rounding error of zero. Up to 30 were measured for
-/// singular M; a straight chain of 64 rods, in f32, has 61.
+/// How many roundings of M_ii a pivot must exceed: less is a rounding error of zero. Up to 30 were
+/// measured for singular M; a straight chain of 64 rods, in f32, has 61.
 pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 
 /// The factors L and D of M = Lᵀ D L, with the reciprocals of D, for [`solve`] and [`inverse`].
 ///
-/// L is zero where M is zero. An implicit joint damping is a sum on M's diagonal, [`MassMatrix::plus_diagonal`].
+/// L is zero where M is zero. An implicit joint damping is a sum on M's diagonal,
+/// [`MassMatrix::plus_diagonal`].
 ///
 /// For each coordinate k from the last to the first, and its ancestors i and j:
 ///
@@ -27,8 +28,8 @@ pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 /// V × V and V.
 ///
 /// # Cost
-/// V divisions and, on a chain, V (V² − 1)/3 + V (V − 1)/2 other flops; on a tree of branches of depth d at most V d² +
-/// V d.
+/// V divisions and, on a chain, V (V² − 1)/3 + V (V − 1)/2 other flops; on a tree of branches of
+/// depth d at most V d² + V d.
 ///
 /// # Source
 /// Featherstone, RBDA (2008), table 6.3.
@@ -44,11 +45,12 @@ pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names the outermost coordinate whose pivot is NaN or does not exceed 32 roundings of M_ii:
-/// it moves no inertia when its descendants are free. Within a joint of several coordinates the rounding errors of each
-/// are propagated to those before it. M does not contain the distances of the frames in which it was computed: if they
-/// are much larger than those of the moving masses, the rounding error of a singular M may be larger than this bound;
-/// the articulated bodies of [`aba`](crate::algorithms::aba()) and
+/// [`NotPositiveDefinite`] names the outermost coordinate whose pivot is NaN or does not exceed 32
+/// roundings of M_ii: it moves no inertia when its descendants are free. Within a joint of several
+/// coordinates the rounding errors of each are propagated to those before it. M does not contain
+/// the distances of the frames in which it was computed: if they are much larger than those of the
+/// moving masses, the rounding error of a singular M may be larger than this bound; the articulated
+/// bodies of [`aba`](crate::algorithms::aba()) and
 /// [`spatial_operator_ltdl`](crate::algorithms::spatial_operator_ltdl()) reject it.
 #[doc(alias = "LTL")]
 #[doc(alias = "factor")]
@@ -91,9 +93,9 @@ where
     Ok(Ltdl { rows, d_inv })
 }
 
-/// The same in the place of M, D on its diagonal: without copies of the matrix, which take as long as the factors of a tree
-/// with many branches. [`ltdl`] does not call it, since
-/// the machine code of trees without loops would change.
+/// The same in the place of M, D on its diagonal: without copies of the matrix, which take as long
+/// as the factors of a tree with many branches. [`ltdl`] does not call it, since the machine code
+/// of trees without loops would change.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn ltdl_in_place<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -257,7 +259,8 @@ impl<R: Real, const V: usize> Sizes<R, V> {
         entry(&self.sizes, k) * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS))
     }
 
-    /// Row `k`, subtracted `l` times from row `i`, adds its rounding errors if both are of one joint.
+    /// Row `k`, subtracted `l` times from row `i`, adds its rounding errors if both are of one
+    /// joint.
     #[cfg_attr(optimised, inline(always))]
     pub(in crate::algorithms) fn add_error_of(&mut self, k: usize, i: usize, l: R) {
         let size = entry(&self.sizes, k);

@@ -14,8 +14,9 @@ use crate::scalar::Real;
 
 /// M(q), symmetric, V × V: kg·m² between revolute joints, kg between prismatic ones, kg·m mixed.
 ///
-/// Row i holds the torques of all joints that accelerate joint i alone by one, without gravity and velocities. M is
-/// positive definite. Source: Featherstone, RBDA (2008), chapter 6. The equation of motion and the kinetic energy are
+/// Row i holds the torques of all joints that accelerate joint i alone by one, without gravity and
+/// velocities. M is positive definite. Source: Featherstone, RBDA (2008), chapter 6. The equation
+/// of motion and the kinetic energy are
 ///
 /// ```text
 /// M(q) q̈ + C(q, q̇) = τ      T = ½ q̇ᵀ M(q) q̇
@@ -169,8 +170,8 @@ pub struct Ltdl<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> Ltdl<R, V> {
-    /// The factors whose L has these rows, of which the entries below the diagonal are read, and these reciprocals of D,
-    /// 1/(kg·m²) or 1/kg.
+    /// The factors whose L has these rows, of which the entries below the diagonal are read, and
+    /// these reciprocals of D, 1/(kg·m²) or 1/kg.
     ///
     /// ```
     /// use dynamics_core::{Core, Ltdl, effects::RIGID_BODY, robots::Ur5e};
@@ -195,8 +196,8 @@ impl<R: Real, const V: usize> Ltdl<R, V> {
         }
     }
 
-    /// The reciprocals of D: the acceleration of each coordinate under a unit torque when its ancestors are fixed and
-    /// its descendants are free.
+    /// The reciprocals of D: the acceleration of each coordinate under a unit torque when its
+    /// ancestors are fixed and its descendants are free.
     #[cfg_attr(optimised, inline(always))]
     pub fn d_inv(&self) -> &[R; V] {
         &self.d_inv

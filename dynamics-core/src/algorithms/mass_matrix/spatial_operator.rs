@@ -7,8 +7,9 @@
 //! M⁻¹ = (1 − H Ψ K)ᵀ D⁻¹ (1 − H Ψ K)
 //! ```
 //!
-//! H projects on the joints; K = U/D of a joint, at its parent; Φ transmits forces inward as through rigid bodies, Ψ as
-//! through joints that move freely. The first factor is Lᵀ of RBDA's section 6.5.
+//! H projects on the joints; K = U/D of a joint, at its parent; Φ transmits forces inward as
+//! through rigid bodies, Ψ as through joints that move freely. The first factor is Lᵀ of RBDA's
+//! section 6.5.
 
 use core::borrow::Borrow;
 
@@ -21,19 +22,22 @@ use crate::scalar::Real;
 use crate::spatial::Force;
 use crate::state::{Configuration, entry};
 
-/// The factors L = (1 + HΦK)ᵀ and D of M(q), without M: the same as those of [`ltdl`](crate::algorithms::ltdl()).
+/// The factors L = (1 + HΦK)ᵀ and D of M(q), without M: the same as those of
+/// [`ltdl`](crate::algorithms::ltdl()).
 ///
 /// ```text
 /// M = Lᵀ D L = (1 + H Φ K) D (1 + H Φ K)ᵀ
 /// ```
 ///
-/// H projects on the joints; K = U/D of a joint, at its parent; Φ transmits forces inward as through rigid bodies.
+/// H projects on the joints; K = U/D of a joint, at its parent; Φ transmits forces inward as
+/// through rigid bodies.
 ///
 /// # Shape
 /// V × V and V.
 ///
 /// # Cost
-/// The inertias of the articulated-body algorithm, and 40 flops for each pair of a joint and its ancestor.
+/// The inertias of the articulated-body algorithm, and 40 flops for each pair of a joint and its
+/// ancestor.
 ///
 /// # Source
 /// Rodriguez, Jain & Kreutz-Delgado (1991).
@@ -50,7 +54,8 @@ use crate::state::{Configuration, entry};
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names a coordinate that moves no inertia, as [`aba`](crate::algorithms::aba()) does.
+/// [`NotPositiveDefinite`] names a coordinate that moves no inertia, as
+/// [`aba`](crate::algorithms::aba()) does.
 #[doc(alias = "innovations factorisation")]
 #[cfg_attr(optimised, inline(always))]
 pub fn spatial_operator_ltdl<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
@@ -71,7 +76,8 @@ where
 /// M⁻¹ = (1 − H Ψ K)ᵀ D⁻¹ (1 − H Ψ K)
 /// ```
 ///
-/// H and K are those of [`spatial_operator_ltdl`]; Ψ transmits forces inward as through joints that move freely.
+/// H and K are those of [`spatial_operator_ltdl`]; Ψ transmits forces inward as through joints that
+/// move freely.
 ///
 /// # Shape
 /// V × V.
@@ -111,8 +117,9 @@ where
     Ok(m_inv)
 }
 
-/// H (Φ or Ψ) K by rows of joints, and D⁻¹: K of each joint, projected on its ancestors; `pass` is the force that a
-/// joint transmits inward, given the force's projection on the joint and its own K.
+/// H (Φ or Ψ) K by rows of joints, and D⁻¹: K of each joint, projected on its ancestors; `pass` is
+/// the force that a joint transmits inward, given the force's projection on the joint and its own
+/// K.
 #[cfg_attr(optimised, inline(always))]
 fn columns<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

@@ -1,9 +1,9 @@
 //! The velocity of a free base from the momentum of all bodies.
 //!
-//! Umetani & Yoshida, "Resolved motion rate control of space manipulators with generalized Jacobian matrix" (1989). The
-//! momentum h of a robot that floats freely is constant, and the velocity of its base follows from the rates of the
-//! joints. M_b is the composite inertia of all bodies at the first one; as that of a rigid body, it has an inverse in
-//! closed form.
+//! Umetani & Yoshida, "Resolved motion rate control of space manipulators with generalized Jacobian
+//! matrix" (1989). The momentum h of a robot that floats freely is constant, and the velocity of
+//! its base follows from the rates of the joints. M_b is the composite inertia of all bodies at the
+//! first one; as that of a rigid body, it has an inverse in closed form.
 
 use core::borrow::Borrow;
 
@@ -28,9 +28,9 @@ struct Body<R: Real> {
 
 /// The velocity q̇ at which the total momentum of a floating robot is h.
 ///
-/// The rates of the first body, which stands on a free joint, are replaced; h is about the base's origin and along its
-/// axes, N·m·s and N·s. The velocity of a robot whose first joint is not free is returned unchanged. The effects are
-/// those of [`momentum`](crate::algorithms::momentum()).
+/// The rates of the first body, which stands on a free joint, are replaced; h is about the base's
+/// origin and along its axes, N·m·s and N·s. The velocity of a robot whose first joint is not free
+/// is returned unchanged. The effects are those of [`momentum`](crate::algorithms::momentum()).
 ///
 /// ```text
 /// M_b v_b + M_bj q̇_j = h
@@ -62,7 +62,8 @@ struct Body<R: Real> {
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names the first coordinate if the bodies have no mass, or no inertia about some axis.
+/// [`NotPositiveDefinite`] names the first coordinate if the bodies have no mass, or no inertia
+/// about some axis.
 #[doc(alias = "recoil")]
 #[cfg_attr(optimised, inline(always))]
 pub fn base_velocity_from_momentum<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(

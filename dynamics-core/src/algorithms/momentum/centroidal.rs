@@ -1,8 +1,8 @@
 //! Momentum about the centre of mass, and the matrix that maps q̇ to it.
 //!
-//! Orin, Goswami & Lee, "Centroidal dynamics of a humanoid robot" (2013). A column is the momentum of the composite
-//! body beyond a joint when that coordinate alone moves at unit rate, so that the composite inertias of the CRBA give
-//! the matrix in O(n) (their section 5; Wensing & Orin, 2016).
+//! Orin, Goswami & Lee, "Centroidal dynamics of a humanoid robot" (2013). A column is the momentum
+//! of the composite body beyond a joint when that coordinate alone moves at unit rate, so that the
+//! composite inertias of the CRBA give the matrix in O(n) (their section 5; Wensing & Orin, 2016).
 
 use core::borrow::Borrow;
 
@@ -57,7 +57,8 @@ where
     Force::new(h.ang - (moment * reciprocal(mass)).cross(h.lin), h.lin)
 }
 
-/// The centroidal momentum matrix A_G with h_G = A_G q̇, by columns, one for each coordinate; for a base at rest.
+/// The centroidal momentum matrix A_G with h_G = A_G q̇, by columns, one for each coordinate; for a
+/// base at rest.
 ///
 /// About the centre of mass and along the base's axes, N·m·s and N·s per rad/s or m/s.
 ///

@@ -1,9 +1,11 @@
-//! The generalised momentum M q̇ and the transposed Coriolis product Cᵀ q̇, in one outward and one inward pass.
+//! The generalised momentum M q̇ and the transposed Coriolis product Cᵀ q̇, in one outward and one
+//! inward pass.
 //!
-//! De Luca & Mattone, "Actuator failure detection and isolation using generalized momenta" (2003): the rate of p = M q̇
-//! contains no acceleration. hᶜ_i is the momentum of body i and all its descendants, about the origin of body i. In the
-//! body's frame, the force f_i that joint i transmits is its rate ḣᶜ_i + v_i ×* hᶜ_i; with τ_i = S_iᵀ f_i and p_i = S_iᵀ hᶜ_i
-//! follows ṗ_i = τ_i + (v_i × S_i + S̊_i)ᵀ hᶜ_i, for joints of every kind.
+//! De Luca & Mattone, "Actuator failure detection and isolation using generalized momenta" (2003):
+//! the rate of p = M q̇ contains no acceleration. hᶜ_i is the momentum of body i and all its
+//! descendants, about the origin of body i. In the body's frame, the force f_i that joint i
+//! transmits is its rate ḣᶜ_i + v_i ×* hᶜ_i; with τ_i = S_iᵀ f_i and p_i = S_iᵀ hᶜ_i follows ṗ_i =
+//! τ_i + (v_i × S_i + S̊_i)ᵀ hᶜ_i, for joints of every kind.
 
 use core::borrow::Borrow;
 
@@ -34,9 +36,11 @@ struct Body<R: Real> {
     rotor: R,
 }
 
-/// The generalised momentum p = M q̇ and the transposed Coriolis product Cᵀ q̇, in joint coordinates, N·m·s and N·m.
+/// The generalised momentum p = M q̇ and the transposed Coriolis product Cᵀ q̇, in joint
+/// coordinates, N·m·s and N·m.
 ///
-/// Together they are the model of an observer that estimates external torques without accelerations:
+/// Together they are the model of an observer that estimates external torques without
+/// accelerations:
 ///
 /// ```text
 /// ṗ    = τ + Cᵀ q̇ − g(q)
@@ -46,15 +50,17 @@ struct Body<R: Real> {
 ///
 /// with c = Cᵀ q̇.
 ///
-/// C is any matrix with Ṁ = C + Cᵀ whose product with q̇ is the vector of velocity products, such as that of the
-/// Christoffel symbols: Cᵀ q̇ = Ṁ q̇ − C q̇ is the same for all of them. Where q̇ is the derivative of q,
-/// it is ∂T/∂q, the derivative of the kinetic energy. At spherical, planar and free joints q̇ is the velocity in the body's
-/// frame, not a derivative of q, and Cᵀ q̇ is what the first equation states: with it, the equation holds for every joint.
+/// C is any matrix with Ṁ = C + Cᵀ whose product with q̇ is the vector of velocity products, such
+/// as that of the Christoffel symbols: Cᵀ q̇ = Ṁ q̇ − C q̇ is the same for all of them. Where q̇ is
+/// the derivative of q, it is ∂T/∂q, the derivative of the kinetic energy. At spherical, planar and
+/// free joints q̇ is the velocity in the body's frame, not a derivative of q, and Cᵀ q̇ is what the
+/// first equation states: with it, the equation holds for every joint.
 ///
-/// M is that of [`crba`](crate::algorithms::crba()) under the same effects: payloads are part of both results; an armature,
-/// which is constant, only of p. Neither depends on the effects [`Inertia`](crate::effects::Inertia) and
-/// [`Coriolis`](crate::effects::Coriolis). On a base of given motion, p = ∂T/∂q̇ includes that motion, and the first equation
-/// holds with the torques under the same motion. A non-finite input gives a non-finite output.
+/// M is that of [`crba`](crate::algorithms::crba()) under the same effects: payloads are part of
+/// both results; an armature, which is constant, only of p. Neither depends on the effects
+/// [`Inertia`](crate::effects::Inertia) and [`Coriolis`](crate::effects::Coriolis). On a base of
+/// given motion, p = ∂T/∂q̇ includes that motion, and the first equation holds with the torques
+/// under the same motion. A non-finite input gives a non-finite output.
 ///
 /// # Shape
 /// V and V.
@@ -63,7 +69,8 @@ struct Body<R: Real> {
 /// O(B): some 160 flops for each revolute joint.
 ///
 /// # Source
-/// De Luca & Mattone (2003); Haddadin, De Luca & Albu-Schäffer, "Robot collisions: a survey" (2017), section V.
+/// De Luca & Mattone (2003); Haddadin, De Luca & Albu-Schäffer, "Robot collisions: a survey"
+/// (2017), section V.
 ///
 /// # Example
 /// ```

@@ -18,7 +18,8 @@ pub struct MomentumAndDrift<R: Real, const V: usize> {
     pub beta: [R; V],
 }
 
-/// The generalised momentum p = M q̇ and its drift β = Cᵀ q̇ − g − F, in joint coordinates, N·m·s and N·m.
+/// The generalised momentum p = M q̇ and its drift β = Cᵀ q̇ − g − F, in joint coordinates, N·m·s
+/// and N·m.
 ///
 /// Both arguments of `motion_control::MomentumObserver::update`, of the whole scene:
 ///
@@ -26,20 +27,22 @@ pub struct MomentumAndDrift<R: Real, const V: usize> {
 /// ṗ = τ + β + τ_ext      β = Cᵀ q̇ − g(q) − F(q, q̇)
 /// ```
 ///
-/// M and Cᵀ q̇ are those of [`momentum_and_coriolis`], with or without [`Inertia`](crate::effects::Inertia) and
-/// [`Coriolis`](crate::effects::Coriolis) in the scene. g has the wrenches of the environment beside gravity, F the
-/// torques of friction, springs and other effects at joints. Friction in proportion to the load is no part of β, since a
-/// contact loads the gears, too: [`transmitted_torque`](crate::algorithms::transmitted_torque()) takes it from τ.
+/// M and Cᵀ q̇ are those of [`momentum_and_coriolis`], with or without
+/// [`Inertia`](crate::effects::Inertia) and [`Coriolis`](crate::effects::Coriolis) in the scene. g
+/// has the wrenches of the environment beside gravity, F the torques of friction, springs and other
+/// effects at joints. Friction in proportion to the load is no part of β, since a contact loads the
+/// gears, too: [`transmitted_torque`](crate::algorithms::transmitted_torque()) takes it from τ.
 ///
 /// # Shape
 /// V and V.
 ///
 /// # Cost
-/// Those of [`momentum_and_coriolis`] and of [`rnea`](crate::algorithms::rnea()) under gravity alone; less by
-/// [`Engine`](crate::Engine), which computes both in one pass.
+/// Those of [`momentum_and_coriolis`] and of [`rnea`](crate::algorithms::rnea()) under gravity
+/// alone; less by [`Engine`](crate::Engine), which computes both in one pass.
 ///
 /// # Source
-/// De Luca & Mattone (2003); Haddadin, De Luca & Albu-Schäffer, "Robot collisions: a survey" (2017), (43).
+/// De Luca & Mattone (2003); Haddadin, De Luca & Albu-Schäffer, "Robot collisions: a survey"
+/// (2017), (43).
 ///
 /// # Example
 /// ```

@@ -1,7 +1,7 @@
 //! Centre of mass and momentum of all bodies together, and the generalised momentum of the joints.
 //!
-//! Featherstone, RBDA (2008), (2.60); Orin, Goswami & Lee, "Centroidal dynamics of a humanoid robot"
-//! (2013).
+//! Featherstone, RBDA (2008), (2.60); Orin, Goswami & Lee, "Centroidal dynamics of a humanoid
+//! robot" (2013).
 
 mod base_velocity;
 mod centroidal;
@@ -124,8 +124,9 @@ where
 
 /// The momentum of all bodies together, about the base's origin and along its axes, N·m·s and N·s.
 ///
-/// Rotors behind gears are part of it if the scene has them as [`crate::effects::GyroscopicRotors`]; what
-/// [`crate::effects::Armature`] adds to the diagonal of M is not.
+/// Rotors behind gears are part of it if the scene has them as
+/// [`crate::effects::GyroscopicRotors`]; what [`crate::effects::Armature`] adds to the diagonal of
+/// M is not.
 ///
 /// ```text
 /// h = Σ_i ⁱX₀ᵀ I_i v_i

@@ -1,15 +1,16 @@
 //! The inverse of a symmetric matrix, damped near singularities.
 //!
-//! The damping begins smoothly (after Nakamura & Hanafusa, 1986, and Chiaverini, 1997): the inverse of an eigenvalue λ
-//! below the threshold ε is replaced by a function that has the value and slope of 1/λ at ε and goes to zero with λ:
+//! The damping begins smoothly (after Nakamura & Hanafusa, 1986, and Chiaverini, 1997): the inverse
+//! of an eigenvalue λ below the threshold ε is replaced by a function that has the value and slope
+//! of 1/λ at ε and goes to zero with λ:
 //!
 //! ```text
 //! 1/λ becomes λ / (λ² + (ε − λ)²) for λ < ε
 //! ```
 //!
-//! The threshold is proportional to the sum of the eigenvalues, which, unlike the largest one, is smooth. Whether an
-//! eigenvalue is below the threshold is decided without eigenvalues: A − ε 1 then has a negative pivot (Sylvester's law
-//! of inertia).
+//! The threshold is proportional to the sum of the eigenvalues, which, unlike the largest one, is
+//! smooth. Whether an eigenvalue is below the threshold is decided without eigenvalues: A − ε 1
+//! then has a negative pivot (Sylvester's law of inertia).
 
 use super::eigen::eigen;
 use crate::scalar::{Real, positive_part};
@@ -31,14 +32,15 @@ pub struct Damping<R> {
 impl<R: Real> Damping<R> {
     /// A threshold ε in eigenvalues of Λ⁻¹, relative to their sum; 10⁻³ suits f32.
     ///
-    /// In a task of one direction the only eigenvalue is the sum: use [`Damping::with_max_inertia`].
+    /// In a task of one direction the only eigenvalue is the sum: use
+    /// [`Damping::with_max_inertia`].
     pub fn relative(relative: R) -> Self {
         let least = R::ZERO;
         Self { relative, least }
     }
 
-    /// Adds an absolute threshold to ε, which damps inertias above `inertia`, kg: for tasks whose directions may all
-    /// become singular.
+    /// Adds an absolute threshold to ε, which damps inertias above `inertia`, kg: for tasks whose
+    /// directions may all become singular.
     pub fn with_max_inertia(mut self, inertia: R) -> Self {
         self.least = R::ONE / inertia;
         self
@@ -59,10 +61,12 @@ pub enum Conditioning<R> {
     },
 }
 
-/// The inverse of a symmetric matrix A with no negative eigenvalue, and whether it had to be damped.
+/// The inverse of a symmetric matrix A with no negative eigenvalue, and whether it had to be
+/// damped.
 ///
-/// The inverse of an eigenvalue λ below the threshold ε goes to zero with λ, without a jump in value or slope. An
-/// input that is not finite gives an output that is not finite and not `Regular`.
+/// The inverse of an eigenvalue λ below the threshold ε goes to zero with λ, without a jump in
+/// value or slope. An input that is not finite gives an output that is not finite and not
+/// `Regular`.
 ///
 /// ```text
 /// A⁻¹  = Σ_k g(λ_k) w_k w_kᵀ
@@ -76,8 +80,8 @@ pub enum Conditioning<R> {
 /// M × M.
 ///
 /// # Cost
-/// 4 M³ + M² flops and 2 M divisions without damping; with damping 3 M (M − 1) (18 M + 50) + 2 M³ more flops, with 3 M
-/// (M − 1) divisions, in f64 a sixth more.
+/// 4 M³ + M² flops and 2 M divisions without damping; with damping 3 M (M − 1) (18 M + 50) + 2 M³
+/// more flops, with 3 M (M − 1) divisions, in f64 a sixth more.
 ///
 /// # Source
 /// After Nakamura & Hanafusa (1986) and Chiaverini (1997).
@@ -189,10 +193,11 @@ pub(crate) fn shifted_inverse<R: Real, const M: usize>(
     eliminate(a, -shift).map(|pivots| pivots.inverse())
 }
 
-/// x with (A + shift 1) x = b, of a symmetric A without negative eigenvalues, by its upper triangle.
+/// x with (A + shift 1) x = b, of a symmetric A without negative eigenvalues, by its upper
+/// triangle.
 ///
-/// No pivot of A + shift 1 is less than the shift: those that rounding makes less are replaced by it. Unlike `eliminate`, it forms
-/// no inverse, which takes twice the flops.
+/// No pivot of A + shift 1 is less than the shift: those that rounding makes less are replaced by
+/// it. Unlike `eliminate`, it forms no inverse, which takes twice the flops.
 #[inline(never)]
 #[doc(hidden)]
 pub fn shifted_solution<R: Real, const M: usize>(a: &[[R; M]; M], shift: R, b: &[R; M]) -> [R; M] {

@@ -4,8 +4,8 @@
 
 use crate::scalar::Real;
 
-/// Sweeps over all off-diagonal entries: the number that 6×6 matrices of any condition needed for full accuracy, and
-/// one more.
+/// Sweeps over all off-diagonal entries: the number that 6×6 matrices of any condition needed for
+/// full accuracy, and one more.
 #[cfg_attr(optimised, inline(always))]
 fn sweeps<R: Real>() -> usize {
     if R::EPSILON > R::from_f64(1e-10) {
@@ -51,7 +51,8 @@ fn turn<R: Real, const M: usize>(rows: &mut [[R; M]; M], p: usize, q: usize, c: 
     }
 }
 
-/// Cosine and sine of the smallest rotation that makes [app apq; apq aqq] diagonal; none if it is diagonal.
+/// Cosine and sine of the smallest rotation that makes [app apq; apq aqq] diagonal; none if it is
+/// diagonal.
 #[cfg_attr(optimised, inline(always))]
 fn rotation<R: Real>(app: R, apq: R, aqq: R) -> (R, R) {
     let (apart, twice) = (aqq - app, apq + apq);

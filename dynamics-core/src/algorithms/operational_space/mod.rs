@@ -26,12 +26,13 @@ use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Motion};
 use crate::state::Configuration;
 
-/// The rows of a task's Jacobian: the rates of M directions of a body, given as forces, by its [`super::jacobian`] in
-/// the same frame.
+/// The rows of a task's Jacobian: the rates of M directions of a body, given as forces, by its
+/// [`super::jacobian`] in the same frame.
 ///
-/// A direction is the force that corresponds to a unit of the task's coordinate; the rate of that coordinate is the
-/// power v·f. Unit forces along the axes give velocities in m/s, unit couples rates in rad/s; a couple of 1/l gives the
-/// velocity at the radius l, which makes rotations comparable to lengths.
+/// A direction is the force that corresponds to a unit of the task's coordinate; the rate of that
+/// coordinate is the power v·f. Unit forces along the axes give velocities in m/s, unit couples
+/// rates in rad/s; a couple of 1/l gives the velocity at the radius l, which makes rotations
+/// comparable to lengths.
 ///
 /// # Shape
 /// M × V.
@@ -58,7 +59,8 @@ pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
     directions.map(|direction| jacobian.map(|column| column.dot(direction)))
 }
 
-/// A body's Jacobian by rows: of its angular velocity about the axes of the frame, then of its velocity along them.
+/// A body's Jacobian by rows: of its angular velocity about the axes of the frame, then of its
+/// velocity along them.
 ///
 /// It is the [`task_jacobian`] of unit couples and unit forces along the axes, without a flop.
 ///
@@ -92,8 +94,8 @@ pub fn jacobian_rows<R: Real, const V: usize>(jacobian: &[Motion<R>; V]) -> [[R;
     ]
 }
 
-/// The operational-space inertia of a task on `body` along some directions, expressed in a [`Frame`], by J, M and its
-/// factors.
+/// The operational-space inertia of a task on `body` along some directions, expressed in a
+/// [`Frame`], by J, M and its factors.
 ///
 /// Of the effects, armatures and payloads are part of M.
 ///
@@ -102,8 +104,8 @@ pub fn jacobian_rows<R: Real, const V: usize>(jacobian: &[Motion<R>; V]) -> [[R;
 /// ```
 ///
 /// # Cost
-/// That of [`super::crba()`], [`super::ltdl()`] and [`super::jacobian`], M solutions of 2 V² flops, 2 M² V flops and
-/// [`damped_inverse()`].
+/// That of [`super::crba()`], [`super::ltdl()`] and [`super::jacobian`], M solutions of 2 V² flops,
+/// 2 M² V flops and [`damped_inverse()`].
 ///
 /// # Source
 /// Khatib (1987).
@@ -121,8 +123,8 @@ pub fn jacobian_rows<R: Real, const V: usize>(jacobian: &[Motion<R>; V]) -> [[R;
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names a joint that moves no inertia. A singular configuration is not an error: the results
-/// are finite, and [`OperationalSpace::conditioning`] reports it.
+/// [`NotPositiveDefinite`] names a joint that moves no inertia. A singular configuration is not an
+/// error: the results are finite, and [`OperationalSpace::conditioning`] reports it.
 #[doc(alias = "end effector")]
 #[doc(alias = "OSIM")]
 #[cfg_attr(optimised, inline(always))]
@@ -172,11 +174,11 @@ pub struct OperationalSpace<R, const M: usize, const V: usize> {
 }
 
 impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
-    /// The operational space of a task from its Jacobian, by rows, and a solution of M x = τ with the factors of core
-    /// or engine.
+    /// The operational space of a task from its Jacobian, by rows, and a solution of M x = τ with
+    /// the factors of core or engine.
     ///
-    /// Cost: M solutions, 2 M² V flops, and the inverse. Errors: none; in a singular configuration the results are
-    /// finite, and `conditioning` reports it. Source: Khatib (1987), (18).
+    /// Cost: M solutions, 2 M² V flops, and the inverse. Errors: none; in a singular configuration
+    /// the results are finite, and `conditioning` reports it. Source: Khatib (1987), (18).
     ///
     /// ```
     /// use dynamics_core::{Core, Engine, effects::RIGID_BODY, robots::Ur5e, spatial::Force};
@@ -204,7 +206,8 @@ impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
         }
         let mut mobility = [[R::ZERO; M]; M];
         for (i, response) in response.iter().enumerate() {
-            // The lower triangle, and with it the upper one: the inverse is then symmetric to the last bit.
+            // The lower triangle, and with it the upper one: the inverse is then symmetric to the
+            // last bit.
             for (j, row) in jacobian.iter().enumerate().take(i + 1) {
                 let x = dot(row, response);
                 mobility[i][j] = x;
@@ -233,14 +236,15 @@ impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
         combine(&self.jacobian, force)
     }
 
-    /// J̄ = M⁻¹ Jᵀ Λ by columns: the dynamically consistent inverse of J, whose q̇ = J̄ ẋ has the least
-    /// kinetic energy. 2 M² V flops. Khatib (1987), (37).
+    /// J̄ = M⁻¹ Jᵀ Λ by columns: the dynamically consistent inverse of J, whose q̇ = J̄ ẋ has the
+    /// least kinetic energy. 2 M² V flops. Khatib (1987), (37).
     #[cfg_attr(optimised, inline(always))]
     pub fn consistent_inverse(&self) -> [[R; V]; M] {
         self.inertia.map(|row| combine(&self.response, &row))
     }
 
-    /// (1 − Jᵀ J̄ᵀ) τ₀: the part of torques τ₀ that does not accelerate the task. Khatib (1987), (53).
+    /// (1 − Jᵀ J̄ᵀ) τ₀: the part of torques τ₀ that does not accelerate the task. Khatib (1987),
+    /// (53).
     ///
     /// Where Λ is damped, some acceleration along the damped direction remains. 4 M V + 2 M² flops.
     #[cfg_attr(optimised, inline(always))]

@@ -1,9 +1,10 @@
 //! Mobility Λ⁻¹ of a body, the inverse of its operational-space inertia, in O(n).
 //!
-//! Chang & Khatib, "Operational space dynamics: efficient algorithms for modeling and control of branching mechanisms"
-//! (2000); Lilly & Orin, "Efficient O(N) recursive computation of the operational space inertia matrix" (1993).
-//! Articulated-body inertias are computed inward, as in the ABA; then Λ⁻¹ outward, from the base, where it is zero, to
-//! the body. A joint of axis s transmits the part P of its parent's acceleration and adds its own:
+//! Chang & Khatib, "Operational space dynamics: efficient algorithms for modeling and control of
+//! branching mechanisms" (2000); Lilly & Orin, "Efficient O(N) recursive computation of the
+//! operational space inertia matrix" (1993). Articulated-body inertias are computed inward, as in
+//! the ABA; then Λ⁻¹ outward, from the base, where it is zero, to the body. A joint of axis s
+//! transmits the part P of its parent's acceleration and adds its own:
 //!
 //! ```text
 //! U = Iᴬ s      D = sᵀ U      P = 1 − s D⁻¹ Uᵀ
@@ -27,7 +28,8 @@ use crate::state::{Configuration, entry};
 
 /// Λ⁻¹: the acceleration of a body per force on it, with all joints free to move.
 ///
-/// The blocks of a symmetric map from F⁶ to M⁶; `mobility * force` is a motion; a motion is not accepted as a force:
+/// The blocks of a symmetric map from F⁶ to M⁶; `mobility * force` is a motion; a motion is not
+/// accepted as a force:
 ///
 /// ```compile_fail,E0308
 /// use dynamics_core::{Core, algorithms::frame, robots::Ur5e, spatial::Motion};
@@ -87,7 +89,8 @@ impl<R: Real> OsimInverse<R> {
     /// X Λ⁻¹ Xᵀ: the same in another frame. 300 flops.
     #[cfg_attr(optimised, inline(always))]
     fn at(&self, x: &Xform<R>) -> Self {
-        // [Σ H; Hᵀ M] at the new origin: H + Σ r×, and M − r× (H + Σ r×) + Hᵀ r×, whose upper triangle is used.
+        // [Σ H; Hᵀ M] at the new origin: H + Σ r×, and M − r× (H + Σ r×) + Hᵀ r×, whose upper
+        // triangle is used.
         let (et, r) = (x.rot.transpose(), x.pos);
         let turned = self.ang.columns().map(|column| r.cross(column));
         let [x, y, z] = turned;
@@ -112,9 +115,10 @@ impl<R: Real> OsimInverse<R> {
 
     /// P Λ⁻¹ Pᵀ + s D⁻¹ sᵀ.
     ///
-    /// For a rotation about z or a translation along it, P differs from 1 in one row, p = e_z − U D⁻¹: the row and
-    /// column of z become Λ⁻¹ p, and their common entry pᵀ Λ⁻¹ p + D⁻¹. Cancellation thus occurs in p, before the
-    /// multiplication by entries that may be much larger than the others. 80 flops.
+    /// For a rotation about z or a translation along it, P differs from 1 in one row, p = e_z − U
+    /// D⁻¹: the row and column of z become Λ⁻¹ p, and their common entry pᵀ Λ⁻¹ p + D⁻¹.
+    /// Cancellation thus occurs in p, before the multiplication by entries that may be much larger
+    /// than the others. 80 flops.
     #[cfg_attr(optimised, inline(always))]
     fn across(&self, s: &MotionSubspace<R>, joint: &JointFactor<R>) -> Self {
         let k = joint.u_a * joint.d_inv;

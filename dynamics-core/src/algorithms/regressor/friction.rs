@@ -3,11 +3,13 @@
 use crate::effects::{Width, smooth_sign};
 use crate::scalar::Real;
 
-/// The regressor of viscous and Coulomb friction of each coordinate: q̇ and the smooth sign s(q̇ / w).
+/// The regressor of viscous and Coulomb friction of each coordinate: q̇ and the smooth sign s(q̇ /
+/// w).
 ///
 /// The torque of both at coordinate j is the product of row j with (b, F): of
-/// [`Viscous`](crate::effects::Viscous), N·m·s/rad or N·s/m, and of [`Coulomb`](crate::effects::Coulomb) of the same width, N·m or
-/// N. Friction of other coordinates has no part in it.
+/// [`Viscous`](crate::effects::Viscous), N·m·s/rad or N·s/m, and of
+/// [`Coulomb`](crate::effects::Coulomb) of the same width, N·m or N. Friction of other coordinates
+/// has no part in it.
 ///
 /// ```text
 /// τ_j = b_j q̇_j + F_j s(q̇_j / w)
@@ -20,7 +22,8 @@ use crate::scalar::Real;
 /// 6 flops for each coordinate.
 ///
 /// # Source
-/// Swevers, Verdonck & De Schutter, "Dynamic model identification for industrial robots" (2007), (1).
+/// Swevers, Verdonck & De Schutter, "Dynamic model identification for industrial robots" (2007),
+/// (1).
 ///
 /// # Example
 /// ```

@@ -1,8 +1,10 @@
-//! The regressor Y of inverse dynamics, which is linear in the inertial parameters: τ = Y(q, q̇, q̈) φ.
+//! The regressor Y of inverse dynamics, which is linear in the inertial parameters: τ = Y(q, q̇,
+//! q̈) φ.
 //!
-//! Atkeson, An & Hollerbach, "Estimation of inertial parameters of manipulator loads and links" (1986). The force on a body
-//! is A(v, a) φ, and Sᵀ Xᵀ A = (X S)ᵀ A: each entry of Y is the power per parameter as the body moves by a column of X S, so
-//! that neither A nor its columns at other bodies are stored.
+//! Atkeson, An & Hollerbach, "Estimation of inertial parameters of manipulator loads and links"
+//! (1986). The force on a body is A(v, a) φ, and Sᵀ Xᵀ A = (X S)ᵀ A: each entry of Y is the power
+//! per parameter as the body moves by a column of X S, so that neither A nor its columns at other
+//! bodies are stored.
 
 mod friction;
 mod parameters;
@@ -24,25 +26,30 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Motion, Xform};
 use crate::state::{Configuration, JointTrig, RobotState, State};
 
-/// The regressor Y of the joints' torques, by coordinates, bodies and parameters: N·m or N per unit of each parameter.
+/// The regressor Y of the joints' torques, by coordinates, bodies and parameters: N·m or N per unit
+/// of each parameter.
 ///
-/// The ten parameters φ of a body are those of [`SpatialInertia::parameters`](crate::spatial::SpatialInertia::parameters)
-/// about the origin of the body's own frame and along its axes: m, m c_x, m c_y, m c_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz.
+/// The ten parameters φ of a body are those of
+/// [`SpatialInertia::parameters`](crate::spatial::SpatialInertia::parameters) about the origin of
+/// the body's own frame and along its axes: m, m c_x, m c_y, m c_z, I_xx, I_xy, I_yy, I_xz, I_yz,
+/// I_zz.
 ///
 /// ```text
 /// τ_j = Σ_i Y_ji φ_i      Y_ji = (ⁱX_j S_j)ᵀ A_i(v_i, a_i)
 /// ```
 ///
-/// if body i is on a branch that joint j carries, zero elsewhere. The effects are those of [`rnea`](crate::algorithms::rnea()):
-/// gravity, accelerations, velocity products and the motion of the base are in Y as far as the scene has them. What does not
-/// depend on the bodies' inertias, such as friction ([`friction_regressor`]), armatures (their column is q̈), spinning rotors
-/// and wrenches, is not. A non-finite input gives a non-finite output.
+/// if body i is on a branch that joint j carries, zero elsewhere. The effects are those of
+/// [`rnea`](crate::algorithms::rnea()): gravity, accelerations, velocity products and the motion of
+/// the base are in Y as far as the scene has them. What does not depend on the bodies' inertias,
+/// such as friction ([`friction_regressor`]), armatures (their column is q̈), spinning rotors and
+/// wrenches, is not. A non-finite input gives a non-finite output.
 ///
 /// # Shape
 /// V × B × 10, 40 B V bytes in f32.
 ///
 /// # Cost
-/// O(B V): some 200 flops for each body, and 140 for each pair of a body and a coordinate that moves it; 4,200 for the UR5e.
+/// O(B V): some 200 flops for each body, and 140 for each pair of a body and a coordinate that
+/// moves it; 4,200 for the UR5e.
 ///
 /// # Source
 /// Atkeson, An & Hollerbach (1986), (11) to (17); the order of parameters is that of Pinocchio.
@@ -88,15 +95,18 @@ where
     y
 }
 
-/// The columns of the [`regressor`] of one body, by coordinates: the torques of the joints per unit of its parameters.
+/// The columns of the [`regressor`] of one body, by coordinates: the torques of the joints per unit
+/// of its parameters.
 ///
-/// For a payload that is fixed to the body, with its parameters in the body's own frame. Without such a body all are zero.
+/// For a payload that is fixed to the body, with its parameters in the body's own frame. Without
+/// such a body all are zero.
 ///
 /// # Shape
 /// V × 10.
 ///
 /// # Cost
-/// O(B): some 110 flops for each body, and 160 for each coordinate that moves this one; 1,700 for the last body of the UR5e.
+/// O(B): some 110 flops for each body, and 160 for each coordinate that moves this one; 1,700 for
+/// the last body of the UR5e.
 ///
 /// # Source
 /// As [`regressor`].
@@ -147,10 +157,11 @@ where
     y
 }
 
-/// The row of the [`regressor`] of one coordinate, by bodies: its torque per unit of each body's parameters, N·m or N.
+/// The row of the [`regressor`] of one coordinate, by bodies: its torque per unit of each body's
+/// parameters, N·m or N.
 ///
-/// For an estimator that uses one joint in each tick. The entries of bodies that the joint does not move are zero, all of them
-/// for a coordinate that the robot does not have.
+/// For an estimator that uses one joint in each tick. The entries of bodies that the joint does not
+/// move are zero, all of them for a coordinate that the robot does not have.
 ///
 /// # Shape
 /// B × 10.
@@ -195,7 +206,8 @@ where
 /// B × 10.
 ///
 /// # Cost
-/// O(B): some 110 flops for each body up to the last one of these, 30 for each that the joint moves, 150 for each of these.
+/// O(B): some 110 flops for each body up to the last one of these, 30 for each that the joint
+/// moves, 150 for each of these.
 ///
 /// # Source
 /// As [`regressor`].
@@ -251,8 +263,8 @@ where
     y
 }
 
-/// Visits each of the first `count` bodies with its number, its velocity and acceleration, and the transforms of all bodies up to it. Featherstone &
-/// Orin (3), (4).
+/// Visits each of the first `count` bodies with its number, its velocity and acceleration, and the
+/// transforms of all bodies up to it. Featherstone & Orin (3), (4).
 #[cfg_attr(optimised, inline(always))]
 fn outward<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -286,8 +298,8 @@ fn outward<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     }
 }
 
-/// Visits each coordinate that moves body `i` with the body's motion per unit of its rate, in the body's own frame: X S of
-/// the joints on the path from the body to the base.
+/// Visits each coordinate that moves body `i` with the body's motion per unit of its rate, in the
+/// body's own frame: X S of the joints on the path from the body to the base.
 #[cfg_attr(optimised, inline(always))]
 fn climb<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

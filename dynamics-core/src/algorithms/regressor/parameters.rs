@@ -5,7 +5,8 @@ use crate::model::RobotModel;
 use crate::scalar::{Matrix, Real};
 use crate::spatial::SpatialInertia;
 
-/// The inertial parameters φ of each body with what the effects add to it, in the body's own frame: kg, kg·m, kg·m².
+/// The inertial parameters φ of each body with what the effects add to it, in the body's own frame:
+/// kg, kg·m, kg·m².
 ///
 /// In the order of [`SpatialInertia::parameters`].
 ///

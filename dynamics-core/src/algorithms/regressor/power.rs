@@ -4,7 +4,8 @@ use crate::model::LinkView;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::Motion;
 
-/// The motion of a body in its own frame, as the field of the accelerations of its points: a(r) = point + U r.
+/// The motion of a body in its own frame, as the field of the accelerations of its points: a(r) =
+/// point + U r.
 pub(super) struct BodyPower<R: Real> {
     omega: R::Vec3,
     turning: R::Vec3,
@@ -37,8 +38,8 @@ impl<R: Real> BodyPower<R> {
         }
     }
 
-    /// sᵀ A: of f = m p + U h and n = h × p + Ī ω̇ + ω × Ī ω, RBDA (2.58), the power along the motion s = (w, u) per unit of
-    /// m, h and Ī. 71 flops.
+    /// sᵀ A: of f = m p + U h and n = h × p + Ī ω̇ + ω × Ī ω, RBDA (2.58), the power along the
+    /// motion s = (w, u) per unit of m, h and Ī. 71 flops.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn per_parameter(&self, s: Motion<R>) -> [R; 10] {
         let (w, omega) = (s.ang, self.omega);

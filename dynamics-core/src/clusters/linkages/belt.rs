@@ -6,12 +6,13 @@ use crate::model::JointCoordinate;
 use crate::scalar::Real;
 use crate::trig::Kernel;
 
-/// A joint that a motor drives with a ratio that depends on its angle: q = Σ cₖ yᵏ, the ratio dq/dy = Σ k cₖ yᵏ⁻¹. M =
-/// 2, N = 1.
+/// A joint that a motor drives with a ratio that depends on its angle: q = Σ cₖ yᵏ, the ratio dq/dy
+/// = Σ k cₖ yᵏ⁻¹. M = 2, N = 1.
 ///
-/// A belt, chain or cable over pulleys that are not round. Joint coordinates, in this order, in rad or m: the driving
-/// pulley, which is a body of the tree, q₀ = y, and the joint q₁ = Σ cₖ yᵏ. Both are on the parent body, or the pulley
-/// on the parent and the joint wherever the tree has it within the cluster.
+/// A belt, chain or cable over pulleys that are not round. Joint coordinates, in this order, in rad
+/// or m: the driving pulley, which is a body of the tree, q₀ = y, and the joint q₁ = Σ cₖ yᵏ. Both
+/// are on the parent body, or the pulley on the parent and the joint wherever the tree has it
+/// within the cluster.
 ///
 /// # Cost
 /// 6 C flops for C coefficients, and sine and cosine of q₁.

@@ -9,8 +9,8 @@ use crate::trig::Kernel;
 
 /// The simplest cluster: q = G y + q₀ of a constant matrix, y in rad or m at the motors.
 ///
-/// With the joints of the spanning tree for q: gears, belts, cables, mimic joints. Rotors may be bodies of their own,
-/// with a row of their gear ratio each. M = V of the transmission, N = its M.
+/// With the joints of the spanning tree for q: gears, belts, cables, mimic joints. Rotors may be
+/// bodies of their own, with a row of their gear ratio each. M = V of the transmission, N = its M.
 ///
 /// # Cost
 /// 2 M N flops, and a sine and cosine for each joint.
@@ -51,11 +51,13 @@ pub(super) fn finite<R: Real>(values: &[R]) -> Result<(), ClusterProblem> {
     }
 }
 
-/// A differential: two motors that together pitch, and against each other roll. M = 2, N = 2, y the motors' angles.
+/// A differential: two motors that together pitch, and against each other roll. M = 2, N = 2, y the
+/// motors' angles.
 ///
-/// Joint coordinates, in this order and in rad: pitch q₀ = (y₀ + y₁) / 2 i and roll q₁ = (y₀ − y₁) / 2 j of the gear
-/// ratios i and j, the roll being about an axis that moves with the pitch. Bevel gears and cable differentials have i =
-/// 1 between motor shafts and carrier. Rotors that are bodies of the tree make it a [`Transmission`] of four rows.
+/// Joint coordinates, in this order and in rad: pitch q₀ = (y₀ + y₁) / 2 i and roll q₁ = (y₀ − y₁)
+/// / 2 j of the gear ratios i and j, the roll being about an axis that moves with the pitch. Bevel
+/// gears and cable differentials have i = 1 between motor shafts and carrier. Rotors that are
+/// bodies of the tree make it a [`Transmission`] of four rows.
 ///
 /// # Cost
 /// 2 sums and 2 products, and a sine and cosine for each joint.

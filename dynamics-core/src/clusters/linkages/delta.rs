@@ -7,11 +7,12 @@ use crate::model::JointCoordinate;
 use crate::scalar::{Real, Vector};
 use crate::trig::Kernel;
 
-/// A Delta robot (Clavel, 1988): three cranks with motors carry a platform, which does not turn, by pairs of parallel
-/// rods. M = 12, N = 3, y = the cranks.
+/// A Delta robot (Clavel, 1988): three cranks with motors carry a platform, which does not turn, by
+/// pairs of parallel rods. M = 12, N = 3, y = the cranks.
 ///
-/// The base has z up; the arms are at 0°, 120° and 240° about it, counterclockwise, and the platform is below the
-/// cranks. The spanning tree's joint coordinates, in this order and in rad and m, are:
+/// The base has z up; the arms are at 0°, 120° and 240° about it, counterclockwise, and the
+/// platform is below the cranks. The spanning tree's joint coordinates, in this order and in rad
+/// and m, are:
 ///
 /// | q | joint | axis, in the body's frame |
 /// |---|---|---|
@@ -21,29 +22,32 @@ use crate::trig::Kernel;
 /// | 6, 7, 8 | the same of the third arm | |
 /// | 9, 10, 11 | platform on the base | prismatic x, y, z |
 ///
-/// At zero a crank points outwards, and positive angles lower its end; the rods hang from it along −z. The rods of a
-/// crank are one body, between them: of the sum of their masses and of their inertias about their own centres. Their
-/// ends on the platform are at the radius `platform`; the loops are cut there. Two axes that meet are a universal
-/// joint, or two revolute joints with a body without mass between them.
+/// At zero a crank points outwards, and positive angles lower its end; the rods hang from it along
+/// −z. The rods of a crank are one body, between them: of the sum of their masses and of their
+/// inertias about their own centres. Their ends on the platform are at the radius `platform`; the
+/// loops are cut there. Two axes that meet are a universal joint, or two revolute joints with a
+/// body without mass between them.
 ///
-/// The one body is exact: parallel rods have the same angular velocity, and the vector between their centres is
-/// parallel to the axis of the crank, so that on a base that does not turn both centres have the same velocity. On a
-/// body that turns, the torques at y are exact, too; those of the joints inward of it are with 2 m (d² 1 − d dᵀ) of
-/// every pair added to the body's rotational inertia, m being the mass of a rod and 2 d the vector between the rods.
+/// The one body is exact: parallel rods have the same angular velocity, and the vector between
+/// their centres is parallel to the axis of the crank, so that on a base that does not turn both
+/// centres have the same velocity. On a body that turns, the torques at y are exact, too; those of
+/// the joints inward of it are with 2 m (d² 1 − d dᵀ) of every pair added to the body's rotational
+/// inertia, m being the mass of a rod and 2 d the vector between the rods.
 ///
 /// # Cost
-/// Some 450 flops, two divisions and five reciprocal roots; sines and cosines of y only. Where an effect reads the
-/// angles of rods themselves, six arc tangents.
+/// Some 450 flops, two divisions and five reciprocal roots; sines and cosines of y only. Where an
+/// effect reads the angles of rods themselves, six arc tangents.
 ///
 /// # Errors
-/// [`ClusterProblem::CannotClose`] where the three rods do not reach one point, or the cranks' ends are in one line, about
-/// which the platform could turn. Where the rods are in one plane, the platform in that of the cranks' ends, or a rod is
-/// parallel to its crank's axis, [`ClusterMotion::singular`] is set: the sine of the angle is below 3·10⁻⁵ in f64 and
-/// 6·10⁻³ in f32, or as much more as the arms reach beyond a rod's length.
+/// [`ClusterProblem::CannotClose`] where the three rods do not reach one point, or the cranks' ends
+/// are in one line, about which the platform could turn. Where the rods are in one plane, the
+/// platform in that of the cranks' ends, or a rod is parallel to its crank's axis,
+/// [`ClusterMotion::singular`] is set: the sine of the angle is below 3·10⁻⁵ in f64 and 6·10⁻³ in
+/// f32, or as much more as the arms reach beyond a rod's length.
 ///
 /// # Source
-/// The intersection of three spheres, eₖ² = l² of the rods' vectors eₖ = p − cₖ, and its two derivatives, eₖ·ṗ = eₖ·ċₖ
-/// and eₖ·p̈ = eₖ·c̈ₖ − ėₖ².
+/// The intersection of three spheres, eₖ² = l² of the rods' vectors eₖ = p − cₖ, and its two
+/// derivatives, eₖ·ṗ = eₖ·ċₖ and eₖ·p̈ = eₖ·c̈ₖ − ėₖ².
 ///
 /// ```
 /// use dynamics_core::clusters::{Cluster, Delta};
@@ -81,12 +85,12 @@ const SIDES: [(f64, f64); 3] = [
 ];
 
 impl Delta {
-    /// A robot of these lengths, m: the radius of the circle of the cranks' joints, the cranks, the rods, and the
-    /// radius of the circle of the rods' ends on the platform.
+    /// A robot of these lengths, m: the radius of the circle of the cranks' joints, the cranks, the
+    /// rods, and the radius of the circle of the rods' ends on the platform.
     ///
     /// # Panics
-    /// If a length is not finite, a crank's or rod's not positive, or the rods reach the platform in no posture with
-    /// equal cranks; in a `const` this does not compile.
+    /// If a length is not finite, a crank's or rod's not positive, or the rods reach the platform
+    /// in no posture with equal cranks; in a `const` this does not compile.
     pub const fn new(base: f64, crank: f64, rod: f64, platform: f64) -> Self {
         assert!(
             base.is_finite() && platform.is_finite(),

@@ -1,8 +1,8 @@
 //! Two links between two points of a plane: what four-bars and five-bars have in common.
 //!
-//! The intersection of two circles. Links of lengths b₁ and b₂ from the points P₁ and P₂ meet; w = P₂ − P₁, b₁ e₁ − b₂
-//! e₂ = w. With k = (w² + b₁² − b₂²) / 2 b₁ and h² = w² − k² it is e₁ = (k w + h w⊥) / w². h / b₂ is the sine of the
-//! angle at which the links meet: 0 where they are in line.
+//! The intersection of two circles. Links of lengths b₁ and b₂ from the points P₁ and P₂ meet; w =
+//! P₂ − P₁, b₁ e₁ − b₂ e₂ = w. With k = (w² + b₁² − b₂²) / 2 b₁ and h² = w² − k² it is e₁ = (k w +
+//! h w⊥) / w². h / b₂ is the sine of the angle at which the links meet: 0 where they are in line.
 
 use super::super::ClusterProblem;
 use crate::scalar::Real;
@@ -16,12 +16,14 @@ pub(super) fn dot<R: Real>(a: Vec2<R>, b: Vec2<R>) -> R {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// The h² below which rates are damped, relative to the squared lengths of which it is the difference, in f64 and f32.
+/// The h² below which rates are damped, relative to the squared lengths of which it is the
+/// difference, in f64 and f32.
 ///
-/// Rounding errors of h² are some ε, those of G some ε/h² and those of Ġ ẏ some ε/h³ of ẏ². Next to change points and
-/// flat parallelograms the latter are, compared with 60 digits, at most 5·10⁻³ in f64 where h² is 10⁻⁹, some 10⁻⁴ rad
-/// away, and of G 2·10⁻⁷; where h² is 10⁻¹¹ they are 1 to 5. In f32 they are 0.3 and 3·10⁻³ where h² is 256 ε, 10⁻² rad
-/// away; to have 5·10⁻³ there, too, the range would have to be four times as wide.
+/// Rounding errors of h² are some ε, those of G some ε/h² and those of Ġ ẏ some ε/h³ of ẏ². Next to
+/// change points and flat parallelograms the latter are, compared with 60 digits, at most 5·10⁻³ in
+/// f64 where h² is 10⁻⁹, some 10⁻⁴ rad away, and of G 2·10⁻⁷; where h² is 10⁻¹¹ they are 1 to 5. In
+/// f32 they are 0.3 and 3·10⁻³ where h² is 256 ε, 10⁻² rad away; to have 5·10⁻³ there, too, the
+/// range would have to be four times as wide.
 const SINGULAR: (f64, f32) = (1e-9, 256.0 * f32::EPSILON);
 
 /// How far below zero h² may be by rounding, relative to the same: 256 roundings.
@@ -38,10 +40,11 @@ pub(super) struct Root<R> {
     pub(super) singular: bool,
 }
 
-/// √`h2`, of the sign of `branch`, `h2` being a difference of squares of the size `scale`; nothing where it is negative
-/// beyond rounding.
+/// √`h2`, of the sign of `branch`, `h2` being a difference of squares of the size `scale`; nothing
+/// where it is negative beyond rounding.
 ///
-/// Below [`SINGULAR`] of `scale` the reciprocal is h over that instead of h / h²: it is continuous and bounded.
+/// Below [`SINGULAR`] of `scale` the reciprocal is h over that instead of h / h²: it is continuous
+/// and bounded.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn root<R: Real>(h2: R, scale: R, branch: Branch) -> Result<Root<R>, ClusterProblem> {
     let least = scale * R::select(SINGULAR.0, SINGULAR.1);
@@ -152,8 +155,8 @@ impl<R: Real> Dyad<R> {
         })
     }
 
-    /// Both links' rates at which w changes by `wd`: b₁ ω₁ e₁⊥ − b₂ ω₂ e₂⊥ = ẇ. Their accelerations of ẅ + b₁ ω₁² e₁ −
-    /// b₂ ω₂² e₂.
+    /// Both links' rates at which w changes by `wd`: b₁ ω₁ e₁⊥ − b₂ ω₂ e₂⊥ = ẇ. Their accelerations
+    /// of ẅ + b₁ ω₁² e₁ − b₂ ω₂² e₂.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn rates(&self, lengths: &Lengths, wd: Vec2<R>) -> [R; 2] {
         let b1_inv = R::from_f64(1.0 / lengths.b1);

@@ -7,11 +7,13 @@ use crate::model::JointCoordinate;
 use crate::scalar::Real;
 use crate::trig::Kernel;
 
-/// A planar five-bar: two cranks on one body, each with a rod, and the rods' ends joined. M = 4, N = 2, y = (q₀, q₂).
+/// A planar five-bar: two cranks on one body, each with a rod, and the rods' ends joined. M = 4, N
+/// = 2, y = (q₀, q₂).
 ///
-/// Legs and arms with both motors at the body are of this kind. In the plane across the joints' axes, which are
-/// parallel and point the same way, x leads from the first crank's joint to the second's, both on the parent body. The
-/// spanning tree's joint coordinates, in this order and in rad, are:
+/// Legs and arms with both motors at the body are of this kind. In the plane across the joints'
+/// axes, which are parallel and point the same way, x leads from the first crank's joint to the
+/// second's, both on the parent body. The spanning tree's joint coordinates, in this order and in
+/// rad, are:
 ///
 /// | q | joint | angle |
 /// |---|---|---|
@@ -20,20 +22,22 @@ use crate::trig::Kernel;
 /// | 2 | second crank on the parent | of the crank, from x |
 /// | 3 | second rod on the second crank | of the rod, from its crank |
 ///
-/// each less its [`FiveBar::zeros`]. The loop is cut between the rods' ends. The ground may be 0: cranks on one axis.
+/// each less its [`FiveBar::zeros`]. The loop is cut between the rods' ends. The ground may be 0:
+/// cranks on one axis.
 ///
 /// [`Branch::Positive`]: the second rod's direction is counterclockwise from the first's, by less than π.
 ///
 /// # Cost
-/// Some 130 flops, a division and a reciprocal root; sines and cosines of y. Where an effect reads the angles q₁ and q₃
-/// themselves, two arc tangents.
+/// Some 130 flops, a division and a reciprocal root; sines and cosines of y. Where an effect reads
+/// the angles q₁ and q₃ themselves, two arc tangents.
 ///
 /// # Errors
 /// [`ClusterProblem::CannotClose`] where the rods do not reach each other. Where they are in line,
 /// [`ClusterMotion::singular`] is set, as of [`FourBar`](super::FourBar).
 ///
 /// # Source
-/// The intersection of two circles and its derivatives; Cervantes-Sánchez, Hernández-Rodríguez & Angeles (2001).
+/// The intersection of two circles and its derivatives; Cervantes-Sánchez, Hernández-Rodríguez &
+/// Angeles (2001).
 ///
 /// ```
 /// use dynamics_core::clusters::{Branch, Cluster, FiveBar};
@@ -55,12 +59,12 @@ pub struct FiveBar {
 }
 
 impl FiveBar {
-    /// A linkage of these lengths, m: between the cranks' joints; of the first crank and its rod; of the second and
-    /// its.
+    /// A linkage of these lengths, m: between the cranks' joints; of the first crank and its rod;
+    /// of the second and its.
     ///
     /// # Panics
-    /// If a link's length is not positive, the ground's is negative, or the linkage closes at no y; in a `const` this
-    /// does not compile.
+    /// If a link's length is not positive, the ground's is negative, or the linkage closes at no y;
+    /// in a `const` this does not compile.
     pub const fn new(ground: f64, first: [f64; 2], second: [f64; 2], branch: Branch) -> Self {
         let cranks = [first[0], second[0]];
         assert!(

@@ -7,11 +7,12 @@ use crate::model::JointCoordinate;
 use crate::scalar::Real;
 use crate::trig::Kernel;
 
-/// A planar four-bar: a crank and a rocker on one body, and a coupler between their ends. M = 3, N = 1, y = q₀.
+/// A planar four-bar: a crank and a rocker on one body, and a coupler between their ends. M = 3, N
+/// = 1, y = q₀.
 ///
-/// In the plane across the three joints' axes, which are parallel and point the same way, x leads from the crank's
-/// joint to the rocker's, both on the parent body. The spanning tree's joint coordinates, in this order and in rad,
-/// are:
+/// In the plane across the three joints' axes, which are parallel and point the same way, x leads
+/// from the crank's joint to the rocker's, both on the parent body. The spanning tree's joint
+/// coordinates, in this order and in rad, are:
 ///
 /// | q | joint | angle |
 /// |---|---|---|
@@ -19,26 +20,29 @@ use crate::trig::Kernel;
 /// | 1 | coupler on the crank | of the coupler, from the crank |
 /// | 2 | rocker on the parent | of the rocker, from x |
 ///
-/// each less its [`FourBar::zeros`]. The loop is cut between the ends of coupler and rocker: crank e₀ + coupler e₁ =
-/// ground x + rocker e₂. Any of the links may be the longest; the crank is that of which y is the angle, and need not
-/// be able to turn.
+/// each less its [`FourBar::zeros`]. The loop is cut between the ends of coupler and rocker: crank
+/// e₀ + coupler e₁ = ground x + rocker e₂. Any of the links may be the longest; the crank is that
+/// of which y is the angle, and need not be able to turn.
 ///
 /// [`Branch::Positive`]: the rocker's direction is counterclockwise from the coupler's, by less than π. The branch does
 /// not change while y moves, as the linkage itself cannot change it but at a singularity.
 ///
 /// # Cost
-/// Some 85 flops, a division and a reciprocal root; sine and cosine of y, and none of q₁ and q₂. Where an effect reads
-/// the angles q₁ and q₂ themselves, two arc tangents.
+/// Some 85 flops, a division and a reciprocal root; sine and cosine of y, and none of q₁ and q₂.
+/// Where an effect reads the angles q₁ and q₂ themselves, two arc tangents.
 ///
 /// # Errors
-/// [`ClusterProblem::CannotClose`] of a y that the crank does not reach. Where coupler and rocker are in line, such as
-/// at the change points of a Grashof linkage (shortest + longest = sum of the other two) and in a flat parallelogram,
-/// [`ClusterMotion::singular`] is set: the sine of the angle between them is below √(σ · longest · longer of the two) /
-/// rocker. σ is 10⁻⁹ in f64 and 256 ε in f32, which is 0.002° and 0.3° where these lengths are equal. Beyond that the
-/// error of Ġ ẏ is at most some 5·10⁻³ ẏ² in f64; in f32 it is 0.3 ẏ² there, and decreases with the cube of the angle.
+/// [`ClusterProblem::CannotClose`] of a y that the crank does not reach. Where coupler and rocker
+/// are in line, such as at the change points of a Grashof linkage (shortest + longest = sum of the
+/// other two) and in a flat parallelogram, [`ClusterMotion::singular`] is set: the sine of the
+/// angle between them is below √(σ · longest · longer of the two) / rocker. σ is 10⁻⁹ in f64 and
+/// 256 ε in f32, which is 0.002° and 0.3° where these lengths are equal. Beyond that the error of Ġ
+/// ẏ is at most some 5·10⁻³ ẏ² in f64; in f32 it is 0.3 ẏ² there, and decreases with the cube of
+/// the angle.
 ///
 /// # Source
-/// Freudenstein's equation (1955); McCarthy & Soh, *Geometric Design of Linkages* (2011), section 2.2.
+/// Freudenstein's equation (1955); McCarthy & Soh, *Geometric Design of Linkages* (2011), section
+/// 2.2.
 ///
 /// ```
 /// use dynamics_core::clusters::{Branch, Cluster, FourBar};
@@ -68,10 +72,12 @@ pub struct FourBar {
 }
 
 impl FourBar {
-    /// A linkage of these lengths, m: from the crank's joint to the rocker's, of the crank, the coupler, the rocker.
+    /// A linkage of these lengths, m: from the crank's joint to the rocker's, of the crank, the
+    /// coupler, the rocker.
     ///
     /// # Panics
-    /// If a length is not positive or the longest is longer than the other three; in a `const` this does not compile.
+    /// If a length is not positive or the longest is longer than the other three; in a `const` this
+    /// does not compile.
     pub const fn new(ground: f64, crank: f64, coupler: f64, rocker: f64, branch: Branch) -> Self {
         assert!(
             ground > 0.0 && ground.is_finite() && crank > 0.0 && crank.is_finite(),

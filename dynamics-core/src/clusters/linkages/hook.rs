@@ -6,7 +6,8 @@ use crate::clusters::ClusterProblem;
 use crate::model::JointCoordinate;
 use crate::scalar::{Real, Vector};
 
-/// A universal joint: the body's z axis is e_l = (sin α cos v, −sin v, cos α cos v), α about y and v about x.
+/// A universal joint: the body's z axis is e_l = (sin α cos v, −sin v, cos α cos v), α about y and
+/// v about x.
 ///
 /// Spherical coordinates of the vector z = l e_l, with e_α = (cos α, 0, −sin α) and e_v = ∂e_l/∂v:
 /// ż = l̇ e_l + l α̇ cos v e_α + l v̇ e_v.
@@ -41,7 +42,8 @@ impl<R: Real> Hook<R> {
         })
     }
 
-    /// Of a body of almost no length, which is `scale` at most: with rates that are damped as that size has it.
+    /// Of a body of almost no length, which is `scale` at most: with rates that are damped as that
+    /// size has it.
     #[cold]
     #[inline(never)]
     pub(super) fn short(z: R::Vec3, scale: R) -> Result<Self, ClusterProblem> {

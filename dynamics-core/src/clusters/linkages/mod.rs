@@ -1,7 +1,7 @@
 //! The linkages of the library, one file each.
 
-/// Expands a block for each of these numbers, in place of a loop, which might not be unrolled: angles that no effect
-/// reads are then computed.
+/// Expands a block for each of these numbers, in place of a loop, which might not be unrolled:
+/// angles that no effect reads are then computed.
 macro_rules! unrolled {
     ($i:ident in $($n:literal)*, $body:block) => {$({
         const $i: usize = $n;

@@ -7,8 +7,8 @@ use crate::model::JointCoordinate;
 use crate::scalar::{Real, Vector};
 use crate::trig::Kernel;
 
-/// One of the two drives of a [`ParallelAnkle`]: its crank and its rod. All in m, at pitch and roll zero in frames that
-/// have the shank's axes: x forward, y to the left, z up.
+/// One of the two drives of a [`ParallelAnkle`]: its crank and its rod. All in m, at pitch and roll
+/// zero in frames that have the shank's axes: x forward, y to the left, z up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rod {
     /// The crank's joint, from the centre of the ankle.
@@ -23,11 +23,11 @@ pub struct Rod {
     pub branch: Branch,
 }
 
-/// The ankle of many humanoids: two motors at the shank pitch and roll the foot by two rods. M = 8, N = 2, y = (pitch,
-/// roll).
+/// The ankle of many humanoids: two motors at the shank pitch and roll the foot by two rods. M = 8,
+/// N = 2, y = (pitch, roll).
 ///
-/// The foot pitches about y, then rolls about its own x, through the centre of the ankle; the cranks turn about y. The
-/// spanning tree's joint coordinates, in this order and in rad, are:
+/// The foot pitches about y, then rolls about its own x, through the centre of the ankle; the
+/// cranks turn about y. The spanning tree's joint coordinates, in this order and in rad, are:
 ///
 /// | q | joint | axis, in the body's frame |
 /// |---|---|---|
@@ -37,26 +37,28 @@ pub struct Rod {
 /// | 5 | second crank on the shank | y |
 /// | 6, 7 | second rod on the second crank | y, x |
 ///
-/// where a pair is a universal joint, or two revolute ones with a body without mass between them. At zero all frames have the shank's axes, and a rod hangs from its crank along −z. The loops are cut at
-/// the ball joints of the rods on the foot. The rods are bodies with an inertia of their own; they do not spin about
-/// themselves.
+/// where a pair is a universal joint, or two revolute ones with a body without mass between them.
+/// At zero all frames have the shank's axes, and a rod hangs from its crank along −z. The loops are
+/// cut at the ball joints of the rods on the foot. The rods are bodies with an inertia of their
+/// own; they do not spin about themselves.
 ///
-/// y is the foot's attitude, of which the motors' angles q₂ and q₅ are a closed form. Torques of the motors at q₂ and
-/// q₅ follow by [`Driven::actuated`](crate::clusters::Driven::actuated)`([2, 5])`.
+/// y is the foot's attitude, of which the motors' angles q₂ and q₅ are a closed form. Torques of
+/// the motors at q₂ and q₅ follow by
+/// [`Driven::actuated`](crate::clusters::Driven::actuated)`([2, 5])`.
 ///
 /// [`Branch::Positive`]: the crank turns towards positive angles as the end of its rod on the foot moves away from it.
 ///
 /// # Cost
-/// Some 400 flops, two divisions and six reciprocal roots; sines and cosines of y only. Where an effect reads the
-/// angles of cranks and rods themselves, six arc tangents.
+/// Some 400 flops, two divisions and six reciprocal roots; sines and cosines of y only. Where an
+/// effect reads the angles of cranks and rods themselves, six arc tangents.
 ///
 /// # Errors
-/// [`ClusterProblem::CannotClose`] where a rod does not reach its crank's circle. Where crank and rod are in line, or
-/// the rod parallel to y, [`ClusterMotion::singular`] is set.
+/// [`ClusterProblem::CannotClose`] where a rod does not reach its crank's circle. Where crank and
+/// rod are in line, or the rod parallel to y, [`ClusterMotion::singular`] is set.
 ///
 /// # Source
-/// The rod's length l = |p − t| with p on the foot and t on the crank: A cos m + B sin m = K in the motor's angle m,
-/// and its two derivatives.
+/// The rod's length l = |p − t| with p on the foot and t on the crank: A cos m + B sin m = K in the
+/// motor's angle m, and its two derivatives.
 ///
 /// ```
 /// use dynamics_core::clusters::{Branch, Cluster, ParallelAnkle, Rod};
@@ -100,8 +102,8 @@ impl ParallelAnkle {
     /// Of these two drives.
     ///
     /// # Panics
-    /// If a number is not finite, a rod's length is not positive, or a crank or the foot's point is on its axis; in a
-    /// `const` this does not compile.
+    /// If a number is not finite, a rod's length is not positive, or a crank or the foot's point is
+    /// on its axis; in a `const` this does not compile.
     pub const fn new(rods: [Rod; 2]) -> Self {
         let mut i = 0;
         while i < rods.len() {
@@ -184,7 +186,8 @@ impl Rod {
             ((a * k + b * h) * r_inv, (b * k - a * h) * r_inv)
         };
         let (rx, rz) = (kx * cm + kz * sm, kz * cm - kx * sm);
-        // From the crank's end to the foot: e, of the rod's length; ρ′ = y × ρ = (ρ_z, 0, −ρ_x), of e·ρ′ = h.
+        // From the crank's end to the foot: e, of the rod's length; ρ′ = y × ρ = (ρ_z, 0, −ρ_x), of
+        // e·ρ′ = h.
         let (ex, ey, ez) = (dx - rx, dy, dz - rz);
         let e = R::Vec3::new(ex, ey, ez);
         // Foot rates of unit pitch and roll, and the motor's: ṁ e·ρ′ = e·ṗ.

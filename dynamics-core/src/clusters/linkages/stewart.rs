@@ -23,11 +23,11 @@ pub struct Leg {
     pub length: f64,
 }
 
-/// A platform on six legs of variable length (Gough; Stewart, 1965). M = 24, N = 6, y = the platform's position x, y, z
-/// and yaw, pitch, roll.
+/// A platform on six legs of variable length (Gough; Stewart, 1965). M = 24, N = 6, y = the
+/// platform's position x, y, z and yaw, pitch, roll.
 ///
-/// The attitude is R_z(yaw) R_y(pitch) R_x(roll), the `rpy` of URDF. The spanning tree's joint coordinates, in this
-/// order and in m and rad, are:
+/// The attitude is R_z(yaw) R_y(pitch) R_x(roll), the `rpy` of URDF. The spanning tree's joint
+/// coordinates, in this order and in m and rad, are:
 ///
 /// | q | joint | axis, in the body's frame |
 /// |---|---|---|
@@ -37,21 +37,25 @@ pub struct Leg {
 /// | 8 | upper half of the first leg on the lower | prismatic z |
 /// | 9 … 23 | the same of the other legs | |
 ///
-/// The bodies between these axes have no mass. At zero all frames have the base's axes, and a leg points along z. The
-/// loops are cut at the ball joints on the platform; both halves of a leg are bodies, which do not spin about the leg.
+/// The bodies between these axes have no mass. At zero all frames have the base's axes, and a leg
+/// points along z. The loops are cut at the ball joints on the platform; both halves of a leg are
+/// bodies, which do not spin about the leg.
 ///
-/// The motors are at the slides: [`Driven::actuated`](crate::clusters::Driven::actuated)`([8, 11, 14, 17, 20, 23])`.
-/// The motion of the platform determines that of the legs everywhere, the reverse has no closed form. Configurations in
-/// which no forces of the legs hold the platform are therefore not singular for this cluster, but dead points of the
-/// motors: [`TreeMotion::to_motors`](crate::clusters::TreeMotion::to_motors) names them.
+/// The motors are at the slides:
+/// [`Driven::actuated`](crate::clusters::Driven::actuated)`([8, 11, 14, 17, 20, 23])`. The motion
+/// of the platform determines that of the legs everywhere, the reverse has no closed form.
+/// Configurations in which no forces of the legs hold the platform are therefore not singular for
+/// this cluster, but dead points of the motors:
+/// [`TreeMotion::to_motors`](crate::clusters::TreeMotion::to_motors) names them.
 ///
 /// # Cost
-/// Some 1,200 flops, six divisions and twelve reciprocal roots; sines and cosines of the attitude only. Where an effect
-/// reads the angles of the legs themselves, twelve arc tangents.
+/// Some 1,200 flops, six divisions and twelve reciprocal roots; sines and cosines of the attitude
+/// only. Where an effect reads the angles of the legs themselves, twelve arc tangents.
 ///
 /// # Errors
-/// None of a finite y. Where a leg has no length or is parallel to y, [`ClusterMotion::singular`] is set: within an angle
-/// of 3·10⁻⁵ rad in f64 and 6·10⁻³ rad in f32, and at a length of as much of the largest leg's reach.
+/// None of a finite y. Where a leg has no length or is parallel to y, [`ClusterMotion::singular`]
+/// is set: within an angle of 3·10⁻⁵ rad in f64 and 6·10⁻³ rad in f32, and at a length of as much
+/// of the largest leg's reach.
 ///
 /// # Source
 /// The legs' vectors z = p + R s − b, and their derivatives in spherical coordinates.
@@ -214,16 +218,17 @@ impl Stewart {
     /// The independent coordinates y, ẏ, ÿ of a platform from its pose, twist and acceleration.
     ///
     /// # Frames
-    /// All in base axes and of the platform's origin, which is [`LocalWorldAligned`](crate::algorithms::frame): `twist`
-    /// has ω and the velocity of the origin, rad/s and m/s, `acceleration` their derivatives.
+    /// All in base axes and of the platform's origin, which is
+    /// [`LocalWorldAligned`](crate::algorithms::frame): `twist` has ω and the velocity of the
+    /// origin, rad/s and m/s, `acceleration` their derivatives.
     ///
     /// # Cost
     /// Some 60 flops, two divisions and a root, and an arc tangent for each of three angles.
     ///
     /// # Errors
-    /// [`ClusterProblem::CannotClose`] at a pitch within 10⁻³ rad of ±90°, where yaw and roll have one axis. Numbers that
-    /// are not finite are not refused here: they give coordinates that are not, for which the dynamics return
-    /// [`ClusterProblem::NotFinite`].
+    /// [`ClusterProblem::CannotClose`] at a pitch within 10⁻³ rad of ±90°, where yaw and roll have
+    /// one axis. Numbers that are not finite are not refused here: they give coordinates that are
+    /// not, for which the dynamics return [`ClusterProblem::NotFinite`].
     ///
     /// ```
     /// use dynamics_core::algorithms::Pose;

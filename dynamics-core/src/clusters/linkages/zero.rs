@@ -60,9 +60,9 @@ impl Zero {
 
 /// The angle within ±π of a sine and cosine.
 ///
-/// Without a branch or a call, so that nothing of it is left where no effect reads the angle. In f32 an arc tangent
-/// within 2·10⁻⁸ rad (Abramowitz & Stegun, 4.4.50); in f64 the same, the error of which, δ, one step with the sine of
-/// the difference reduces to δ³/6.
+/// Without a branch or a call, so that nothing of it is left where no effect reads the angle. In
+/// f32 an arc tangent within 2·10⁻⁸ rad (Abramowitz & Stegun, 4.4.50); in f64 the same, the error
+/// of which, δ, one step with the sine of the difference reduces to δ³/6.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn of_unit<R: Real>(sin: R, cos: R) -> JointCoordinate<R> {
     const ATAN: [f64; 9] = [

@@ -7,12 +7,14 @@ use crate::effects::{Effect, RegroupedInertia, hook};
 use crate::model::Robot;
 use crate::scalar::Real;
 
-/// The base parameters of the robot `T`, which the engine then reads instead of the constants of its description.
+/// The base parameters of the robot `T`, which the engine then reads instead of the constants of
+/// its description.
 ///
-/// [`Engine::base_parameters`](crate::Engine::base_parameters) computes them from calibrated inertias, outside the tick. The
-/// geometry stays constant: the engine's algorithms take up to 1.3 times as long as without them (rows `loaded` of
-/// `docs/costs.md` in the repository). A set is a plain value: between two ticks the scene receives another one as a whole, by
-/// value or by reference.
+/// [`Engine::base_parameters`](crate::Engine::base_parameters) computes them from calibrated
+/// inertias, outside the tick. The geometry stays constant: the engine's algorithms take up to 1.3
+/// times as long as without them (rows `loaded` of `docs/costs.md` in the repository). A set is a
+/// plain value: between two ticks the scene receives another one as a whole, by value or by
+/// reference.
 ///
 /// ```
 /// use dynamics_core::effects::RIGID_BODY;

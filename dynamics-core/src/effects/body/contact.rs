@@ -1,7 +1,9 @@
-//! Compliant contact of points with a plane: a spring and damper without adhesion, and friction within a cone.
+//! Compliant contact of points with a plane: a spring and damper without adhesion, and friction
+//! within a cone.
 //!
-//! At the depth p below the plane, with the velocity v_n out of the plane and v_t along it: f_n = max(0, k p − b c
-//! v_n), f_t = −μ f_n v_t / √(v_t² + w²), c growing from 0 to 1 with the depth. The friction never leaves its cone,
+//! At the depth p below the plane, with the velocity v_n out of the plane and v_t along it: f_n =
+//! max(0, k p − b c v_n), f_t = −μ f_n v_t / √(v_t² + w²), c growing from 0 to 1 with the depth.
+//! The friction never leaves its cone,
 //! |f_t| ≤ μ f_n, and creeps below the speed w instead of sticking. Hunt & Crossley (1975); Haessig & Friedland, "On
 //! the modeling and simulation of friction" (1991).
 
@@ -23,11 +25,13 @@ pub struct ContactPoint<R: Real> {
 
 /// Contact of P points with a plane of the base; the space above the plane is free.
 ///
-/// The plane is fixed to the base and moves with it: on a [`MovingBase`](crate::effects::MovingBase) speeds are those
-/// relative to the deck. A point on a body that the robot does not have makes every torque NaN.
+/// The plane is fixed to the base and moves with it: on a
+/// [`MovingBase`](crate::effects::MovingBase) speeds are those relative to the deck. A point on a
+/// body that the robot does not have makes every torque NaN.
 ///
-/// Explicit: a step of h seconds is stable while k < M/h² and b < M/h, M the effective mass at a point. Cost: pose and
-/// velocity of the bodies, and some 110 flops per point, with the same instructions on the ground and in the air.
+/// Explicit: a step of h seconds is stable while k < M/h² and b < M/h, M the effective mass at a
+/// point. Cost: pose and velocity of the bodies, and some 110 flops per point, with the same
+/// instructions on the ground and in the air.
 ///
 /// ```
 /// use dynamics_core::effects::{Contact, ContactPoint, Width};
@@ -67,7 +71,8 @@ pub struct Contact<R: Real, const P: usize> {
 }
 
 impl<R: Real, const P: usize> Contact<R, P> {
-    /// The force of the ground on a point at `place` that moves with `velocity`, in base coordinates, N.
+    /// The force of the ground on a point at `place` that moves with `velocity`, in base
+    /// coordinates, N.
     #[cfg_attr(optimised, inline(always))]
     pub fn force(&self, place: R::Vec3, velocity: R::Vec3) -> R::Vec3 {
         let n = self.normal;

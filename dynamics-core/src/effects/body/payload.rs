@@ -7,11 +7,11 @@ use crate::spatial::SpatialInertia;
 use core::fmt;
 use glam::{DMat3, DVec3, Mat3, Vec3};
 
-/// A rigid payload fixed to the body of the number BODY in the description: its inertia about the origin of that body's
-/// frame.
+/// A rigid payload fixed to the body of the number BODY in the description: its inertia about the
+/// origin of that body's frame.
 ///
-/// It acts through the other effects of the scene: its weight with `Gravity`, its M q̈ with `Inertia`. A scene may
-/// contain payloads of several bodies; those of one body add up.
+/// It acts through the other effects of the scene: its weight with `Gravity`, its M q̈ with
+/// `Inertia`. A scene may contain payloads of several bodies; those of one body add up.
 ///
 /// ```
 /// use dynamics_core::effects::{Gravity, Payload};
@@ -44,16 +44,18 @@ use glam::{DMat3, DVec3, Mat3, Vec3};
 pub struct Payload<R: Real, const BODY: usize>(pub SpatialInertia<R>);
 
 impl<R: Real, const BODY: usize> Payload<R, BODY> {
-    /// The payload of this mass, centre of mass and inertia in the body's frame, unchecked. RBDA (2.63).
+    /// The payload of this mass, centre of mass and inertia in the body's frame, unchecked. RBDA
+    /// (2.63).
     ///
-    /// For a scene in a `const` or `static` [`Payload::f32`] and [`Payload::f64`] are evaluated by the compiler.
+    /// For a scene in a `const` or `static` [`Payload::f32`] and [`Payload::f64`] are evaluated by
+    /// the compiler.
     pub fn from_inertia(inertia: BodyInertia<R>) -> Self {
         Self(inertia.about_origin())
     }
 
-    /// The payload of this mass, centre of mass and inertia in the body's frame, if they are physical: no negative
-    /// mass, and principal moments that are not negative and obey the triangle inequality within `relative` of the
-    /// largest (f32 rounds to 1e-6).
+    /// The payload of this mass, centre of mass and inertia in the body's frame, if they are
+    /// physical: no negative mass, and principal moments that are not negative and obey the
+    /// triangle inequality within `relative` of the largest (f32 rounds to 1e-6).
     ///
     /// Not for the tick: it computes principal moments in f64.
     ///
@@ -87,7 +89,8 @@ impl<R: Real, const BODY: usize> Payload<R, BODY> {
     }
 }
 
-/// [`Payload::f32`] and [`Payload::f64`]: the operations of [`BodyInertia::about_origin`] in their order.
+/// [`Payload::f32`] and [`Payload::f64`]: the operations of [`BodyInertia::about_origin`] in their
+/// order.
 macro_rules! known_payload {
     ($(#[$doc:meta])* $r:ident $vec:ident $mat:ident) => {
         impl<const BODY: usize> Payload<$r, BODY> {
@@ -116,7 +119,8 @@ macro_rules! known_payload {
 }
 
 known_payload! {
-    /// [`Payload::from_inertia`] of numbers that the compiler knows, for a scene in a `const` or `static`; unchecked.
+    /// [`Payload::from_inertia`] of numbers that the compiler knows, for a scene in a `const` or
+    /// `static`; unchecked.
     ///
     /// ```
     /// use dynamics_core::effects::{Coriolis, Gravity, Inertia, Payload};
@@ -135,7 +139,8 @@ known_payload! {
     f32 Vec3 Mat3
 }
 known_payload! {
-    /// [`Payload::from_inertia`] of numbers that the compiler knows, unchecked: see [`Payload::f32`].
+    /// [`Payload::from_inertia`] of numbers that the compiler knows, unchecked: see
+    /// [`Payload::f32`].
     ///
     /// ```
     /// use dynamics_core::{effects::Payload, model::BodyInertia};

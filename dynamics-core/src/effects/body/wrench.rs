@@ -4,7 +4,8 @@ use crate::effects::{Effect, hook};
 use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Xform};
 
-/// The wrench of an effect on a body that the robot does not have: not a number, so that the torques show it.
+/// The wrench of an effect on a body that the robot does not have: not a number, so that the
+/// torques show it.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn absent<R: Real>() -> Force<R> {
     let none = R::from_f64(f64::NAN);
@@ -28,7 +29,8 @@ pub(super) fn absent<R: Real>() -> Force<R> {
 #[doc(alias = "fext")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyWrench<R: Real> {
-    /// The body's place in the model's list; that of a body which the robot does not have makes every torque NaN.
+    /// The body's place in the model's list; that of a body which the robot does not have makes
+    /// every torque NaN.
     pub body: usize,
     /// The wrench of the environment on it.
     pub wrench: Force<R>,
@@ -50,7 +52,8 @@ impl<R: Real> BodyWrench<R> {
     }
 }
 
-/// A wrench on `body`, about the origin of the body's frame but along the axes of the base, N·m and N.
+/// A wrench on `body`, about the origin of the body's frame but along the axes of the base, N·m and
+/// N.
 ///
 /// It keeps its direction: wind, a rope over a far pulley. Cost: the body's pose, and 36 flops.
 ///
@@ -66,7 +69,8 @@ impl<R: Real> BodyWrench<R> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorldWrench<R: Real> {
-    /// The body's place in the model's list; that of a body which the robot does not have makes every torque NaN.
+    /// The body's place in the model's list; that of a body which the robot does not have makes
+    /// every torque NaN.
     pub body: usize,
     /// The wrench of the environment on it, along the axes of the base.
     pub wrench: Force<R>,

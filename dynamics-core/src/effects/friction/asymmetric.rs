@@ -1,8 +1,8 @@
 //! Coulomb friction that differs with direction: τ = (F₊ + F₋)/2 s + (F₊ − F₋)/2 s².
 //!
-//! s = s(q̇ / w) is the smooth sign of [`Coulomb`](crate::effects::Coulomb): F₊ where it is 1, −F₋ where it is −1,
-//! and since |F₊ − F₋| ≤ F₊ + F₋ never of the sign of a drive. Gears load their flanks differently:
-//! Armstrong-Hélouvry, *Control of Machines with Friction* (1991), chapter 4.
+//! s = s(q̇ / w) is the smooth sign of [`Coulomb`](crate::effects::Coulomb): F₊ where it is 1, −F₋
+//! where it is −1, and since |F₊ − F₋| ≤ F₊ + F₋ never of the sign of a drive. Gears load their
+//! flanks differently: Armstrong-Hélouvry, *Control of Machines with Friction* (1991), chapter 4.
 
 use crate::effects::once::{Kind, Once};
 use crate::effects::{

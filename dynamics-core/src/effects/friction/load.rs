@@ -1,10 +1,12 @@
-//! Friction of gears that grows with the transmitted torque: F = s (m |τ| + d s τ), m, d = (μ₁ ± μ₂) / 2.
+//! Friction of gears that grows with the transmitted torque: F = s (m |τ| + d s τ), m, d = (μ₁ ±
+//! μ₂) / 2.
 //!
-//! τ is the torque that the motor must supply for all else at the joint, s = s(q̇ / w) the smooth sign of
-//! [`Coulomb`](crate::effects::Coulomb). Where s is ±1 the motor supplies τ (1 + μ₁) while it drives the load, τ q̇ > 0, and
-//! τ (1 − μ₂) while the load drives it: the efficiencies of the gear are 1/(1 + μ₁) and 1 − μ₂. Since |d| ≤ m, F q̇ is never
-//! negative. Duclusaud, Passault, Padois & Ly, "Extended friction models for the physics simulation of servo actuators"
-//! (2025), models M3 to M5, solved for the motor's torque.
+//! τ is the torque that the motor must supply for all else at the joint, s = s(q̇ / w) the smooth
+//! sign of [`Coulomb`](crate::effects::Coulomb). Where s is ±1 the motor supplies τ (1 + μ₁) while
+//! it drives the load, τ q̇ > 0, and τ (1 − μ₂) while the load drives it: the efficiencies of the
+//! gear are 1/(1 + μ₁) and 1 − μ₂. Since |d| ≤ m, F q̇ is never negative. Duclusaud, Passault,
+//! Padois & Ly, "Extended friction models for the physics simulation of servo actuators" (2025),
+//! models M3 to M5, solved for the motor's torque.
 
 use super::coulomb::sign_beyond;
 use crate::effects::once::{Kind, Once};
@@ -16,10 +18,12 @@ use crate::state::entry;
 
 /// Friction of each joint's gear in proportion to the torque that it transmits.
 ///
-/// The transmitted torque is that of all other effects at the joint, other friction and [`Armature`](crate::effects::Armature)
-/// included. In inverse dynamics the friction is added last, in forward dynamics it is solved for in closed form, which
-/// needs `backdriving` < 1: results are not finite where the load drives a gear that it cannot turn. At rest the smooth sign is zero.
-/// Robots with loops, clusters or elastic joints, whose motors do not supply the tree's torques, do not compile with it.
+/// The transmitted torque is that of all other effects at the joint, other friction and
+/// [`Armature`](crate::effects::Armature) included. In inverse dynamics the friction is added last,
+/// in forward dynamics it is solved for in closed form, which needs `backdriving` < 1: results are
+/// not finite where the load drives a gear that it cannot turn. At rest the smooth sign is zero.
+/// Robots with loops, clusters or elastic joints, whose motors do not supply the tree's torques, do
+/// not compile with it.
 ///
 /// Cost: some 14 flops a joint; in forward dynamics a division more.
 ///
@@ -50,16 +54,19 @@ use crate::state::entry;
 #[doc(alias = "load-dependent friction")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadFriction<R, const V: usize> {
-    /// Friction μ₁ per transmitted torque while the motor drives the load: 1/η − 1 of the efficiency η.
+    /// Friction μ₁ per transmitted torque while the motor drives the load: 1/η − 1 of the
+    /// efficiency η.
     pub driving: [R; V],
-    /// Friction μ₂ per transmitted torque while the load drives the motor: 1 − η′ of the efficiency η′ of back-driving.
+    /// Friction μ₂ per transmitted torque while the load drives the motor: 1 − η′ of the efficiency
+    /// η′ of back-driving.
     pub backdriving: [R; V],
     /// The speed w below which friction fades, rad/s or m/s.
     pub width: Width<R>,
 }
 
 impl<R: Real, const V: usize> LoadFriction<R, V> {
-    /// Of the efficiencies 0 < η ≤ 1 of the gears while the motors drive, and η′ while the loads drive.
+    /// Of the efficiencies 0 < η ≤ 1 of the gears while the motors drive, and η′ while the loads
+    /// drive.
     ///
     /// ```
     /// use dynamics_core::effects::{LoadFriction, Width};
@@ -74,8 +81,9 @@ impl<R: Real, const V: usize> LoadFriction<R, V> {
         }
     }
 
-    /// Of friction |k_m τ_m + k_e τ|, of the motor's torque τ_m and the torque τ of all else, with k_m < 1: the
-    /// directional models of Duclusaud et al., whose external torque is −τ. With k_m = k_e it is their model M3.
+    /// Of friction |k_m τ_m + k_e τ|, of the motor's torque τ_m and the torque τ of all else, with
+    /// k_m < 1: the directional models of Duclusaud et al., whose external torque is −τ. With k_m =
+    /// k_e it is their model M3.
     ///
     /// ```
     /// use dynamics_core::effects::{LoadFriction, Width};
@@ -120,11 +128,13 @@ impl<R: Real, const V: usize> LoadFriction<R, V> {
     }
 }
 
-/// [`LoadFriction::of_efficiency`] and [`LoadFriction::of_motor_and_load`] of numbers that the compiler knows.
+/// [`LoadFriction::of_efficiency`] and [`LoadFriction::of_motor_and_load`] of numbers that the
+/// compiler knows.
 macro_rules! known_gears {
     ($r:ident, $of_efficiency:ident, $of_motor_and_load:ident) => {
         impl<const V: usize> LoadFriction<$r, V> {
-            /// [`LoadFriction::of_efficiency`] of numbers that the compiler knows, for a scene in a `const` or `static`.
+            /// [`LoadFriction::of_efficiency`] of numbers that the compiler knows, for a scene in a
+            /// `const` or `static`.
             ///
             /// ```
             /// use dynamics_core::effects::{LoadFriction, Width};
@@ -151,8 +161,8 @@ macro_rules! known_gears {
                 }
             }
 
-            /// [`LoadFriction::of_motor_and_load`] of numbers that the compiler knows, for a scene in a `const` or
-            /// `static`.
+            /// [`LoadFriction::of_motor_and_load`] of numbers that the compiler knows, for a scene
+            /// in a `const` or `static`.
             ///
             /// ```
             /// use dynamics_core::effects::{LoadFriction, Width};

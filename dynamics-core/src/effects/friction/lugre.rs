@@ -1,8 +1,8 @@
 //! LuGre friction: bristles that deflect before they slide.
 //!
-//! ż = q̇ − σ₀ |q̇| z / g(q̇), τ = σ₀ z + σ₁ ż + σ₂ q̇, g(q̇) = F_c + (F_s − F_c) e^{−(q̇/v_s)²}: Canudas de
-//! Wit, Olsson, Åström & Lischinsky, "A new model for control of systems with friction" (1995),
-//! equations (1) to (4). One bristle a joint: z is in rad or m.
+//! ż = q̇ − σ₀ |q̇| z / g(q̇), τ = σ₀ z + σ₁ ż + σ₂ q̇, g(q̇) = F_c + (F_s − F_c) e^{−(q̇/v_s)²}:
+//! Canudas de Wit, Olsson, Åström & Lischinsky, "A new model for control of systems with friction"
+//! (1995), equations (1) to (4). One bristle a joint: z is in rad or m.
 
 use crate::effects::once::{Kind, Once};
 use crate::effects::{Effect, JointState, TorqueDerivatives, Width};
@@ -11,10 +11,11 @@ use crate::state::entry;
 
 /// LuGre friction of each joint, with the deflection of its bristles.
 ///
-/// Memory: `bristle`, V numbers, advanced by the plant (implicitly: z₊ = (z + h q̇)/(1 + h σ₀ |q̇| / g), so that no
-/// step makes it unstable). The model is passive (it returns no more than the σ₀ z²/2 that its bristles store) while σ₁
-/// ≤ 4 g / |q̇|, which may be violated by fast joints. With σ₁ near √(σ₀ M) the inertia M does not oscillate on the
-/// bristles. Cost: an exponential, a division and some 20 flops per joint.
+/// Memory: `bristle`, V numbers, advanced by the plant (implicitly: z₊ = (z + h q̇)/(1 + h σ₀ |q̇|
+/// / g), so that no step makes it unstable). The model is passive (it returns no more than the σ₀
+/// z²/2 that its bristles store) while σ₁ ≤ 4 g / |q̇|, which may be violated by fast joints. With
+/// σ₁ near √(σ₀ M) the inertia M does not oscillate on the bristles. Cost: an exponential, a
+/// division and some 20 flops per joint.
 ///
 /// ```
 /// use dynamics_core::effects::{Effect, JointState, Lugre, Width};

@@ -1,4 +1,5 @@
-//! Stribeck's effect: friction that falls from stiction to sliding, τ = (F_s − F_c) e^{−(q̇/v_s)²} s(q̇/w).
+//! Stribeck's effect: friction that falls from stiction to sliding, τ = (F_s − F_c) e^{−(q̇/v_s)²}
+//! s(q̇/w).
 //!
 //! Bo & Pavelescu (1982); Armstrong-Hélouvry (1991), chapter 2. It is used together with
 //! [`Coulomb`](crate::effects::Coulomb), which has F_c, and has the same smooth sign s.
@@ -12,8 +13,8 @@ use crate::state::entry;
 
 /// The friction of each joint at rest in excess of its sliding friction.
 ///
-/// Cost: an exponential, 20 flops, and 12 more per joint. Where it decreases with speed it causes stick-slip; a step is
-/// implicit only where it increases.
+/// Cost: an exponential, 20 flops, and 12 more per joint. Where it decreases with speed it causes
+/// stick-slip; a step is implicit only where it increases.
 ///
 /// ```
 /// use dynamics_core::effects::{Effect, JointState, Stribeck, Width};

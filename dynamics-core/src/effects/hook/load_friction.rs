@@ -7,8 +7,9 @@ type AddFactors<E, R> = fn(&E, usize, JointState<R>, &mut LoadFactors<R>);
 
 /// Friction of gears, in proportion to the torque that they transmit.
 ///
-/// The hook adds to the factors a and b of the friction F = a |τ| + b τ, where τ is the torque that the motor must supply
-/// for all else at the joint. As F is of first degree in τ, forward dynamics solves τ + F for τ in closed form.
+/// The hook adds to the factors a and b of the friction F = a |τ| + b τ, where τ is the torque that
+/// the motor must supply for all else at the joint. As F is of first degree in τ, forward dynamics
+/// solves τ + F for τ in closed form.
 #[derive(Debug)]
 pub struct LoadFriction<E, R> {
     #[doc(hidden)]
@@ -26,8 +27,8 @@ impl<E, R> LoadFriction<E, R> {
         is_some: false,
     };
 
-    /// Friction of the factors that `factors` adds; `slopes` adds their derivatives with respect to q̇, for
-    /// [`Implicit`](crate::effects::Implicit).
+    /// Friction of the factors that `factors` adds; `slopes` adds their derivatives with respect to
+    /// q̇, for [`Implicit`](crate::effects::Implicit).
     pub const fn new(factors: AddFactors<E, R>, slopes: AddFactors<E, R>) -> Self {
         Self {
             factors: Some(factors),

@@ -10,8 +10,8 @@ pub struct RegroupedInertia<R> {
     pub(crate) moment: [R; 3],
     /// Σ: xx, xy, xz, yy, yz.
     pub(crate) second: [R; 5],
-    /// The largest mass, first moment and second moment that the joint could move: those of its body and of its descendants, as
-    /// if they lay in one line.
+    /// The largest mass, first moment and second moment that the joint could move: those of its
+    /// body and of its descendants, as if they lay in one line.
     pub(crate) size: [R; 3],
     /// Σ_zz, zero but behind a spherical or free joint.
     pub(crate) second_zz: R,
@@ -20,7 +20,8 @@ pub struct RegroupedInertia<R> {
 /// Writes what is left to the body behind one joint.
 type Load<E, R> = fn(&E, usize, &mut RegroupedInertia<R>);
 
-/// Base parameters of all bodies, for the engine: see [`BaseParameters`](crate::effects::BaseParameters).
+/// Base parameters of all bodies, for the engine: see
+/// [`BaseParameters`](crate::effects::BaseParameters).
 #[derive(Debug)]
 #[doc(hidden)]
 pub struct Regrouped<E, R> {

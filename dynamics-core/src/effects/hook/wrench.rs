@@ -10,8 +10,8 @@ type AddWrench<E, R, Read> = fn(&E, usize, &Read, &mut Force<R>);
 
 /// A wrench fˣ that the environment exerts on a body.
 ///
-/// The hook is called for each body by its place in the model's list, and adds to fˣ, about the origin of the body's
-/// frame and in its coordinates, N·m and N.
+/// The hook is called for each body by its place in the model's list, and adds to fˣ, about the
+/// origin of the body's frame and in its coordinates, N·m and N.
 #[derive(Debug)]
 pub struct Wrench<E, R: Real> {
     constant: Option<fn(&E, usize, &mut Force<R>)>,
@@ -44,8 +44,8 @@ impl<E, R: Real> Wrench<E, R> {
         }
     }
 
-    /// A wrench that depends on the body's pose relative to the base: the coordinate transform from the base to the
-    /// body's frame, its origin in base coordinates, m.
+    /// A wrench that depends on the body's pose relative to the base: the coordinate transform from
+    /// the base to the body's frame, its origin in base coordinates, m.
     pub const fn of_pose(add: fn(&E, usize, &Xform<R>, &mut Force<R>)) -> Self {
         Self {
             of_pose: Some(add),
@@ -55,7 +55,8 @@ impl<E, R: Real> Wrench<E, R> {
         }
     }
 
-    /// A wrench that depends on the body's velocity (which does not switch the velocity products on).
+    /// A wrench that depends on the body's velocity (which does not switch the velocity products
+    /// on).
     pub const fn of_velocity(add: fn(&E, usize, &BodyVelocity<R>, &mut Force<R>)) -> Self {
         Self {
             of_velocity: Some(add),

@@ -11,8 +11,8 @@ use crate::state::entry;
 
 /// Cogging torque of each joint's motor, by H harmonics.
 ///
-/// The motor must supply the mapped torque. Cost: a sine and cosine, and 8 flops a harmonic. Accuracy: n q
-/// should stay within 10⁴ rad; an f32 q resolves the phase to 6·10⁻⁸ n q.
+/// The motor must supply the mapped torque. Cost: a sine and cosine, and 8 flops a harmonic.
+/// Accuracy: n q should stay within 10⁴ rad; an f32 q resolves the phase to 6·10⁻⁸ n q.
 ///
 /// ```
 /// use dynamics_core::effects::{Cogging, Effect, JointState};
@@ -26,7 +26,8 @@ use crate::state::entry;
 #[doc(alias = "torque ripple")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cogging<R, const H: usize, const V: usize> {
-    /// Periods n per turn of the joint: gear ratio times the least common multiple of poles and slots.
+    /// Periods n per turn of the joint: gear ratio times the least common multiple of poles and
+    /// slots.
     pub per_turn: [R; V],
     /// Amplitudes a_k of the cosines, N·m or N; k from 1.
     pub cos: [[R; H]; V],

@@ -1,8 +1,9 @@
 //! Joint stops: springs and dampers beyond the limits.
 //!
-//! At depth p = max(0, q − q_max) the stop pushes back with max(0, k p + b c q̇), c growing from 0 to 1 with
-//! the depth: continuous at first touch, and it never pulls. The lower stop is its mirror image. Hunt &
-//! Crossley, "Coefficient of restitution interpreted as damping in vibroimpact" (1975).
+//! At depth p = max(0, q − q_max) the stop pushes back with max(0, k p + b c q̇), c growing from 0
+//! to 1 with the depth: continuous at first touch, and it never pulls. The lower stop is its mirror
+//! image. Hunt & Crossley, "Coefficient of restitution interpreted as damping in vibroimpact"
+//! (1975).
 
 use crate::effects::{Effect, JointState, TorqueDerivatives, Width, smooth_sign};
 use crate::scalar::Real;
@@ -12,9 +13,10 @@ use crate::state::entry;
 /// End stops of each joint at the ends of its travel.
 ///
 /// The motor supplies the torque against them. End stops are stiff: integrate the plant implicitly
-/// ([`crate::sim::linearly_implicit`]). In the step in which a joint leaves a stop, the linearisation may then retard
-/// it. In such steps ∂τ/∂q is k alone: the term b c′(p) q̇, by which the damping grows with the depth, is omitted,
-/// since it is negative while a joint leaves. Cost: 30 flops per joint, no comparison.
+/// ([`crate::sim::linearly_implicit`]). In the step in which a joint leaves a stop, the
+/// linearisation may then retard it. In such steps ∂τ/∂q is k alone: the term b c′(p) q̇, by which
+/// the damping grows with the depth, is omitted, since it is negative while a joint leaves. Cost:
+/// 30 flops per joint, no comparison.
 ///
 /// ```
 /// use dynamics_core::effects::{EndStops, Width};

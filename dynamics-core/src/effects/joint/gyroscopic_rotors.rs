@@ -1,10 +1,11 @@
-//! Rotors as spinning bodies: what they do beyond [`Armature`](crate::effects::Armature)'s diagonal.
+//! Rotors as spinning bodies: what they do beyond [`Armature`](crate::effects::Armature)'s
+//! diagonal.
 //!
-//! A rotor on the joint's axis z, mounted on the parent link, turns ρ times as fast as the joint. With the
-//! parent it has the angular momentum that the parent's inertia counts; on top of it I ρ q̇ z. Its rate of
-//! change, n = I ρ (q̈ z + q̇ ω × z), is a couple that the parent bears, and its motor also turns the rotor
-//! with the parent: ρ I (ρ q̈ + z·α_λ) at the joint. Featherstone, RBDA (2008), section 9.6; Chen, "The
-//! effects of gear reduction on robot dynamics" (1989).
+//! A rotor on the joint's axis z, mounted on the parent link, turns ρ times as fast as the joint.
+//! With the parent it has the angular momentum that the parent's inertia counts; on top of it I ρ
+//! q̇ z. Its rate of change, n = I ρ (q̈ z + q̇ ω × z), is a couple that the parent bears, and its
+//! motor also turns the rotor with the parent: ρ I (ρ q̈ + z·α_λ) at the joint. Featherstone, RBDA
+//! (2008), section 9.6; Chen, "The effects of gear reduction on robot dynamics" (1989).
 
 use crate::effects::once::{Kind, Once};
 use crate::effects::{Effect, hook};
@@ -13,10 +14,11 @@ use crate::state::entry;
 
 /// The rotor of each joint's motor, as a body that spins on the parent link about the joint's axis.
 ///
-/// The parent's own inertia counts the whole rotor, as if it were locked; so do data sheets that give
-/// a link's mass with its motor. For joints of one degree of freedom (a slide's rotor spins about its
-/// direction). Cost: 25 flops a joint. Matters at low ratios: relative to the diagonal the coupling is 1/ρ.
-/// Part of dynamics, M and its factors, energies, momenta and the centre of mass. The engine's articulated bodies do not have it:
+/// The parent's own inertia counts the whole rotor, as if it were locked; so do data sheets that
+/// give a link's mass with its motor. For joints of one degree of freedom (a slide's rotor spins
+/// about its direction). Cost: 25 flops a joint. Matters at low ratios: relative to the diagonal
+/// the coupling is 1/ρ. Part of dynamics, M and its factors, energies, momenta and the centre of
+/// mass. The engine's articulated bodies do not have it:
 ///
 /// ```compile_fail,E0080
 /// use dynamics_core::effects::{Gravity, Inertia, GyroscopicRotors};
@@ -42,7 +44,8 @@ use crate::state::entry;
 pub struct GyroscopicRotors<R, const V: usize> {
     /// Moment of inertia I of each rotor about its axis, kg·m².
     pub inertia: [R; V],
-    /// Ratio ρ of each gear, rad of the rotor per rad or m of the joint; negative for the opposite sense.
+    /// Ratio ρ of each gear, rad of the rotor per rad or m of the joint; negative for the opposite
+    /// sense.
     pub ratio: [R; V],
 }
 

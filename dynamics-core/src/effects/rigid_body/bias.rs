@@ -1,4 +1,5 @@
-//! A scene without its accelerations, what inverse dynamics of forward dynamics' bias computes, and without its joints.
+//! A scene without its accelerations, what inverse dynamics of forward dynamics' bias computes, and
+//! without its joints.
 
 use crate::effects::Effect;
 use crate::effects::delegate::delegate_effect;

@@ -14,11 +14,12 @@ pub struct Inertia;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Coriolis;
 
-/// Rigid-body dynamics on earth: gravity, inertia and velocity products, with which most scenes begin.
+/// Rigid-body dynamics on earth: gravity, inertia and velocity products, with which most scenes
+/// begin.
 pub const RIGID_BODY: (Gravity, Inertia, Coriolis) = (Gravity::EARTH, Inertia, Coriolis);
 
-/// K η + D η̇: the stiffness and damping of links that bend, which [`Modes`](crate::flexible::Modes) has. Robots without
-/// modes have none.
+/// K η + D η̇: the stiffness and damping of links that bend, which
+/// [`Modes`](crate::flexible::Modes) has. Robots without modes have none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Elasticity;
 

@@ -10,9 +10,9 @@ use crate::spatial::Motion;
 /// The given motion of the base, about its origin and in its coordinates.
 ///
 /// The acceleration is the spatial one: its linear part is that of the origin less ω × v
-/// ([`MovingBase::of_point`] takes what an accelerometer's frame gives). Gravity is not part of it, and
-/// its direction in a base that tilts is the scene's: [`GravityVector`]. Cost: a forward pass that no zero
-/// of a resting base shortens.
+/// ([`MovingBase::of_point`] takes what an accelerometer's frame gives). Gravity is not part of it,
+/// and its direction in a base that tilts is the scene's: [`GravityVector`]. Cost: a forward pass
+/// that no zero of a resting base shortens.
 ///
 /// ```
 /// use dynamics_core::effects::{Coriolis, Inertia, MovingBase};
@@ -35,7 +35,8 @@ pub struct MovingBase<R: Real> {
 }
 
 impl<R: Real> MovingBase<R> {
-    /// From ω, ω̇ and velocity and acceleration of the base's origin, all in the base's coordinates.
+    /// From ω, ω̇ and velocity and acceleration of the base's origin, all in the base's
+    /// coordinates.
     pub fn of_point(omega: R::Vec3, alpha: R::Vec3, velocity: R::Vec3, a: R::Vec3) -> Self {
         Self {
             velocity: Motion::new(omega, velocity),
@@ -60,7 +61,8 @@ impl<R: Real> MovingBase<R> {
 
 /// Uniform gravity whose direction is known at run time only, in base coordinates, m/s².
 ///
-/// Cost: as [`Gravity`](crate::effects::Gravity), without what the engine saves by knowing the direction.
+/// Cost: as [`Gravity`](crate::effects::Gravity), without what the engine saves by knowing the
+/// direction.
 ///
 /// ```
 /// use dynamics_core::effects::{Gravity, GravityVector};
@@ -77,8 +79,8 @@ impl<R: Real> MovingBase<R> {
 pub struct GravityVector<R: Real>(pub R::Vec3);
 
 impl<R: Real> GravityVector<R> {
-    /// The field `g` of the world in a base of the attitude `attitude`, the rotation of coordinates from
-    /// the base to the world.
+    /// The field `g` of the world in a base of the attitude `attitude`, the rotation of coordinates
+    /// from the base to the world.
     pub fn tilted(attitude: R::Mat3, g: R::Vec3) -> Self {
         Self(attitude.transpose_mul(g))
     }

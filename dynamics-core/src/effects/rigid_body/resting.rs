@@ -4,8 +4,8 @@ use crate::effects::{Effect, JointState, Once, call_hook, hook};
 use crate::scalar::Real;
 use crate::spatial::Motion;
 
-/// Gravity, wrenches, payloads and the torques at joints of `E`: neither M q̈ nor the products of velocities, no
-/// acceleration of the base, and no friction in proportion to the load.
+/// Gravity, wrenches, payloads and the torques at joints of `E`: neither M q̈ nor the products of
+/// velocities, no acceleration of the base, and no friction in proportion to the load.
 pub(crate) struct Resting<'a, E>(pub(crate) &'a E);
 
 impl<R: Real, E, const B: usize, const V: usize> Effect<R, B, V> for Resting<'_, E>

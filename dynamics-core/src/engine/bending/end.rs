@@ -1,6 +1,8 @@
-//! The end of a link that bends: its field, on which the children stand, and the load of these on the modes.
+//! The end of a link that bends: its field, on which the children stand, and the load of these on
+//! the modes.
 //!
-//! The end is displaced by Σ φₖ ηₖ and rotated by the Rodrigues parameters g = ½ Σ ψₖ ηₖ, as in the module `flexible`.
+//! The end is displaced by Σ φₖ ηₖ and rotated by the Rodrigues parameters g = ½ Σ ψₖ ηₖ, as in the
+//! module `flexible`.
 
 use super::for_each_mode;
 use super::motion::Mode;
@@ -194,7 +196,8 @@ impl<R: Real> End<R> {
         }
     }
 
-    /// Adds the work of a wrench about the end, in the link's axes, to the forces on the modes; returns it about the link's joint.
+    /// Adds the work of a wrench about the end, in the link's axes, to the forces on the modes;
+    /// returns it about the link's joint.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn carry<C: Bends, const I: usize, const MOVES: bool>(
         &self,

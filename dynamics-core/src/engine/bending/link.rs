@@ -1,6 +1,7 @@
 //! The wrench of a link that is bent, and the forces on its modes.
 //!
-//! The acceleration of a point is a(r) = a + U r + 2 ω × φ η̇ + φ η̈ with r = r₀ + Σ φₖ ηₖ, so that with Φₖ = ∫ φₖ rᵀ dm
+//! The acceleration of a point is a(r) = a + U r + 2 ω × φ η̇ + φ η̈ with r = r₀ + Σ φₖ ηₖ, so that
+//! with Φₖ = ∫ φₖ rᵀ dm
 //!
 //! f = m a + U h + 2 ω × Σ ∫φₖ dm η̇ₖ + Σ ∫φₖ dm η̈ₖ,
 //! n = h × a + axial(U Σ − Σ Uᵀ) + Σ (tr Φₖ − Φₖ) 2 ω η̇ₖ + Σ axial(Φₖ) η̈ₖ,
@@ -13,7 +14,8 @@ use crate::engine::acceleration_field::{AccelerationField, Inertia, Wrench};
 use crate::engine::folding::{Folded, Mat3, Sym3, Vec3};
 use crate::scalar::Real;
 
-/// The wrench that accelerates the body of joint I, bent, and what its modes need; with stiffness and damping, if the scene has these.
+/// The wrench that accelerates the body of joint I, bent, and what its modes need; with stiffness
+/// and damping, if the scene has these.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn bent_wrench<R, C, const I: usize, const MOVES: bool>(
     field: &AccelerationField<R>,

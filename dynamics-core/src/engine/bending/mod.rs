@@ -1,8 +1,8 @@
-//! Inverse dynamics of a robot whose links bend, by the recursion of [`super::rnea`]: the integrals of the modes are constants of the
-//! robot, and of shapes that bend in one plane most are zero.
+//! Inverse dynamics of a robot whose links bend, by the recursion of [`super::rnea`]: the integrals
+//! of the modes are constants of the robot, and of shapes that bend in one plane most are zero.
 //!
-//! Between a body and its children is the end of the link. A joint whose axis is that about which the end turns has its angle
-//! larger by the end's; nothing else is then rotated.
+//! Between a body and its children is the end of the link. A joint whose axis is that about which
+//! the end turns has its angle larger by the end's; nothing else is then rotated.
 
 mod end;
 mod link;
@@ -78,7 +78,8 @@ where
 /// The blocks of M(q, η): joints, a row for each mode between it and the joints, and modes.
 pub(crate) type Blocks<R, const V: usize, const M: usize> = ([[R; V]; V], [[R; V]; M], [[R; M]; M]);
 
-/// The inertia of joints and modes, without armatures; without `JOINTS` the block of the modes alone.
+/// The inertia of joints and modes, without armatures; without `JOINTS` the block of the modes
+/// alone.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn bending_inertia<
     R,
@@ -110,7 +111,8 @@ where
             }
         {
             let (tau, forces) = column(trig, eta, effects);
-            // Bodies and links are in the order of the tree: what is before a coordinate has the entry in its own column.
+            // Bodies and links are in the order of the tree: what is before a coordinate has the
+            // entry in its own column.
             if L < V {
                 for (i, &entry) in tau.iter().enumerate().skip(L) {
                     (m.0[i][L], m.0[L][i]) = (entry, entry);

@@ -1,4 +1,5 @@
-//! The motion along which inverse dynamics is computed: that of a state, or the unit acceleration of one coordinate.
+//! The motion along which inverse dynamics is computed: that of a state, or the unit acceleration
+//! of one coordinate.
 
 use core::marker::PhantomData;
 
@@ -82,7 +83,8 @@ where
     }
 }
 
-/// The unit acceleration of coordinate L, of V joints and then of the modes, of a robot whose links are bent.
+/// The unit acceleration of coordinate L, of V joints and then of the modes, of a robot whose links
+/// are bent.
 pub(crate) struct Unit<'a, R, const V: usize, const M: usize, const L: usize> {
     pub(crate) eta: &'a [R; M],
 }

@@ -20,17 +20,19 @@ pub(crate) const MODES: usize = {
     });
     count
 };
-/// What an integral over products of two modes has at most from rounding, of those of the modes themselves.
+/// What an integral over products of two modes has at most from rounding, of those of the modes
+/// themselves.
 const ROUNDING: f64 = 1e-14;
 
 /// A robot whose links bend, compiled, in m. Of each joint, the modes of the body behind it.
 pub(crate) trait Bends: Compiled {
-    /// For a base at rest. Of a body that can only turn about z, one integral stands for the sum of two that the equations otherwise
-    /// distinguish.
+    /// For a base at rest. Of a body that can only turn about z, one integral stands for the sum of
+    /// two that the equations otherwise distinguish.
     const AT_REST: &'static [BendingLink];
     /// For any motion of the base.
     const MOVING: &'static [BendingLink];
-    /// The joints with the inertia of what is fixed on the end of each body, without the point that its mass is.
+    /// The joints with the inertia of what is fixed on the end of each body, without the point that
+    /// its mass is.
     const END_JOINTS: &'static [Joint];
     /// Where bodies are that are fixed on an end, from there; of all others the base.
     const END_PLACES: &'static [BodyPlacement];
@@ -97,8 +99,8 @@ impl BendingLink {
         modes: [BendingMode::NONE; MODES],
     };
 
-    /// With a point of this mass at the end, which the modes displace as they do the end, and with what rounding left of integrals
-    /// that are zero exactly so.
+    /// With a point of this mass at the end, which the modes displace as they do the end, and with
+    /// what rounding left of integrals that are zero exactly so.
     pub(crate) const fn with_mass_at_end(mut self, mass: f64) -> Self {
         let (mut k, end) = (0, self.end);
         while k < self.count {
@@ -128,8 +130,9 @@ impl BendingLink {
         self
     }
 
-    /// The same of a link that turns about z alone: of ∫ φ rᵀ dm count the sum of its first two diagonal entries, for the velocity
-    /// products, and the difference of those beside them, for the couple about z.
+    /// The same of a link that turns about z alone: of ∫ φ rᵀ dm count the sum of its first two
+    /// diagonal entries, for the velocity products, and the difference of those beside them, for
+    /// the couple about z.
     pub(crate) const fn in_plane(mut self) -> Self {
         let mut k = 0;
         while k < self.count {
@@ -215,7 +218,8 @@ impl<C: Bends, const I: usize, const MOVES: bool> Bent<C, I, MOVES> {
     pub(super) const IS: bool = Self::LINK.count > 0;
     /// Whether its end turns.
     pub(super) const TURNS: bool = Self::LINK.turns();
-    /// Whether its end turns about the axes of all of its children: their angles then become larger, and nothing is rotated twice.
+    /// Whether its end turns about the axes of all of its children: their angles then become
+    /// larger, and nothing is rotated twice.
     pub(super) const ADDS_TO_ANGLES: bool = {
         let (mut all, mut j) = (true, 0);
         while j < C::JOINTS.len() {

@@ -1,7 +1,9 @@
-//! The inertia of each body alone along its coordinate: what the pivot of its joint is at least, whatever the descendants do.
+//! The inertia of each body alone along its coordinate: what the pivot of its joint is at least,
+//! whatever the descendants do.
 //!
-//! The pivot of forward dynamics is the inertia that a joint moves while its descendants are free (RBDA (2008), section 7.1).
-//! They add to that of the body, if no direction of theirs has a negative inertia.
+//! The pivot of forward dynamics is the inertia that a joint moves while its descendants are free
+//! (RBDA (2008), section 7.1). They add to that of the body, if no direction of theirs has a
+//! negative inertia.
 
 use glam::{DMat3, DVec3};
 
@@ -10,7 +12,8 @@ use crate::math::const_eval::{add, dot, scale};
 use crate::model::Link;
 use crate::spatial::SpatialInertia;
 
-/// Writes it to each joint, whose inertia is that of its body still; zero if some body of the robot could take away from it.
+/// Writes it to each joint, whose inertia is that of its body still; zero if some body of the robot
+/// could take away from it.
 pub(super) const fn inertia_alone<const V: usize>(joints: &mut [Joint; V], links: &[Link<f64>]) {
     let mut i = 0;
     while i < links.len() {

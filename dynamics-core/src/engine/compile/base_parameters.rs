@@ -1,16 +1,18 @@
-//! Regrouping to base parameters: Khalil & Dombre, *Modeling, Identification and Control of Robots* (2002), chapter 9.
+//! Regrouping to base parameters: Khalil & Dombre, *Modeling, Identification and Control of Robots*
+//! (2002), chapter 9.
 //!
-//! A rotation about z does not move what lies on z, so that mass m, h_z and Σ_zz of a link go to its parent as a thin rod;
-//! Σ = ∫ r rᵀ dm is the second moment. Behind a prismatic joint the whole Σ goes there. τ and M are unchanged; the
-//! regrouped internal forces are not the physical ones.
+//! A rotation about z does not move what lies on z, so that mass m, h_z and Σ_zz of a link go to
+//! its parent as a thin rod; Σ = ∫ r rᵀ dm is the second moment. Behind a prismatic joint the whole
+//! Σ goes there. τ and M are unchanged; the regrouped internal forces are not the physical ones.
 //!
-//! Joints of several degrees of freedom, all exactly: of a universal and of a cylindrical joint each step regroups as a
-//! joint of its own, over the massless body between them. A screw and a planar joint move the body's origin along or across
-//! z, so that only Σ_zz goes to the parent. A spherical joint keeps its centre in the parent, which receives the mass there;
-//! h and Σ stay. A free joint passes nothing.
+//! Joints of several degrees of freedom, all exactly: of a universal and of a cylindrical joint
+//! each step regroups as a joint of its own, over the massless body between them. A screw and a
+//! planar joint move the body's origin along or across z, so that only Σ_zz goes to the parent. A
+//! spherical joint keeps its centre in the parent, which receives the mass there; h and Σ stay. A
+//! free joint passes nothing.
 //!
-//! The end of a link that bends turns with respect to the link, so that a joint on it passes nothing but a mass at its very end: that
-//! is displaced as the end is.
+//! The end of a link that bends turns with respect to the link, so that a joint on it passes
+//! nothing but a mass at its very end: that is displaced as the end is.
 
 use glam::{DMat3, DVec3};
 
@@ -18,8 +20,8 @@ use super::tree::{Joint, JointMotion, OnEnd};
 use crate::math::const_eval::{add, mul, scale, transpose};
 use crate::model::BASE;
 
-/// From the last joint to the first, moves the parameters to the parent on which the joint's motion does not depend. Of bodies that
-/// bend, `ends` has the ends, on which masses are left.
+/// From the last joint to the first, moves the parameters to the parent on which the joint's motion
+/// does not depend. Of bodies that bend, `ends` has the ends, on which masses are left.
 pub(super) const fn regroup<const V: usize>(
     joints: &mut [Joint; V],
     ends: &[Option<DVec3>; V],
@@ -70,7 +72,8 @@ pub(super) const fn regroup<const V: usize>(
     }
 }
 
-/// What a parent receives at the joint's origin: a mass, the first moment of a rod along z, and a second moment.
+/// What a parent receives at the joint's origin: a mass, the first moment of a rod along z, and a
+/// second moment.
 struct Passed {
     mass: f64,
     rod: f64,

@@ -1,8 +1,9 @@
-//! Base parameters of M, fewer than those of τ: the part of Σ that is the same along x and y goes to the parent.
+//! Base parameters of M, fewer than those of τ: the part of Σ that is the same along x and y goes
+//! to the parent.
 //!
-//! A turn about z does not change diag(a, a, 0), so that in M it may be the parent's, except that it spins with its own joint:
-//! M_ii, and the couple along z of column i, have 2a more. In τ it may not, because the velocity products of this spin are not
-//! the parent's.
+//! A turn about z does not change diag(a, a, 0), so that in M it may be the parent's, except that
+//! it spins with its own joint: M_ii, and the couple along z of column i, have 2a more. In τ it may
+//! not, because the velocity products of this spin are not the parent's.
 
 use glam::{DMat3, DVec3};
 
@@ -11,7 +12,8 @@ use super::tree::Joint;
 use crate::math::const_eval::{mul, scale, transpose};
 use crate::model::BASE;
 
-/// From the last joint to the first, moves what M allows of the second moments that regrouping left.
+/// From the last joint to the first, moves what M allows of the second moments that regrouping
+/// left.
 pub(super) const fn regroup_for_matrix<const V: usize>(joints: &mut [Joint; V]) {
     let mut i = 0;
     while i < V {
@@ -28,7 +30,8 @@ pub(super) const fn regroup_for_matrix<const V: usize>(joints: &mut [Joint; V]) 
         let second = child.matrix_second;
         let mut moved = second;
         if !child.prismatic {
-            // Along the axis of a child, Σ is more than a constant in any case: the other axis becomes zero.
+            // Along the axis of a child, Σ is more than a constant in any case: the other axis
+            // becomes zero.
             let a = if children_lie_along_x(joints, i) {
                 second.x_axis.x
             } else {

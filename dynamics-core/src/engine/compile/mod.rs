@@ -1,14 +1,16 @@
-//! The constants of the engine from the description: evaluated at compile time, in f64, from the tips to the base.
+//! The constants of the engine from the description: evaluated at compile time, in f64, from the
+//! tips to the base.
 //!
 //! 1. A fixed body becomes part of its parent.
-//! 2. A joint becomes one coordinate for each degree of freedom. Each frame is rotated until the joint's axis is z, and
-//!    moved along it until the offset p from the parent is perpendicular to it ([`tree`]).
+//! 2. A joint becomes one coordinate for each degree of freedom. Each frame is rotated until the
+//!    joint's axis is z, and moved along it until the offset p from the parent is perpendicular to
+//!    it ([`tree`]).
 //! 3. Entries that miss −1, 0 or 1 by rounding become exact ([`snap`]).
 //! 4. Inertias are regrouped to base parameters ([`base_parameters`]).
 //! 5. Parameters below the robot's negligible share of torque become zero ([`mod@prune`]).
 //! 6. Those of M are regrouped further ([`matrix_parameters`]).
-//! 7. The unit of length becomes a joint offset, so that this offset is 1, and the unit of mass such that Σ keeps its
-//!    numbers: p/L, h·L, m·L².
+//! 7. The unit of length becomes a joint offset, so that this offset is 1, and the unit of mass
+//!    such that Σ keeps its numbers: p/L, h·L, m·L².
 
 mod alone;
 mod base_parameters;
@@ -45,8 +47,9 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
     compile_bending(model, negligible, None).tree
 }
 
-/// The same of a robot with modes: `ends` has the end of each body that bends, in its aligned frame. On it are the joints of its
-/// children, whose places are those from the end. Without modes there are no ends.
+/// The same of a robot with modes: `ends` has the end of each body that bends, in its aligned
+/// frame. On it are the joints of its children, whose places are those from the end. Without modes
+/// there are no ends.
 pub(crate) const fn compile_bending<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
     negligible: f64,
@@ -170,7 +173,8 @@ const fn apart(place: DVec3, end: DVec3) -> DVec3 {
     )
 }
 
-/// Writes the coordinates of a joint whose frame is `rot` and `pos` in that of `parent`; returns where its body is.
+/// Writes the coordinates of a joint whose frame is `rot` and `pos` in that of `parent`; returns
+/// where its body is.
 const fn attach<const V: usize>(
     joints: &mut [Joint; V],
     link: &Link<f64>,
@@ -204,7 +208,8 @@ const fn attach<const V: usize>(
         prismatic: matches!(motion, JointMotion::Slide),
         ..single
     };
-    // The frame of a universal joint's first rotation, which is about x, in that of the body; a cyclic permutation.
+    // The frame of a universal joint's first rotation, which is about x, in that of the body; a
+    // cyclic permutation.
     let turned = DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X);
     if matches!(link.joint.kind, Universal) {
         first.rot = mul(&first.rot, &turned);
@@ -249,7 +254,8 @@ const fn at_once<const V: usize>(
     first: &Joint,
     motion: JointMotion,
 ) -> BodyPlacement {
-    // How many there are, the axis of the first rotation, and the position of the first translation.
+    // How many there are, the axis of the first rotation, and the position of the first
+    // translation.
     let (count, turns, shift) = match motion {
         JointMotion::Planar => (3, 2, 1),
         JointMotion::Spherical => (3, 0, 0),

@@ -1,9 +1,10 @@
-//! Base parameters whose torque is negligible become zero: the engine has no instructions for known zeros.
+//! Base parameters whose torque is negligible become zero: the engine has no instructions for known
+//! zeros.
 //!
-//! Each parameter is compared with the robot's largest ones by the torque that it needs while all is at 1 g and turns at
-//! α = g ĥ/Σ̂, by which the largest second moment Σ̂ needs the torque ĥ g that the largest first moment ĥ weighs. A second
-//! moment Σ then needs Σ α, the share Σ/Σ̂; a first moment h at the end of a reach R needs h (g + α R), the share
-//! h/ĥ + h R/Σ̂.
+//! Each parameter is compared with the robot's largest ones by the torque that it needs while all
+//! is at 1 g and turns at α = g ĥ/Σ̂, by which the largest second moment Σ̂ needs the torque ĥ g
+//! that the largest first moment ĥ weighs. A second moment Σ then needs Σ α, the share Σ/Σ̂; a
+//! first moment h at the end of a reach R needs h (g + α R), the share h/ĥ + h R/Σ̂.
 
 use glam::{DMat3, DVec3};
 

@@ -1,4 +1,5 @@
-//! What regrouping leaves to the base: the mass on which no joint's motion depends, which totals over all bodies need.
+//! What regrouping leaves to the base: the mass on which no joint's motion depends, which totals
+//! over all bodies need.
 
 use core::marker::PhantomData;
 
@@ -9,7 +10,8 @@ use super::topology::Compiled;
 use crate::math::const_eval::{add, dot, mul, mul_vec, scale, sqrt, transpose};
 use crate::model::BASE;
 
-/// Mass, first moment and second moment about the origin of the base and along its axes, in the engine's units.
+/// Mass, first moment and second moment about the origin of the base and along its axes, in the
+/// engine's units.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Distribution {
     pub(crate) mass: f64,
@@ -21,7 +23,8 @@ pub(crate) struct Distribution {
 pub(crate) struct Remainder<C, const B: usize, const V: usize>(PhantomData<C>);
 
 impl<C: Compiled, const B: usize, const V: usize> Remainder<C, B, V> {
-    /// The bodies of the description less those of the engine: the same at all q, so that q = 0 gives it.
+    /// The bodies of the description less those of the engine: the same at all q, so that q = 0
+    /// gives it.
     pub(crate) const AT_BASE: &'static Distribution = &{
         let all = described::<C, B>();
         let moving = regrouped::<C, V>();

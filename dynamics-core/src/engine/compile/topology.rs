@@ -6,9 +6,11 @@ use super::compile;
 use super::tree::{AT_BASE, BodyPlacement, CompiledTree, Joint, JointMotion, PADDING_JOINT};
 use crate::model::{BASE, Link, Robot};
 
-/// A robot as the engine computes with it: one type in place of the robot, the number of its bodies, and those of its coordinates.
+/// A robot as the engine computes with it: one type in place of the robot, the number of its
+/// bodies, and those of its coordinates.
 ///
-/// A joint is named by its velocity coordinate; one of several coordinates is a chain of them ([`Joint`]).
+/// A joint is named by its velocity coordinate; one of several coordinates is a chain of them
+/// ([`Joint`]).
 pub(crate) trait Compiled {
     /// The bodies of the description.
     const LINKS: &'static [Link<f64>];
@@ -22,8 +24,8 @@ pub(crate) trait Compiled {
     const LENGTH_INV: f64 = 1.0 / Self::LENGTH;
     /// The joints that support each joint, itself among them, as bits.
     const SUPPORT: &'static [u64];
-    /// Whether some chain of joints is too long for its sines and cosines to stay in registers: measured on chains of 3 (slower
-    /// by 1 % if they are loaded again), 6 and 7 (faster by 1 %).
+    /// Whether some chain of joints is too long for its sines and cosines to stay in registers:
+    /// measured on chains of 3 (slower by 1 % if they are loaded again), 6 and 7 (faster by 1 %).
     const LOADS_SINES_AGAIN: bool = {
         let (mut longest, mut j) = (0, 0);
         while j < Self::JOINTS.len() {
@@ -53,8 +55,8 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
         compile(&T::MODEL, T::NEGLIGIBLE)
     };
 
-    /// For a robot of revolute joints alone: whether the limits of all of them are within two turns (`near`), or of none. None for every
-    /// other robot, whose sines are computed joint by joint.
+    /// For a robot of revolute joints alone: whether the limits of all of them are within two turns
+    /// (`near`), or of none. None for every other robot, whose sines are computed joint by joint.
     pub(crate) const ALL_TURN: Option<bool> = {
         let (mut turn, mut near, mut i) = (Q == V, 0, 0);
         while i < V {
@@ -111,7 +113,8 @@ pub(crate) const fn is_ancestor<C: Compiled>(k: usize, i: usize) -> bool {
     k != i && supports::<C>(k, i)
 }
 
-/// Whether joint `k` supports joint `i`, another one, which moves its body's origin in the parent's frame.
+/// Whether joint `k` supports joint `i`, another one, which moves its body's origin in the parent's
+/// frame.
 pub(crate) const fn is_slide_beyond<C: Compiled>(k: usize, i: usize) -> bool {
     if !is_ancestor::<C>(k, i) {
         return false;
@@ -121,7 +124,8 @@ pub(crate) const fn is_slide_beyond<C: Compiled>(k: usize, i: usize) -> bool {
         && (joint.prismatic || matches!(joint.motion, JointMotion::Screw))
 }
 
-/// Whether joint `i` is revolute and has no children, and the inertia left to its body is Σ = diag(a, a, 0) alone.
+/// Whether joint `i` is revolute and has no children, and the inertia left to its body is Σ =
+/// diag(a, a, 0) alone.
 const fn is_round<C: Compiled>(i: usize) -> bool {
     let mut k = 0;
     while k < C::JOINTS.len() {
@@ -161,8 +165,8 @@ pub(crate) const fn last<C: Compiled>(i: usize) -> usize {
     joint.first + joint.count - 1
 }
 
-/// Whether joint `i` is one of several joints in a row on parallel axes, of which the first is on the joint on the base and
-/// perpendicular to it.
+/// Whether joint `i` is one of several joints in a row on parallel axes, of which the first is on
+/// the joint on the base and perpendicular to it.
 const fn is_parallel<C: Compiled>(i: usize) -> bool {
     let own = joint::<C>(i);
     let first = joint::<C>(own.parent);
@@ -286,8 +290,9 @@ pub(crate) const fn joint<C: Compiled>(i: usize) -> Joint {
     }
 }
 
-/// Joint I of a compiled robot, by constants with names: the compiler evaluates them once, and an inline `const` block
-/// in each instance of the function around it, of which there is one for each scalar, set of effects and joint.
+/// Joint I of a compiled robot, by constants with names: the compiler evaluates them once, and an
+/// inline `const` block in each instance of the function around it, of which there is one for each
+/// scalar, set of effects and joint.
 pub(crate) struct CompiledJoint<C, const I: usize>(PhantomData<C>);
 
 impl<C: Compiled, const I: usize> CompiledJoint<C, I> {
@@ -324,11 +329,14 @@ impl<C: Compiled, const I: usize> CompiledJoint<C, I> {
     pub(crate) const BODIES: usize = bodies_on::<C>(Self::LAST);
     /// Whether it is a last joint, and what regrouping left to its body is the same after any turn.
     pub(crate) const IS_ROUND: bool = is_round::<C>(I);
-    /// Whether it is one of several joints in a row on parallel axes, perpendicular to that of the joint on the base.
+    /// Whether it is one of several joints in a row on parallel axes, perpendicular to that of the
+    /// joint on the base.
     pub(crate) const IS_PARALLEL: bool = is_parallel::<C>(I);
-    /// Whether CRBA multiplies its wrench by the motion of the joint on the base in the frame of one of them.
+    /// Whether CRBA multiplies its wrench by the motion of the joint on the base in the frame of
+    /// one of them.
     pub(crate) const MEETS_ROOT: bool = Self::IS_PARALLEL || last_parallel::<C>(I) != BASE;
-    /// Of the inertia that only its own rotation feels, what it does not share with children on parallel axes.
+    /// Of the inertia that only its own rotation feels, what it does not share with children on
+    /// parallel axes.
     pub(crate) const OWN_SPIN: f64 = own_spin::<C>(I);
     /// Whether its parent is the joint on the base.
     pub(crate) const PARENT_ON_BASE: bool =
@@ -341,7 +349,8 @@ impl<C: Compiled, const I: usize> CompiledJoint<C, I> {
 pub(crate) struct JointPair<C, const I: usize, const J: usize>(PhantomData<C>);
 
 impl<C: Compiled, const I: usize, const J: usize> JointPair<C, I, J> {
-    /// Whether J's wrench, in the frame of I's parent, meets the motion of the joint on the base there.
+    /// Whether J's wrench, in the frame of I's parent, meets the motion of the joint on the base
+    /// there.
     pub(crate) const IS_MEETING: bool = !CompiledJoint::<C, J>::IS_PARALLEL
         && last_parallel::<C>(J) != BASE
         && last_parallel::<C>(J) == CompiledJoint::<C, I>::JOINT.parent;

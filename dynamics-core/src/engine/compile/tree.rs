@@ -1,4 +1,5 @@
-//! The tree of moving bodies as the engine computes with it: joints, inertias, and where each body of the description is.
+//! The tree of moving bodies as the engine computes with it: joints, inertias, and where each body
+//! of the description is.
 
 use glam::{DMat3, DVec3};
 
@@ -19,15 +20,17 @@ pub(crate) enum JointMotion {
     Spherical,
     /// Any motion, a unit quaternion and a translation; velocities in the body's frame.
     Free,
-    /// None: a coordinate of a planar, spherical or free joint but the first, whose frame is the body's already.
+    /// None: a coordinate of a planar, spherical or free joint but the first, whose frame is the
+    /// body's already.
     Still,
 }
 
 /// One velocity coordinate of a joint, with the inertia that is left to the body behind it.
 ///
-/// A joint of several coordinates is a chain of them, whose bodies between are massless. Those of a universal and of a
-/// cylindrical joint are joints of their own, since their rates are derivatives of their positions. Those of a planar,
-/// spherical and free joint are not: the first moves the body by all of its positions at once.
+/// A joint of several coordinates is a chain of them, whose bodies between are massless. Those of a
+/// universal and of a cylindrical joint are joints of their own, since their rates are derivatives
+/// of their positions. Those of a planar, spherical and free joint are not: the first moves the
+/// body by all of its positions at once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Joint {
     /// The parent coordinate, or [`BASE`].
@@ -57,10 +60,12 @@ pub(crate) struct Joint {
     pub(crate) second: DMat3,
     /// Σ where the base moves: regrouping then keeps all of it.
     pub(crate) second_moment_only: DMat3,
-    /// Σ in M, which [`super::matrix_parameters`] leaves to it, and the inertia that only its own joint's rotation feels.
+    /// Σ in M, which [`super::matrix_parameters`] leaves to it, and the inertia that only its own
+    /// joint's rotation feels.
     pub(crate) matrix_second: DMat3,
     pub(crate) spin: f64,
-    /// The inertia of the body alone along this coordinate, kg·m² or kg: its pivot is no smaller. Zero if that is not known.
+    /// The inertia of the body alone along this coordinate, kg·m² or kg: its pivot is no smaller.
+    /// Zero if that is not known.
     pub(crate) alone: f64,
 }
 
@@ -95,8 +100,8 @@ pub(crate) struct BendingTree<const B: usize, const V: usize> {
 /// What is on the end of a link that bends.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OnEnd {
-    /// The mass of what is fixed there, and that which joints leave at the very end: a point, which is in the parameters of the link,
-    /// too.
+    /// The mass of what is fixed there, and that which joints leave at the very end: a point, which
+    /// is in the parameters of the link, too.
     pub(crate) mass: f64,
     /// Of what is fixed there, about the end.
     pub(crate) moment: DVec3,
@@ -111,7 +116,8 @@ impl OnEnd {
     };
 }
 
-/// Fills the constants of branches that are not compiled in, which the compiler evaluates all the same.
+/// Fills the constants of branches that are not compiled in, which the compiler evaluates all the
+/// same.
 pub(super) const PADDING_JOINT: Joint = Joint {
     parent: BASE,
     motion: JointMotion::Turn,

@@ -16,15 +16,16 @@ const ZERO: u8 = 1;
 const ONE: u8 = 2;
 const MINUS: u8 = 4;
 
-/// A number with a tag for its compile-time value: any, 0 or 1, and a sign. Two scalars, which rustc keeps out of memory.
+/// A number with a tag for its compile-time value: any, 0 or 1, and a sign. Two scalars, which
+/// rustc keeps out of memory.
 #[derive(Clone, Copy)]
 pub(crate) struct Folded<R> {
     magnitude: R,
     tags: u8,
 }
 
-// No branches: those of thousands of operators, all in one function until LLVM has seen their tags, took up to nine tenths of
-// the time of a build.
+// No branches: those of thousands of operators, all in one function until LLVM has seen their tags,
+// took up to nine tenths of the time of a build.
 
 /// `yes` if `condition`, else `no`.
 #[cfg_attr(optimised, inline(always))]

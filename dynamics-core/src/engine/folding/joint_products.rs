@@ -1,5 +1,5 @@
-//! Products with a joint's constants, selected before LLVM: only terms that are not zero are generated. LLVM would
-//! remove the others as well, but in ten times the time.
+//! Products with a joint's constants, selected before LLVM: only terms that are not zero are
+//! generated. LLVM would remove the others as well, but in ten times the time.
 
 use crate::engine::compile::{Compiled, CompiledJoint, Joint};
 use crate::engine::folding::Folded;

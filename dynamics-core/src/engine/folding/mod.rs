@@ -1,4 +1,5 @@
-//! Arithmetic that folds what is known while compiling: scalars, vectors and matrices, and products with a joint's constants.
+//! Arithmetic that folds what is known while compiling: scalars, vectors and matrices, and products
+//! with a joint's constants.
 
 mod folded;
 mod joint_products;

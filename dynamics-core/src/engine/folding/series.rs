@@ -1,7 +1,8 @@
 //! Polynomials in time up to t²: of a quantity x the coefficients x, ẋ and ẍ/2.
 //!
-//! A sum or a product of polynomials has the first two derivatives of that of the quantities (Griewank & Walther, *Evaluating
-//! Derivatives*, 2008, chapter 13). Each coefficient folds by itself: what is constant has no others.
+//! A sum or a product of polynomials has the first two derivatives of that of the quantities
+//! (Griewank & Walther, *Evaluating Derivatives*, 2008, chapter 13). Each coefficient folds by
+//! itself: what is constant has no others.
 
 use core::ops::Add;
 

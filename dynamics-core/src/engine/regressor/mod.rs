@@ -1,8 +1,9 @@
-//! The regressor Y of inverse dynamics, which is linear in the inertial parameters: τ = Y(q, q̇, q̈) φ.
+//! The regressor Y of inverse dynamics, which is linear in the inertial parameters: τ = Y(q, q̇,
+//! q̈) φ.
 //!
-//! Atkeson, An & Hollerbach, "Estimation of inertial parameters of manipulator loads and links" (1986). Each entry is the power
-//! per parameter as the body moves at unit rate of the coordinate; with the field of a body go outward its motions at unit rate
-//! of each coordinate that moves it.
+//! Atkeson, An & Hollerbach, "Estimation of inertial parameters of manipulator loads and links"
+//! (1986). Each entry is the power per parameter as the body moves at unit rate of the coordinate;
+//! with the field of a body go outward its motions at unit rate of each coordinate that moves it.
 
 mod power;
 mod row;
@@ -28,12 +29,12 @@ use crate::state::{Configuration, JointTrig, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// The regressor Y of the joints' torques, by coordinates, bodies and parameters, N·m or N per unit of each parameter, as
-    /// [`crate::algorithms::regressor`] computes it.
+    /// The regressor Y of the joints' torques, by coordinates, bodies and parameters, N·m or N per
+    /// unit of each parameter, as [`crate::algorithms::regressor`] computes it.
     ///
     /// # Cost
-    /// Some 40 flops for each body, and 60 for each pair of a body and a coordinate that moves it; the same instructions for all
-    /// data.
+    /// Some 40 flops for each body, and 60 for each pair of a body and a coordinate that moves it;
+    /// the same instructions for all data.
     ///
     /// # Source
     /// Atkeson, An & Hollerbach (1986), (11) to (17).
@@ -72,8 +73,8 @@ impl<T, K> Engine<T, K> {
         )
     }
 
-    /// The columns of the regressor of one body, by coordinates: the torques of the joints per unit of its parameters, as
-    /// [`crate::algorithms::regressor_columns`] computes them.
+    /// The columns of the regressor of one body, by coordinates: the torques of the joints per unit
+    /// of its parameters, as [`crate::algorithms::regressor_columns`] computes them.
     ///
     /// A body that the robot does not have does not compile.
     ///

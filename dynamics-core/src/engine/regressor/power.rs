@@ -46,8 +46,8 @@ impl<R: Real> BodyPower<R> {
         }
     }
 
-    /// sᵀ A: of f = m p + U h and n = h × p + Ī α + ω × Ī ω, RBDA (2.58), the power along the motion s of the joint's frame per
-    /// unit of m, h and Ī.
+    /// sᵀ A: of f = m p + U h and n = h × p + Ī α + ω × Ī ω, RBDA (2.58), the power along the
+    /// motion s of the joint's frame per unit of m, h and Ī.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn per_parameter(&self, s: &Twist<R>) -> [R; 10] {
         let w = self.rot.transpose_mul(s.ang);

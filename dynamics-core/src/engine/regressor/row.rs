@@ -22,8 +22,8 @@ use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// The row of the regressor of one coordinate, by bodies: its torque per unit of each body's parameters, N·m or N, as
-    /// [`crate::algorithms::regressor_row`] computes it.
+    /// The row of the regressor of one coordinate, by bodies: its torque per unit of each body's
+    /// parameters, N·m or N, as [`crate::algorithms::regressor_row`] computes it.
     ///
     /// All entries are zero for a coordinate that the robot does not have.
     ///
@@ -61,7 +61,8 @@ impl<T, K> Engine<T, K> {
     /// [`crate::algorithms::regressor_row_of_bodies`] computes them.
     ///
     /// # Cost
-    /// Some 60 flops for each body, and 80 for each of these; the same instructions for all data and coordinates.
+    /// Some 60 flops for each body, and 80 for each of these; the same instructions for all data
+    /// and coordinates.
     ///
     /// # Source
     /// As [`Engine::regressor`].

@@ -5,25 +5,25 @@ mod limbs;
 use crate::model::{ArmModel, BASE, Body, Joint, Model, Robot, attach_to};
 use limbs::{arm, leg, waist};
 
-/// Unitree G1 humanoid with its pelvis welded to the base: 29 revolute joints (6 a leg, 3 in the waist,
-/// 7 an arm), no fingers, 29.5 kg of moving mass.
+/// Unitree G1 humanoid with its pelvis welded to the base: 29 revolute joints (6 a leg, 3 in the
+/// waist, 7 an arm), no fingers, 29.5 kg of moving mass.
 ///
-/// The order is left leg, right leg, waist, left arm, right arm. The base frame is the pelvis': x ahead,
-/// y left, z up.
+/// The order is left leg, right leg, waist, left arm, right arm. The base frame is the pelvis': x
+/// ahead, y left, z up.
 ///
 /// # Source
 ///
-/// - The PyPI package example-robot-data 6.0.0, `robots/g1_description/urdf/g1_29dof_rev_1_0.urdf`, which
-///   states as its origin unitreerobotics/unitree_ros (`robots/g1_description`) and BSD-3-Clause as the
-///   licence.
+/// - The PyPI package example-robot-data 6.0.0, `robots/g1_description/urdf/g1_29dof_rev_1_0.urdf`,
+///   which states as its origin unitreerobotics/unitree_ros (`robots/g1_description`) and
+///   BSD-3-Clause as the licence.
 ///
 /// # Changed
 ///
-/// Left and right are written once and mirrored where the source's are exact mirror images; where they
-/// are not (the sign of one product of inertia at the knee, 10 µm at the shoulder) both numbers stand
-/// here. Head and palms are welded to torso and wrists. Omitted are frames without mass and the
-/// contour and the logo, 1 g each, and the pelvis since it does not move. Limits are the
-/// degrees that the source rounds.
+/// Left and right are written once and mirrored where the source's are exact mirror images; where
+/// they are not (the sign of one product of inertia at the knee, 10 µm at the shoulder) both
+/// numbers stand here. Head and palms are welded to torso and wrists. Omitted are frames without
+/// mass and the contour and the logo, 1 g each, and the pelvis since it does not move. Limits are
+/// the degrees that the source rounds.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct G1;
 
@@ -87,8 +87,8 @@ impl Robot<29, 29, 29> for G1 {
 
 const _: ArmModel<f64, 29> = G1::MODEL;
 
-/// Unitree G1 on a free joint: the pelvis of 3.8 kg, then the limbs of [`G1`]; 30 bodies, 35 degrees of
-/// freedom, 33.3 kg. Source and licence as [`G1`].
+/// Unitree G1 on a free joint: the pelvis of 3.8 kg, then the limbs of [`G1`]; 30 bodies, 35
+/// degrees of freedom, 33.3 kg. Source and licence as [`G1`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct G1Free;
 

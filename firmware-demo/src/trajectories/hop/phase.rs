@@ -1,5 +1,5 @@
-//! A stretch of a hop: the ground's force as a polynomial, where it moves the centre of mass, and how deep and how
-//! high the foot is meanwhile.
+//! A stretch of a hop: the ground's force as a polynomial, where it moves the centre of mass, and
+//! how deep and how high the foot is meanwhile.
 
 use dynamics_core::scalar::Real;
 
@@ -89,9 +89,11 @@ impl Phase {
     }
 }
 
-/// The angle in rad of a cosine x, 0 ≤ x ≤ 0.99: √(1 − x) times a polynomial, absolute error below 4·10⁻⁷.
+/// The angle in rad of a cosine x, 0 ≤ x ≤ 0.99: √(1 − x) times a polynomial, absolute error below
+/// 4·10⁻⁷.
 ///
-/// Abramowitz & Stegun, *Handbook of Mathematical Functions* (1964), (4.4.46). Cost: 40 flops, no division.
+/// Abramowitz & Stegun, *Handbook of Mathematical Functions* (1964), (4.4.46). Cost: 40 flops, no
+/// division.
 ///
 /// ```
 /// use firmware_demo::trajectories::hop::arc_cosine;

@@ -130,8 +130,8 @@ fn turned(steps: u32) -> Vec<Row> {
     rows
 }
 
-/// What 60 s of free motion did: errors of energy and momentum relative to themselves, the sum that a first-order
-/// step adds to the energy by theory, and how often the middle axis turned over.
+/// What 60 s of free motion did: errors of energy and momentum relative to themselves, the sum that
+/// a first-order step adds to the energy by theory, and how often the middle axis turned over.
 struct Spun {
     energy: f64,
     momentum: f64,

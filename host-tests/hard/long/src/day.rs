@@ -51,7 +51,8 @@ fn observed(ticks: u32) -> Vec<Row> {
     let mut rows = Vec::new();
     run::<f32>(&mut rows);
     run::<f64>(&mut rows);
-    // An observer of a joint that swings by steps of its encoder, and one that begins a second before the end.
+    // An observer of a joint that swings by steps of its encoder, and one that begins a second
+    // before the end.
     let position = |tick: u32| {
         let phase = tick % 4096;
         (if phase < 2048 { phase } else { 4096 - phase }) as f32 * 3.834_952e-4

@@ -1,4 +1,5 @@
-//! What hard cases compute for minutes: a package of its own, because a full run of the tests optimises it.
+//! What hard cases compute for minutes: a package of its own, because a full run of the tests
+//! optimises it.
 
 pub mod attitude;
 pub mod day;

@@ -90,7 +90,8 @@ pub fn light_links() -> Setup<11> {
     Setup::new(12, "1 kg on ten links of 1 g", &arm, Extras::NONE, states)
 }
 
-/// A rod along x on the one before, turning about y, or about z if it is an odd one of a chain in space.
+/// A rod along x on the one before, turning about y, or about z if it is an odd one of a chain in
+/// space.
 fn rod(i: usize, mass: f64, length: f64, in_space: bool) -> Body {
     let axis = match in_space && i % 2 == 1 {
         true => [0.0, 0.0, 1.0],

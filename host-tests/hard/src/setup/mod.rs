@@ -146,8 +146,8 @@ pub fn widened<const Q: usize, const V: usize>(state: &State<f32, Q, V>) -> Stat
     }
 }
 
-/// The f32 numbers in f64, except that rotations are replaced by the nearest orthonormal ones: a general
-/// rotation is no longer one after rounding, and has no exact result.
+/// The f32 numbers in f64, except that rotations are replaced by the nearest orthonormal ones: a
+/// general rotation is no longer one after rounding, and has no exact result.
 pub fn same_in_f64<const N: usize>(
     arm: &ArmModel<f64, N>,
     single: &ArmModel<f32, N>,

@@ -1,4 +1,5 @@
-//! The demand on each quantity: case, quantity, f32, f64. Bounds are about twice the measured values.
+//! The demand on each quantity: case, quantity, f32, f64. Bounds are about twice the measured
+//! values.
 
 use Demand::{Named, NamedWithin, Within};
 

@@ -74,7 +74,8 @@ fn as_clusters(problem: &LoopProblem<3, 1>, linkage: usize, truth: &Truth) -> Ve
     all
 }
 
-/// Inverse dynamics by core and engine, and forward dynamics, of y, ẏ and ÿ of a linkage and a torque of its crank.
+/// Inverse dynamics by core and engine, and forward dynamics, of y, ẏ and ÿ of a linkage and a
+/// torque of its crank.
 pub fn of<R: Real>(linkage: usize, numbers: [R; 3], tau: R) -> OfCluster {
     let run = match linkage {
         0 => of_linkage::<R, 0>,

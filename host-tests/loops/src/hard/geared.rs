@@ -43,7 +43,8 @@ impl ClusteredRobot<2, 2, 2, 2, 2> for Wrist {
     const COORDINATES: &'static [&'static [usize]] = &[&[0, 1]];
 }
 
-/// An arm on a belt that turns it by 1024 rad for each rad of its pulley, and more away from the middle.
+/// An arm on a belt that turns it by 1024 rad for each rad of its pulley, and more away from the
+/// middle.
 pub struct Steep;
 
 const STEEP: [f64; 4] = [0.5, 1024.0, 512.0, -4096.0];

@@ -96,8 +96,8 @@ pub fn rows(
     rows
 }
 
-/// The largest error, each coordinate relative to its largest over the states, or in rad and m where it is `absolute`;
-/// infinite where there is no answer.
+/// The largest error, each coordinate relative to its largest over the states, or in rad and m
+/// where it is `absolute`; infinite where there is no answer.
 fn error(outcomes: &[Outcome], truth: &[Option<&[f64]>], absolute: bool) -> f64 {
     let Some(truth) = truth.iter().copied().collect::<Option<Vec<_>>>() else {
         return f64::INFINITY;

@@ -234,15 +234,17 @@ impl<const B: usize, const Q: usize, const V: usize, const L: usize, const C: us
         all
     }
 
-    /// Whether this is in the range that is damped by default: what is demanded there has a bound of its own.
+    /// Whether this is in the range that is damped by default: what is demanded there has a bound
+    /// of its own.
     fn is_damped(&self) -> bool {
         is_bounded(self.case, &format!("{DAMPED}, {}", self.name))
     }
 
-    /// The outcomes of assembly, inverse dynamics, the same with the default damping, and forward dynamics, by states.
+    /// The outcomes of assembly, inverse dynamics, the same with the default damping, and forward
+    /// dynamics, by states.
     ///
-    /// In the damped range the first of inverse dynamics are with the least damping there is, which leaves torques exact
-    /// up to where elimination loses a pivot.
+    /// In the damped range the first of inverse dynamics are with the least damping there is, which
+    /// leaves torques exact up to where elimination loses a pivot.
     fn outcomes<R: Real>(
         &self,
         robot: &impl RobotModel<R, B, Q, V>,
@@ -278,7 +280,8 @@ impl<const B: usize, const Q: usize, const V: usize, const L: usize, const C: us
         all
     }
 
-    /// The rank of K but in singular configurations: a planar loop has three of its five rows too many.
+    /// The rank of K but in singular configurations: a planar loop has three of its five rows too
+    /// many.
     fn regular_rank(&self) -> usize {
         if L == 1 && C == 5 { 2 } else { C }
     }

@@ -34,7 +34,8 @@ impl<const B: usize, const Q: usize, const V: usize, const L: usize, const C: us
         }
     }
 
-    /// Whether damped torques are within the bound of [`Loops::damped_below`] at the default threshold.
+    /// Whether damped torques are within the bound of [`Loops::damped_below`] at the default
+    /// threshold.
     fn is_within_bound<R: Real>(
         &self,
         robot: &impl RobotModel<R, B, Q, V>,

@@ -1,4 +1,5 @@
-//! A platform on six legs (Gough; Stewart, 1965): universal joints at the base, slides with motors, balls at the platform.
+//! A platform on six legs (Gough; Stewart, 1965): universal joints at the base, slides with motors,
+//! balls at the platform.
 
 use dynamics_core::loops::{BodyFrame, LoopJoint, LoopRobot, Loops};
 use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
@@ -10,8 +11,8 @@ use super::Machine;
 #[derive(Clone, Copy, Debug)]
 pub struct Stewart;
 
-/// The same with a platform that is the base at 0.6 of its size, and not turned: it is singular in every pose (Ma &
-/// Angeles, 1991).
+/// The same with a platform that is the base at 0.6 of its size, and not turned: it is singular in
+/// every pose (Ma & Angeles, 1991).
 #[derive(Clone, Copy, Debug)]
 pub struct SimilarStewart;
 

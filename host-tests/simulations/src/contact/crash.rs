@@ -76,7 +76,8 @@ pub struct Outcome {
     pub digest: Digest,
 }
 
-/// Runs an arm against a wall of this stiffness, N/m. Nothing if its motion exceeds its limits or it has no forward dynamics.
+/// Runs an arm against a wall of this stiffness, N/m. Nothing if its motion exceeds its limits or
+/// it has no forward dynamics.
 pub fn run<F: Effect<f32, 6, 6> + Clone>(
     stiffness: f32,
     response: Option<ContactResponse<f32>>,

@@ -31,7 +31,8 @@ const STATED: [f32; 2] = [0.03, 0.1];
 /// Stated stiction, as a share of the modelled sliding friction.
 const STICTION: f32 = (1.0 + STATED[1]) * (1.0 + EXCESS as f32);
 
-/// Joints may stick up to this multiple of the width of the modelled friction, since velocities are estimated with a delay.
+/// Joints may stick up to this multiple of the width of the modelled friction, since velocities are
+/// estimated with a delay.
 const STUCK: f32 = 1.5;
 
 const RIGID: (Gravity, Inertia, Coriolis, Armature<f32, 6>) = {
@@ -52,7 +53,8 @@ pub struct Sensing {
     pub bandwidth: f32,
     /// Margins of the detector, N·m.
     pub margin: [f32; 6],
-    /// Whether the stated errors hold for joints that stick: at low speed their friction may have any value up to stiction.
+    /// Whether the stated errors hold for joints that stick: at low speed their friction may have
+    /// any value up to stiction.
     pub sticks: bool,
 }
 

@@ -54,8 +54,9 @@ pub struct Push {
     pub torque: f32,
 }
 
-/// Follows the path once and reports the [excess](Firmware::excess) of each tick. Every `every` ticks, copies of the arm are pushed:
-/// the push, and the excess of each of the next `ticks`, are reported to the second function.
+/// Follows the path once and reports the [excess](Firmware::excess) of each tick. Every `every`
+/// ticks, copies of the arm are pushed: the push, and the excess of each of the next `ticks`, are
+/// reported to the second function.
 ///
 /// Nothing if the motion exceeds the arm's limits or the arm has no forward dynamics.
 pub fn lap<F: Effect<f32, 6, 6> + Clone>(

@@ -81,7 +81,8 @@ pub fn tip<R: Real>(state: &State<R, 6, 6>) -> [R::Vec3; 2] {
     [k.poses[TIP].pos, v.lin]
 }
 
-/// An elastic wall, the plane through `origin` whose `normal` points into it, and a hand at the tip.
+/// An elastic wall, the plane through `origin` whose `normal` points into it, and a hand at the
+/// tip.
 #[derive(Clone, Copy, Debug)]
 pub struct Wall<R: Real> {
     /// A point of its surface, m.

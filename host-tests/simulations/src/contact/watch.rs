@@ -4,7 +4,8 @@ use super::crash::{self, FRICTIONS, RESPONSES};
 use super::firmware::Sensing;
 use super::path::{Off, Push, lap};
 
-/// The bars: the first peak as a share of v √(k m), the force half a second later, N, and the false alarms in a million ticks.
+/// The bars: the first peak as a share of v √(k m), the force half a second later, N, and the false
+/// alarms in a million ticks.
 pub const PEAK: f32 = 1.2;
 /// See [`PEAK`].
 pub const LATER: f32 = 10.0;
@@ -15,7 +16,8 @@ const EVERY: u32 = 251;
 /// Ticks after which a push counts as not found.
 pub const PATIENCE: u32 = 200;
 
-/// The errors of the model of a lap: a share of 3 % of inertias and 10 % of friction, with its own signs.
+/// The errors of the model of a lap: a share of 3 % of inertias and 10 % of friction, with its own
+/// signs.
 fn off_by(lap: u32, share: f32) -> Off {
     // Knuth's multiplicative hash.
     Off::by(
@@ -128,7 +130,8 @@ impl Watch {
         ]
     }
 
-    /// The delays until each of [`PUSHES`] is found, of either sign, ticks, in order; [`PATIENCE`] where it is not.
+    /// The delays until each of [`PUSHES`] is found, of either sign, ticks, in order; [`PATIENCE`]
+    /// where it is not.
     pub fn delays(self, laps: u32) -> Vec<Vec<u32>> {
         let (_, after) = self.laps(laps, 1.0, &both(&PUSHES));
         let of = |push: &Push| {

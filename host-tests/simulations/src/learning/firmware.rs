@@ -23,7 +23,8 @@ const KEPT: usize = 2 * APART + 1;
 const START: u32 = 200;
 /// Slower joints have no row: the sign of their friction is not known well enough. rad/s.
 const SLOWEST: f32 = 0.15;
-/// Standard deviations of the torques of a row, N·m: with the errors of velocities and accelerations.
+/// Standard deviations of the torques of a row, N·m: with the errors of velocities and
+/// accelerations.
 pub const STATED: [f32; 6] = [0.025, 0.025, 0.025, 0.025, 0.055, 0.03];
 /// Standard deviations of a load's parameters: kg, kg·m, kg·m².
 const LOAD_PRIOR: [f32; 10] = [0.5, 0.05, 0.05, 0.05, 2e-3, 2e-3, 2e-3, 2e-3, 2e-3, 2e-3];
@@ -89,7 +90,8 @@ impl<'a> Firmware<'a> {
                 noise: STATED,
                 prior: LOAD_PRIOR,
                 forgetting: 0.0,
-                // The scene has only five seconds: also the ticks count in which the arm sags under its load.
+                // The scene has only five seconds: also the ticks count in which the arm sags under
+                // its load.
                 limit: 1000.0,
             })?,
             observer,
@@ -100,7 +102,8 @@ impl<'a> Firmware<'a> {
         })
     }
 
-    /// A tick: from the encoders and the torques that were measured in the tick before to the commanded ones.
+    /// A tick: from the encoders and the torques that were measured in the tick before to the
+    /// commanded ones.
     pub fn tick(
         &mut self,
         encoders: &[f32; 6],
@@ -140,13 +143,15 @@ impl<'a> Firmware<'a> {
         command
     }
 
-    /// For another motion: the observer starts anew, and there are no rows until it has the velocities.
+    /// For another motion: the observer starts anew, and there are no rows until it has the
+    /// velocities.
     pub fn restart(&mut self) {
         self.observer = self.fresh;
         self.tick = 0;
     }
 
-    /// The state in the middle of what is kept, and its measured torques. The oldest estimate is the one that this tick replaces.
+    /// The state in the middle of what is kept, and its measured torques. The oldest estimate is
+    /// the one that this tick replaces.
     fn measured(&self) -> (State<f32, 6, 6>, [f32; 6]) {
         let at = |ticks: usize| &self.past[(self.tick as usize + ticks) % KEPT];
         let [(first, _), (middle, tau), (last, _)] = [at(0), at(APART), at(2 * APART)];
@@ -159,7 +164,8 @@ impl<'a> Firmware<'a> {
         (state, *tau)
     }
 
-    /// The row of one joint, with the load-dependent friction of the torque that the estimate implies, and the residual.
+    /// The row of one joint, with the load-dependent friction of the torque that the estimate
+    /// implies, and the residual.
     fn row(&self) -> Addition {
         let (state, tau) = self.measured();
         let joint = self.tick as usize % 6;

@@ -1,5 +1,5 @@
-//! An SO-101 whose parameters are off by 30 % finds them in half a minute of motion, computes with them from
-//! then on, and weighs what it is given to carry.
+//! An SO-101 whose parameters are off by 30 % finds them in half a minute of motion, computes with
+//! them from then on, and weighs what it is given to carry.
 //!
 //! | module | what |
 //! |---|---|

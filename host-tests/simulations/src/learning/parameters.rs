@@ -10,8 +10,8 @@ use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use motion_control::SelectedParameters;
 
-/// Of each joint: viscous and Coulomb friction, armature, and friction per torque of the load while the motor drives and while the
-/// load does.
+/// Of each joint: viscous and Coulomb friction, armature, and friction per torque of the load while
+/// the motor drives and while the load does.
 pub const OWN: usize = 5;
 /// Ten of each body, then [`OWN`] of each joint.
 pub const N: usize = 60 + 6 * OWN;
@@ -74,8 +74,9 @@ impl Model {
         Engine::<So101>::rnea(state, &(RIGID_BODY, &self.bodies, self.joints))
     }
 
-    /// What the gears transmit of measured torques less what the arm needs of it, N·m: the torques of what the model lacks. The
-    /// friction of the gears grows with the load, and is no part of them.
+    /// What the gears transmit of measured torques less what the arm needs of it, N·m: the torques
+    /// of what the model lacks. The friction of the gears grows with the load, and is no part of
+    /// them.
     pub fn unexplained(&self, state: &State<f32, 6, 6>, measured: &[f32; 6]) -> [f32; 6] {
         let (viscous, coulomb, armature, gears) = self.joints;
         let transmitted = Engine::<So101>::transmitted_torque(state, measured, &gears);

@@ -28,7 +28,8 @@ pub const LOAD: BodyInertia<f32> = BodyInertia {
     inertia: [1e-4, 0.0, 0.0, 1e-4, 0.0, 5e-5],
 };
 
-/// The motion by which the arm learns: each joint swings at two frequencies, and no two of them are in phase twice.
+/// The motion by which the arm learns: each joint swings at two frequencies, and no two of them are
+/// in phase twice.
 pub fn excitation(t: f32) -> State<f32, 6, 6> {
     swing(t, |i| [1.3 + 0.37 * i, 3.1 + 0.53 * i])
 }
@@ -55,8 +56,8 @@ fn swing(t: f32, rates: impl Fn(f32) -> [f32; 2]) -> State<f32, 6, 6> {
     state
 }
 
-/// The error of a model's torques on the path of the scene `so101_teach`, relative to their size: of all joints, and of the worst
-/// one.
+/// The error of a model's torques on the path of the scene `so101_teach`, relative to their size:
+/// of all joints, and of the worst one.
 pub fn validation(model: &Model) -> [f32; 2] {
     let Ok(path) = TaughtPath::reference() else {
         return [f32::NAN; 2];
@@ -85,14 +86,16 @@ pub fn possible(known: &Known, estimate: &[f32; P]) -> Option<[f32; N]> {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
-    /// The relative error of the torques on the validation path, of all joints and of the worst one, before and after learning.
+    /// The relative error of the torques on the validation path, of all joints and of the worst
+    /// one, before and after learning.
     pub errors: [[f32; 2]; 2],
     pub rejected: u32,
     /// The mass of the load, kg, and how far its centre is from where it was found, m.
     pub load: [f32; 2],
 }
 
-/// Learns and weighs, with friction of the kind `F`. `observe` gets the task, its tick and the firmware after each tick.
+/// Learns and weighs, with friction of the kind `F`. `observe` gets the task, its tick and the
+/// firmware after each tick.
 ///
 /// Nothing if the nominal model is impossible or the arm has no forward dynamics.
 pub fn run<F: Effect<f32, 6, 6> + Clone>(
@@ -121,7 +124,8 @@ pub fn run<F: Effect<f32, 6, 6> + Clone>(
     let learned = Model::of(&possible(known, &firmware.estimator.estimate())?)?;
     firmware.model = learned;
     let rejected = firmware.rejected;
-    // The other motion begins at rest of the estimates: the first period is for the arm to follow it.
+    // The other motion begins at rest of the estimates: the first period is for the arm to follow
+    // it.
     arm.at = KahanState::at(weighing(0.0));
     firmware.restart();
     ticks(&mut firmware, &mut arm, Task::Weigh)?;

@@ -1,5 +1,5 @@
-//! The selection of what the firmware knows before its arm moves: a nominal model that is off by 30 %, and the base parameters of its
-//! motion. In f64.
+//! The selection of what the firmware knows before its arm moves: a nominal model that is off by 30
+//! %, and the base parameters of its motion. In f64.
 
 use super::arm::{DAMPING, GEARS};
 use super::firmware::STATED;
@@ -37,8 +37,8 @@ pub fn truth() -> [f64; N] {
     core::array::from_fn(|_| all.next().expect("as many"))
 }
 
-/// Each mass, each component of each centre of mass, each inertia about the centre and each parameter of a joint 30 % more or
-/// less, by the bits of a seed (Marsaglia's xorshift32, 2003).
+/// Each mass, each component of each centre of mass, each inertia about the centre and each
+/// parameter of a joint 30 % more or less, by the bits of a seed (Marsaglia's xorshift32, 2003).
 pub fn nominal(seed: u32) -> [f64; N] {
     let mut random = seed.wrapping_mul(2_654_435_761) | 1;
     let mut factor = || {
@@ -129,7 +129,8 @@ pub fn source() -> String {
     format!(
         "//! What the firmware knows before the arm moves: written by host-tests/simulations/tests/learning.rs with TABLES_WRITE=1.\n\n\
          use motion_control::SelectedParameters;\n\nuse super::parameters::Known;\n\n\
-         /// A nominal model whose parameters are off by 30 %, and the base parameters of the motion by it.\n\
+         /// A nominal model whose parameters are off by 30 %, and the base parameters of the motion
+         /// by it.\n\
          pub const KNOWN: Known = Known {{\n    nominal: [\n{}    ],\n    base: SelectedParameters {{\n\
          \x20       columns: {:?},\n        prior: [{}],\n        spread: [\n{spread}        ],\n    }},\n}};\n",
         lines(&nominal),

@@ -1,4 +1,5 @@
-//! Bad input: torques stay within their limits, and ten seconds of good ticks undo whatever it led to.
+//! Bad input: torques stay within their limits, and ten seconds of good ticks undo whatever it led
+//! to.
 
 use motion_control::{ContactPhase, ContactResponse, Mode};
 

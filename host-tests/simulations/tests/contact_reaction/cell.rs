@@ -270,7 +270,8 @@ impl Cell {
         command
     }
 
-    /// Returns the arm to its motion, over the path to its start, and follows it to the end. Whether it gets there.
+    /// Returns the arm to its motion, over the path to its start, and follows it to the end.
+    /// Whether it gets there.
     pub fn recovers(&mut self, spoiled: Spoiled) -> bool {
         let motion = self.motion;
         let limits = [MotionLimits {

@@ -1,5 +1,5 @@
-//! Claims about what an arm does after a contact: a UR5e that runs against an elastic wall, and one that a hand pushes.
-//! `TABLES_WRITE=1` writes the table of `docs/guide/src/contact.md`.
+//! Claims about what an arm does after a contact: a UR5e that runs against an elastic wall, and one
+//! that a hand pushes. `TABLES_WRITE=1` writes the table of `docs/guide/src/contact.md`.
 
 mod bad_input;
 mod cell;
@@ -99,7 +99,8 @@ fn crash(setup: &Setup) -> Crash {
     }
 }
 
-/// The worst over motions and errors of the model, of an elastic wall or one that absorbs most of the energy.
+/// The worst over motions and errors of the model, of an elastic wall or one that absorbs most of
+/// the energy.
 fn worst(stiffness: f64, loss: f64, response: Option<ContactResponse<f64>>) -> Crash {
     let runs = MOTIONS
         .iter()

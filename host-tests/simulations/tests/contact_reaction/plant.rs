@@ -29,7 +29,8 @@ pub const MOTIONS: [[Q; 2]; 2] = [
     [HOME, [0.10, -1.20, 2.00, -2.37, -1.57, 0.10]],
 ];
 
-/// The arm's deviation from its model: the shares of every other body's inertia (opposite for the others) and of friction.
+/// The arm's deviation from its model: the shares of every other body's inertia (opposite for the
+/// others) and of friction.
 #[derive(Clone, Copy, Debug)]
 pub struct Off {
     pub bodies: f64,

@@ -164,7 +164,8 @@ fn a_floating_arm_stays_where_a_hand_leaves_it() {
         assert_eq!(cell.reaction.phase(), ContactPhase::Floating);
         assert!(soon > 0.01, "{soon}");
     }
-    // One with twenty times the damping is not moved as far, and one whose friction is compensated in excess does not come to rest.
+    // One with twenty times the damping is not moved as far, and one whose friction is compensated
+    // in excess does not come to rest.
     let stiff = ContactResponse::Float {
         damping: 100.0,
         speed: 0.5,

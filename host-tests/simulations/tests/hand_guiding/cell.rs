@@ -1,4 +1,5 @@
-//! The loop of an arm that is guided: encoders of 14 bits, observer, gravity compensation and the law.
+//! The loop of an arm that is guided: encoders of 14 bits, observer, gravity compensation and the
+//! law.
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::{frame, task_jacobian};

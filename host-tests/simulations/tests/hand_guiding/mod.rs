@@ -1,5 +1,5 @@
-//! Claims about an arm that a hand guides: a UR5e with friction of bristles, of which the law has a model with a smooth sign.
-//! `TABLES_WRITE=1` writes the tables of `docs/guide/src/guiding.md`.
+//! Claims about an arm that a hand guides: a UR5e with friction of bristles, of which the law has a
+//! model with a smooth sign. `TABLES_WRITE=1` writes the tables of `docs/guide/src/guiding.md`.
 
 mod bad_input;
 pub mod cell;
@@ -32,7 +32,8 @@ const SPEEDS: [[f64; 2]; 3] = [[0.012, 0.03], [0.05, 0.06], [0.2, 0.1]];
 const ERROR: f64 = 0.1;
 const SHARE: f64 = 0.87;
 
-/// Stated errors of gravity: enough for errors of 3 % that differ from body to body, and for any errors of 3 %.
+/// Stated errors of gravity: enough for errors of 3 % that differ from body to body, and for any
+/// errors of 3 %.
 const GRAVITY_ERRORS: [f64; 2] = [0.01, 0.03];
 
 fn setup(share: f64, over: f64) -> Setup {

@@ -21,7 +21,8 @@ struct Drift {
     wave: f64,
 }
 
-/// The worst of all postures, errors of the inertias and directions, released at rest or at this speed in m/s.
+/// The worst of all postures, errors of the inertias and directions, released at rest or at this
+/// speed in m/s.
 fn worst(off: &[Inertias], share: f64, over: f64, gravity_error: f64, speed: f64) -> Drift {
     let mut worst = Drift::default();
     for q in POSTURES {

@@ -72,8 +72,8 @@ fn a_locked_joint_yields_only_to_a_stronger_hand() {
     assert!(slips[0] > 0.1, "{slips:?}");
 }
 
-/// The tip pushed for a second and released: its greatest distance from its height, its way across, and at rest again the
-/// greatest distance within a second, m.
+/// The tip pushed for a second and released: its greatest distance from its height, its way across,
+/// and at rest again the greatest distance within a second, m.
 fn led(level: Option<CartesianImpedance<f64, 1>>) -> [f64; 3] {
     let mut cell = Cell::new(POSTURES[0], &setup(SHARE, 0.1));
     let from = cell.tip();

@@ -12,7 +12,8 @@ fn times(m: &[[f64; 6]; 6], x: [f64; 6]) -> [f64; 6] {
     m.map(|row| row.iter().zip(x).map(|(m, x)| m * x).sum())
 }
 
-/// The force along which the fastest or the slowest mode moves alone, K Λ⁻¹ f = ω² f, of 1 N·m or N at most, and ω.
+/// The force along which the fastest or the slowest mode moves alone, K Λ⁻¹ f = ω² f, of 1 N·m or N
+/// at most, and ω.
 fn mode<const N: usize>(task: &Task<N>, fastest: bool) -> ([f64; 6], f64) {
     let (mut f, mut square) = ([1.0, 0.8, -0.6, 0.4, 0.3, -0.7], 0.0);
     for _ in 0..2000 {
@@ -35,7 +36,8 @@ fn mode<const N: usize>(task: &Task<N>, fastest: bool) -> ([f64; 6], f64) {
     )
 }
 
-/// The damping ratio of a mode by how far an arm, released from a small displacement along it, swings beyond its goal.
+/// The damping ratio of a mode by how far an arm, released from a small displacement along it,
+/// swings beyond its goal.
 fn damping_ratio<const N: usize>(mut sprung: Sprung<N>, fastest: bool) -> f64 {
     let (f, omega) = mode(&sprung.task(), fastest);
     // The goal moves, not the arm: by a small translation and rotation along K⁻¹ f.
@@ -84,7 +86,8 @@ fn the_fastest_and_slowest_modes_have_the_damping_ratio() {
     verdict.speak();
 }
 
-/// D Λ⁻¹ D and 4 ζ² K at random poses, and what the same says of a damping of each direction by itself.
+/// D Λ⁻¹ D and 4 ζ² K at random poses, and what the same says of a damping of each direction by
+/// itself.
 #[test]
 fn the_damping_diagonalises_inertia_and_stiffness_at_once() {
     let (mut rng, mut worst) = (Rng::new(41), [(); 3].map(|()| Worst::default()));

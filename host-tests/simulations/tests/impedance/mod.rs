@@ -1,4 +1,5 @@
-//! Cartesian impedance control: the spring and the damping that an arm shows, its null space, and singular postures.
+//! Cartesian impedance control: the spring and the damping that an arm shows, its null space, and
+//! singular postures.
 
 mod attitude;
 mod damping;

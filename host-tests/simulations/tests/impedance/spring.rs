@@ -74,8 +74,8 @@ fn a_motion_of_the_elbow_does_not_move_the_tip() {
     assert!(without > 20.0 * off, "{without} {off}");
 }
 
-/// The rate of kinetic energy and that of the spring, and what the damper dissipates, at random states; `more`: a torque
-/// beside the impedance.
+/// The rate of kinetic energy and that of the spring, and what the damper dissipates, at random
+/// states; `more`: a torque beside the impedance.
 fn balance<const N: usize>(arm: ArmModel<f64, N>, more: f64) -> Worst {
     let (mut worst, mut rng) = (Worst::default(), Rng::new(47));
     for _ in 0..100 {

@@ -19,7 +19,8 @@ use motion_control::{Excitation, Observer, ObserverConfig};
 
 use crate::common::Rng;
 
-/// Viscous and Coulomb friction, armature, and friction per torque of the load while the motor drives and while the load does.
+/// Viscous and Coulomb friction, armature, and friction per torque of the load while the motor
+/// drives and while the load does.
 pub const OWN: usize = 5;
 pub const N: usize = 60 + 6 * OWN;
 pub const TICK: f64 = 2e-3;
@@ -29,7 +30,8 @@ pub const START: usize = 200;
 pub const LEARNED: usize = 15_000;
 /// Noise of the measured torque, N·m: two steps of the duty.
 pub const NOISE: f64 = 7e-3;
-/// Noise of a row, joint by joint: with encoders of 12 bits and velocities and accelerations from them.
+/// Noise of a row, joint by joint: with encoders of 12 bits and velocities and accelerations from
+/// them.
 pub const STATED: [f64; 6] = [0.025, 0.025, 0.025, 0.025, 0.055, 0.03];
 /// Ticks before and after a row of which the difference of velocities is its acceleration.
 pub const APART: usize = 8;
@@ -63,7 +65,8 @@ pub fn friction() -> Friction {
     )
 }
 
-/// All parameters: of these bodies, and of the joints with each friction and armature times a number of `of`.
+/// All parameters: of these bodies, and of the joints with each friction and armature times a
+/// number of `of`.
 pub fn parameters(bodies: &[[f64; 10]; 6], mut of: impl FnMut() -> f64) -> [f64; N] {
     let (viscous, coulomb, armature, gears) = friction();
     let own = [
@@ -97,7 +100,8 @@ pub fn nominal(seed: u64) -> [f64; N] {
     parameters(&bodies, factor)
 }
 
-/// Each mass, each component of each centre of mass and each inertia about the centre times a factor.
+/// Each mass, each component of each centre of mass and each inertia about the centre times a
+/// factor.
 pub fn off_by_30_percent(
     bodies: &[[f64; 10]; 6],
     factor: &mut impl FnMut() -> f64,
@@ -157,7 +161,8 @@ impl<R: Real> Row<R> {
         }
     }
 
-    /// With the friction of a gear that transmits this torque: s (m |τ| + d s τ) per μ₁ = m + d and μ₂ = m − d.
+    /// With the friction of a gear that transmits this torque: s (m |τ| + d s τ) per μ₁ = m + d and
+    /// μ₂ = m − d.
     pub fn loaded(mut self, load: f64) -> Self {
         let s = self.own[1].to_f64();
         let (even, odd) = (0.5 * s * load.abs(), 0.5 * s * s * load);
@@ -178,8 +183,8 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The rows of a run in closed loop under the servos' position gains with the feed-forward of a model, and their ticks; the encoder
-/// of joint 2 sticks in the ticks `stuck`.
+/// The rows of a run in closed loop under the servos' position gains with the feed-forward of a
+/// model, and their ticks; the encoder of joint 2 sticks in the ticks `stuck`.
 pub fn run(nominal: &[f64; N], ticks: usize, stuck: core::ops::Range<usize>) -> Vec<(usize, Row)> {
     let gain = f64::from(so101::SERVO_GAIN * so101::STALL);
     let step = f64::from(so101::STALL) * 1e-3;

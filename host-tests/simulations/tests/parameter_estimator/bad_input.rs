@@ -9,8 +9,8 @@ use crate::common::Rng;
 use crate::parameter_estimator::arm::*;
 use crate::parameter_estimator::learner::*;
 
-/// What ten seconds of a fault make of a learner: the error of its torques and the joint that has frozen it at their end and 20 s
-/// later, and how many rows were accepted meanwhile.
+/// What ten seconds of a fault make of a learner: the error of its torques and the joint that has
+/// frozen it at their end and 20 s later, and how many rows were accepted meanwhile.
 struct Outcome {
     errors: [f64; 2],
     frozen: [Option<usize>; 2],
@@ -60,7 +60,8 @@ fn nan(row: &mut Row, _: &mut [f64; N], _: &mut Rng) {
     }
 }
 
-/// Without the limit, friction of the wrong sign and an encoder that sticks spoil the estimate, and noise passes.
+/// Without the limit, friction of the wrong sign and an encoder that sticks spoil the estimate, and
+/// noise passes.
 // Twenty seconds later the estimation goes on.
 #[test]
 fn bad_input_freezes_the_estimate_and_names_the_joint() {
@@ -175,7 +176,8 @@ fn a_freeze_by_a_resting_joint_ends() {
         });
         updates.position(|update| update.is_ok())
     };
-    // The row that ends the freeze is the first one that is added; a few are beyond the limit, and not counted.
+    // The row that ends the freeze is the first one that is added; a few are beyond the limit, and
+    // not counted.
     let count = until(&mut learner, |_, residual| residual).expect("an end");
     assert!((1023..1040).contains(&count), "{count}");
     let (joint, y, residual) = rows[0];
@@ -185,7 +187,8 @@ fn a_freeze_by_a_resting_joint_ends() {
     let own = (0..200).position(|_| learner.estimator.update(2, &[0.0; P], 0.0).is_ok());
     assert!(own.is_some_and(|own| own > 64), "{own:?}");
     assert_eq!(learner.estimator.update(joint, &y, residual), Ok(()));
-    // Neither while another joint contradicts the estimate too, nor while the joint itself has rows.
+    // Neither while another joint contradicts the estimate too, nor while the joint itself has
+    // rows.
     hit(&mut learner);
     let other = |joint, residual: f32| if joint == 3 { residual + 1.0 } else { residual };
     assert_eq!(until(&mut learner, other), None);

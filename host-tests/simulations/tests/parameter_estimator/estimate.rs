@@ -43,8 +43,8 @@ fn wrong_torque_signs_and_joint_columns_are_found() {
     assert!(signs > 1.0 && columns > 0.2, "{signs:.2} {columns:.2}");
 }
 
-/// One of the first body and seven of each of the others, five of each joint, less the armatures of the first two joints, whose
-/// columns are those of inertias about their axes.
+/// One of the first body and seven of each of the others, five of each joint, less the armatures of
+/// the first two joints, whose columns are those of inertias about their axes.
 const RANK: usize = 1 + 5 * 7 + 6 * OWN - 2;
 
 #[test]

@@ -26,7 +26,8 @@ pub fn minute(seed: u64) -> &'static [(usize, Row)] {
     ROWS[seed as usize].get_or_init(|| run(&nominal(seed), 2 * LEARNED, 0..0))
 }
 
-/// The base parameters of this motion: from the reference and the nominal model, before the arm moves.
+/// The base parameters of this motion: from the reference and the nominal model, before the arm
+/// moves.
 pub fn base_of<R: Real, const P: usize>(
     nominal: &[f64; N],
 ) -> Result<SelectedParameters<R, P, N>, usize> {
@@ -76,7 +77,8 @@ impl Learner {
         }
     }
 
-    /// The row of the base parameters, with the load-dependent friction of the torque that the estimate implies, and the residual.
+    /// The row of the base parameters, with the load-dependent friction of the torque that the
+    /// estimate implies, and the residual.
     pub fn row(&self, row: &Row) -> ([f32; P], f32) {
         let still = self.base.row(row.joint, &row.bodies, &row.own);
         let change = self.estimator.explained(row.joint, &still);
@@ -101,7 +103,8 @@ impl Learner {
     }
 }
 
-/// The error of the torques on the path of the scene `so101_teach`, relative to their size: of all joints, and of the worst one.
+/// The error of the torques on the path of the scene `so101_teach`, relative to their size: of all
+/// joints, and of the worst one.
 pub fn validation(all: &[f64; N]) -> (f64, f64) {
     static PATH: OnceLock<Vec<(State<f64, 6, 6>, [f64; 6])>> = OnceLock::new();
     let path = PATH.get_or_init(|| {

@@ -5,7 +5,8 @@ use motion_control::{ParameterEstimator, ParameterEstimatorConfig};
 use crate::parameter_estimator::arm::*;
 use crate::parameter_estimator::learner::*;
 
-/// The solution of a x = b by elimination with pivots on the diagonal, of a positive definite matrix.
+/// The solution of a x = b by elimination with pivots on the diagonal, of a positive definite
+/// matrix.
 fn solved(mut a: Vec<[f64; P]>, mut b: [f64; P]) -> [f64; P] {
     for k in 0..P {
         for i in 0..P {

@@ -1,4 +1,5 @@
-//! Claims about the estimator of an arm's parameters, on a simulated SO-101 with the encoders, duties and frictions of its scene.
+//! Claims about the estimator of an arm's parameters, on a simulated SO-101 with the encoders,
+//! duties and frictions of its scene.
 
 mod arm;
 mod bad_input;

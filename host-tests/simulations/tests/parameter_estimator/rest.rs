@@ -7,7 +7,8 @@ use crate::common::Rng;
 use crate::parameter_estimator::arm::*;
 use crate::parameter_estimator::learner::*;
 
-/// Rows of an arm that stands while its encoders flicker, with the torque of the estimate or of all parameters that it implies.
+/// Rows of an arm that stands while its encoders flicker, with the torque of the estimate or of all
+/// parameters that it implies.
 fn standing(learner: &Learner, by_all: bool) -> Vec<(usize, [f32; P], f32)> {
     let mut rng = Rng::new(9);
     let (found, step) = (learner.found(), f64::from(so101::RESOLUTION));
@@ -57,15 +58,18 @@ fn without_excitation_nothing_drifts() {
         }
         let after = learner.estimator.estimate().map(f64::from);
         assert!(drift(plain.theta) > 1e3, "{:.1e}", drift(plain.theta));
-        // White noise spreads the estimate by at most half of its variance: of 24 parameters the worst is within two deviations.
+        // White noise spreads the estimate by at most half of its variance: of 24 parameters the
+        // worst is within two deviations.
         assert!(by_all || drift(after) < 2.0, "{:.1e}", drift(after));
-        // The unexplained part of a posture moves the 24 parameters, but not their torques elsewhere.
+        // The unexplained part of a posture moves the 24 parameters, but not their torques
+        // elsewhere.
         let error = validation(&learner.found());
         assert!(error.0 < 0.03 && error.1 < 0.05, "{error:?}");
     }
 }
 
-/// Recursive least squares with the same forgetting in all directions, by the covariance; σ of the torques is 1.
+/// Recursive least squares with the same forgetting in all directions, by the covariance; σ of the
+/// torques is 1.
 struct Plain {
     theta: [f64; P],
     p: [[f64; P]; P],

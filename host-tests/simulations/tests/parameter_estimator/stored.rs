@@ -13,7 +13,8 @@ pub fn stored_of(nominal: &[f64; N]) -> PhysicalParameters<f32, 6, N> {
     PhysicalParameters::try_new(nominal.map(|x| x as f32)).expect("the nominal arm is possible")
 }
 
-/// Whether the mass is positive and Σ about the centre of mass positive definite, by its leading minors.
+/// Whether the mass is positive and Σ about the centre of mass positive definite, by its leading
+/// minors.
 fn is_possible(body: &[f32; 10]) -> bool {
     let body = BodyInertia::about_com(&SpatialInertia::from_parameters(body.map(f64::from)));
     let [xx, xy, xz, yy, yz, zz] = body.inertia;

@@ -1,4 +1,5 @@
-//! Another arm: a UR5e with encoders of 14 bits that follows its reference, and noise of 1 % of its torques.
+//! Another arm: a UR5e with encoders of 14 bits that follows its reference, and noise of 1 % of its
+//! torques.
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::{friction_regressor, inertial_parameters};

@@ -24,8 +24,9 @@ fn with_fault(faulty: Run) -> Vec<Tick> {
     ticks
 }
 
-/// What is left of a fault in an estimator: the errors at its end, why the last of its ticks was rejected, how many of them were
-/// accepted, and whether the estimate is frozen at the end of the run.
+/// What is left of a fault in an estimator: the errors at its end, why the last of its ticks was
+/// rejected, how many of them were accepted, and whether the estimate is frozen at the end of the
+/// run.
 struct Outcome {
     errors: (f64, f64),
     last: Option<RejectedMeasurement>,

@@ -1,4 +1,5 @@
-//! Claims about the estimator of a load, on a simulated UR5e with encoders of 14 bits and noisy torques.
+//! Claims about the estimator of a load, on a simulated UR5e with encoders of 14 bits and noisy
+//! torques.
 
 mod arm;
 mod bad_input;
@@ -151,7 +152,8 @@ fn solved(mut a: [[f64; 10]; 10], mut b: [f64; 10]) -> [f64; 10] {
     core::array::from_fn(|k| b[k] / a[k][k])
 }
 
-/// Least squares of all ticks at once, and the standard deviations, each tick counted with its weight.
+/// Least squares of all ticks at once, and the standard deviations, each tick counted with its
+/// weight.
 fn at_once(ticks: &[Tick]) -> ([f64; 10], [f64; 10]) {
     let (mut a, mut b) = ([[0.0; 10]; 10], [0.0; 10]);
     for (k, row) in a.iter_mut().enumerate() {
@@ -224,7 +226,8 @@ fn an_estimator_that_forgets_finds_another_load() {
     assert!(remembers.0 > 0.2, "{remembers:?}");
 }
 
-/// Recursive least squares with the same forgetting in all directions, by the covariance; σ of the torques is 1.
+/// Recursive least squares with the same forgetting in all directions, by the covariance; σ of the
+/// torques is 1.
 struct Plain {
     phi: [f64; 10],
     p: [[f64; 10]; 10],

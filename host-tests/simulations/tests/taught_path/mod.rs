@@ -1,5 +1,6 @@
-//! Claims about the fastest motions along taught paths: against TOPP-RA, within limits between grid points, and played back after
-//! a hand has guided the arm. `TABLES_WRITE=1` writes the tables of `docs/guide/src/taught-paths.md`.
+//! Claims about the fastest motions along taught paths: against TOPP-RA, within limits between grid
+//! points, and played back after a hand has guided the arm. `TABLES_WRITE=1` writes the tables of
+//! `docs/guide/src/taught-paths.md`.
 
 mod person;
 mod playback;

@@ -1,4 +1,5 @@
-//! A person who guides the arm: smooth motions of the tip with a tremor of the hand, and encoders with noise.
+//! A person who guides the arm: smooth motions of the tip with a tremor of the hand, and encoders
+//! with noise.
 
 use core::f64::consts::{PI, TAU};
 
@@ -34,7 +35,8 @@ fn velocity(t: f64, tremor: f64) -> DVec3 {
     rate * slope + DVec3::from(shake)
 }
 
-/// The positions in each tick of an arm that a person guides; the tremor as a share of the usual one.
+/// The positions in each tick of an arm that a person guides; the tremor as a share of the usual
+/// one.
 pub fn guide(tremor: f64) -> Vec<Q> {
     let setup = Setup {
         config: config(0.1, 0.87),

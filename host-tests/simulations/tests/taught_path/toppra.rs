@@ -158,7 +158,8 @@ fn square_rates_agree_with_toppra_on_its_grid() {
         let timed = TimedPath::<_, _, 401>::new(&path, TICK, &limits, inverse_dynamics)
             .unwrap_or_else(|error| panic!("{error}"));
         let time = timed.seconds() / recorded.coarse - 1.0;
-        // toppra has the sign of Coulomb friction at the grid points; here it has both in a segment where a joint reverses.
+        // toppra has the sign of Coulomb friction at the grid points; here it has both in a segment
+        // where a joint reverses.
         let torque_with_friction = recorded.coulomb[0] > 0.0 && recorded.velocity.is_none();
         if torque_with_friction {
             assert!(time > 0.0, "{time:e}");

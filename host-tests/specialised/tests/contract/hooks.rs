@@ -1,4 +1,5 @@
-//! Each hook acts on its own, in core and engine alike; and whatever forwards effects forwards all of their hooks.
+//! Each hook acts on its own, in core and engine alike; and whatever forwards effects forwards all
+//! of their hooks.
 
 use super::*;
 use dynamics_core::algorithms::{kinematics, kinetic_energy, momentum, potential_energy};
@@ -271,7 +272,8 @@ fn each_hook_counts_among_all_others() {
     assert!((spinning[0] - all[0]).abs() > 0.01);
 }
 
-/// What hooks declare, in numbers, from their text: flags, counts and the lengths of names, without the addresses of functions.
+/// What hooks declare, in numbers, from their text: flags, counts and the lengths of names, without
+/// the addresses of functions.
 fn declarations(hooks: &str) -> Vec<f64> {
     hooks
         .split(|c: char| " ,()[]{}".contains(c))

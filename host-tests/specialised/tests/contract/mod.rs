@@ -1,5 +1,6 @@
-//! What effects and descriptions promise their users: a load acts on the body that it names, a hook under the
-//! constant that announces it, a calibration in the frames of the description; small robots, few instances.
+//! What effects and descriptions promise their users: a load acts on the body that it names, a hook
+//! under the constant that announces it, a calibration in the frames of the description; small
+//! robots, few instances.
 
 mod hooks;
 mod payload;
@@ -7,8 +8,8 @@ mod payload;
 use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
 use dynamics_core::state::State;
 
-/// A column with two arms, each of which ends in a hand that is welded on, and a frame without mass that is listed
-/// last, as converters of URDF list it.
+/// A column with two arms, each of which ends in a hand that is welded on, and a frame without mass
+/// that is listed last, as converters of URDF list it.
 struct TwoHands;
 
 const LEFT: usize = TwoHands::MODEL.body("left hand");

@@ -1,5 +1,5 @@
-//! What the engine computes of named bodies and of all bodies together: against Pinocchio's recorded states, and on an odd tree
-//! against the core.
+//! What the engine computes of named bodies and of all bodies together: against Pinocchio's
+//! recorded states, and on an odd tree against the core.
 
 use std::collections::BTreeMap;
 
@@ -300,8 +300,8 @@ impl Errors {
         }
     }
 
-    /// Holds the largest error of all, relative to its full scale, against the table; that of mobilities, which grows with the
-    /// condition of M, apart.
+    /// Holds the largest error of all, relative to its full scale, against the table; that of
+    /// mobilities, which grows with the condition of M, apart.
     fn judge<R>(&self, robot: &str) {
         let relative = |(name, [scale, error]): (&&str, &[f64; 2])| {
             println!("{robot} {name}: {:.1e} of {scale:.2}", error / scale);
@@ -382,7 +382,8 @@ fn bodies_agree_with_pinocchio_within_the_table() {
     }
 }
 
-/// An odd tree with prismatic joints, branches and welds, with rotors and a load, on a base that moves.
+/// An odd tree with prismatic joints, branches and welds, with rotors and a load, on a base that
+/// moves.
 fn odd_tree<R: Real>() {
     fn ship<R: Real>() -> MovingBase<R> {
         let vec3 =

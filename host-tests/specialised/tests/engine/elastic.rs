@@ -1,4 +1,5 @@
-//! Torques, angles and rates of the motors of elastic joints: those of the engine are those of the core.
+//! Torques, angles and rates of the motors of elastic joints: those of the engine are those of the
+//! core.
 
 use dynamics_core::drivetrain::{ElasticJoints, ElasticReference};
 use dynamics_core::effects::{
@@ -15,8 +16,8 @@ use proptest::test_runner::{RngAlgorithm, TestRng};
 
 use super::{Aslant, ULPS, Ulps, payload};
 
-/// The worst differences of torques, angles and rates along random courses, in ulps of full scale; `spoil` changes the engine's
-/// torques.
+/// The worst differences of torques, angles and rates along random courses, in ulps of full scale;
+/// `spoil` changes the engine's torques.
 fn compare<R: Real, T, E, F, const B: usize, const N: usize>(
     scene: &E,
     of_engine: &F,

@@ -1,4 +1,5 @@
-//! A base that floats free: the engine beside the core, on a robot of five bodies that is cheap to compile.
+//! A base that floats free: the engine beside the core, on a robot of five bodies that is cheap to
+//! compile.
 
 use dynamics_core::algorithms::Prescribed::{Acceleration, Torque};
 use dynamics_core::algorithms::{NotPositiveDefinite, momentum};
@@ -12,8 +13,8 @@ use host_tests::measured::largest;
 
 use super::{Drag, payload};
 
-/// A hull whose frame is neither at the base's origin nor along its axes, with a slide that carries an arm of two joints,
-/// a weld, and a second arm.
+/// A hull whose frame is neither at the base's origin nor along its axes, with a slide that carries
+/// an arm of two joints, a weld, and a second arm.
 struct Hull;
 
 const BODIES: usize = 6;

@@ -8,7 +8,8 @@ use glam::DVec3;
 
 use super::{Aslant, Drag, Push, ULPS, compare, payload};
 
-/// A trunk of two joints that three arms branch off, one of them sliding, and a second root: 18 joints.
+/// A trunk of two joints that three arms branch off, one of them sliding, and a second root: 18
+/// joints.
 struct Large;
 
 const fn link(parent: usize, joint: Joint<f64>, turn: f64) -> Body {

@@ -39,7 +39,8 @@ fn calibrated<T: Robot<B, N, N>, const B: usize, const N: usize>() -> Calibrated
     arm
 }
 
-/// The largest difference from the textbook in units of the largest value, of τ with and without motion, M, q̈, M q̇ and Cᵀ q̇.
+/// The largest difference from the textbook in units of the largest value, of τ with and without
+/// motion, M, q̈, M q̇ and Cᵀ q̇.
 fn apart<T, E, const B: usize, const N: usize>(
     scene: E,
     load: impl Fn(&Calibrated<T, f64, B, N, N>) -> BaseParameters<T, f64, B, N, N>,
@@ -179,7 +180,8 @@ fn a_changed_placement_or_nonfinite_inertia_is_named() {
     assert_eq!((error.body, error.problem), (name, Problem::NotFinite));
 }
 
-/// A rope of light rods with loaded inertias a million times as large is no more singular than with those described.
+/// A rope of light rods with loaded inertias a million times as large is no more singular than with
+/// those described.
 #[test]
 fn pivots_are_compared_with_the_loaded_inertias() {
     let mut arm = Calibrated::<Panda, f32, 7, 7, 7>::nominal();

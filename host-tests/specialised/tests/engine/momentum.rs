@@ -15,7 +15,8 @@ use proptest::test_runner::{RngAlgorithm, TestRng};
 
 use super::{Aslant, Drag, Push, ULPS, Ulps, payload};
 
-/// The worst differences of the quantities over random states, in ulps of full scale; `spoil` changes the engine's Cᵀ q̇ and β.
+/// The worst differences of the quantities over random states, in ulps of full scale; `spoil`
+/// changes the engine's Cᵀ q̇ and β.
 fn compare<R: Real, T, E, const B: usize, const N: usize>(
     scene: &E,
     spoil: impl Fn(&mut [R; N]),
@@ -63,7 +64,8 @@ where
     assert!(ulps.iter().all(|&ulps| ulps <= ULPS), "{ulps:?} ulp");
 }
 
-/// An odd tree with prismatic joints, branches and welds, with rotors and a load, pushed and with friction, on a base that moves.
+/// An odd tree with prismatic joints, branches and welds, with rotors and a load, pushed and with
+/// friction, on a base that moves.
 fn odd_tree<R: Real>() {
     let vec3 = |[x, y, z]: [f64; 3]| R::Vec3::new(R::from_f64(x), R::from_f64(y), R::from_f64(z));
     let ship = MovingBase {

@@ -1,4 +1,5 @@
-//! Operational space, hybrid dynamics and the regressor of the engine, against the core's on an odd tree.
+//! Operational space, hybrid dynamics and the regressor of the engine, against the core's on an odd
+//! tree.
 
 use dynamics_core::algorithms::frame::LocalWorldAligned;
 use dynamics_core::algorithms::{
@@ -119,8 +120,9 @@ fn hybrid_dynamics_are_those_of_the_core() {
     check("odd", "engine hybrid dynamics", "f64", worst);
 }
 
-/// Every function of the engine that takes rotors that spin as bodies, on a tree with revolute and prismatic joints and a base that
-/// moves; the core's agree with a tree that has the rotors as bodies.
+/// Every function of the engine that takes rotors that spin as bodies, on a tree with revolute and
+/// prismatic joints and a base that moves; the core's agree with a tree that has the rotors as
+/// bodies.
 #[test]
 fn rotors_that_spin_act_as_in_the_core() {
     let (mut random, mut worst) = (Random::new(), 0.0);

@@ -82,7 +82,8 @@ fn aba_inverts_rnea() {
     single.check::<f32>("tree", "aba of rnea");
 }
 
-/// The columns of M, as Featherstone & Orin (9): D(q, q̇, e_i) − D(q, q̇, 0) = D(q, 0, e_i) − D(q, 0, 0).
+/// The columns of M, as Featherstone & Orin (9): D(q, q̇, e_i) − D(q, q̇, 0) = D(q, 0, e_i) − D(q,
+/// 0, 0).
 fn mass_matrix<const B: usize, const N: usize>(
     model: &Model<f64, B, N, N>,
     q: [f64; N],
@@ -324,8 +325,8 @@ fn motor_power_is_energy_rate_plus_friction_loss() {
     check_all::<Power>("power");
 }
 
-/// MotorState on a differential of two joints, a mimicked pair, and gears: they feel Gᵀ M G, and their power is
-/// the joints'.
+/// MotorState on a differential of two joints, a mimicked pair, and gears: they feel Gᵀ M G, and
+/// their power is the joints'.
 #[test]
 fn a_transmission_keeps_power_and_reflects_inertia() {
     let g = [

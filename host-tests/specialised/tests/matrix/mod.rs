@@ -1,5 +1,5 @@
-//! M, its factors and what solves with them: against Pinocchio, and against each other on trees that
-//! mix every kind of joint.
+//! M, its factors and what solves with them: against Pinocchio, and against each other on trees
+//! that mix every kind of joint.
 
 mod recorded;
 mod singular;
@@ -101,8 +101,8 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Witness<R> {
         });
 }
 
-/// M: its columns are differences of inverse dynamics, exactly symmetric, exactly zero between branches;
-/// and the modified method's Jacobian.
+/// M: its columns are differences of inverse dynamics, exactly symmetric, exactly zero between
+/// branches; and the modified method's Jacobian.
 fn matrix<R: Real, const B: usize, const Q: usize, const V: usize>(
     model: &Model<R, B, Q, V>,
     state: &State<R, Q, V>,
@@ -190,7 +190,8 @@ fn solutions<R: Real, const B: usize, const Q: usize, const V: usize>(
     );
 }
 
-/// Forward and hybrid dynamics take back what inverse dynamics gives, under friction, rotors and load.
+/// Forward and hybrid dynamics take back what inverse dynamics gives, under friction, rotors and
+/// load.
 fn dynamics<R: Real, const B: usize, const Q: usize, const V: usize>(
     model: &Model<R, B, Q, V>,
     state: &State<R, Q, V>,

@@ -12,8 +12,8 @@ use proptest::test_runner::TestRng;
 
 use JointKind::*;
 
-/// As many bodies as it has room for: every kind of joint as often, revolute ones for the rest, in any
-/// order; any branches and several roots.
+/// As many bodies as it has room for: every kind of joint as often, revolute ones for the rest, in
+/// any order; any branches and several roots.
 pub fn mixed<const B: usize, const Q: usize, const V: usize>(
     rng: &mut TestRng,
 ) -> Model<f64, B, Q, V> {

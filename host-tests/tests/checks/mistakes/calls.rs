@@ -1,4 +1,5 @@
-//! Impossible scenes written in the call itself: the compiler finds them where it compiles the algorithm for them.
+//! Impossible scenes written in the call itself: the compiler finds them where it compiles the
+//! algorithm for them.
 
 use dynamics_core::algorithms;
 use dynamics_core::effects::*;

@@ -69,7 +69,8 @@ pub fn torques(robot: &Robot, at: &At) -> [f64; 2] {
     rnea(&arm, at, &(RIGID_BODY, viscous, coulomb, armature))
 }
 
-/// A motion of two frequencies of each joint without a common period; a joint with the size 0 rests.
+/// A motion of two frequencies of each joint without a common period; a joint with the size 0
+/// rests.
 pub fn swing(t: f64, size: [f64; 2], rates: [f64; 2]) -> At {
     let mut at = State::at([0.2, -0.3]);
     for j in 0..2 {
@@ -83,7 +84,8 @@ pub fn swing(t: f64, size: [f64; 2], rates: [f64; 2]) -> At {
     at
 }
 
-/// The record of a motion of the described arm: positions in counts, torques with noise, of the middle of each tick.
+/// The record of a motion of the described arm: positions in counts, torques with noise, of the
+/// middle of each tick.
 pub fn record(motion: impl Fn(f64) -> At, ticks: u32) -> String {
     record_late(motion, ticks, 0.0)
 }

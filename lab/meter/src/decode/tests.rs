@@ -5,7 +5,8 @@ use crate::insn::{Class, Insn, Marker};
 
 const SP: u16 = 1 << 13;
 
-/// Asserts that what is read from these pairs of halfwords is what stands beside them; of a narrow opcode the second is 0.
+/// Asserts that what is read from these pairs of halfwords is what stands beside them; of a narrow
+/// opcode the second is 0.
 fn assert_each<T: Debug + PartialEq>(
     cases: impl IntoIterator<Item = (u16, u16, T)>,
     read: impl Fn(Insn) -> T,

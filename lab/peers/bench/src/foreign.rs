@@ -36,8 +36,9 @@ pub struct Foreign {
 }
 
 impl Foreign {
-    /// The function with its context and its inputs; q̈ stands for the torque in forward dynamics. CasADi's has our
-    /// coordinates and writes triangles; libraries have their own ([`their_order`]) and write squares by columns.
+    /// The function with its context and its inputs; q̈ stands for the torque in forward dynamics.
+    /// CasADi's has our coordinates and writes triangles; libraries have their own
+    /// ([`their_order`]) and write squares by columns.
     pub fn load<R: Real, const Q: usize, const V: usize>(
         &self,
         states: &[State<R, Q, V>],
@@ -100,7 +101,8 @@ impl Foreign {
             let rates = rates.iter().flat_map(|x| velocities.iter().map(|&k| x[k]));
             return q.chain(rates).collect();
         }
-        // Sines in f64 and rounded: what is checked is the function, not its trigonometry. A free base has none.
+        // Sines in f64 and rounded: what is checked is the function, not its trigonometry. A free
+        // base has none.
         let base = 7 * (Q - V);
         let of = |f: fn(f64) -> f64| {
             let angles = state.q[base..].iter().map(|q| R::from_f64(f(q.to_f64())));
@@ -134,12 +136,13 @@ pub fn their_order<'a>(joints: impl Iterator<Item = &'a str>) -> [Vec<usize>; 2]
 }
 
 fn load(path: &Path) -> Result<&'static Library, Box<dyn Error>> {
-    // SAFETY: xtask has compiled this library, which runs no code when it is loaded beyond what C++ needs. It is never
-    // unloaded.
+    // SAFETY: xtask has compiled this library, which runs no code when it is loaded beyond what C++
+    // needs. It is never unloaded.
     Ok(Box::leak(Box::new(unsafe { Library::new(path) }?)))
 }
 
-/// A function of Pinocchio's dynamics of robots with loops, which gives `outputs` numbers for each of so many states.
+/// A function of Pinocchio's dynamics of robots with loops, which gives `outputs` numbers for each
+/// of so many states.
 pub fn loops(
     library: &Path,
     function: &str,
@@ -163,8 +166,8 @@ pub fn loops(
     }
     Ok(Box::new(move |out| {
         assert_eq!(out.len(), states * outputs);
-        // SAFETY: the states have the size that the machine expects, and there is room for their outputs; the context
-        // is its own.
+        // SAFETY: the states have the size that the machine expects, and there is room for their
+        // outputs; the context is its own.
         unsafe { run(context, input.as_ptr(), states, out.as_mut_ptr()) }
     }))
 }

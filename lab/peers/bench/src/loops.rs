@@ -1,5 +1,5 @@
-//! Robots with kinematic loops, in f64: ours as general loops or as clusters, against Pinocchio's `constraintDynamics`
-//! and inverse dynamics that are composed of its algorithms.
+//! Robots with kinematic loops, in f64: ours as general loops or as clusters, against Pinocchio's
+//! `constraintDynamics` and inverse dynamics that are composed of its algorithms.
 
 use std::error::Error;
 use std::ffi::CString;
@@ -74,8 +74,8 @@ impl Theirs {
         }
     }
 
-    /// Its function on states of q, q̇ and q̈ or the actuated torques; `wanted` says which of the recorded numbers each
-    /// of our velocity coordinates is.
+    /// Its function on states of q, q̇ and q̈ or the actuated torques; `wanted` says which of the
+    /// recorded numbers each of our velocity coordinates is.
     fn subject(
         &self,
         (peer, path): &(String, PathBuf),
@@ -110,7 +110,8 @@ impl Theirs {
     }
 }
 
-/// Checks on all recorded states what `gather` makes of some of them, then times it on the first ones.
+/// Checks on all recorded states what `gather` makes of some of them, then times it on the first
+/// ones.
 fn measure(
     robot: &str,
     (algorithm, _, bound): (&str, &str, f64),
@@ -134,7 +135,8 @@ fn spaced(text: &mut String, numbers: &[f64]) {
     text.push('\n');
 }
 
-/// General loops: the core over the robot as it is compiled, and over a model that is known at run time only.
+/// General loops: the core over the robot as it is compiled, and over a model that is known at run
+/// time only.
 pub fn general<
     T,
     const B: usize,

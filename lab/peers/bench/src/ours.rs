@@ -21,7 +21,8 @@ pub type Subjects<R, const Q: usize, const V: usize> =
 const BIAS: (Gravity, Coriolis) = (Gravity::EARTH, Coriolis);
 const GRAVITY: (Gravity,) = (Gravity::EARTH,);
 
-/// The robot T of B bodies, with those on fixed joints as parts of the bodies that carry them: Pinocchio merges them when it reads a model.
+/// The robot T of B bodies, with those on fixed joints as parts of the bodies that carry them:
+/// Pinocchio merges them when it reads a model.
 pub struct Merged<T, const B: usize>(PhantomData<T>);
 
 impl<T, const B: usize, const M: usize, const Q: usize, const V: usize> Robot<M, Q, V>

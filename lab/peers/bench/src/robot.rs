@@ -11,8 +11,9 @@ use crate::ours::Merged;
 use crate::subject::{Row, Subject, interleaved};
 use crate::{Manifest, foreign, ours};
 
-/// States in a timed batch; the recording is gone through again until there are so many. The matrices of a G1 then fit into a cache
-/// of 1 MiB, as the one of a control loop does; those of 256 states did not, and times differed by a fifth between starts.
+/// States in a timed batch; the recording is gone through again until there are so many. The
+/// matrices of a G1 then fit into a cache of 1 MiB, as the one of a control loop does; those of 256
+/// states did not, and times differed by a fifth between starts.
 const BATCH: usize = 64;
 
 /// Ours in f64, and in f32 if that is compared, over a robot that is known while compiling.
@@ -87,7 +88,8 @@ fn one<R: Real, const Q: usize, const V: usize>(
     )
 }
 
-/// Times subjects on so many states, and prints robot, algorithm and precision with their times and errors.
+/// Times subjects on so many states, and prints robot, algorithm and precision with their times and
+/// errors.
 pub fn print<R: Real>(
     [robot, algorithm, precision]: [&str; 3],
     mut subjects: Vec<Subject<R>>,
@@ -152,8 +154,9 @@ fn expected<'a>(recording: &'a Recording, algorithm: &str) -> (&'a [Vec<f64>], f
     }
 }
 
-/// Largest error of a function that is worth timing, relative to full scale. Forward dynamics and Λ⁻¹ are
-/// ill-conditioned: their rounding errors are those of the mass matrix's inverse, up to κ(M) of those of a number.
+/// Largest error of a function that is worth timing, relative to full scale. Forward dynamics and
+/// Λ⁻¹ are ill-conditioned: their rounding errors are those of the mass matrix's inverse, up to
+/// κ(M) of those of a number.
 fn bound(algorithm: &str, precision: &str, condition: f64) -> f64 {
     match (algorithm, precision) {
         ("aba" | "osim", "f32") => 1e-3,

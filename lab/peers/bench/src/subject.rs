@@ -23,7 +23,8 @@ pub struct Subject<R> {
     pub run: Batch<R>,
     /// Numbers that it writes for a state.
     pub outputs: usize,
-    /// The index of the recorded number for each of its own; numbers without an index are not compared.
+    /// The index of the recorded number for each of its own; numbers without an index are not
+    /// compared.
     pub order: Vec<Option<usize>>,
     /// Whether it is timed, or only checked.
     pub timed: bool,
@@ -32,7 +33,8 @@ pub struct Subject<R> {
 #[derive(Serialize)]
 pub struct Row<'a> {
     pub robot: &'a str,
-    /// `rnea`, `bias`, `gravity`, `crba`, `aba`, `osim` or, with loops, `loops inverse` and `loops forward`.
+    /// `rnea`, `bias`, `gravity`, `crba`, `aba`, `osim` or, with loops, `loops inverse` and
+    /// `loops forward`.
     pub algorithm: &'a str,
     pub peer: &'a str,
     /// `f32` or `f64`.
@@ -92,8 +94,8 @@ impl<R: Real> Subject<R> {
     }
 }
 
-/// The order of a square matrix by columns, of which the upper triangle is looked at and was recorded by
-/// rows. `ours` says which of our coordinates each of its own is.
+/// The order of a square matrix by columns, of which the upper triangle is looked at and was
+/// recorded by rows. `ours` says which of our coordinates each of its own is.
 pub fn square(ours: &[usize]) -> Vec<Option<usize>> {
     let n = ours.len();
     let recorded = |i: usize, j: usize| {

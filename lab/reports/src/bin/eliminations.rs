@@ -71,7 +71,8 @@ fn rods<const N: usize>(factor: f64, in_space: bool) -> ArmModel<f64, N> {
     Model::new("rods", bodies(factor, in_space))
 }
 
-/// Rods of 0.25 m along x, the first of 1 kg, each `factor` times as heavy as the one before; on axes along y, or along y and z by turns.
+/// Rods of 0.25 m along x, the first of 1 kg, each `factor` times as heavy as the one before; on
+/// axes along y, or along y and z by turns.
 fn bodies<const N: usize>(factor: f64, in_space: bool) -> [Body; N] {
     std::array::from_fn(|i| {
         // Not `powf`, whose last bit is each platform's own.

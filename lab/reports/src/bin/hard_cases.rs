@@ -1,4 +1,5 @@
-//! Prints the hard cases and all that they measure as JSON: `cargo xtask hard-cases` makes a page of it.
+//! Prints the hard cases and all that they measure as JSON: `cargo xtask hard-cases` makes a page
+//! of it.
 
 use hard_cases::CASES;
 use host_tests::hard::{Case, Row, demand_rows};

@@ -1,8 +1,10 @@
-//! Prints what an SO-101 that floats should command, as JSON, for the tests of the plug-in for LeRobot: the torques of the scene
-//! `so101_teach` and of hand guiding, at positions that its encoders can measure.
+//! Prints what an SO-101 that floats should command, as JSON, for the tests of the plug-in for
+//! LeRobot: the torques of the scene `so101_teach` and of hand guiding, at positions that its
+//! encoders can measure.
 //!
-//! The plug-in computes the same through Python, and its tests decode what it sends to the servos. Nothing here passes through
-//! Python: observer, law and dynamics are those of the firmware, in f32.
+//! The plug-in computes the same through Python, and its tests decode what it sends to the servos.
+//! Nothing here passes through Python: observer, law and dynamics are those of the firmware, in
+//! f32.
 
 use dynamics_core::Engine;
 use dynamics_core::effects::{Coulomb, Gravity, Viscous};
@@ -34,7 +36,8 @@ const REST_SPEED: f32 = 0.03;
 const GRAVITY_ERROR: f32 = 0.03;
 const MOST: f32 = 0.5;
 
-/// Postures within the joints' limits, rad: those of the scene's path, and others in which the arm is stretched.
+/// Postures within the joints' limits, rad: those of the scene's path, and others in which the arm
+/// is stretched.
 const POSTURES: [[f32; 6]; 10] = [
     [0.0, -1.2, 1.2, 0.8, 0.0, 0.2],
     [-0.6, 0.3, 0.3, 0.8, 0.4, 1.2],
@@ -48,8 +51,8 @@ const POSTURES: [[f32; 6]; 10] = [
     [1.5, 0.1, 0.7, -1.1, 0.3, 0.4],
 ];
 
-/// Friction of servos of other gears: what the motor turns with grows with the reduction, what depends on its speed with the
-/// square. The gears' own share of the load stays.
+/// Friction of servos of other gears: what the motor turns with grows with the reduction, what
+/// depends on its speed with the square. The gears' own share of the load stays.
 fn geared(ratio: [f32; 6]) -> Compensation {
     let coulomb = Coulomb {
         torque: ratio.map(|r| COULOMB * r),
@@ -79,7 +82,8 @@ fn guiding() -> HandGuiding<f32, 6> {
     HandGuiding::try_new(config).expect("a passive share")
 }
 
-/// What the servos should be commanded at this estimate, in N·m at rest: of the scene, and of a leader that is guided.
+/// What the servos should be commanded at this estimate, in N·m at rest: of the scene, and of a
+/// leader that is guided.
 fn commands(estimate: &Estimate<f32, 6>) -> Value {
     let at = State {
         q: estimate.q,

@@ -35,7 +35,8 @@ macro_rules! key {
     ($(#[$doc:meta])* $key:ident, $axes:literal: $($(#[$what:meta])* $axis:ident = $usual:literal,)*) => {
         $(#[$doc])*
         ///
-        /// It prints as `axis=value`, joined by commas, values of the default left out; the default prints as `default`.
+        /// It prints as `axis=value`, joined by commas, values of the default left out; the default
+        /// prints as `default`.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub struct $key {
             $($(#[$what])* pub $axis: &'static str,)*

@@ -51,7 +51,8 @@ pub fn inverse<T: Robot<B, N, N>, const B: usize, const N: usize>(visitor: &mut 
     linearised::<Coarse, Full<T>, B, N>(visitor);
 }
 
-/// Shows the default and what single changes make of it to `visitor`: few enough to be built in a minute.
+/// Shows the default and what single changes make of it to `visitor`: few enough to be built in a
+/// minute.
 pub fn single<T: Robot<B, N, N>, const B: usize, const N: usize>(visitor: &mut impl Visitor<N>) {
     ways! { visitor:
         Own<Full<T>, B, N>,

@@ -1,8 +1,9 @@
-//! Ways to compute inverse dynamics, from the most accurate to the cheapest, each a type: what `cargo xtask accuracy`
-//! runs on the target for their cost and on the host for their error.
+//! Ways to compute inverse dynamics, from the most accurate to the cheapest, each a type: what
+//! `cargo xtask accuracy` runs on the target for their cost and on the host for their error.
 //!
-//! The bins `accuracy_…` log a row of the algorithm `inverse` or `simulation` for each, its inputs the way's name; the
-//! host's bin `accuracy` prints a line of JSON for each under the same name. A call of a row is a tick or a step.
+//! The bins `accuracy_…` log a row of the algorithm `inverse` or `simulation` for each, its inputs
+//! the way's name; the host's bin `accuracy` prints a line of JSON for each under the same name. A
+//! call of a row is a tick or a step.
 //!
 //! | module | what |
 //! |---|---|
@@ -13,8 +14,8 @@
 //! | [`simulation`], [`passive_motion`] | ways to simulate, and what |
 //! | [`list`], [`robots`] | all of them; whose they are |
 
-/// Ways: their generics but N, their types and keys, what else they have, what a tick is given and the numbers that it
-/// gives, what they start with, and a tick.
+/// Ways: their generics but N, their types and keys, what else they have, what a tick is given and
+/// the numbers that it gives, what they start with, and a tick.
 macro_rules! inverse {
     ($([$($generics:tt)*] $way:ty, $key:expr, { $($more:tt)* }, $input:ty = |$at:ident| $given:expr, $scalar:ty,
        |$first:pat_param| $start:expr, #[$inline:meta] |$self:ident, $now:ident| $tick:expr;)*) => {$(
@@ -68,7 +69,8 @@ pub trait Inverse<const N: usize>: Sized {
 
     /// Before the first tick, which will be that of this state.
     fn start(first: &State<f32, N, N>) -> Self;
-    /// Where the joints are to be, in its own numbers: what a firmware of this kind would have computed with so far.
+    /// Where the joints are to be, in its own numbers: what a firmware of this kind would have
+    /// computed with so far.
     fn input(state: &State<f32, N, N>) -> Self::Input;
     fn tick(&mut self, input: &Self::Input) -> [Self::Scalar; N];
     /// The address of the function that a tick is, or calls.

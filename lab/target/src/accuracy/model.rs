@@ -1,4 +1,5 @@
-//! The computed model: all terms of the rigid-body equation or fewer, of the robot or of a simplified one.
+//! The computed model: all terms of the rigid-body equation or fewer, of the robot or of a
+//! simplified one.
 
 use core::marker::PhantomData;
 
@@ -37,14 +38,16 @@ modelled! {
     NoCoriolis<> of T = "no_coriolis", (Gravity, Inertia) = (Gravity::EARTH, Inertia);
     /// g.
     GravityOnly<> of T = "gravity", (Gravity,) = (Gravity::EARTH,);
-    /// All of it, of a robot whose lengths, masses and inertias are known to `BITS` bits: 8 are those of bf16, 11 of f16.
+    /// All of it, of a robot whose lengths, masses and inertias are known to `BITS` bits: 8 are
+    /// those of bf16, 11 of f16.
     Parameters<BITS> of Rounded<T, BITS> = match BITS {
         6 => "params6",
         8 => "params8",
         11 => "params11",
         _ => panic!("no such model"),
     }, (Gravity, Inertia, Coriolis) = RIGID_BODY;
-    /// All of it, but for the base parameters that take less than so many millionths of the robot's torque.
+    /// All of it, but for the base parameters that take less than so many millionths of the robot's
+    /// torque.
     Without<PPM> of Pruned<T, PPM> = match PPM {
         100 => "pruned100",
         1000 => "pruned1000",

@@ -23,7 +23,8 @@ pub struct Every<W, P, const TICKS: usize> {
 #[derive(Debug)]
 pub struct Linear<K, M, const B: usize>(PhantomData<(K, M)>);
 
-/// The engine's torque and M in every `TICKS`-th tick, and between them what M makes of the accelerations.
+/// The engine's torque and M in every `TICKS`-th tick, and between them what M makes of the
+/// accelerations.
 pub type EveryLinearised<K, M, const B: usize, const N: usize, const TICKS: usize> =
     Every<Linear<K, M, B>, InertiaUpdate<f32, N, TICKS>, TICKS>;
 
@@ -38,8 +39,9 @@ const fn rate(ticks: usize) -> &'static str {
     }
 }
 
-/// What is computed and what the ticks between get it from; how many ticks ahead it is computed, its key if it is computed
-/// in every tick, and what it is given; both before the first tick; a tick that computes, and one that does not.
+/// What is computed and what the ticks between get it from; how many ticks ahead it is computed,
+/// its key if it is computed in every tick, and what it is given; both before the first tick; a
+/// tick that computes, and one that does not.
 macro_rules! every {
     ($([$($generics:tt)*] $way:ty, $between:ty = $name:literal, ahead: $ahead:expr, $key:expr,
        $input:ty = |$at:ident| $given:expr, |$first:pat_param| $start:expr,

@@ -11,7 +11,8 @@ use crate::trajectories::{LEG_STEPS, PANDA_PICK_AND_PLACE};
 
 /// A robot of N joints and B bodies, its way through W points, and all ways to compute its torques.
 pub trait Compared<const B: usize, const N: usize, const W: usize>: Robot<B, N, N> + Sized {
-    /// The name of the recording whose first coordinates are this robot's; none if nothing was recorded of it.
+    /// The name of the recording whose first coordinates are this robot's; none if nothing was
+    /// recorded of it.
     const RECORDED: Option<&'static str>;
     /// Greatest acceleration, rad/s².
     const ACCELERATION: f32;
@@ -34,8 +35,8 @@ const UNLIMITED: [f32; 2] = [1.5, 2.0];
 const WITHIN: f32 = 0.6;
 /// rad or m: a joint with a larger range counts as one without limits.
 const RANGE: f32 = 13.0;
-/// The way-points of a robot from a file but for the middle, where it starts and ends, as shares of what it stays
-/// within: of three joints, and in turn of those after them.
+/// The way-points of a robot from a file but for the middle, where it starts and ends, as shares of
+/// what it stays within: of three joints, and in turn of those after them.
 const SHARES: [[f32; 3]; 3] = [[1.0, -0.7, 0.5], [-0.6, 1.0, -1.0], [0.3, -1.0, 0.8]];
 
 fn speeds<T: Robot<B, N, N>, const B: usize, const N: usize>(

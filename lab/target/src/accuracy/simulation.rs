@@ -1,4 +1,5 @@
-//! Ways to simulate: integrators, with and without compensated state, of a double pendulum and of an arm.
+//! Ways to simulate: integrators, with and without compensated state, of a double pendulum and of
+//! an arm.
 
 use core::marker::PhantomData;
 

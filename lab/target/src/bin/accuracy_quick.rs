@@ -1,5 +1,5 @@
-//! What single changes to the default way to compute torques cost, few enough for the tests; and what is printed to be
-//! generated, as it is printed.
+//! What single changes to the default way to compute torques cost, few enough for the tests; and
+//! what is printed to be generated, as it is printed.
 #![no_std]
 #![no_main]
 

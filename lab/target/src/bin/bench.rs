@@ -1,8 +1,8 @@
-//! Cycles of the dynamics and of a whole tick on a real STM32F405, read from DWT.CYCCNT between the markers that the
-//! emulated meter uses; needs a debug probe that serves semihosting.
+//! Cycles of the dynamics and of a whole tick on a real STM32F405, read from DWT.CYCCNT between the
+//! markers that the emulated meter uses; needs a debug probe that serves semihosting.
 //!
-//! 168 MHz from the 8 MHz crystal of the usual boards, five wait states, flash accelerator on; a board without a
-//! crystal stops before the first figure. It is built for a board alone:
+//! 168 MHz from the 8 MHz crystal of the usual boards, five wait states, flash accelerator on; a
+//! board without a crystal stops before the first figure. It is built for a board alone:
 //!
 //! ```text
 //! cargo build --release -p lab-target --features board --bin bench --target thumbv7em-none-eabihf

@@ -1,4 +1,5 @@
-//! The cost of dynamics of robots with clusters, and of inverse dynamics of their spanning trees with all angles given.
+//! The cost of dynamics of robots with clusters, and of inverse dynamics of their spanning trees
+//! with all angles given.
 #![no_std]
 #![no_main]
 
@@ -69,8 +70,8 @@ fn of_legs((pose, twist, acceleration): &Moving) -> Option<MotorTorques<f32, 6>>
     Clustered::<Engine<StewartPlatform>>::rnea_of_motors(&y, &RIGID_BODY).ok()
 }
 
-/// From pose, twist and acceleration to the forces of the legs, and of that the forces of the legs alone, away from a dead
-/// point and near one.
+/// From pose, twist and acceleration to the forces of the legs, and of that the forces of the legs
+/// alone, away from a dead point and near one.
 fn legs(states: &[State<f32, 6, 6>; STATES]) {
     let moving = states.each_ref().map(|y| {
         let [x, up, z, yaw, pitch, roll] = y.q;

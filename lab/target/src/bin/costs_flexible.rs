@@ -1,4 +1,5 @@
-//! The cost of dynamics of an arm whose links bend, and of inverse dynamics of the same arm without modes.
+//! The cost of dynamics of an arm whose links bend, and of inverse dynamics of the same arm without
+//! modes.
 #![no_std]
 #![no_main]
 

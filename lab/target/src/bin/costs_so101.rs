@@ -1,4 +1,5 @@
-//! The cost of inverse dynamics on the SO-101, and of its compensation of gravity and friction as a command of voltage.
+//! The cost of inverse dynamics on the SO-101, and of its compensation of gravity and friction as a
+//! command of voltage.
 #![no_std]
 #![no_main]
 

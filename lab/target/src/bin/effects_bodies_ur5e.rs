@@ -1,5 +1,5 @@
-//! What a rigid body's own terms, and effects on bodies, cost in the engine's inverse dynamics of the
-//! UR5e.
+//! What a rigid body's own terms, and effects on bodies, cost in the engine's inverse dynamics of
+//! the UR5e.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,5 @@
-//! The cost of M, forward dynamics and Jacobians on the A1, by the core: the engine's build takes too long for a test.
+//! The cost of M, forward dynamics and Jacobians on the A1, by the core: the engine's build takes
+//! too long for a test.
 #![no_std]
 #![no_main]
 

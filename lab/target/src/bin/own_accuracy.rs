@@ -1,5 +1,5 @@
-//! What single changes to the default way to compute torques cost on the robot of a file: the bin of `cargo xtask
-//! accuracy --file`.
+//! What single changes to the default way to compute torques cost on the robot of a file: the bin
+//! of `cargo xtask accuracy --file`.
 #![no_std]
 #![no_main]
 

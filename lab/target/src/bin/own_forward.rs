@@ -1,4 +1,5 @@
-//! The cost of M, forward dynamics and Jacobians on the robot of a file: a bin of `cargo xtask costs --file`.
+//! The cost of M, forward dynamics and Jacobians on the robot of a file: a bin of
+//! `cargo xtask costs --file`.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,5 @@
-//! The cost of inverse dynamics of robots from files: `cargo xtask import` names the files while this is compiled.
+//! The cost of inverse dynamics of robots from files: `cargo xtask import` names the files while
+//! this is compiled.
 #![no_std]
 #![no_main]
 

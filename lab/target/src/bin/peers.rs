@@ -28,7 +28,8 @@ use heapless::Vec;
 use costs::done;
 use costs::row::{Row, numbers};
 
-/// A function of CasADi's C: its arguments are cosines, sines, and two vectors that an algorithm may not need.
+/// A function of CasADi's C: its arguments are cosines, sines, and two vectors that an algorithm
+/// may not need.
 type C = unsafe extern "C" fn(*const f32, *const f32, *const f32, *const f32, *mut f32);
 type Scene = (Gravity, Inertia, Coriolis);
 type Inverse<'a, E, const Q: usize, const V: usize> =
@@ -203,9 +204,9 @@ impl Of {
     }
 }
 
-/// An algorithm: ours by the core, which is the reference, and by the engine, each with its address,
-/// then each build of the C. The last entry of each row is the largest error, relative to full
-/// scale.
+/// An algorithm: ours by the core, which is the reference, and by the engine, each with its
+/// address, then each build of the C. The last entry of each row is the largest error, relative to
+/// full scale.
 fn compare<'a, F: Copy, O, const Q: usize, const V: usize>(
     (of, asks, peers): (Of, &'a [Ask<Q, V>; STATES], &[Peer]),
     [core, engine]: [(F, usize); 2],
@@ -252,8 +253,8 @@ fn compare<'a, F: Copy, O, const Q: usize, const V: usize>(
     for &Peer { build, run } in peers {
         let call = |ask: &Ask<Q, V>, out: &mut [f32; MOST]| {
             let (qd, qdd) = (ask.state.qd.as_ptr(), ask.state.qdd.as_ptr());
-            // SAFETY: xtask's table names functions of this type, which read Q or V numbers at most from
-            // each input and write no more than V (V + 1) / 2 or 21.
+            // SAFETY: xtask's table names functions of this type, which read Q or V numbers at most
+            // from each input and write no more than V (V + 1) / 2 or 21.
             unsafe {
                 run(
                     ask.cos.as_ptr(),

@@ -25,7 +25,8 @@ const MISSED: u32 = 40;
 pub struct Setup {
     /// The supervisor's limits of torque and rate, as a share of the rated ones.
     pub limits: f32,
-    /// Missed ticks after which the watchdog restarts the processor: the drives keep an old torque until then.
+    /// Missed ticks after which the watchdog restarts the processor: the drives keep an old torque
+    /// until then.
     pub watchdog: u32,
 }
 
@@ -122,7 +123,8 @@ pub(super) struct Episode {
 pub type Controller<const V: usize> = MotionController<f32, V, CurrentTick>;
 
 pub fn controller<P: Plant<V>, const V: usize>(setup: Setup) -> Controller<V> {
-    // A speed is detected when it is exceeded: the reaction takes place between the supervisor's limit and the rated speed.
+    // A speed is detected when it is exceeded: the reaction takes place between the supervisor's
+    // limit and the rated speed.
     let mut limits = P::LIMITS.with_speed_share(0.8);
     limits.torque = limits.torque.map(|limit| limit * setup.limits);
     limits.rate = limits.rate.map(|limit| limit * setup.limits);

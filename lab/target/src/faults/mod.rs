@@ -1,7 +1,8 @@
-//! Arms under faults of every kind, at random times in random combinations, on the host and on the target: which limits
-//! hold, and what each fault leads to.
+//! Arms under faults of every kind, at random times in random combinations, on the host and on the
+//! target: which limits hold, and what each fault leads to.
 //!
-//! A run is determined by its seed: the same seeds give the same bits of torque on the host and in QEMU.
+//! A run is determined by its seed: the same seeds give the same bits of torque on the host and in
+//! QEMU.
 
 mod arm;
 mod kinds;
@@ -17,7 +18,8 @@ pub use run::{Observed, Outcome, TICKS, at_speed, run};
 /// One run in so many is a UR5e, whose dynamics take longer, and one a gimbal.
 const UR5E: u32 = 8;
 
-/// The arm of a seed, by name, and its run; `observe` takes what was observed of each fault that came alone.
+/// The arm of a seed, by name, and its run; `observe` takes what was observed of each fault that
+/// came alone.
 ///
 /// # Errors
 /// The limit that did not hold.

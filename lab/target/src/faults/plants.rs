@@ -1,4 +1,5 @@
-//! The arms that faults are injected into: a pendulum without brakes, a gimbal of three joints, and the UR5e.
+//! The arms that faults are injected into: a pendulum without brakes, a gimbal of three joints, and
+//! the UR5e.
 
 use dynamics_core::Core;
 use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, Inertia};
@@ -186,7 +187,8 @@ impl Plant<3> for GimbalArm {
     }
 }
 
-/// A tick of a robot's forward dynamics. A state without them stays, and its velocity is not a number.
+/// A tick of a robot's forward dynamics. A state without them stays, and its velocity is not a
+/// number.
 fn step<T: Robot<V, V, V>, E: Effect<f32, V, V>, const V: usize>(
     state: &mut State<f32, V, V>,
     tau: &[f32; V],

@@ -128,7 +128,8 @@ pub fn run<P: Plant<V>, const V: usize>(
                 ticks: [now, now + ticks],
                 held,
             };
-            // The list holds all that can begin within the longest one, but for a series of the shortest pauses.
+            // The list holds all that can begin within the longest one, but for a series of the
+            // shortest pauses.
             injected += u32::from(episodes.push(episode).is_ok());
             let soon = random.below(3) == 0;
             next = now + 1 + random.below(if soon { 60 } else { 900 });

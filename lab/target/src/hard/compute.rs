@@ -21,7 +21,8 @@ pub type Scene<R, const N: usize> = (
     OnLast<R>,
 );
 
-/// A payload of the last body of an arm of any length, where [`Payload`] names a body by its number.
+/// A payload of the last body of an arm of any length, where [`Payload`] names a body by its
+/// number.
 #[derive(Clone, Copy, Debug)]
 pub struct OnLast<R: Real>(SpatialInertia<R>);
 

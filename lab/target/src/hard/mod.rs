@@ -1,7 +1,8 @@
-//! Hard cases on arms of six bodies, and on linkages ([`loops`]), as numbers that the host tests and the firmware share.
+//! Hard cases on arms of six bodies, and on linkages ([`loops`]), as numbers that the host tests
+//! and the firmware share.
 //!
-//! The host compares the results with 50-digit oracles and closed forms (`host-tests/src/hard`); the firmware's bin
-//! `bits` shows that a microcontroller computes the same bits.
+//! The host compares the results with 50-digit oracles and closed forms (`host-tests/src/hard`);
+//! the firmware's bin `bits` shows that a microcontroller computes the same bits.
 
 mod arms;
 mod compute;
@@ -96,8 +97,8 @@ mod torques {
     include!(concat!(env!("OUT_DIR"), "/torques.rs"));
 }
 
-/// Calls `report` with each problem's case and name, and the digest of all that is computed of it: forward
-/// dynamics under the oracle's torques.
+/// Calls `report` with each problem's case and name, and the digest of all that is computed of it:
+/// forward dynamics under the oracle's torques.
 pub fn digests(mut report: impl FnMut(u32, &'static str, Digest)) {
     for problem in &SINGLE {
         let mut torques = torques::TORQUES.iter();

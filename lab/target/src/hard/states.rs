@@ -26,7 +26,8 @@ pub const COMMON: [Numbers; 4] = [
     ],
 ];
 
-/// As [`COMMON`], the joints turning at ±1000 rad/s, accelerations as large as what that brings about.
+/// As [`COMMON`], the joints turning at ±1000 rad/s, accelerations as large as what that brings
+/// about.
 pub const FAST: [Numbers; 4] = {
     let (mut states, mut k) = (COMMON, 0);
     while k < states.len() {

@@ -15,7 +15,8 @@ fn detector<const ORDER: usize>() -> Detector<ORDER> {
     ContactDetector::try_new(CONFIG, MARGIN).expect("a good configuration")
 }
 
-/// A tick of an arm that stands still although its drives push by `tau`, of a model with these errors.
+/// A tick of an arm that stands still although its drives push by `tau`, of a model with these
+/// errors.
 fn tick<const ORDER: usize>(
     detector: &mut Detector<ORDER>,
     tau: [f64; 2],

@@ -10,23 +10,27 @@ use dynamics_core::scalar::Real;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ParameterEstimatorConfig<R, const P: usize, const V: usize> {
-    /// Standard deviation of the torque of each joint in one row, N·m or N: of the measurement, and of what the parameters
-    /// cannot explain.
+    /// Standard deviation of the torque of each joint in one row, N·m or N: of the measurement, and
+    /// of what the parameters cannot explain.
     pub noise: [R; V],
     /// Standard deviation of each parameter before the first row, about the nominal value.
     pub prior: [R; P],
-    /// How many parameters have an effect on the torque of this joint alone. They are the last ones, joint by joint, as
-    /// [`SelectedParameters::own`](super::SelectedParameters::own) counts them; zeros if all parameters may have an effect on every joint.
+    /// How many parameters have an effect on the torque of this joint alone. They are the last
+    /// ones, joint by joint, as [`SelectedParameters::own`](super::SelectedParameters::own) counts
+    /// them; zeros if all parameters may have an effect on every joint.
     pub own: [u16; V],
-    /// The share φ of the direction of a row that is forgotten, 0 to less than 1. 1/N averages over some N rows; 0 never forgets.
+    /// The share φ of the direction of a row that is forgotten, 0 to less than 1. 1/N averages over
+    /// some N rows; 0 never forgets.
     pub forgetting: R,
-    /// The greatest innovation, in standard deviations, from 3 to 1000; 4 or 5 for noise without outliers.
+    /// The greatest innovation, in standard deviations, from 3 to 1000; 4 or 5 for noise without
+    /// outliers.
     pub limit: R,
 }
 
 impl<R: Real, const P: usize, const V: usize> ParameterEstimatorConfig<R, P, V> {
-    /// Checks that each standard deviation of a torque is between 10⁻⁶ and 10⁶, of a parameter between 10⁻¹² and 10⁶, the forgetting
-    /// at least 0 and less than 1, and the limit between 3 and 1000; and that there are as many parameters as `own` has.
+    /// Checks that each standard deviation of a torque is between 10⁻⁶ and 10⁶, of a parameter
+    /// between 10⁻¹² and 10⁶, the forgetting at least 0 and less than 1, and the limit between 3
+    /// and 1000; and that there are as many parameters as `own` has.
     ///
     /// # Errors
     /// [`ConfigError::OutOfRange`] names the number.
@@ -34,7 +38,8 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimatorConfig<R, P, V> 
         let within = |x: R, least, most| (x >= R::from_f64(least)) & (x <= R::from_f64(most));
         let noise = |x: &R| within(*x, 1e-6, 1e6);
         ConfigParameter::TorqueNoise.require(self.noise.iter().all(noise))?;
-        // The square is far from the least normal f32. Products of inertia of small bodies are below 10⁻⁶ kg·m².
+        // The square is far from the least normal f32. Products of inertia of small bodies are
+        // below 10⁻⁶ kg·m².
         let prior = |x: &R| within(*x, 1e-12, 1e6);
         ConfigParameter::ParameterDeviation.require(self.prior.iter().all(prior))?;
         let own = self.own.iter().map(|&own| usize::from(own));
@@ -90,7 +95,8 @@ pub enum RejectedRow {
         /// The joint.
         joint: usize,
     },
-    /// The torques of a joint do not agree with the estimate, which is frozen until they do, or until that joint rests for long.
+    /// The torques of a joint do not agree with the estimate, which is frozen until they do, or
+    /// until that joint rests for long.
     Frozen {
         /// That joint, which need not be that of the row.
         joint: usize,

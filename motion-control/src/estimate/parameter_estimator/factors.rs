@@ -1,7 +1,9 @@
-//! The information of the rows so far, in factors that a row of one joint changes only where it has entries.
+//! The information of the rows so far, in factors that a row of one joint changes only where it has
+//! entries.
 //!
-//! P⁻¹ = Lᵀ D⁻¹ L with a unit lower triangle L and a diagonal D, and s = L θ. A row y with the residual z is reduced by one
-//! pivot after the other, from the last to the first: y_k ← y_k − f_j L_jk for k < j, where f_j is what y_j is then.
+//! P⁻¹ = Lᵀ D⁻¹ L with a unit lower triangle L and a diagonal D, and s = L θ. A row y with the
+//! residual z is reduced by one pivot after the other, from the last to the first: y_k ← y_k − f_j
+//! L_jk for k < j, where f_j is what y_j is then.
 //!
 //! ```text
 //! v = D f      r = f·v = yᵀ P y      e = z − f·s = z − yᵀ θ
@@ -10,19 +12,22 @@
 //! s_j⁺ = s_j + v_j / α_j (e (1 + ε r) / (1 + r) + ε Σ_{k<j} f_k s_k)
 //! ```
 //!
-//! Gentleman, "Least squares computations by Givens transformations without square roots" (1973). The last line is his for the
-//! residual with which the weight ε moves θ by P y e / (1 + r); it holds for ε = 0 too.
+//! Gentleman, "Least squares computations by Givens transformations without square roots" (1973).
+//! The last line is his for the residual with which the weight ε moves θ by P y e / (1 + r); it
+//! holds for ε = 0 too.
 //!
-//! Parameters of one joint alone, such as its friction, are behind those of all joints. L has no entry for two of different joints:
-//! a row changes the lines of its own joint and the common ones. The estimates of other joints' parameters, which are correlated
-//! with the common ones, change with s as it is.
+//! Parameters of one joint alone, such as its friction, are behind those of all joints. L has no
+//! entry for two of different joints: a row changes the lines of its own joint and the common ones.
+//! The estimates of other joints' parameters, which are correlated with the common ones, change
+//! with s as it is.
 
 use core::ops::Range;
 
 use crate::entry;
 use dynamics_core::scalar::Real;
 
-/// Where the rows of a joint have entries: at the common parameters, which are the first ones, and at its own.
+/// Where the rows of a joint have entries: at the common parameters, which are the first ones, and
+/// at its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Places {
     pub(super) common: u16,
@@ -128,7 +133,8 @@ impl<R: Real, const P: usize> Factors<R, P> {
         }
     }
 
-    /// Adds a reduced row with the weight ε, and moves the estimate by P y e / (1 + r); `error` is e / (1 + r).
+    /// Adds a reduced row with the weight ε, and moves the estimate by P y e / (1 + r); `error` is
+    /// e / (1 + r).
     #[inline(always)]
     pub(super) fn add(&mut self, places: Places, row: &mut Row<R, P>, share: R, error: R) {
         let gain = error * (R::ONE + share * row.variance);
@@ -154,7 +160,8 @@ impl<R: Real, const P: usize> Factors<R, P> {
         }
     }
 
-    /// The row of a parameter alone, which explains the estimate and has the variance of this parameter.
+    /// The row of a parameter alone, which explains the estimate and has the variance of this
+    /// parameter.
     #[inline(never)] // inlined once a parameter, its rows would fill the stack
     fn alone(&self, k: usize, places: &[Places]) -> Row<R, P> {
         let of = |places: &&Places| places.own().contains(&k) | places.common().contains(&k);

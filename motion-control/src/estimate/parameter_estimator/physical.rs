@@ -1,10 +1,11 @@
 //! Parameters that bodies can have, beside an estimate that need not be: the set that is stored.
 //!
-//! A body of density ≥ 0 has a pseudo-inertia J = ∫ (r, 1)(r, 1)ᵀ dm = \[Σ h; hᵀ m\] ⪰ 0, Σ = ½ tr(Ī) 1 − Ī, and each J ≻ 0 is that
-//! of a body: Wensing, Kim & Slotine, "Linear matrix inequalities for physically consistent inertial parameter identification"
-//! (2018). These J are a convex cone. Of two points of a convex set the segment between them is in it, so that bisection finds
-//! how far a stored set may follow the estimate; Rucker & Wensing, "Smooth parameterization of rigid-body inertia" (2022), instead
-//! estimate within the cone, which is not linear.
+//! A body of density ≥ 0 has a pseudo-inertia J = ∫ (r, 1)(r, 1)ᵀ dm = \[Σ h; hᵀ m\] ⪰ 0, Σ = ½
+//! tr(Ī) 1 − Ī, and each J ≻ 0 is that of a body: Wensing, Kim & Slotine, "Linear matrix
+//! inequalities for physically consistent inertial parameter identification" (2018). These J are a
+//! convex cone. Of two points of a convex set the segment between them is in it, so that bisection
+//! finds how far a stored set may follow the estimate; Rucker & Wensing, "Smooth parameterization
+//! of rigid-body inertia" (2022), instead estimate within the cone, which is not linear.
 
 use core::fmt;
 
@@ -14,7 +15,8 @@ use dynamics_core::scalar::Real;
 #[cfg(test)]
 mod tests;
 
-/// The share of the nominal pseudo-inertias, frictions and armatures that a stored set keeps in all directions.
+/// The share of the nominal pseudo-inertias, frictions and armatures that a stored set keeps in all
+/// directions.
 const MARGIN: f64 = 0.05;
 
 /// The steps of the bisection: 2⁻¹⁰ of the segment.
@@ -62,11 +64,13 @@ impl fmt::Display for ImpossibleParameters {
 
 impl core::error::Error for ImpossibleParameters {}
 
-/// The N parameters of B bodies and their joints, possible at all times: what the model of the next start is made of.
+/// The N parameters of B bodies and their joints, possible at all times: what the model of the next
+/// start is made of.
 ///
 /// The first 10 B are those of the bodies, in the order of
-/// [`SpatialInertia::parameters`](dynamics_core::spatial::SpatialInertia::parameters); the others, frictions and armatures, are at least
-/// zero. A body whose ten nominal parameters are all zero, such as the frame of a tool, stays so; a point mass is impossible.
+/// [`SpatialInertia::parameters`](dynamics_core::spatial::SpatialInertia::parameters); the others,
+/// frictions and armatures, are at least zero. A body whose ten nominal parameters are all zero,
+/// such as the frame of a tool, stays so; a point mass is impossible.
 ///
 /// ```
 /// use dynamics_core::algorithms::inertial_parameters;
@@ -116,11 +120,12 @@ impl<R: Real, const B: usize, const N: usize> PhysicalParameters<R, B, N> {
         &self.stored
     }
 
-    /// Moves the stored set to the nominal parameters with the smallest change that gives the estimate, as [`Self::follow`].
-    /// Outside the tick.
+    /// Moves the stored set to the nominal parameters with the smallest change that gives the
+    /// estimate, as [`Self::follow`]. Outside the tick.
     ///
-    /// The estimate of zero with which an estimator starts gives the nominal parameters: a set that was read from a record is kept
-    /// until the [`deviations`](super::ParameterEstimator::deviations) are small again.
+    /// The estimate of zero with which an estimator starts gives the nominal parameters: a set that
+    /// was read from a record is kept until the
+    /// [`deviations`](super::ParameterEstimator::deviations) are small again.
     pub fn update<const P: usize>(
         &mut self,
         base: &SelectedParameters<R, P, N>,
@@ -135,8 +140,9 @@ impl<R: Real, const B: usize, const N: usize> PhysicalParameters<R, B, N> {
         self.follow(&candidate)
     }
 
-    /// Moves the stored set towards a candidate, as far as every body keeps a margin of its nominal pseudo-inertia, and returns
-    /// the share: one if the candidate is stored, zero if nothing has changed. Outside the tick: some 3,000 flops a body.
+    /// Moves the stored set towards a candidate, as far as every body keeps a margin of its nominal
+    /// pseudo-inertia, and returns the share: one if the candidate is stored, zero if nothing has
+    /// changed. Outside the tick: some 3,000 flops a body.
     pub fn follow(&mut self, candidate: &[R; N]) -> R {
         if self.is_possible(candidate) {
             self.stored = *candidate;
@@ -158,8 +164,8 @@ impl<R: Real, const B: usize, const N: usize> PhysicalParameters<R, B, N> {
         share
     }
 
-    /// Whether each pseudo-inertia less its margin is positive definite, or zero as the nominal one, and each parameter of a joint
-    /// at least its margin. A NaN is not possible.
+    /// Whether each pseudo-inertia less its margin is positive definite, or zero as the nominal
+    /// one, and each parameter of a joint at least its margin. A NaN is not possible.
     pub(super) fn is_possible(&self, tried: &[R; N]) -> bool {
         let margin = R::from_f64(MARGIN);
         let less: [R; N] = core::array::from_fn(|i| {
@@ -172,7 +178,8 @@ impl<R: Real, const B: usize, const N: usize> PhysicalParameters<R, B, N> {
     }
 }
 
-/// Whether a body with this nominal one can have these parameters: one without mass and inertia remains so.
+/// Whether a body with this nominal one can have these parameters: one without mass and inertia
+/// remains so.
 fn is_body<R: Real>(body: &[R; 10], nominal: &[R; 10]) -> bool {
     if nominal.iter().all(|x| *x == R::ZERO) {
         body == nominal

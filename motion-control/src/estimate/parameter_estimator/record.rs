@@ -1,4 +1,5 @@
-//! The record of a physical set in memory that keeps it without power, with a version, a check sum and its quality.
+//! The record of a physical set in memory that keeps it without power, with a version, a check sum
+//! and its quality.
 //!
 //! Words of 32 bits, little endian:
 //!
@@ -6,8 +7,9 @@
 //! version | N | check sum of the nominal parameters | quality | N parameters | check sum of all words before
 //! ```
 //!
-//! The check sum is the CRC-32 of IEEE 802.3, of the bytes in their order. The first two words and the place of the last one are the
-//! same in all versions, so that a whole record of another version or another robot is distinguished from a damaged one.
+//! The check sum is the CRC-32 of IEEE 802.3, of the bytes in their order. The first two words and
+//! the place of the last one are the same in all versions, so that a whole record of another
+//! version or another robot is distinguished from a damaged one.
 
 use core::fmt;
 
@@ -62,10 +64,11 @@ impl<const B: usize, const N: usize> PhysicalParameters<f32, B, N> {
     pub const RECORD_BYTES: usize = 4 * (N + WORDS);
 
     /// Writes the stored set to `memory`, with a number for its quality, such as the largest
-    /// [`consistency`](super::ParameterEstimator::consistency); returns the bytes of the record. Not for the tick.
+    /// [`consistency`](super::ParameterEstimator::consistency); returns the bytes of the record.
+    /// Not for the tick.
     ///
-    /// Of two places, the one without a record is written, and then the other one is erased: whenever the power is lost, one of
-    /// them has a whole record.
+    /// Of two places, the one without a record is written, and then the other one is erased:
+    /// whenever the power is lost, one of them has a whole record.
     ///
     /// ```
     /// use motion_control::{PhysicalParameters, RecordError};
@@ -108,8 +111,8 @@ impl<const B: usize, const N: usize> PhysicalParameters<f32, B, N> {
     /// Reads a record, and returns the quality with which it was written. Not for the tick.
     ///
     /// # Errors
-    /// [`RecordError`] names the reason. The parameters are then those that were stored before: after [`Self::try_new`] the
-    /// nominal ones.
+    /// [`RecordError`] names the reason. The parameters are then those that were stored before:
+    /// after [`Self::try_new`] the nominal ones.
     pub fn read(&mut self, memory: &[u8]) -> Result<f32, RecordError> {
         let needed = Self::RECORD_BYTES;
         if memory.len() < needed {

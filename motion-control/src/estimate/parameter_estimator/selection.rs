@@ -1,8 +1,9 @@
 //! Base parameters by selection: the columns of the regressor that explain the torques of a motion.
 //!
-//! With Y = [Y_s Y_d] and Y_d = Y_s K, τ = Y_s (θ_s + K θ_d): the torque needs the columns of the selection alone, and what they
-//! multiply are the base parameters β = K_β θ, K_β = [1 K]. Gautier, "Numerical calculation of the base inertial parameters of
-//! robots" (1991), selects by QR with pivots; here YᵀY is eliminated with pivots, which are the same columns.
+//! With Y = [Y_s Y_d] and Y_d = Y_s K, τ = Y_s (θ_s + K θ_d): the torque needs the columns of the
+//! selection alone, and what they multiply are the base parameters β = K_β θ, K_β = [1 K]. Gautier,
+//! "Numerical calculation of the base inertial parameters of robots" (1991), selects by QR with
+//! pivots; here YᵀY is eliminated with pivots, which are the same columns.
 
 use dynamics_core::scalar::Real;
 
@@ -12,7 +13,8 @@ mod tests;
 /// A pivot below this share of the first one is rounding.
 const RANK: f64 = 1e-13;
 
-/// The sum Yᵀ Y of the rows of a motion, by N columns: the ten parameters of each body, then those of each joint. On the host.
+/// The sum Yᵀ Y of the rows of a motion, by N columns: the ten parameters of each body, then those
+/// of each joint. On the host.
 ///
 /// ```
 /// use motion_control::{SelectedParameters, Excitation};
@@ -52,18 +54,19 @@ impl<const N: usize> Excitation<N> {
         }
     }
 
-    /// The P base parameters that most change the torques, if each nominal parameter of a joint and each pseudo-inertia of the B
-    /// bodies has this relative standard deviation in every direction.
+    /// The P base parameters that most change the torques, if each nominal parameter of a joint and
+    /// each pseudo-inertia of the B bodies has this relative standard deviation in every direction.
     ///
-    /// Where fewer than all base parameters are selected, the torques of the others remain those of the nominal model. A
-    /// parameter of a joint that is zero remains zero.
+    /// Where fewer than all base parameters are selected, the torques of the others remain those of
+    /// the nominal model. A parameter of a joint that is zero remains zero.
     ///
     /// # Errors
     /// The number of independent columns of the motion, if there are fewer than P.
     ///
     /// # Source
-    /// Gautier (1991); Pham & Gautier, "Essential parameters of robots" (1991); the metric of pseudo-inertias J after Lee, Wensing &
-    /// Park, "Geometric robot dynamic identification" (2020): the covariance of a change of J is that of J^½ Z J^½.
+    /// Gautier (1991); Pham & Gautier, "Essential parameters of robots" (1991); the metric of
+    /// pseudo-inertias J after Lee, Wensing & Park, "Geometric robot dynamic identification"
+    /// (2020): the covariance of a change of J is that of J^½ Z J^½.
     pub fn select<R: Real, const B: usize, const P: usize>(
         &self,
         nominal: &[f64; N],
@@ -111,7 +114,8 @@ impl<const N: usize> Excitation<N> {
     }
 }
 
-/// The covariance of the parameters: of the bodies' entries J_ij and J_kl ½ s² (J_ik J_jl + J_il J_jk).
+/// The covariance of the parameters: of the bodies' entries J_ij and J_kl ½ s² (J_ik J_jl + J_il
+/// J_jk).
 fn covariance<const B: usize, const N: usize>(nominal: &[f64; N], share: f64) -> [[f64; N]; N] {
     /// Each parameter as a sum of entries of J with signs; the last three are those of Σ.
     const ENTRIES: [&[(usize, usize, f64)]; 10] = [
@@ -149,8 +153,9 @@ fn covariance<const B: usize, const N: usize>(nominal: &[f64; N], share: f64) ->
     covariance
 }
 
-/// Sweeps a symmetric matrix by pivot k: Goodnight, "A tutorial on the SWEEP operator" (1979). The swept columns then hold the
-/// inverse of their block, the others of the swept rows its products with them, the rest what remains of them.
+/// Sweeps a symmetric matrix by pivot k: Goodnight, "A tutorial on the SWEEP operator" (1979). The
+/// swept columns then hold the inverse of their block, the others of the swept rows its products
+/// with them, the rest what remains of them.
 fn sweep<const N: usize>(a: &mut [[f64; N]; N], k: usize) {
     let pivot = a[k];
     let per = 1.0 / pivot[k];
@@ -163,20 +168,23 @@ fn sweep<const N: usize>(a: &mut [[f64; N]; N], k: usize) {
     }
 }
 
-/// P base parameters of an arm among the N parameters of its bodies and joints: constants for the tick.
+/// P base parameters of an arm among the N parameters of its bodies and joints: constants for the
+/// tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelectedParameters<R, const P: usize, const N: usize> {
-    /// The columns of the regressor that they multiply: those of the bodies first, then those of the joints, joint by joint.
+    /// The columns of the regressor that they multiply: those of the bodies first, then those of
+    /// the joints, joint by joint.
     pub columns: [usize; P],
     /// The standard deviation of each, from those of the N parameters.
     pub prior: [R; P],
-    /// The smallest change of the N parameters per unit of each base parameter, smallest in terms of their standard deviations.
+    /// The smallest change of the N parameters per unit of each base parameter, smallest in terms
+    /// of their standard deviations.
     pub spread: [[R; P]; N],
 }
 
 impl<R: Real, const P: usize, const N: usize> SelectedParameters<R, P, N> {
-    /// The row of a joint: from its [`regressor_row`](dynamics_core::algorithms::regressor_row), and the F columns of its own friction and
-    /// armature. P selections, no flops.
+    /// The row of a joint: from its [`regressor_row`](dynamics_core::algorithms::regressor_row),
+    /// and the F columns of its own friction and armature. P selections, no flops.
     #[inline(always)]
     #[must_use]
     pub fn row<const B: usize, const F: usize>(
@@ -202,8 +210,8 @@ impl<R: Real, const P: usize, const N: usize> SelectedParameters<R, P, N> {
         bodies
     }
 
-    /// How many of them are parameters of each joint, of `each` that a joint has; the others are of the `bodies`:
-    /// [`ParameterEstimatorConfig::own`](super::ParameterEstimatorConfig::own).
+    /// How many of them are parameters of each joint, of `each` that a joint has; the others are of
+    /// the `bodies`: [`ParameterEstimatorConfig::own`](super::ParameterEstimatorConfig::own).
     ///
     /// ```
     /// use motion_control::SelectedParameters;
@@ -232,7 +240,8 @@ impl<R: Real, const P: usize, const N: usize> SelectedParameters<R, P, N> {
 }
 
 impl<const N: usize> Excitation<N> {
-    /// All N columns of the row of a joint, in the order that [`SelectedParameters::row`] selects from.
+    /// All N columns of the row of a joint, in the order that [`SelectedParameters::row`] selects
+    /// from.
     #[must_use]
     pub fn row<R: Real, const B: usize, const F: usize>(
         joint: usize,

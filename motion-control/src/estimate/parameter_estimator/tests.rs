@@ -7,7 +7,8 @@ use crate::limits::ConfigParameter;
 mod config;
 mod freeze;
 
-/// Of all joints, then of the first, then of the second: more than four in a line, and a rest of those of the first.
+/// Of all joints, then of the first, then of the second: more than four in a line, and a rest of
+/// those of the first.
 const COMMON: usize = 5;
 const OWN: [u16; 2] = [5, 1];
 const P: usize = 11;

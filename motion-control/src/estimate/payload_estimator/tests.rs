@@ -1,4 +1,5 @@
-//! The estimate against least squares with a whole matrix of information, and the decisions about a measurement.
+//! The estimate against least squares with a whole matrix of information, and the decisions about a
+//! measurement.
 
 use super::*;
 use crate::estimate::tests::{Numbers, inverse, solved};
@@ -56,7 +57,8 @@ fn dot_of(a: &[f64; N], b: &[f64; N]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The same with a matrix of information, of which each pivot forgets at most what the tick brings it.
+/// The same with a matrix of information, of which each pivot forgets at most what the tick brings
+/// it.
 struct Whole {
     information: Matrix,
     estimate: [f64; N],

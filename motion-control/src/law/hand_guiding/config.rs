@@ -3,7 +3,8 @@
 use crate::limits::{ConfigError, ConfigParameter};
 use dynamics_core::scalar::Real;
 
-/// A spring and a damper of each joint with a greatest torque; a stiffness and a damping may be zero.
+/// A spring and a damper of each joint with a greatest torque; a stiffness and a damping may be
+/// zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LimitedSpring<R, const V: usize> {
@@ -23,10 +24,12 @@ pub struct HandGuidingConfig<R, const V: usize> {
     pub error: R,
     /// σ: the share of the modelled friction that is compensated, at most 1/(1 + ε).
     pub share: R,
-    /// v₀, rad/s or m/s: joints whose estimated speed is below are at rest, and nothing is compensated; from twice this speed
-    /// on it is in full. Above what the noise of the encoders becomes in the velocities, an arm at rest has steady torques.
+    /// v₀, rad/s or m/s: joints whose estimated speed is below are at rest, and nothing is
+    /// compensated; from twice this speed on it is in full. Above what the noise of the encoders
+    /// becomes in the velocities, an arm at rest has steady torques.
     pub rest_speed: [R; V],
-    /// The greatest compensation of each joint, N·m or N: of a velocity that is wrong, no more is compensated.
+    /// The greatest compensation of each joint, N·m or N: of a velocity that is wrong, no more is
+    /// compensated.
     pub compensation: [R; V],
     /// Position of each joint's lower wall, rad or m; −∞ for none.
     pub lower: [R; V],
@@ -39,8 +42,8 @@ pub struct HandGuidingConfig<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> HandGuidingConfig<R, V> {
-    /// Checks that σ (1 + ε) ≤ 1, that each lower wall is below the upper one, and that all other numbers are finite and not
-    /// negative, and that no speed of rest is zero.
+    /// Checks that σ (1 + ε) ≤ 1, that each lower wall is below the upper one, and that all other
+    /// numbers are finite and not negative, and that no speed of rest is zero.
     ///
     /// # Errors
     /// [`ConfigError::OutOfRange`] names the number.

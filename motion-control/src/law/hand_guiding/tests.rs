@@ -49,7 +49,8 @@ fn velocities() -> impl Iterator<Item = f64> {
 /// Signs as wide as that of the model, and steeper, rad/s.
 const WIDTHS: [f64; 4] = [0.01, 0.003, 1e-4, 1e-9];
 
-/// The greatest power of compensation and true friction with such signs, W, where the model exceeds it by `over`.
+/// The greatest power of compensation and true friction with such signs, W, where the model exceeds
+/// it by `over`.
 fn power(config: HandGuidingConfig<f64, 1>, over: f64, widths: &[f64]) -> f64 {
     let (guiding, mut most) = (guiding(config), f64::NEG_INFINITY);
     for qd in velocities() {
@@ -67,7 +68,8 @@ fn compensation_and_true_friction_together_never_have_positive_power() {
         let most = power(config(), over, &WIDTHS);
         assert!(most <= 1e-15, "{most} W, over-estimated by {over}");
     }
-    // Of a model that is further off than stated, or has a steeper sign than the friction, it is positive.
+    // Of a model that is further off than stated, or has a steeper sign than the friction, it is
+    // positive.
     assert!(power(config(), 0.12, &WIDTHS) > 0.01);
     assert!(power(config(), 0.1, &[0.05]) > 0.01);
     let full = HandGuidingConfig {
@@ -82,7 +84,8 @@ fn compensation_and_true_friction_together_never_have_positive_power() {
 fn a_lagging_observer_keeps_the_compensation_passive() {
     use crate::estimate::{Observer, ObserverConfig};
     let (tick, bandwidth) = (1e-3, 30.0);
-    // The energy that compensation and true friction have absorbed together by the end of each tick, J.
+    // The energy that compensation and true friction have absorbed together by the end of each
+    // tick, J.
     let least = |config, over: f64, omega: f64| {
         let guiding = guiding(config);
         let mut observer = Observer::try_new(ObserverConfig { bandwidth, tick }).expect("good");

@@ -1,25 +1,30 @@
 //! The modes of an arm on a spring, which follow it from tick to tick.
 //!
-//! In the coordinates √K x of a task, mode k has a unit vector u_k, the column k of U, and a natural frequency Ω_k:
+//! In the coordinates √K x of a task, mode k has a unit vector u_k, the column k of U, and a
+//! natural frequency Ω_k:
 //!
 //! ```text
 //! √K Λ⁻¹ √K = U Ω² Uᵀ
 //! ```
 //!
-//! With N = Uᵀ √K J, the rows of the Jacobian along the modes of the last tick, G = N M⁻¹ Nᵀ is nearly Ω². A sweep of Jacobi's
-//! rotations (Golub & Van Loan, *Matrix Computations*, section 8.5) leaves of its couplings their squares. A pass is G and a sweep;
-//! one is enough for an arm that moves, rarely two if every joint turns by 3 mrad, and some more follow a jump, as at the start.
+//! With N = Uᵀ √K J, the rows of the Jacobian along the modes of the last tick, G = N M⁻¹ Nᵀ is
+//! nearly Ω². A sweep of Jacobi's rotations (Golub & Van Loan, *Matrix Computations*, section 8.5)
+//! leaves of its couplings their squares. A pass is G and a sweep; one is enough for an arm that
+//! moves, rarely two if every joint turns by 3 mrad, and some more follow a jump, as at the start.
 //!
-//! Why modes, and not Newton's iteration for the inverse square root from the last result: its coupled form starts from a function
-//! of the matrix, and the last result is one of another; of an error E it leaves ½ (1 − √(s_j/s_i)) E_ij, which grows beyond a ratio
-//! of nine of the eigenvalues s. Modes also say which of them is slow.
+//! Why modes, and not Newton's iteration for the inverse square root from the last result: its
+//! coupled form starts from a function of the matrix, and the last result is one of another; of an
+//! error E it leaves ½ (1 − √(s_j/s_i)) E_ij, which grows beyond a ratio of nine of the eigenvalues
+//! s. Modes also say which of them is slow.
 //!
-//! Each rotation gives the faster mode the lower number (de Rijk, 1989): the sweep begins with the large couplings, and what
-//! rounding leaves of them does not hide slow modes. G is computed from N, so that its relative error in a mode is that of J,
-//! multiplied by the ratio of two frequencies, not by its square.
+//! Each rotation gives the faster mode the lower number (de Rijk, 1989): the sweep begins with the
+//! large couplings, and what rounding leaves of them does not hide slow modes. G is computed from
+//! N, so that its relative error in a mode is that of J, multiplied by the ratio of two
+//! frequencies, not by its square.
 //!
-//! Rounding would make the columns of U oblique within some hours. In each pass two of them take a Newton step to the nearest
-//! orthonormal ones (Higham, *Functions of Matrices*, section 8.3), all pairs in turn.
+//! Rounding would make the columns of U oblique within some hours. In each pass two of them take a
+//! Newton step to the nearest orthonormal ones (Higham, *Functions of Matrices*, section 8.3), all
+//! pairs in turn.
 
 use super::{ModeSearch, inverse_root};
 use dynamics_core::scalar::Real;
@@ -42,15 +47,16 @@ pub(super) struct Found<R, const M: usize> {
     pub inverses: [R; M],
     /// Uᵀ √K J M⁻¹ τ of torques τ, in the same modes.
     pub response: [R; M],
-    /// The couplings that are left: the sum of their squares, each over the squares of its two modes' frequencies or ω_min².
+    /// The couplings that are left: the sum of their squares, each over the squares of its two
+    /// modes' frequencies or ω_min².
     pub coupling: R,
     /// The passes that it took.
     pub passes: usize,
 }
 
 impl<R: Real, const M: usize> Found<R, M> {
-    /// Whether the coupling is within its bound. Of the damping it changes a share of half its root: 10⁻⁵ at most after one pass
-    /// in f32, and 10⁻⁶ after more.
+    /// Whether the coupling is within its bound. Of the damping it changes a share of half its
+    /// root: 10⁻⁵ at most after one pass in f32, and 10⁻⁶ after more.
     fn is_within_bound(&self) -> bool {
         let single = if self.passes == 1 { 4e-10 } else { 4e-12 };
         self.coupling <= R::select(1e-24, single)
@@ -79,7 +85,8 @@ impl<R: Real, const M: usize> Modes<R, M> {
 
     /// The modes of this tick, from `rows` = √K J and a solution of M x = τ; `slowest` is ω_min².
     ///
-    /// After a pass whose result is not finite it starts anew; after the last one the couplings may be beyond their bound.
+    /// After a pass whose result is not finite it starts anew; after the last one the couplings may
+    /// be beyond their bound.
     #[cfg_attr(optimised, inline(always))]
     pub fn follow<const V: usize>(
         &mut self,
@@ -184,7 +191,8 @@ impl<R: Real, const M: usize> Modes<R, M> {
     }
 }
 
-/// The pairs p < q of M modes, row by row. Of up to six the numbers are constants, so that the matrix stays in registers.
+/// The pairs p < q of M modes, row by row. Of up to six the numbers are constants, so that the
+/// matrix stays in registers.
 macro_rules! each_pair {
     ($m:ident, $p:ident, $q:ident, $work:expr) => {
         if $m <= 6 {
@@ -228,10 +236,12 @@ fn turn<R: Real, const M: usize>(rotations: &Rotations<R, M>, mut x: [R; M]) -> 
     x
 }
 
-/// Rotates modes p and q until they are hardly coupled, the faster one to p; the cosine and the sine.
+/// Rotates modes p and q until they are hardly coupled, the faster one to p; the cosine and the
+/// sine.
 ///
-/// Of the half angle the tangent is taken by a rational function, whose error is of the fourth order: with this cosine and sine
-/// the rotation is one, and what it leaves of the coupling is kept.
+/// Of the half angle the tangent is taken by a rational function, whose error is of the fourth
+/// order: with this cosine and sine the rotation is one, and what it leaves of the coupling is
+/// kept.
 #[cfg_attr(optimised, inline(always))]
 fn rotate<R: Real, const M: usize>(g: &mut [[R; M]; M], p: usize, q: usize) -> (R, R) {
     let (gp, gq, b) = (g[p][p], g[q][q], g[p][q]);

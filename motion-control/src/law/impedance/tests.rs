@@ -19,7 +19,8 @@ fn law<R: Real>() -> CartesianImpedance<R, 6> {
     CartesianImpedance::try_new(config).expect("a good one")
 }
 
-/// Posture, rates along the directions and torques of a posture at a time, s; the elbow passes the stretched arm.
+/// Posture, rates along the directions and torques of a posture at a time, s; the elbow passes the
+/// stretched arm.
 fn at<R: Real>(t: f64, speed: f64) -> [[R; 6]; 3] {
     let each = |f: &dyn Fn(f64) -> f64| core::array::from_fn(|i| R::from_f64(f(i as f64)));
     let middle = [0.2, -1.2, 0.0, 0.3, 0.7, 0.1];
@@ -50,8 +51,8 @@ fn tick<R: Real>(
     law.torque(&rows, solve, &deviation, &[R::ZERO; 6], posture)
 }
 
-/// The largest difference of its torques from those of modes that are searched anew in f64, as a share of the largest torque,
-/// and the ticks that took one pass.
+/// The largest difference of its torques from those of modes that are searched anew in f64, as a
+/// share of the largest torque, and the ticks that took one pass.
 fn over<R: Real>(ticks: u32, speed: f64) -> (f64, u32) {
     let (mut follows, mut error, mut most, mut followed) = (law::<R>(), 0.0_f64, 0.0_f64, 0);
     for k in 0..ticks {
@@ -69,7 +70,8 @@ fn over<R: Real>(ticks: u32, speed: f64) -> (f64, u32) {
     (error / most, followed)
 }
 
-// Ten seconds at 1 and at 3 rad/s of every joint, through the stretched elbow and other singular postures.
+// Ten seconds at 1 and at 3 rad/s of every joint, through the stretched elbow and other singular
+// postures.
 #[test]
 fn modes_that_follow_the_arm_are_those_of_its_postures() {
     for (speed, bound, least) in [(1.0, 2e-5, 9_999), (3.0, 5e-5, 9_500)] {
@@ -159,7 +161,8 @@ fn a_jump_is_not_taken_for_a_motion() {
     }
 }
 
-/// Modes of M directions whose squares spread over many powers of ten, in f64 and f32: within eight passes, and orthogonal.
+/// Modes of M directions whose squares spread over many powers of ten, in f64 and f32: within eight
+/// passes, and orthogonal.
 fn spread<R: Real, const M: usize>(small: f64) {
     let mut seed = 1_u32;
     let mut random = || {

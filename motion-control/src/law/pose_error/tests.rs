@@ -33,7 +33,8 @@ fn an_error_of_attitude_is_along_its_axis_in_the_base() {
     let [a, b, c] = [-0.36, 0.48, 0.8];
     let skew = [[a, b, c], [b, c, a], [c, a, b]].map(DVec3::from_array);
     for axis in AXES.into_iter().chain(skew).chain(skew.map(|axis| -axis)) {
-        // The largest component of the quaternion is the scalar one, then one of the others, and then no other is usable.
+        // The largest component of the quaternion is the scalar one, then one of the others, and
+        // then no other is usable.
         for angle in [0.0, 1e-6, 0.3, 1.5, 2.2, 3.1, HALF_A_TURN] {
             let turn = DMat3::from_axis_angle(axis, angle);
             let wanted = turn * attitude();

@@ -228,7 +228,8 @@ fn the_slowest_joint_has_the_time_that_its_limits_need() {
         velocity,
         acceleration,
     };
-    // 15/8 of the distance by the speed, and √(10/√3 · distance by the acceleration): the longer one.
+    // 15/8 of the distance by the speed, and √(10/√3 · distance by the acceleration): the longer
+    // one.
     for (distance, limit, seconds) in [
         (2.0, limit(0.5, 1e3), 7.5),
         (2.0, limit(1e3, 2.0), 2.402_811_414_134_757_2),

@@ -69,7 +69,8 @@ fn numbers_that_are_no_configuration_are_refused_by_name() {
     }
 }
 
-/// A joint that follows its reference, with a contact in some ticks and a lost measurement in others.
+/// A joint that follows its reference, with a contact in some ticks and a lost measurement in
+/// others.
 struct Joint {
     controller: MotionController<f64, 1>,
     reaction: ContactReaction<f64, 1>,

@@ -1,8 +1,9 @@
 //! The path that a reference has travelled, and the retraction along it.
 //!
-//! The uniform cubic B-spline r(u) of N points P has r′ within the differences of neighbouring points and r″ within their
-//! second differences (de Boor, *A Practical Guide to Splines*, 1978, chapter X). The arm is at a gap g from r(0). With n steps
-//! and the quintic w from rest to rest over T,
+//! The uniform cubic B-spline r(u) of N points P has r′ within the differences of neighbouring
+//! points and r″ within their second differences (de Boor, *A Practical Guide to Splines*, 1978,
+//! chapter X). The arm is at a gap g from r(0). With n steps and the quintic w from rest to rest
+//! over T,
 //!
 //! ```text
 //! q = r(n w) + (1 − w) g    |q̇| ≤ s max|w′|/T    |q̈| ≤ (s max|w″| + max|Δ²P| n² max|w′|²)/T²    s = n max|ΔP| + |g|
@@ -44,7 +45,8 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
             points: [[R::ZERO; V]; N],
             newest: 0,
             count: 0,
-            // A point is at most a tick's motion further than this from the last one: N − 1 steps are at least the distance.
+            // A point is at most a tick's motion further than this from the last one: N − 1 steps
+            // are at least the distance.
             spacing: distance / R::from_f64((N - 1) as f64),
             distance,
             steps: R::ZERO,
@@ -59,7 +61,8 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
         self.count = 0;
     }
 
-    /// Moves the path by whole turns of the circles, so that its newest point is within half a turn of `to`.
+    /// Moves the path by whole turns of the circles, so that its newest point is within half a turn
+    /// of `to`.
     pub(super) fn turn_to(&mut self, circles: Circles, to: &[R; V]) {
         let newest = self.point(0);
         let turns = difference(&circles.near(&newest, to), &newest);
@@ -89,7 +92,8 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
         }
     }
 
-    /// The least time of the retraction from a place within limits; whether there is a path to go back along.
+    /// The least time of the retraction from a place within limits; whether there is a path to go
+    /// back along.
     pub(super) fn plan(&mut self, from: &[R; V], tick: R, limits: &MotionLimits<R>) -> bool {
         let (mut step, mut bend, mut length) = (R::ZERO, R::ZERO, R::ZERO);
         self.steps = R::ZERO;
@@ -115,7 +119,8 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
         // The root is that of the control tick, which has none of zero.
         let square = square / limits.acceleration + R::MIN_POSITIVE;
         let seconds = greater(by_speed, square * square.rsqrt());
-        // What rounding may add to a peak in f32; a time that cannot be counted is the greatest count.
+        // What rounding may add to a peak in f32; a time that cannot be counted is the greatest
+        // count.
         let ticks = seconds / tick * R::from_f64(1.0 + 1e-5);
         self.ticks = ticks.to_u32().saturating_add(1);
         self.ticks_inv = R::ONE / real(self.ticks);
@@ -134,7 +139,8 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
         self.points.get(index).copied().unwrap_or([R::ZERO; V])
     }
 
-    /// The points with one more at each end, in line with the last two: the spline then begins and ends at their ends.
+    /// The points with one more at each end, in line with the last two: the spline then begins and
+    /// ends at their ends.
     fn control(&self, k: usize) -> [R; V] {
         let mirrored = |end: [R; V], inner: [R; V]| -> [R; V] {
             core::array::from_fn(|j| entry(&end, j) + (entry(&end, j) - entry(&inner, j)))

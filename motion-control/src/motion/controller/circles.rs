@@ -1,8 +1,9 @@
 //! Joints that are circles: measurement, estimate and reference on the same turn.
 //!
-//! Nothing is measured or subtracted across turns: the measured position is moved by whole turns to within half a turn of
-//! the middle of the joint's range, or of zero where it has none; estimate and reference are moved to the turn of the
-//! measurement. A difference of any two of them is then the short way, and of small numbers.
+//! Nothing is measured or subtracted across turns: the measured position is moved by whole turns to
+//! within half a turn of the middle of the joint's range, or of zero where it has none; estimate
+//! and reference are moved to the turn of the measurement. A difference of any two of them is then
+//! the short way, and of small numbers.
 
 use core::marker::PhantomData;
 
@@ -16,12 +17,14 @@ use dynamics_core::state::State;
 #[cfg(test)]
 mod tests;
 
-/// Measurements of age A whose positions are points on a circle for the joints of [`Circles::bits`].
+/// Measurements of age A whose positions are points on a circle for the joints of
+/// [`Circles::bits`].
 ///
-/// A [`MotionController`] of this type takes the short way on circles: in the feedback, in [`MotionController::reset`],
-/// [`MotionController::approach`] and [`BackOff`](crate::BackOff), and it accepts any number of turns. Measure the angle
-/// within a turn, then velocities are as accurate after ten thousand turns as after none. Without a circle it is the
-/// machine code of the age alone.
+/// A [`MotionController`] of this type takes the short way on circles: in the feedback, in
+/// [`MotionController::reset`], [`MotionController::approach`] and [`BackOff`](crate::BackOff), and
+/// it accepts any number of turns. Measure the angle within a turn, then velocities are as accurate
+/// after ten thousand turns as after none. Without a circle it is the machine code of the age
+/// alone.
 ///
 /// ```
 /// use dynamics_core::{model::Robot, robots::Gen3};
@@ -49,7 +52,8 @@ impl<const CIRCLES: u128, A: MeasurementAge> MeasurementAge for OnCircles<CIRCLE
 }
 
 impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
-    /// The measured positions on the turn of the controller, whose estimate and reference follow them across a seam.
+    /// The measured positions on the turn of the controller, whose estimate and reference follow
+    /// them across a seam.
     ///
     /// The reference is that of the tick before, which a standing arm keeps.
     pub(crate) fn turn_to(&mut self, q: &[R; V]) -> [R; V] {

@@ -1,4 +1,5 @@
-//! The configuration of a motion controller, and advice on it: units of its limits, its tick and its frequencies.
+//! The configuration of a motion controller, and advice on it: units of its limits, its tick and
+//! its frequencies.
 
 use core::f64::consts::PI;
 
@@ -17,11 +18,12 @@ mod tests;
 const LONG_TICK: f64 = 0.05;
 /// rad or m: 57°. A restart within it is a jump already; 1° is 0.017 rad.
 const FAR_RESTART: f64 = 1.0;
-/// The share of a joint's greatest speed that one step of the encoder makes in the estimated velocity. At 1 kHz and 250
-/// rad/s 12 bits make 0.1 rad/s: 3 % of an arm's 3 rad/s.
+/// The share of a joint's greatest speed that one step of the encoder makes in the estimated
+/// velocity. At 1 kHz and 250 rad/s 12 bits make 0.1 rad/s: 3 % of an arm's 3 rad/s.
 const COARSE: f64 = 0.2;
 
-/// The parameters of a [`MotionController`](super::MotionController): those of the arm and of the loop.
+/// The parameters of a [`MotionController`](super::MotionController): those of the arm and of the
+/// loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct MotionControllerConfig<R, const V: usize> {
@@ -29,8 +31,8 @@ pub struct MotionControllerConfig<R, const V: usize> {
     pub supervisor: SupervisorConfig<R, V>,
     /// Bandwidth ω_o of the observer, rad/s, about ten times that of the feedback.
     pub observer_bandwidth: R,
-    /// Rate λ at which the speed of a held arm decays, 1/s: q̈ = −λ q̇. About ω_n of the feedback; with 2 ζ ω_n a fast arm
-    /// needs more torque than it has.
+    /// Rate λ at which the speed of a held arm decays, 1/s: q̈ = −λ q̇. About ω_n of the feedback;
+    /// with 2 ζ ω_n a fast arm needs more torque than it has.
     pub decay_rate: R,
     /// The greatest distance of a joint from its reference for
     /// [`MotionController::reset`](super::MotionController::reset), rad or m.
@@ -38,7 +40,8 @@ pub struct MotionControllerConfig<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> MotionControllerConfig<R, V> {
-    /// Checks that every number is within its range and that every limit allows some motion or torque.
+    /// Checks that every number is within its range and that every limit allows some motion or
+    /// torque.
     ///
     /// # Errors
     /// [`ConfigError`]; if a limit is wrong, with the joint, the limit and its value.
@@ -56,8 +59,8 @@ impl<R: Real, const V: usize> MotionControllerConfig<R, V> {
         }
     }
 
-    /// What of the configuration looks like another unit, or cannot act: a list of words with numbers. Never a refusal:
-    /// [`MotionControllerConfig::check`] refuses what is impossible.
+    /// What of the configuration looks like another unit, or cannot act: a list of words with
+    /// numbers. Never a refusal: [`MotionControllerConfig::check`] refuses what is impossible.
     ///
     /// | advice | given where |
     /// |---|---|
@@ -122,10 +125,12 @@ impl<R: Real, const V: usize> MotionControllerConfig<R, V> {
         once.into_iter().flatten().chain(rates).chain(coarse)
     }
 
-    /// The same for the feedback's natural frequency ω_n and the bandwidth of the drives' torque, both in rad/s, which the
-    /// configuration does not have: [`Advice::BeyondNyquist`], [`Advice::BeyondObserver`] and [`Advice::BeyondDrive`].
+    /// The same for the feedback's natural frequency ω_n and the bandwidth of the drives' torque,
+    /// both in rad/s, which the configuration does not have: [`Advice::BeyondNyquist`],
+    /// [`Advice::BeyondObserver`] and [`Advice::BeyondDrive`].
     ///
-    /// The bandwidth is that at which the torque follows its command; infinite where it is not known.
+    /// The bandwidth is that at which the torque follows its command; infinite where it is not
+    /// known.
     ///
     /// ```
     /// # use motion_control::{MotionControllerConfig, SafetyLimits, SupervisorConfig};

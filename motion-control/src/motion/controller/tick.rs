@@ -8,7 +8,8 @@ use crate::safety::StopCategory;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
-/// A tick of a [`MotionController`] after the check of its measurement; [`Self::reference`] is the next step.
+/// A tick of a [`MotionController`] after the check of its measurement; [`Self::reference`] is the
+/// next step.
 #[must_use = "a tick without a command leaves the drives the torques of an older one"]
 #[derive(Debug)]
 pub struct ObservedTick<'a, R, const V: usize, A = PreviousTick> {
@@ -82,16 +83,16 @@ pub struct ReferencedTick<'a, R, const V: usize, A = PreviousTick> {
 }
 
 impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
-    /// Runs one tick: from the measured positions (rad, m), or the fault that prevented them, to the command to the
-    /// drives.
+    /// Runs one tick: from the measured positions (rad, m), or the fault that prevented them, to
+    /// the command to the drives.
     ///
-    /// `law` is called once, in every mode; it computes torques (N·m, N) from the reference and the estimate of the
-    /// joints. Its feed-forward must produce the acceleration of the reference; for a law without inertia, see
-    /// [`ReferencedTick::without_inertia`].
+    /// `law` is called once, in every mode; it computes torques (N·m, N) from the reference and the
+    /// estimate of the joints. Its feed-forward must produce the acceleration of the reference; for
+    /// a law without inertia, see [`ReferencedTick::without_inertia`].
     ///
     /// # Cost
-    /// 25 flops per joint in addition to the trajectory and the law, with the same instructions for all data; more
-    /// during a fault and the return after it.
+    /// 25 flops per joint in addition to the trajectory and the law, with the same instructions for
+    /// all data; more during a fault and the return after it.
     #[inline]
     pub fn tick<T: Reference<R, V>>(
         &mut self,
@@ -104,18 +105,20 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         tick.command(&tau)
     }
 
-    /// Starts a tick: checks the measured positions (rad, m), or accepts the fault that prevented them, and updates the
-    /// estimate.
+    /// Starts a tick: checks the measured positions (rad, m), or accepts the fault that prevented
+    /// them, and updates the estimate.
     ///
-    /// The first of the three steps of [`Self::tick`], for loops that do other work between them. A tick that ends
-    /// without a command is [`Fault::Unfinished`] in the next one.
+    /// The first of the three steps of [`Self::tick`], for loops that do other work between them. A
+    /// tick that ends without a command is [`Fault::Unfinished`] in the next one.
     ///
-    /// Accepted are positions that are finite, within their limits (and within 10⁴ rad or m, beyond which f32 has no
-    /// accurate sine) and plausible: within twice the greatest speed times the ticks since the last good ones. Before
-    /// the first accepted position there is no position to hold: a fault stops the arm at once.
+    /// Accepted are positions that are finite, within their limits (and within 10⁴ rad or m, beyond
+    /// which f32 has no accurate sine) and plausible: within twice the greatest speed times the
+    /// ticks since the last good ones. Before the first accepted position there is no position to
+    /// hold: a fault stops the arm at once.
     ///
-    /// A joint that is a circle ([`OnCircles`](crate::OnCircles)) may be measured in any turn, within ±π most
-    /// accurately; the estimate is within half a turn of the middle of the range, or of zero.
+    /// A joint that is a circle ([`OnCircles`](crate::OnCircles)) may be measured in any turn,
+    /// within ±π most accurately; the estimate is within half a turn of the middle of the range, or
+    /// of zero.
     ///
     /// ```compile_fail
     /// # #![deny(unused_must_use)]
@@ -158,7 +161,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         self.observe_otherwise(Err(fault));
     }
 
-    /// A tick during or after a fault: in a function of its own, so that the usual one has no case for it.
+    /// A tick during or after a fault: in a function of its own, so that the usual one has no case
+    /// for it.
     #[cold]
     #[inline(never)]
     fn observe_otherwise(&mut self, measured: Result<&[R; V], Fault>) {
@@ -180,7 +184,8 @@ impl<'a, R: Real, const V: usize, A: MeasurementAge> ObservedTick<'a, R, V, A> {
         self.controller.mode()
     }
 
-    /// The second step: computes the reference of this tick, which is the trajectory or, on a fault, what replaces it.
+    /// The second step: computes the reference of this tick, which is the trajectory or, on a
+    /// fault, what replaces it.
     #[inline(always)]
     pub fn reference<T: Reference<R, V>>(self, trajectory: &T) -> ReferencedTick<'a, R, V, A> {
         self.controller.next_reference(trajectory);
@@ -189,7 +194,8 @@ impl<'a, R: Real, const V: usize, A: MeasurementAge> ObservedTick<'a, R, V, A> {
         }
     }
 
-    /// The second step with a reference that is not the trajectory's: the clock of the trajectory stands still.
+    /// The second step with a reference that is not the trajectory's: the clock of the trajectory
+    /// stands still.
     pub(crate) fn replace(self, reference: &State<R, V, V>) -> ReferencedTick<'a, R, V, A> {
         self.controller.replace_reference(reference);
         ReferencedTick {
@@ -223,10 +229,11 @@ impl<R: Real, const V: usize, A: MeasurementAge> ReferencedTick<'_, R, V, A> {
         self.controller.clock
     }
 
-    /// The same tick for a law without inertia in its feed-forward (gravity compensation, or no feed-forward at all).
+    /// The same tick for a law without inertia in its feed-forward (gravity compensation, or no
+    /// feed-forward at all).
     ///
-    /// Such a law cannot produce the deceleration of a held arm. The reference of a held arm then has zero velocity,
-    /// and K_d decelerates the joints.
+    /// Such a law cannot produce the deceleration of a held arm. The reference of a held arm then
+    /// has zero velocity, and K_d decelerates the joints.
     #[inline(always)]
     pub fn without_inertia(self) -> Self {
         if !matches!(self.mode(), Mode::Full) {
@@ -243,8 +250,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> ReferencedTick<'_, R, V, A> {
         self.controller.stop(fault);
     }
 
-    /// Stops the arm by a category, as [`MotionController::stop_by`], in this tick: the reference of a controlled stop
-    /// replaces that of the trajectory.
+    /// Stops the arm by a category, as [`MotionController::stop_by`], in this tick: the reference
+    /// of a controlled stop replaces that of the trajectory.
     #[cold]
     pub fn stop_by(&mut self, fault: Fault, category: StopCategory<R, V>) {
         self.controller.stop_by(fault, category);
@@ -253,9 +260,10 @@ impl<R: Real, const V: usize, A: MeasurementAge> ReferencedTick<'_, R, V, A> {
 
     /// Ends the tick: limits the torques of the law (N·m, N) and returns the command to the drives.
     ///
-    /// Torques and their rates of change are limited. A torque that is not finite is a fault: the last torques stand for
-    /// all of its tick, and the next tick is a hold unless the fault is ridden through; in a hold, for which there is
-    /// then no torque, it stops the arm. After a reset the brake opens when no limit keeps the torque from being there.
+    /// Torques and their rates of change are limited. A torque that is not finite is a fault: the
+    /// last torques stand for all of its tick, and the next tick is a hold unless the fault is
+    /// ridden through; in a hold, for which there is then no torque, it stops the arm. After a
+    /// reset the brake opens when no limit keeps the torque from being there.
     #[inline(always)]
     pub fn command(self, tau: &[R; V]) -> Command<R, V> {
         let controller = self.controller;

@@ -4,7 +4,8 @@ use super::PathSpline;
 use crate::entry;
 use dynamics_core::scalar::Real;
 
-/// A row of T + λ Qᵀ W Q from its diagonal to the right, and of its factors: D, and two entries of a column of L.
+/// A row of T + λ Qᵀ W Q from its diagonal to the right, and of its factors: D, and two entries of
+/// a column of L.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Smoothing<R>([R; 3]);
 

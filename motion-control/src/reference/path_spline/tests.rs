@@ -70,7 +70,8 @@ fn q_slope_and_curvature_are_continuous_and_belong_together() {
 
 #[test]
 fn cubic_polynomials_with_straight_ends_are_met_exactly() {
-    // q = t³ − 3 t² of one joint has no curvature at t = 1; with its mirror image both ends have none.
+    // q = t³ − 3 t² of one joint has no curvature at t = 1; with its mirror image both ends have
+    // none.
     let points = [[0.0_f64], [2.0], [3.0], [5.0]];
     let mut path = PathSpline::<f64, 1, 4>::EMPTY;
     path.fit(&points, &[1.0], &[0.0]).expect("good");
@@ -78,7 +79,8 @@ fn cubic_polynomials_with_straight_ends_are_met_exactly() {
         let off = path.point(s).q[0] - 5.0 * s;
         assert!(off.abs() < 1e-14, "{off:e}");
     }
-    // Against the solution of the moments by hand: knots 0, 1, 2 with values 0, 1, 0 have γ = −3 in the middle.
+    // Against the solution of the moments by hand: knots 0, 1, 2 with values 0, 1, 0 have γ = −3 in
+    // the middle.
     let mut path = PathSpline::<f64, 2, 3>::EMPTY;
     let (side, up) = (0.8_f64, 0.6);
     path.fit(

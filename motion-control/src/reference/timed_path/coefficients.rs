@@ -22,7 +22,8 @@ pub(super) struct Coefficients<R, const V: usize> {
 
 /// The greatest x of all, where nothing limits it.
 const GREATEST: f64 = 1e12;
-/// Rounding in the difference of torques at opposite velocities, in units of ε and of the greatest torque.
+/// Rounding in the difference of torques at opposite velocities, in units of ε and of the greatest
+/// torque.
 const ROUNDING: f64 = 1e3;
 
 impl<R: Real, const V: usize> Coefficients<R, V> {

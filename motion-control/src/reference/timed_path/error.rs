@@ -4,7 +4,8 @@ use core::fmt;
 
 use crate::limits::LimitKind;
 
-/// The reason why there is no motion along a path. Joints and points of the grid are numbered from 0.
+/// The reason why there is no motion along a path. Joints and points of the grid are numbered from
+/// 0.
 ///
 /// ```
 /// use motion_control::TimedPathError;
@@ -48,15 +49,16 @@ pub enum TimedPathError {
         /// The joint.
         joint: usize,
     },
-    /// The inverse dynamics changes with the sign of the velocities: friction belongs into the limits.
+    /// The inverse dynamics changes with the sign of the velocities: friction belongs into the
+    /// limits.
     SignOfVelocity {
         /// The point of the grid.
         point: usize,
         /// The joint.
         joint: usize,
     },
-    /// Gravity and friction alone need more than 999/1000 of the torque's limit in a slow motion: the arm could not stop there, or
-    /// not move on.
+    /// Gravity and friction alone need more than 999/1000 of the torque's limit in a slow motion:
+    /// the arm could not stop there, or not move on.
     Torque {
         /// The point of the grid.
         point: usize,
@@ -67,7 +69,8 @@ pub enum TimedPathError {
         /// The limit.
         allowed: f64,
     },
-    /// The motion does not get from this point to the next one: what is left of a limit of torque is lost to rounding.
+    /// The motion does not get from this point to the next one: what is left of a limit of torque
+    /// is lost to rounding.
     Stuck {
         /// The point of the grid.
         point: usize,

@@ -1,7 +1,7 @@
 //! The limits of torque with friction.
 //!
-//! Viscous friction is linear in ṡ = √x, and thus no half-plane of u and x. Above it is bounded by the tangent at x₀, below by the
-//! chord up to the greatest x:
+//! Viscous friction is linear in ṡ = √x, and thus no half-plane of u and x. Above it is bounded by
+//! the tangent at x₀, below by the chord up to the greatest x:
 //!
 //! ```text
 //! x/√x_max ≤ √x ≤ (x + x₀)/(2 √x₀)

@@ -31,10 +31,12 @@ pub struct PathLimits<R, const V: usize> {
 
 /// Friction of a joint in a motion along a path.
 ///
-/// Friction against the motion counts in full where it makes the torque greater. Where it makes it smaller, as when the joint
-/// brakes, only the share `certain` counts: friction varies with temperature, and vanishes smoothly near rest. Where the joint
-/// reverses within a segment of the grid, friction counts in both directions. Viscous friction is linear in ṡ = √x: above, the
-/// tangent of √x takes its place, below a chord, so that torques remain linear in x and their bounds are never exceeded.
+/// Friction against the motion counts in full where it makes the torque greater. Where it makes it
+/// smaller, as when the joint brakes, only the share `certain` counts: friction varies with
+/// temperature, and vanishes smoothly near rest. Where the joint reverses within a segment of the
+/// grid, friction counts in both directions. Viscous friction is linear in ṡ = √x: above, the
+/// tangent of √x takes its place, below a chord, so that torques remain linear in x and their
+/// bounds are never exceeded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct JointFriction<R> {
@@ -86,7 +88,8 @@ impl<R: Real, const V: usize> PathLimits<R, V> {
         }
     }
 
-    /// Checks that torques are positive and finite, speeds and accelerations positive, and frictions finite and not negative.
+    /// Checks that torques are positive and finite, speeds and accelerations positive, and
+    /// frictions finite and not negative.
     ///
     /// # Errors
     /// [`TimedPathError`] names the joint, the limit and its value.

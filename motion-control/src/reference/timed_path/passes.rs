@@ -9,7 +9,8 @@ use dynamics_core::state::State;
 
 /// With viscous friction, whose bound is tight at the x of the round before.
 const ROUNDS: usize = 3;
-/// The greatest x of each point is lowered by this many ε of itself, so that rounding leaves a u to the forward pass.
+/// The greatest x of each point is lowered by this many ε of itself, so that rounding leaves a u to
+/// the forward pass.
 const GUARD: f64 = 16.0;
 
 impl<R: Real, P, const M: usize> TimedPath<'_, R, P, M> {

@@ -1,8 +1,9 @@
 //! The linear program of a segment: limits of u and x at both of its ends.
 //!
-//! Every limit is a half-plane α u + β x ≤ γ with γ ≥ 0. Fourier and Motzkin's elimination of u: each pair of α_p ≥ 0 and α_q < 0
-//! gives (β_p |α_q| + β_q α_p) x ≤ γ_p |α_q| + γ_q α_p, and the least bound of all pairs is the greatest x. No sum on the right
-//! cancels, and where an α vanishes its half-plane becomes a bound of x alone: points of zero inertia are no special case.
+//! Every limit is a half-plane α u + β x ≤ γ with γ ≥ 0. Fourier and Motzkin's elimination of u:
+//! each pair of α_p ≥ 0 and α_q < 0 gives (β_p |α_q| + β_q α_p) x ≤ γ_p |α_q| + γ_q α_p, and the
+//! least bound of all pairs is the greatest x. No sum on the right cancels, and where an α vanishes
+//! its half-plane becomes a bound of x alone: points of zero inertia are no special case.
 
 use super::coefficients::Coefficients;
 use super::friction::{SegmentFriction, least_touch};
@@ -14,7 +15,8 @@ use dynamics_core::scalar::Real;
 /// The limits within a segment, with u and with x at its begin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stage<R, const V: usize> {
-    /// Torques at the begin and at the end, and accelerations there; upper and lower limits of each joint.
+    /// Torques at the begin and at the end, and accelerations there; upper and lower limits of each
+    /// joint.
     joints: [[[HalfPlane<R>; 2]; V]; 4],
     /// 0 ≤ x + 2 Δ u ≤ the greatest x at the end.
     next: [HalfPlane<R>; 2],
@@ -25,8 +27,8 @@ pub(super) struct Stage<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> Stage<R, V> {
-    /// The limits between two points of the grid, where x at the second one may be up to `next`; the bound of viscous friction is
-    /// tight at `touch`, if this leaves half of the torque.
+    /// The limits between two points of the grid, where x at the second one may be up to `next`;
+    /// the bound of viscous friction is tight at `touch`, if this leaves half of the torque.
     pub(super) fn new(
         [from, to]: [&Coefficients<R, V>; 2],
         limits: &PathLimits<R, V>,

@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-/// The reason why way-points define no trajectory. Points and joints are numbered from 0; a segment has the number of
-/// the point that ends it.
+/// The reason why way-points define no trajectory. Points and joints are numbered from 0; a segment
+/// has the number of the point that ends it.
 ///
 /// ```
 /// use motion_control::TrajectoryError;
@@ -33,7 +33,8 @@ pub enum TrajectoryError {
         /// The joint.
         joint: usize,
     },
-    /// The number of ticks to the point is zero (for the first point: not zero), or the total exceeds a `u32`.
+    /// The number of ticks to the point is zero (for the first point: not zero), or the total
+    /// exceeds a `u32`.
     Ticks {
         /// The way-point.
         point: usize,

@@ -1,7 +1,8 @@
-//! Joint trajectories from stop to stop with four derivatives, for the inverse dynamics of compliant joints.
+//! Joint trajectories from stop to stop with four derivatives, for the inverse dynamics of
+//! compliant joints.
 //!
-//! The polynomial of degree nine whose first four derivatives vanish at both ends; with s = t/T, D the step,
-//! u = s (1 − s) and w = 1 − 2 s,
+//! The polynomial of degree nine whose first four derivatives vanish at both ends; with s = t/T, D
+//! the step, u = s (1 − s) and w = 1 − 2 s,
 //!
 //! ```text
 //! q = q₀ + D s⁵ (126 − 420 s + 540 s² − 315 s³ + 70 s⁴)
@@ -36,7 +37,8 @@ impl<R: Real, const V: usize, const W: usize> RestToRest<R, V, W> {
     /// The motion that stops in each of `points`, with ticks of `tick` seconds.
     ///
     /// # Errors
-    /// As [`Trajectory::new`](super::Trajectory::new); the velocity at every way-point must be zero.
+    /// As [`Trajectory::new`](super::Trajectory::new); the velocity at every way-point must be
+    /// zero.
     ///
     /// ```
     /// use motion_control::{RestToRest, MotionLimits, TrajectoryError, WayPoint};
@@ -58,7 +60,8 @@ impl<R: Real, const V: usize, const W: usize> RestToRest<R, V, W> {
         Ok(Self { segments })
     }
 
-    /// Position and four derivatives at a tick counted from the start; after the end, at rest at the last stop.
+    /// Position and four derivatives at a tick counted from the start; after the end, at rest at
+    /// the last stop.
     ///
     /// Cost: about 40 flops for the segment and 9 per joint, no division.
     ///
@@ -167,8 +170,8 @@ mod tests {
         RestToRest::new(&[stop(-0.4, 0), stop(1.3, 800)], TICK, &[quick]).unwrap()
     }
 
-    /// Central differences of one derivative are the next one, up to h²/6 of the third from there: of the
-    /// snap, at the ends, (1/800)²/6 · 15120 · 42 / 945 = 1.8e-4 of full scale at most.
+    /// Central differences of one derivative are the next one, up to h²/6 of the third from there:
+    /// of the snap, at the ends, (1/800)²/6 · 15120 · 42 / 945 = 1.8e-4 of full scale at most.
     #[test]
     fn each_derivative_is_the_slope_of_the_one_before() {
         let smooth = swing();

@@ -44,7 +44,8 @@ impl<R: Real> MotionLimits<R> {
         })
     }
 
-    /// Compares the acceleration that a joint needs before a point with its limit; a NaN is rejected.
+    /// Compares the acceleration that a joint needs before a point with its limit; a NaN is
+    /// rejected.
     pub(super) fn admits_acceleration(
         &self,
         needed: R,
@@ -122,7 +123,8 @@ impl<R: Real, const V: usize> Segment<R, V> {
 
     #[inline(always)]
     fn weights(&self, s: R) -> Weights<R> {
-        // One by one: at opt-level s an array of them is converted while the code runs, in software.
+        // One by one: at opt-level s an array of them is converted while the code runs, in
+        // software.
         let (two, three, five) = (R::from_f64(2.0), R::from_f64(3.0), R::from_f64(5.0));
         let (six, twelve) = (R::from_f64(6.0), R::from_f64(12.0));
         let (fifteen, thirty) = (R::from_f64(15.0), R::from_f64(30.0));
@@ -210,7 +212,8 @@ fn peak<R: Real, const K: usize>(candidates: [R; K], f: impl Fn(R) -> R) -> R {
     peak
 }
 
-/// The zeros of d/ds \[s (1 − s)(a + b s)\], that is of 3b s² − 2(b − a) s − a; NaN where a = b = 0.
+/// The zeros of d/ds \[s (1 − s)(a + b s)\], that is of 3b s² − 2(b − a) s − a; NaN where a = b =
+/// 0.
 fn jerk_roots<R: Real>(a: R, b: R) -> [R; 2] {
     let scale = if a.abs() > b.abs() { a.abs() } else { b.abs() };
     let (a, b) = (a / scale, b / scale);

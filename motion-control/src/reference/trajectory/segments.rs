@@ -20,8 +20,8 @@ impl<R: Real, const V: usize, const W: usize> Segments<R, V, W> {
         ticks: 0,
     };
 
-    /// Replaces the segments by those between `points`, each of which `check` has passed; `stops` if every way-point has
-    /// to be at rest. After an error they are as before.
+    /// Replaces the segments by those between `points`, each of which `check` has passed; `stops`
+    /// if every way-point has to be at rest. After an error they are as before.
     #[inline(always)]
     pub(super) fn plan(
         &mut self,

@@ -5,12 +5,14 @@ use crate::limits::{Command, Fault, Mode};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
-/// Faults that a control loop detects beside its supervisor; `()` detects none and is not in the machine code.
+/// Faults that a control loop detects beside its supervisor; `()` detects none and is not in the
+/// machine code.
 pub trait Detect<R, const V: usize> {
     /// Checks the positions measured in a tick, rad or m; `reference` acted since the tick before.
     ///
     /// # Errors
-    /// The fault of the measurement: for [`MotionController::observe`](crate::MotionController::observe).
+    /// The fault of the measurement: for
+    /// [`MotionController::observe`](crate::MotionController::observe).
     fn measured(&mut self, q: &[R; V], reference: &[R; V]) -> Result<(), Fault>;
 
     /// Checks the reference of a tick.
@@ -87,8 +89,8 @@ pub struct Detectors<R, const V: usize, const CIRCLES: u128 = 0> {
 }
 
 impl<R: Real, const V: usize> Detectors<R, V> {
-    /// The same detectors for joints of which those of [`Circles::bits`](crate::Circles::bits) are circles, as those of the
-    /// controller.
+    /// The same detectors for joints of which those of [`Circles::bits`](crate::Circles::bits) are
+    /// circles, as those of the controller.
     #[must_use]
     pub fn on_circles<const CIRCLES: u128>(self) -> Detectors<R, V, CIRCLES> {
         Detectors {

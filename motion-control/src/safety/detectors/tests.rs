@@ -143,7 +143,8 @@ fn a_reference_to_detectors_detects_as_they_do() {
     assert_eq!(Detect::commanded(&mut borrowed, &command), fault);
 }
 
-/// The ticks with a fault of a joint that is measured at these positions while its reference moves 0.5 in each tick.
+/// The ticks with a fault of a joint that is measured at these positions while its reference moves
+/// 0.5 in each tick.
 fn frozen_ticks(frozen: &mut FrozenEncoder<f64, 1>, positions: &[f64]) -> Vec<usize> {
     let ticks = positions.iter().enumerate();
     let faults = ticks.filter(|&(tick, &q)| frozen.check(&[q], &[0.5 * tick as f64]).is_err());
@@ -205,7 +206,8 @@ fn steps_are_compared_with_the_reference_before() {
         let check = |&q: &f64| steps.check(&State::at([q, 0.0])).is_err();
         positions.iter().map(check).collect()
     };
-    // Each within a step of the one before, as far as the whole motion goes; the last is as large as a step may be.
+    // Each within a step of the one before, as far as the whole motion goes; the last is as large
+    // as a step may be.
     assert_eq!(found(&[0.0, 0.4, 0.8, 1.2, 1.7]), [false; 5]);
     // From one side to the other, and there it stays.
     assert_eq!(found(&[0.5, -0.5, -0.5, -0.9]), [false, true, false, false]);

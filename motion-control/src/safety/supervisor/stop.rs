@@ -6,7 +6,8 @@ use crate::safety::stop_category::{Ending, Required, StopCategory, Stopping};
 use dynamics_core::scalar::Real;
 
 impl<R: Real, const V: usize> Stopping<R, V> {
-    /// The state at the end of a stop. What ends category 2 early is what the arm is configured for.
+    /// The state at the end of a stop. What ends category 2 early is what the arm is configured
+    /// for.
     pub(super) fn stopped(&self, ending: Option<Ending>) -> State {
         let ending = match ending {
             Some(Ending::Hold) => self.configured,
@@ -43,7 +44,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
     }
 
-    /// Stops the arm by a category. A later call with [`StopCategory::TorqueOff`] ends a controlled stop at once.
+    /// Stops the arm by a category. A later call with [`StopCategory::TorqueOff`] ends a controlled
+    /// stop at once.
     #[cold]
     pub(crate) fn stop_by(&mut self, fault: Fault, category: StopCategory<R, V>) {
         if !matches!(self.mode(), Mode::Stopped) {
@@ -128,8 +130,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.forget_faults();
     }
 
-    /// While the arm is held with power, faults are forgotten as in the full law. The ramp, which is not used in a
-    /// hold, counts the good ticks.
+    /// While the arm is held with power, faults are forgotten as in the full law. The ramp, which
+    /// is not used in a hold, counts the good ticks.
     fn forget_faults(&mut self) {
         if self.faulted {
             self.ramp = NOT_COUNTED; // the tick that begins has a fault already
@@ -171,7 +173,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         matches!(self.state, State::Stopped { lowers: true })
     }
 
-    /// Whether a stopped arm sinks, and a motion from one position to another in a tick is plausible for it.
+    /// Whether a stopped arm sinks, and a motion from one position to another in a tick is
+    /// plausible for it.
     pub(crate) fn lowers(&self, from: &[R; V], to: &[R; V]) -> bool {
         let mut steps = from.iter().zip(to).zip(&self.plausible_step);
         self.sinks() && steps.all(|((&from, &to), &step)| (to - from).abs() <= step)

@@ -8,8 +8,8 @@ use super::*;
 use crate::scene::Loads;
 
 algorithm! {
-    /// Torques, positions and velocities of the motors, of q with four derivatives; stiffness, rotors and friction of
-    /// the joints.
+    /// Torques, positions and velocities of the motors, of q with four derivatives; stiffness,
+    /// rotors and friction of the joints.
     ElasticInverseDynamics<'a> { joints: [&'a [f64]; 3] }, none, |this, robot, counts, scene, row| {
         let [stiffness, rotor, friction] = this.joints.map(|values| {
             std::array::from_fn(|i| values.get(i).map_or(R::ONE, |&x| R::from_f64(x)))

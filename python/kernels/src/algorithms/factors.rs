@@ -175,7 +175,8 @@ algorithm! {
 }
 
 algorithm! {
-    /// The error of a solution: of M, L, D⁻¹, the solution, and the sums of the magnitudes of the terms of τ.
+    /// The error of a solution: of M, L, D⁻¹, the solution, and the sums of the magnitudes of the
+    /// terms of τ.
     AccelerationError, none, |this, robot, counts, scene, row| {
         let m = MassMatrix::from_rows(matrix(row, 0, counts));
         let factors = Ltdl::from_rows(matrix(row, 1, counts), diagonal(row, 2, counts));

@@ -9,7 +9,8 @@ use super::*;
 use crate::linkages::{Linkages, TreeMotion};
 use crate::most_angle;
 
-/// The tree's motion at the y, ẏ and ÿ of a row, of which so many are given, with its sines and cosines.
+/// The tree's motion at the y, ẏ and ÿ of a row, of which so many are given, with its sines and
+/// cosines.
 #[allow(clippy::type_complexity, reason = "a pair")]
 fn motion<'a, R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

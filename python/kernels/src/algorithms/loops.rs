@@ -75,8 +75,8 @@ algorithm! {
 }
 
 algorithm! {
-    /// Torques of the motors, q̇, q̈, λ, and how many motors are redundant, of q and the motors' rates and accelerations:
-    /// −1 where they are near a dead point.
+    /// Torques of the motors, q̇, q̈, λ, and how many motors are redundant, of q and the motors'
+    /// rates and accelerations: −1 where they are near a dead point.
     LoopInverse<'a> { loops: &'a AnyLoops }, machine, |this, robot, counts, scene, row| {
         let given = State {
             qd: spread(row, 1, this.loops),

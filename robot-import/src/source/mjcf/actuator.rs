@@ -1,4 +1,5 @@
-//! Actuators: limits of torque or force, and what they add to the joint. Their controllers are left out.
+//! Actuators: limits of torque or force, and what they add to the joint. Their controllers are left
+//! out.
 
 use std::collections::{BTreeMap, HashMap};
 

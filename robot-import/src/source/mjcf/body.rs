@@ -1,4 +1,5 @@
-//! The tree of bodies: each joint of a body is a link without mass, and the body's link follows the last one.
+//! The tree of bodies: each joint of a body is a link without mass, and the body's link follows the
+//! last one.
 
 use std::collections::{HashMap, HashSet};
 
@@ -232,7 +233,8 @@ impl<'e> Tree<'e> {
 
     /// The joints of a body, or a fixed one, and the body's link.
     ///
-    /// Frames of joints are at their anchors, so that a second fixed joint leads back to the body's frame.
+    /// Frames of joints are at their anchors, so that a second fixed joint leads back to the body's
+    /// frame.
     fn chain(
         &mut self,
         body: &'e Element,
@@ -267,7 +269,8 @@ impl<'e> Tree<'e> {
                 false => self.made_up(format!("{name}/{joint_name}")),
             };
             let child = self.link(link_name, element, world.poses(&parsed.anchor))?;
-            // Coordinates of a free joint are the body's placement in the world; the file has their first values.
+            // Coordinates of a free joint are the body's placement in the world; the file has their
+            // first values.
             let origin = match parsed.kind {
                 Kind::Free => Placement::IDENTITY,
                 _ => rest.then(&parsed.anchor).then(&parsed.back),

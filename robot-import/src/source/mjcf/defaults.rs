@@ -36,7 +36,8 @@ impl<'e> Classes<'e> {
         };
         for section in root.all("default") {
             let name = section.get("class").unwrap_or("main");
-            // A second section adds to `main`, but not to the classes that have been derived from it before.
+            // A second section adds to `main`, but not to the classes that have been derived from
+            // it before.
             classes.main = classes.add(section, Some(classes.main))?;
             classes.index.insert("main", classes.main);
             classes.index.insert(name, classes.main);
@@ -146,7 +147,8 @@ impl<'v> View<'v> {
     /// The element and the defaults of its kind, the most special one first.
     pub fn levels(self) -> impl Iterator<Item = &'v Element> {
         let tag = match self.element.tag.as_str() {
-            // The constraint between joints has the tag of a joint, but its attributes differ from it.
+            // The constraint between joints has the tag of a joint, but its attributes differ from
+            // it.
             "joint" if self.element.get("joint1").is_some() => "equality",
             "tendon" if self.element.get("tendon1").is_some() => "equality",
             tag => key(tag),
@@ -246,7 +248,8 @@ impl<'v> View<'v> {
         }
     }
 
-    /// A range that is in effect: `limited` says so, or, where that is automatic, a first number below the second.
+    /// A range that is in effect: `limited` says so, or, where that is automatic, a first number
+    /// below the second.
     ///
     /// # Errors
     /// A range whose flag is missing or whose numbers are not in order.

@@ -39,7 +39,8 @@ pub struct Element {
 }
 
 impl Element {
-    /// The model of a document with its included files, which are named, and what was tolerated in them.
+    /// The model of a document with its included files, which are named, and what was tolerated in
+    /// them.
     ///
     /// # Errors
     /// A file that cannot be read, is outside of the folders or is included twice.
@@ -165,7 +166,8 @@ struct Source {
     folder: PathBuf,
     /// How many files include each other in turn down to this one.
     includes: usize,
-    /// The positions of its line ends: a search in it is faster than counting from the start for each element.
+    /// The positions of its line ends: a search in it is faster than counting from the start for
+    /// each element.
     line_ends: Vec<usize>,
 }
 
@@ -293,8 +295,8 @@ impl Loader<'_> {
         self.children(root, &source, depth, into)
     }
 
-    /// The path of an included file: relative to the model's folder or to that of the file with the element, and below one of
-    /// the folders that may be read.
+    /// The path of an included file: relative to the model's folder or to that of the file with the
+    /// element, and below one of the folders that may be read.
     fn find(&self, element: &Element, file: &str, source: &Source) -> Result<PathBuf> {
         let named = match self.folders.include_root {
             Some(root) => format!(" nor below `--include-root {}`", root.display()),

@@ -107,7 +107,8 @@ fn sizes(view: View<'_>) -> Result<[f64; 3]> {
     Ok(size)
 }
 
-/// The placement in the middle of two points with the z axis along them, and half of their distance.
+/// The placement in the middle of two points with the z axis along them, and half of their
+/// distance.
 fn between(view: View<'_>, ends: [f64; 6]) -> Result<(Placement, f64)> {
     if view.get("pos").is_some() {
         return Err(view.element.value("`pos` and `fromto` exclude each other"));
@@ -136,7 +137,8 @@ fn solid(shape: &str, [a, b, c]: [f64; 3]) -> Option<(usize, f64, [f64; 3])> {
             (2, 2.0 * PI * a * a * b, [across, across, a * a / 2.0])
         }
         "capsule" => {
-            // A cylinder of half length b between two halves of a sphere, whose centres of mass are 3a/8 outside of it.
+            // A cylinder of half length b between two halves of a sphere, whose centres of mass are
+            // 3a/8 outside of it.
             let ends = 4.0 / 3.0 * PI * a * a * a;
             let middle = 2.0 * PI * a * a * b;
             let part = ends / (ends + middle);

@@ -138,7 +138,8 @@ fn free(view: View<'_>, name: &str, notes: &mut Vec<String>) -> Parsed {
 
 fn anchor(view: View<'_>, frame: &Placement) -> Result<Placement> {
     let mut anchor = frame.then(&Placement::position(view, "pos")?);
-    // The frames around a joint move its anchor and turn its axis, but its frame stays parallel to the body's.
+    // The frames around a joint move its anchor and turn its axis, but its frame stays parallel to
+    // the body's.
     anchor.pose.rotation = DMat3::IDENTITY;
     anchor.exact.rotation = DMat3::IDENTITY;
     Ok(anchor)
@@ -154,7 +155,8 @@ fn coefficient(view: View<'_>, attribute: &str) -> Result<f64> {
     Ok(all.first().copied().unwrap_or_default())
 }
 
-/// Stiffness and rest position of a linear spring at a hinge or a slide; that of another is left out.
+/// Stiffness and rest position of a linear spring at a hinge or a slide; that of another is left
+/// out.
 fn spring(
     view: View<'_>,
     kind: Kind,

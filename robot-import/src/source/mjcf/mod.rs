@@ -9,17 +9,18 @@
 //! | `equality` | `joint` of first degree, `tendon` over two joints, `connect`, `weld` |
 //! | `actuator` | `gear`, `forcerange`, a motor's `ctrlrange`, `armature`, `damping` |
 //!
-//! The settings for inertias are `inertiafromgeom`, `inertiagrouprange`, `boundmass`, `boundinertia`, `balanceinertia`
-//! and `settotalmass`.
+//! The settings for inertias are `inertiafromgeom`, `inertiagrouprange`, `boundmass`,
+//! `boundinertia`, `balanceinertia` and `settotalmass`.
 //!
-//! Masses of meshes, `replicate`, `composite`, `flexcomp`, `attach`, plugins and polynomials of damping are refused.
-//! Linear springs of hinges and slides are read. Other springs, tendons, gravity, fluids and the gains of actuators are left out
-//! and named in the notes. Sections on looks,
-//! sensors, contacts and keyframes are skipped.
+//! Masses of meshes, `replicate`, `composite`, `flexcomp`, `attach`, plugins and polynomials of
+//! damping are refused. Linear springs of hinges and slides are read. Other springs, tendons,
+//! gravity, fluids and the gains of actuators are left out and named in the notes. Sections on
+//! looks, sensors, contacts and keyframes are skipped.
 //!
-//! The root is the link `world`. The joints of a body are links without mass, `body/joint`, with their frames at the
-//! anchors. Positions are those of MuJoCo's `qpos`: a joint with `ref` has the configuration of the file at q = `ref`,
-//! and a free joint has the placement of its body in the world.
+//! The root is the link `world`. The joints of a body are links without mass, `body/joint`, with
+//! their frames at the anchors. Positions are those of MuJoCo's `qpos`: a joint with `ref` has the
+//! configuration of the file at q = `ref`, and a free joint has the placement of its body in the
+//! world.
 
 mod actuator;
 mod body;

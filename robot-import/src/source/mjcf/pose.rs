@@ -1,4 +1,5 @@
-//! Placements: a position and an orientation in one of five forms, with exact values in place of roundings.
+//! Placements: a position and an orientation in one of five forms, with exact values in place of
+//! roundings.
 
 use dynamics_core::glam::{DMat3, DQuat, DVec3};
 
@@ -9,8 +10,9 @@ use crate::description::{Pose, Snap};
 use crate::error::Result;
 use crate::snap;
 
-/// The difference from quarter turns of a rotation that an exporter has computed from 1.5708 or 3.1416 is 3.7e-6 or
-/// 7.3e-6 rad, whatever the last digits of its numbers are: `quat="0.707105 0.707108 0 0"`.
+/// The difference from quarter turns of a rotation that an exporter has computed from 1.5708 or
+/// 3.1416 is 3.7e-6 or 7.3e-6 rad, whatever the last digits of its numbers are:
+/// `quat="0.707105 0.707108 0 0"`.
 const CONVERTED: f64 = 1e-5;
 
 /// A placement as the file has it, and with exact values in place of roundings.
@@ -101,7 +103,8 @@ impl Placement {
         self.snapped.extend(turn.snapped);
     }
 
-    /// A displacement that no text states, such as one by a reference position; exact where it is right angles.
+    /// A displacement that no text states, such as one by a reference position; exact where it is
+    /// right angles.
     pub fn computed(pose: Pose) -> Self {
         let exact = snap::permutation(&pose.rotation, 0.0);
         let exact = exact.map_or(pose.rotation, |(exact, _)| exact);
@@ -216,7 +219,8 @@ fn orientation(view: View<'_>, compiler: &Compiler) -> Result<Turn> {
     Ok(turn)
 }
 
-/// The unit of an angle's last digit; 0 in degrees, in which a right angle needs no rounding: 90.1 is none of 90.
+/// The unit of an angle's last digit; 0 in degrees, in which a right angle needs no rounding: 90.1
+/// is none of 90.
 fn rounding(text: &str, compiler: &Compiler) -> f64 {
     match compiler.angle == 1.0 {
         true => snap::resolution(text),

@@ -1,8 +1,9 @@
-//! The text of a model for MuJoCo: what of the file its rigid bodies depend on, with the included files in it, and without
-//! the name of any file.
+//! The text of a model for MuJoCo: what of the file its rigid bodies depend on, with the included
+//! files in it, and without the name of any file.
 //!
-//! MuJoCo opens each mesh, picture and submodel that a model names, wherever it is, and a description from elsewhere may name
-//! what it likes. In place of a mesh there is a tetrahedron: a body whose inertia depends on a mesh is not read, or is fixed.
+//! MuJoCo opens each mesh, picture and submodel that a model names, wherever it is, and a
+//! description from elsewhere may name what it likes. In place of a mesh there is a tetrahedron: a
+//! body whose inertia depends on a mesh is not read, or is fixed.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -21,7 +22,8 @@ const DROPPED: [&str; 14] = [
     "mesh", "material", "camera", "light", "pair", "equality", "tendon", "general", "motor",
     "position", "velocity", "site", "plugin", "numeric",
 ];
-/// Attributes that name files or what has them, and those that place a free body's frame elsewhere than the file does.
+/// Attributes that name files or what has them, and those that place a free body's frame elsewhere
+/// than the file does.
 const WITHOUT: [&str; 9] = [
     "material",
     "file",

@@ -1,16 +1,16 @@
 //! What every function checks: inputs before it computes, results before it writes them.
 //!
-//! The usual case costs three integer operations a position and one addition for every other number: a sum is finite only
-//! if all of its terms are. If it is not, a function of its own looks at each number, so that finite numbers with an infinite
-//! sum are still accepted.
+//! The usual case costs three integer operations a position and one addition for every other
+//! number: a sum is finite only if all of its terms are. If it is not, a function of its own looks
+//! at each number, so that finite numbers with an infinite sum are still accepted.
 
 use dynamics_core::model::{ArmModel, Robot};
 
 use crate::scene::{Arm, N};
 use crate::status::{ANGLE, NOT_FINITE, OVERFLOW};
 
-/// How far from zero each position may be: the range of angles within which the library's sines are accurate, and any
-/// finite number for prismatic joints.
+/// How far from zero each position may be: the range of angles within which the library's sines are
+/// accurate, and any finite number for prismatic joints.
 pub const RANGE: [f32; N] = {
     const MODEL: ArmModel<f64, N> = Arm::MODEL;
     let (mut range, mut body) = ([f32::MAX; N], 0);
@@ -24,8 +24,8 @@ pub const RANGE: [f32; N] = {
     range
 };
 
-/// Whether all positions are within their ranges. The bits of positive numbers are in the order of the numbers, and those
-/// of infinity and NaN come after them.
+/// Whether all positions are within their ranges. The bits of positive numbers are in the order of
+/// the numbers, and those of infinity and NaN come after them.
 #[inline(always)]
 fn within(q: &[f32; N]) -> bool {
     let mut beyond = 0;

@@ -105,8 +105,8 @@ impl Where {
 }
 
 impl Config {
-    /// The limits of the robot's description, gains for the natural frequency `omega_n` (rad/s), and the usual numbers for
-    /// the rest. Limits that the description does not have are infinite.
+    /// The limits of the robot's description, gains for the natural frequency `omega_n` (rad/s),
+    /// and the usual numbers for the rest. Limits that the description does not have are infinite.
     pub fn of_description(tick: f32, omega_n: f32) -> Self {
         let some = |limit: f32| if limit > 0.0 { limit } else { f32::INFINITY };
         let links = &model::<f32, Arm, N, N, N>().links;
@@ -141,7 +141,8 @@ impl Config {
         config
     }
 
-    /// The inertia of each joint with all others free to give way, 1/(M⁻¹)ᵢᵢ, in the middle of the joints' ranges.
+    /// The inertia of each joint with all others free to give way, 1/(M⁻¹)ᵢᵢ, in the middle of the
+    /// joints' ranges.
     fn inertia(&self) -> [f32; N] {
         let mut q = [0.0; N];
         for (q, (lower, upper)) in q.iter_mut().zip(self.lower.iter().zip(&self.upper)) {
@@ -357,11 +358,12 @@ impl Control {
         joints.into_iter().position(|joint| !near(joint))
     }
 
-    /// Plans the motion through way-points, which begins with the next tick or, of a stopped arm, with the next reset.
+    /// Plans the motion through way-points, which begins with the next tick or, of a stopped arm,
+    /// with the next reset.
     ///
     /// # Errors
-    /// `POINT`, `ANGLE` or `NOT_FINITE` with the way-point; `STATE` while the arm moves; `TOO_FAR` if the first way-point is
-    /// not where the arm stands. The reference is then as before.
+    /// `POINT`, `ANGLE` or `NOT_FINITE` with the way-point; `STATE` while the arm moves; `TOO_FAR`
+    /// if the first way-point is not where the arm stands. The reference is then as before.
     #[inline(never)]
     pub fn plan(&mut self, count: usize, points: &[WayPointC; MOST_POINTS]) -> Result<(), Rejected> {
         let used = points.get(..count).and_then(|used| Some((used, used.first()?, used.last()?)));
@@ -411,8 +413,8 @@ impl Control {
     /// Takes the reference of the next tick.
     ///
     /// # Errors
-    /// `ANGLE`, `NOT_FINITE`, `POINT`; `TOO_FAR` if it is further from the last one than the joint can move in a tick. The
-    /// tick then has no reference.
+    /// `ANGLE`, `NOT_FINITE`, `POINT`; `TOO_FAR` if it is further from the last one than the joint
+    /// can move in a tick. The tick then has no reference.
     pub fn follow(&mut self, reference: &State) -> Result<(), Rejected> {
         self.check_position(&reference.q, None)?;
         for (field, values) in [(field::VELOCITY, &reference.qd), (field::ACCELERATION, &reference.qdd)] {
@@ -429,7 +431,8 @@ impl Control {
         if matches!(self.controller.mode(), Mode::Full) {
             // Twice the step of the greatest speed: the reference before it may have been left out.
             let step = self.config.speed.map(|speed| STEP + 2.0 * speed * self.config.tick);
-            // While the arm returns to the reference after a fault, the controller's own reference is elsewhere.
+            // While the arm returns to the reference after a fault, the controller's own reference
+            // is elsewhere.
             let last = match self.source.kind {
                 Kind::Streamed => self.source.streamed.q,
                 Kind::None | Kind::Points { .. } => self.controller.reference().q,
@@ -469,7 +472,8 @@ impl Control {
         controller.tick(measured.as_ref().map_err(|&fault| fault), source, law)
     }
 
-    /// A tick without its reference is a fault that is bridged for a while, by a reference that moves on.
+    /// A tick without its reference is a fault that is bridged for a while, by a reference that
+    /// moves on.
     #[cold]
     fn left_out(&mut self) {
         self.controller.report(Fault::Stale);

@@ -1,4 +1,5 @@
-//! The memory of a controller, which C owns: the only code of this crate that has to be trusted with pointers.
+//! The memory of a controller, which C owns: the only code of this crate that has to be trusted
+//! with pointers.
 
 use core::mem::MaybeUninit;
 use core::ptr::NonNull;
@@ -9,8 +10,8 @@ use crate::scene::{MOST_POINTS, N};
 /// The bytes that the header reserves: enough for every target.
 pub const BYTES: usize = 256 + 32 * MOST_POINTS + N * (144 + 16 * MOST_POINTS);
 
-/// What distinguishes the memory of a controller from any other: a word that zeros, random bytes and the controllers of
-/// other libraries and versions do not have.
+/// What distinguishes the memory of a controller from any other: a word that zeros, random bytes
+/// and the controllers of other libraries and versions do not have.
 const MAGIC: u64 = (library() ^ size_of::<Slot>() as u64) | 1;
 
 /// A number of this library and its version: the hash of Fowler, Noll and Vo of their names.
@@ -34,8 +35,8 @@ struct Slot {
 const _: () = assert!(size_of::<Slot>() <= BYTES, "the header reserves too few bytes");
 const _: () = assert!(align_of::<Slot>() <= align_of::<u64>(), "the header aligns to 8 bytes");
 
-/// A pointer to the memory of a controller. Null is `None` of an `Option`; what else C has to guarantee is in the header:
-/// it points to a whole object of the header's type.
+/// A pointer to the memory of a controller. Null is `None` of an `Option`; what else C has to
+/// guarantee is in the header: it points to a whole object of the header's type.
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug)]
 pub struct Handle(NonNull<u8>);
@@ -79,13 +80,15 @@ impl Handle {
         slot.as_ptr().is_aligned().then_some(slot)
     }
 
-    /// Puts a controller into the memory, of which C says that it has `bytes`; false if it does not fit.
+    /// Puts a controller into the memory, of which C says that it has `bytes`; false if it does not
+    /// fit.
     pub(crate) fn place(self, bytes: usize, control: Control) -> bool {
         let Some(slot) = self.slot().filter(|_| bytes >= size_of::<Slot>()) else {
             return false;
         };
         let magic = MAGIC;
-        // SAFETY: the pointer is not null, it is aligned, and the memory behind it has the size of a slot.
+        // SAFETY: the pointer is not null, it is aligned, and the memory behind it has the size of
+        // a slot.
         unsafe { slot.write(Slot { magic, control }) };
         true
     }
@@ -93,14 +96,16 @@ impl Handle {
     /// The controller in the memory; none if no controller of this library was placed there.
     pub(crate) fn control<'a>(self) -> Option<&'a mut Control> {
         let mut slot = self.slot()?;
-        // SAFETY: the pointer is not null and aligned, and an object of the header's type is at least as large as a slot.
-        // The read is volatile, since C may have left the word without a value: it is then any number.
+        // SAFETY: the pointer is not null and aligned, and an object of the header's type is at
+        // least as large as a slot. The read is volatile, since C may have left the word without a
+        // value: it is then any number.
         let magic = unsafe { (&raw const (*slot.as_ptr()).magic).read_volatile() };
         if magic != MAGIC {
             return None;
         }
-        // SAFETY: only `place` writes the word, together with a controller. The header forbids calls with the same memory at
-        // the same time, so that no other reference exists during this call.
+        // SAFETY: only `place` writes the word, together with a controller. The header forbids
+        // calls with the same memory at the same time, so that no other reference exists during
+        // this call.
         Some(&mut unsafe { slot.as_mut() }.control)
     }
 }

@@ -1,4 +1,5 @@
-//! A pendulum: a rod of 2 kg and 1 m, with friction in its bearing. Replace this file by the one of your robot.
+//! A pendulum: a rod of 2 kg and 1 m, with friction in its bearing. Replace this file by the one of
+//! your robot.
 
 use dynamics_core::effects::{Armature, Coulomb, Viscous, Width};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};

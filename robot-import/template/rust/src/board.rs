@@ -1,4 +1,5 @@
-//! Encoders and drives, on the traits of embedded-hal: adapt the frame and the scales to your parts.
+//! Encoders and drives, on the traits of embedded-hal: adapt the frame and the scales to your
+//! parts.
 //!
 //! `joint-drivers` has the common ones, which the control loop takes as they are.
 
@@ -24,7 +25,8 @@ pub struct Encoder<Spi> {
 }
 
 impl<Spi: SpiDevice> Encoder<Spi> {
-    /// An encoder that has not been read yet; the first angle is where the mapping says that the joint can be.
+    /// An encoder that has not been read yet; the first angle is where the mapping says that the
+    /// joint can be.
     pub fn new(spi: Spi, mapping: EncoderMapping) -> Self {
         let turns = MultiTurnEncoder::new(mapping);
         Self { spi, turns }
@@ -33,7 +35,8 @@ impl<Spi: SpiDevice> Encoder<Spi> {
 
 impl<Spi> EncoderType for Encoder<Spi> {
     type Error = FrameError;
-    /// Of the angle that it answers with: `PreviousTick` for one that was latched in the frame before.
+    /// Of the angle that it answers with: `PreviousTick` for one that was latched in the frame
+    /// before.
     type Age = CurrentTick;
 
     fn missed(&mut self, ticks: u32) {
@@ -100,9 +103,11 @@ impl<Pwm: SetDutyCycle> JointDrive for Drive<Pwm> {
     }
 
     fn set(&mut self, steps: f32) -> Result<(), DriveError> {
-        // What a step of duty cannot express is left for the next tick: a light joint then has the mean torque.
+        // What a step of duty cannot express is left for the next tick: a light joint then has the
+        // mean torque.
         let wanted = steps + self.rest;
-        // The conversion saturates, and the controller's torques are finite and within the full scale.
+        // The conversion saturates, and the controller's torques are finite and within the full
+        // scale.
         let duty = (wanted + 0.5) as u16;
         self.rest = (wanted - f32::from(duty)).clamp(-0.5, 0.5);
         let set = self.pwm.set_duty_cycle(duty);

@@ -1,4 +1,5 @@
-//! What the control loop of `joint-drivers` is made of: the law, its gains, the controller with its limits, and detectors.
+//! What the control loop of `joint-drivers` is made of: the law, its gains, the controller with its
+//! limits, and detectors.
 
 use core::f32::consts::TAU;
 use core::fmt;
@@ -21,8 +22,9 @@ pub type Measured<Age> = OnCircles<{ scene::CIRCLES.bits() }, Age>;
 /// The detectors of faults, on these circles.
 pub type Found = Detectors<f32, N, { scene::CIRCLES.bits() }>;
 
-/// The model's torque for the acceleration of the reference and that of the feedback, τ = M (q̈_d + ω² e + 2 ω ė) + C + g: by M every
-/// motion of the robot has the natural frequency ω, also one of light joints together with heavy ones.
+/// The model's torque for the acceleration of the reference and that of the feedback, τ = M (q̈_d +
+/// ω² e + 2 ω ė) + C + g: by M every motion of the robot has the natural frequency ω, also one of
+/// light joints together with heavy ones.
 ///
 /// Luh, Walker & Paul, "Resolved-acceleration control of mechanical manipulators" (1980).
 #[derive(Clone, Copy, Debug)]
@@ -71,7 +73,8 @@ pub fn config(motion: &Motion) -> MotionControllerConfig<f32, N> {
     }
 }
 
-/// The controller, of a robot that holds its position at the start of the motion; `on_brake` of it is for one that does not.
+/// The controller, of a robot that holds its position at the start of the motion; `on_brake` of it
+/// is for one that does not.
 ///
 /// # Errors
 /// [`SetupError::Limits`].
@@ -81,8 +84,8 @@ pub fn controller<A: MeasurementAge>(
     MotionController::try_new(config(motion)).map_err(SetupError::Limits)
 }
 
-/// The mounting of the encoders: the angle of each at its joint's zero, rad, and which way the joint turns while its angle
-/// increases.
+/// The mounting of the encoders: the angle of each at its joint's zero, rad, and which way the
+/// joint turns while its angle increases.
 ///
 /// # Errors
 /// [`SetupError::Encoder`] names the joint.
@@ -99,7 +102,8 @@ pub fn encoder_mappings(
         let mapping = JointMapping::new(zero[joint], directions[joint], 1.0 / ratio);
         mappings[joint] =
             mapping.map_err(|error| SetupError::Encoder(JointError { joint, error }))?;
-        // A joint without a limit of speed is taken to turn its encoder by a quarter turn in a tick.
+        // A joint without a limit of speed is taken to turn its encoder by a quarter turn in a
+        // tick.
         steps[joint] = (speed[joint] * TICK).min(0.25 * TAU * ratio);
     }
     let ranges = scene::encoder_ranges();
@@ -111,8 +115,9 @@ pub fn gains() -> Gains<f32, N> {
     Gains::from_inertia(&[1.0; N], OMEGA_N, 1.0)
 }
 
-/// What finds faults beside the controller: an encoder that does not change in ten steps of its reference, a reference
-/// that moves at twice the limit of speed, torques at their limits for 50 ticks.
+/// What finds faults beside the controller: an encoder that does not change in ten steps of its
+/// reference, a reference that moves at twice the limit of speed, torques at their limits for 50
+/// ticks.
 pub fn detectors(motion: &Motion) -> Found {
     let limits = scene::limits(motion);
     Detectors {

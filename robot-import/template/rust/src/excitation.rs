@@ -1,6 +1,8 @@
-//! A motion that shows masses, inertias and frictions: a Fourier series of each joint, with pseudo-random amplitudes.
+//! A motion that shows masses, inertias and frictions: a Fourier series of each joint, with
+//! pseudo-random amplitudes.
 //!
-//! It starts and returns to `home` at rest, and stays within the ranges, half the speeds and most of the torques of the limits.
+//! It starts and returns to `home` at rest, and stays within the ranges, half the speeds and most
+//! of the torques of the limits.
 
 use core::array;
 use core::f32::consts::TAU;
@@ -54,7 +56,8 @@ impl Excitation {
         found
     }
 
-    /// The nearest amplitudes without velocity and acceleration at the start: Σ h a = 0 and Σ h² b = 0.
+    /// The nearest amplitudes without velocity and acceleration at the start: Σ h a = 0 and Σ h² b
+    /// = 0.
     fn start_at_rest(&mut self) {
         for kind in 0..2 {
             for joint in 0..N {
@@ -77,7 +80,8 @@ impl Excitation {
         }
     }
 
-    /// By how much each joint's series may be multiplied; negative where there is more room on the other side.
+    /// By how much each joint's series may be multiplied; negative where there is more room on the
+    /// other side.
     fn within_ranges(&self) -> [f32; N] {
         let (home, limits) = (scene::home(), scene::described_limits());
         let start = self.at(0).q;

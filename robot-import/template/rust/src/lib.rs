@@ -1,6 +1,7 @@
 //! The control loop of a robot: its model, what acts on it, its motion, its board.
 //!
-//! `cargo test` and `cargo run` simulate it on this computer, `cargo qemu` on an emulated Cortex-M4F.
+//! `cargo test` and `cargo run` simulate it on this computer, `cargo qemu` on an emulated
+//! Cortex-M4F.
 
 #![cfg_attr(target_os = "none", no_std)]
 #![deny(unsafe_code)]

@@ -1,4 +1,5 @@
-//! Instructions that do nothing and mark regions for `cargo xtask meter ELF` of dynamics-core's repository.
+//! Instructions that do nothing and mark regions for `cargo xtask meter ELF` of dynamics-core's
+//! repository.
 
 /// Runs a closure in region K, 0 to 7.
 #[inline(always)]

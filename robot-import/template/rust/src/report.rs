@@ -25,7 +25,8 @@ pub struct Outcome {
     pub error: [f32; N],
     /// The ticks.
     pub ticks: u32,
-    /// Ticks in which a limit on torque or its rate took effect, after the first, where the torque rises from zero.
+    /// Ticks in which a limit on torque or its rate took effect, after the first, where the torque
+    /// rises from zero.
     pub limited: u32,
     /// Ticks in another mode than the full one.
     pub faulted: u32,
@@ -151,7 +152,8 @@ impl Outcome {
         self.limited == 0 && self.faulted == 0
     }
 
-    /// The reason why the robot did not follow its motion: the joint, the number and what to do; nothing if it did.
+    /// The reason why the robot did not follow its motion: the joint, the number and what to do;
+    /// nothing if it did.
     ///
     /// # Errors
     /// The text cannot be written.
@@ -198,12 +200,13 @@ pub fn probe() -> State<f32, N, N> {
 pub struct Clock<F> {
     /// The reading.
     pub now: F,
-    /// QEMU's instructions per count, as a fraction whose denominator is the counts of a microsecond;
-    /// `None` where nothing counts.
+    /// QEMU's instructions per count, as a fraction whose denominator is the counts of a
+    /// microsecond; `None` where nothing counts.
     pub instructions: Option<[u64; 2]>,
 }
 
-/// Runs the motion and prints what happened; whether all went well, and each tick within its period.
+/// Runs the motion and prints what happened; whether all went well, and each tick within its
+/// period.
 ///
 /// # Errors
 /// The text cannot be written.

@@ -155,8 +155,9 @@ impl Plant {
 
 /// The friction of the joints in a step, as a function of their velocities at its end.
 ///
-/// A linearly implicit step extends friction by its slope. Dry friction on a light joint bends within the step: without its
-/// own curve the joint would be thrown from one direction into the other.
+/// A linearly implicit step extends friction by its slope. Dry friction on a light joint bends
+/// within the step: without its own curve the joint would be thrown from one direction into the
+/// other.
 struct Friction<'a> {
     effects: &'a Effects,
     start: &'a State<f32, N, N>,
@@ -208,8 +209,9 @@ impl<'a> Friction<'a> {
         })
     }
 
-    /// The changes x of the velocities with the friction of the step's end: M x + h (f(q̇ + x) − f(q̇)) = b, joint by joint,
-    /// where b is that of the linearly implicit step, which changes them by `linear`.
+    /// The changes x of the velocities with the friction of the step's end: M x + h (f(q̇ + x) −
+    /// f(q̇)) = b, joint by joint, where b is that of the linearly implicit step, which changes
+    /// them by `linear`.
     fn implicit(&self, m: &MassMatrix<f32, N>, linear: &[f32; N], h: f32) -> [f32; N] {
         let row = |joint: usize, x: &[f32; N]| (0..N).map(|k| m.get(joint, k) * x[k]).sum::<f32>();
         let b: [f32; N] = core::array::from_fn(|joint| {

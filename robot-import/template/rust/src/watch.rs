@@ -1,7 +1,9 @@
-//! The motion without end, each of its ticks sent as a frame: what `cargo xtask watch --project` shows and records.
+//! The motion without end, each of its ticks sent as a frame: what `cargo xtask watch --project`
+//! shows and records.
 //!
-//! Here tick and frame follow each other in one loop. On a board the tick is an interrupt, which fills the sample of a
-//! `telemetry::Queue`, and the main loop sends what it takes out of the queue: then the port never delays the tick.
+//! Here tick and frame follow each other in one loop. On a board the tick is an interrupt, which
+//! fills the sample of a `telemetry::Queue`, and the main loop sends what it takes out of the
+//! queue: then the port never delays the tick.
 
 use dynamics_core::model::{JointKind, model};
 use dynamics_core::state::State;
@@ -78,7 +80,8 @@ fn along(
     let encoders = wires.encoders(motion, &home).map_err(RunError::Setup)?;
     let drives = wires.drives(&full_scale);
     let controller = controller(motion).map_err(RunError::Setup)?;
-    // Without detectors: a motion that reverses often looks like a frozen encoder where the drives' steps are coarse.
+    // Without detectors: a motion that reverses often looks like a frozen encoder where the drives'
+    // steps are coarse.
     let mut control =
         ControlLoop::on_circles(encoders, drives, wires.brake(), gains(), controller, ());
     let mut plant = Plant::new(home, full_scale);

@@ -1,4 +1,5 @@
-//! The demo where QEMU does not take the cycle meter: how well the arm tracks, and why costs are missing.
+//! The demo where QEMU does not take the cycle meter: how well the arm tracks, and why costs are
+//! missing.
 
 use std::path::PathBuf;
 use std::process::ExitCode;

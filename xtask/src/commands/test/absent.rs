@@ -20,7 +20,8 @@ const LUGRE_BYTES: u64 = 4 * (6 * 6 + 1);
 /// Numbers that only LuGre's exponential has, by their bits.
 const LUGRE_NUMBERS: [f32; 2] = [core::f32::consts::LOG2_E, 1.428_606_8e-6];
 
-/// Effects with nothing but defaults leave the code as it is, and one that is dropped leaves nothing.
+/// Effects with nothing but defaults leave the code as it is, and one that is dropped leaves
+/// nothing.
 pub fn absent_effects_cost_nothing(context: &Context) -> Result<String> {
     let (workspace, tools) = (&context.workspace, &context.tools);
     let bins = [BIN, SCENES[0], SCENES[1]];

@@ -1,4 +1,5 @@
-//! The claims that only a full run tests, read from the sources: they are not compiled in an everyday run.
+//! The claims that only a full run tests, read from the sources: they are not compiled in an
+//! everyday run.
 
 use std::path::Path;
 
@@ -11,7 +12,8 @@ const GATE: &str = "#[cfg(feature = \"full\")]";
 /// The attribute of a file of such tests.
 const FILE_GATE: &str = "#![cfg(feature = \"full\")]";
 
-/// The test programs under a folder with the tests of theirs that only a full run takes, in alphabetical order.
+/// The test programs under a folder with the tests of theirs that only a full run takes, in
+/// alphabetical order.
 pub fn full_only(folder: &Path) -> Result<Vec<(String, String)>> {
     let mut claims = Vec::new();
     for path in sources(folder)? {
@@ -28,7 +30,8 @@ pub fn full_only(folder: &Path) -> Result<Vec<(String, String)>> {
     Ok(claims)
 }
 
-/// The names of the tests in a source that stand behind the gate, and of those that go further behind it.
+/// The names of the tests in a source that stand behind the gate, and of those that go further
+/// behind it.
 fn gated(source: &str) -> Vec<String> {
     let (mut names, mut test, mut is_test, mut whole) = (Vec::new(), None, false, false);
     let all = source.lines().any(|line| line == FILE_GATE);

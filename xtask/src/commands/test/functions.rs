@@ -1,4 +1,5 @@
-//! The steps about the firmware's code: what it consists of, what it computes, and what its functions cost.
+//! The steps about the firmware's code: what it consists of, what it computes, and what its
+//! functions cost.
 
 use cycle_meter::Sample;
 
@@ -13,7 +14,8 @@ use crate::kit::{firmware, shell};
 
 /// The least number of hard cases in QEMU.
 const HARD_CASES: usize = 25;
-/// Whether a symbol is `firmware_demo::scene::marked_tick`, which is there once for each control law.
+/// Whether a symbol is `firmware_demo::scene::marked_tick`, which is there once for each control
+/// law.
 fn is_tick(symbol: &str) -> bool {
     symbol.contains("marked_tick")
 }
@@ -35,7 +37,8 @@ pub fn meter(context: &Context) -> Result<String> {
     Ok(format!("{agreeing} sequences"))
 }
 
-/// The lines of a bin of the firmware in QEMU that begin so, and those of the host's bin of its name; all must be the same.
+/// The lines of a bin of the firmware in QEMU that begin so, and those of the host's bin of its
+/// name; all must be the same.
 fn on_both(context: &Context, name: &str, begin: &str) -> Result<Vec<String>> {
     let elf = context.built(name)?;
     let mut on_target = context.tools.qemu.lines(&Run::logging(name, &elf, None))?;

@@ -79,7 +79,8 @@ pub fn doctests(context: &Context) -> Result<String> {
 
 pub fn doc(context: &Context) -> Result<String> {
     let all = everything();
-    // Without private items too: a link to one of them is broken only there. A program's are documented in any case.
+    // Without private items too: a link to one of them is broken only there. A program's are
+    // documented in any case.
     context.cargo(&[
         format!("doc {all} {WITHOUT_FIRMWARE} --no-deps --document-private-items"),
         format!("doc {all} --lib --no-deps --document-private-items"),

@@ -1,5 +1,5 @@
-//! `cargo xtask test`: what guards correctness, as a table of steps; `--full` adds every robot, every scene,
-//! every report and the currency of the documents, which is what CI runs.
+//! `cargo xtask test`: what guards correctness, as a table of steps; `--full` adds every robot,
+//! every scene, every report and the currency of the documents, which is what CI runs.
 
 mod absent;
 mod claims;
@@ -31,8 +31,9 @@ use crate::studies::study::{Bench, Held, Lane, Scope, Study};
 use Lane::{Host, Target};
 use Scope::{Everyday, Full, Named};
 
-/// One thing that is tested: its name on the command line, its lane, which runs it belongs to, the claim that holds if
-/// it passes, and the function that tests it and returns the measured figures in words, if there are any.
+/// One thing that is tested: its name on the command line, its lane, which runs it belongs to, the
+/// claim that holds if it passes, and the function that tests it and returns the measured figures
+/// in words, if there are any.
 type Step<F = fn(&Context) -> Result<String>> = (&'static str, Lane, Scope, &'static str, F);
 
 #[derive(Clone, Copy)]
@@ -44,7 +45,8 @@ enum Task {
 struct Context {
     workspace: Workspace,
     options: Options,
-    /// Whether every robot, every scene and every report is tested, or the cheapest witness of each claim.
+    /// Whether every robot, every scene and every report is tested, or the cheapest witness of each
+    /// claim.
     full: bool,
     tools: Tools,
     meter: OnceLock<PathBuf>,
@@ -77,7 +79,8 @@ const STEPS: &[Step] = &[
     ("opcodes", Target, Everyday, "the firmware has no instruction that a Cortex-M4F lacks", functions::opcodes),
     ("budgets", Target, Everyday, "every scene is within budgets.toml", scenes::budgets),
     ("constant", Target, Everyday, "the work costs the same whatever the data", functions::constant),
-    // From here on programs for the host are built too: earlier they would wait for the other lane's.
+    // From here on programs for the host are built too: earlier they would wait for the other
+    // lane's.
     ("faults", Target, Named, "100 arms under injected faults keep their limits in QEMU, with the host's torques", functions::faults),
     ("telemetry", Target, Full, "a tick costs the same with a listener, without one, and with a full queue", |c| watch::check(&c.workspace, &c.tools, c.meter()?)),
     ("play", Host, Full, "the page of docs/play is small, fast, accessible, and computes the host's bits", |c| play::check(&c.workspace, c.options)),
@@ -173,7 +176,8 @@ pub fn names() -> PossibleValuesParser {
     steps().map(|step| step.0).collect::<Vec<_>>().into()
 }
 
-/// Prints the steps, with those last that only a full run takes, and the tests that it adds to the step `host`.
+/// Prints the steps, with those last that only a full run takes, and the tests that it adds to the
+/// step `host`.
 pub fn list() -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let steps = |scope| -> String {

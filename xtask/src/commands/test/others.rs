@@ -1,4 +1,5 @@
-//! The steps about what is built elsewhere: by the oldest compiler, as a project of its own, and for LeRobot.
+//! The steps about what is built elsewhere: by the oldest compiler, as a project of its own, and
+//! for LeRobot.
 
 use std::process::Command;
 
@@ -31,7 +32,8 @@ pub fn msrv(context: &Context) -> Result<String> {
 /// The target of the projects for a Pico 2; those for other boards have the firmware's.
 const PICO_2: &str = "thumbv8m.main-none-eabihf";
 
-/// The guide's programs, and the servo bus on a serial port of Embassy where the target of its chip can be had.
+/// The guide's programs, and the servo bus on a serial port of Embassy where the target of its chip
+/// can be had.
 pub fn guide(context: &Context) -> Result<String> {
     context.cargo(&["check --package guide-firmware --target thumbv7em-none-eabihf"])?;
     if !toolchain::native_has(PICO_2) {
@@ -44,8 +46,8 @@ pub fn guide(context: &Context) -> Result<String> {
     Ok(String::new())
 }
 
-/// The projects that `robot-import new` writes, of a pendulum and of an arm, two libraries for C in one program, and firmware for
-/// each board.
+/// The projects that `robot-import new` writes, of a pendulum and of an arm, two libraries for C in
+/// one program, and firmware for each board.
 pub fn projects(context: &Context) -> Result<String> {
     if setup::for_projects(context.options).is_err() {
         return skip("there is no arm-none-eabi-gcc, make, cmake or cc");

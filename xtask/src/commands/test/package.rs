@@ -1,4 +1,5 @@
-//! The steps about the library as a dependency: what cargo packages and vendors, its features and its examples.
+//! The steps about the library as a dependency: what cargo packages and vendors, its features and
+//! its examples.
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -16,10 +17,11 @@ use crate::kit::workspace::{read, write};
 const LIBRARY: &str = "dynamics-core";
 const CONTROLLER: &str = "motion-control";
 const FEATURES: &str = "defmt,serde";
-/// The files of the root that the crate has to contain: copies, since a symbolic link is a text file after a checkout
-/// on Windows.
+/// The files of the root that the crate has to contain: copies, since a symbolic link is a text
+/// file after a checkout on Windows.
 const COPIES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
-/// The example whose numbers are compared with and without features: it prints all digits of a simulation's end.
+/// The example whose numbers are compared with and without features: it prints all digits of a
+/// simulation's end.
 const COMPARED: &str = "computed_torque";
 
 pub fn package(context: &Context) -> Result<String> {
@@ -45,7 +47,8 @@ fn copies_are_equal(root: &Path, library: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Builds a project that depends on the library by git, from nothing but what `cargo vendor` has copied.
+/// Builds a project that depends on the library by git, from nothing but what `cargo vendor` has
+/// copied.
 fn vendored_builds(context: &Context, folder: &Path) -> Result<()> {
     let git_url = commit_work_tree(&context.workspace.root, &folder.join("repository"))?;
     let project = folder.join("project");
@@ -78,7 +81,8 @@ fn vendored_builds(context: &Context, folder: &Path) -> Result<()> {
     shell::capture(&mut check).map(drop)
 }
 
-/// Commits the work tree as it is, without what git ignores, into a new repository, and returns its URL.
+/// Commits the work tree as it is, without what git ignores, into a new repository, and returns its
+/// URL.
 fn commit_work_tree(root: &Path, repository: &Path) -> Result<String> {
     let mut init = Command::new("git");
     shell::capture(init.args(["init", "--quiet"]).arg(repository))?;

@@ -16,7 +16,8 @@ const SLACK: f64 = 10.0;
 /// The scenes whose feed-forward is held against PD alone.
 const HELD: [&str; 2] = ["ur5e", "delta_pick"];
 
-/// The largest error with feed-forward in these scenes as a share of PD's: with the exact model, and with one that is off.
+/// The largest error with feed-forward in these scenes as a share of PD's: with the exact model,
+/// and with one that is off.
 const LARGEST_RATIO: [f64; 2] = [0.1, 0.2];
 
 /// The longest tick, as a share of its period.
@@ -25,17 +26,20 @@ const LARGEST_SHARE: f64 = 0.5;
 /// The status of the safety gate in a run in which it changed nothing.
 const PLAIN: &str = "mode Full, fault None, limited false";
 
-/// The peak joint speed that the default scene must reach for its tracking to mean something, rad/s.
+/// The peak joint speed that the default scene must reach for its tracking to mean something,
+/// rad/s.
 const LEAST_PEAK_SPEED: f64 = 1.5;
 
-/// The scene that runs twice: its laws are of the core and of the engine. The step `readme` repeats the default one.
+/// The scene that runs twice: its laws are of the core and of the engine. The step `readme` repeats
+/// the default one.
 const TWICE: &str = "direct_drive";
 
 pub fn runs(context: &Context) -> Result<String> {
     let mut ticks = 0;
     for measured in context.measured()? {
         let name = &measured.report.scene;
-        // No law of the default scene needs the gate; other scenes have laws that show the need of it.
+        // No law of the default scene needs the gate; other scenes have laws that show the need of
+        // it.
         let is_checked = |law: &str| law == FEEDFORWARD || *name == Scene::default().name();
         let other = measured.recording.differing_status(PLAIN, is_checked);
         let run = other.as_deref().unwrap_or_default();

@@ -1,5 +1,5 @@
-//! The sum at the end of what a command writes: a digit that is changed by hand is seen without measuring anew, whichever part of the
-//! figures a step measures.
+//! The sum at the end of what a command writes: a digit that is changed by hand is seen without
+//! measuring anew, whichever part of the figures a step measures.
 
 use sha2::{Digest, Sha256};
 

@@ -116,7 +116,8 @@ fn a_part_is_written_between_its_markers() {
     assert!(PART.split("no markers").is_err());
 }
 
-/// Blocks that are written by tests, which compare them whole with what they observe, and where; all others have their sum.
+/// Blocks that are written by tests, which compare them whole with what they observe, and where;
+/// all others have their sum.
 const BY_TESTS: [(&str, &str, &str); 14] = [
     (
         "docs/guide/src/contact.md",
@@ -206,7 +207,8 @@ fn pages() -> Vec<String> {
     pages
 }
 
-/// The parts of a page between markers, by name; the whole page, without a name, if a command writes it.
+/// The parts of a page between markers, by name; the whole page, without a name, if a command
+/// writes it.
 fn blocks(page: &str) -> Vec<(&str, &str)> {
     let begins = page.match_indices(":begin -->").map(|(end, begin)| {
         let start = page[..end].rfind("<!-- ").expect("a marker") + "<!-- ".len();

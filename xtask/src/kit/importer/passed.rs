@@ -2,8 +2,8 @@
 
 use clap::{Arg, ArgAction, ArgMatches};
 
-/// The arguments of `robot-import`: subcommand, option (`-`: none), value (`-`: none; `!`: required), help. A test there compares
-/// this list with what it takes.
+/// The arguments of `robot-import`: subcommand, option (`-`: none), value (`-`: none; `!`:
+/// required), help. A test there compares this list with what it takes.
 const OPTIONS: &str = include_str!("../../../../robot-import/options.txt");
 
 pub const IMPORT: u8 = 0;

@@ -21,7 +21,8 @@ const MOST_LOG: usize = 64 << 20;
 const MOST_SAID: usize = 1 << 16;
 /// Chunks of a pipe that wait for who reads them: beyond it the program has to.
 const CHUNKS: usize = 64;
-/// The time for which stderr may stay open after the program's end: a child process may never close it.
+/// The time for which stderr may stay open after the program's end: a child process may never close
+/// it.
 const GRACE: Duration = Duration::from_secs(1);
 
 pub struct Line {
@@ -38,7 +39,8 @@ pub trait Decoder {
 pub struct Watch<'a> {
     /// The firmware's name in messages.
     pub name: &'a str,
-    /// The longest silence, and the longest time from the end of the output to the end of the program.
+    /// The longest silence, and the longest time from the end of the output to the end of the
+    /// program.
     pub patience: Duration,
     /// None if it must stay silent.
     pub decoder: Option<Box<dyn Decoder + 'a>>,

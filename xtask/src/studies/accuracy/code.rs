@@ -196,7 +196,8 @@ mod tests {
         }
     }
 
-    /// With the values of the printed simulation itself, the text is the file that the tests compile and run.
+    /// With the values of the printed simulation itself, the text is the file that the tests
+    /// compile and run.
     #[test]
     fn the_tested_simulation_is_the_printed_one() {
         let key = "integrator=rk4,state=compensated,step=1000";

@@ -4,7 +4,8 @@ use std::cmp::Ordering;
 
 use super::point::Point;
 
-/// Marks in each group those that no other one is as accurate as for less, in the worst tick and in the mean.
+/// Marks in each group those that no other one is as accurate as for less, in the worst tick and in
+/// the mean.
 pub fn mark(points: &mut [Point]) {
     let marks: Vec<[bool; 2]> = points
         .iter()

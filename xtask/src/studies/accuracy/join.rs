@@ -34,7 +34,8 @@ pub struct Line {
     pub what: String,
     /// rad/s: no joint is faster.
     pub speed: f64,
-    /// The oracle's own: Pinocchio's version, the recorded states, and those of 50 digits with how far it is off there.
+    /// The oracle's own: Pinocchio's version, the recorded states, and those of 50 digits with how
+    /// far it is off there.
     pub pinocchio: String,
     pub states: u64,
     pub sample: u64,

@@ -47,9 +47,11 @@ pub struct Plan {
 
 pub struct Measured {
     pub points: Vec<Point>,
-    /// The configurations that differ from the default in one thing, measured in a separate program.
+    /// The configurations that differ from the default in one thing, measured in a separate
+    /// program.
     pub single: Vec<Point>,
-    /// The fewest and the most cycles of `single` of the UR5e by the readings of the manual, as shares of those shown.
+    /// The fewest and the most cycles of `single` of the UR5e by the readings of the manual, as
+    /// shares of those shown.
     pub shares: Option<[f64; 2]>,
     /// In a quick run, what is printed as generated code.
     pub generated: Vec<Point>,
@@ -151,7 +153,8 @@ impl Plan {
 
     /// Measures the errors of these robots on the host.
     fn errors(&self, workspace: &Workspace, printed: &Path) -> Result<String> {
-        // A dozen ways are computed sooner than the compiler optimises them across crates; all of them take most of an hour without.
+        // A dozen ways are computed sooner than the compiler optimises them across crates; all of
+        // them take most of an hour without.
         let (these, bin) = match self.quick {
             true => (SHARED, QUICK_BIN),
             false => (SIMULATED, ACCURACY),

@@ -3,8 +3,8 @@
 use super::point::{Kind, Point};
 use crate::kit::table::thousands;
 
-/// An axis, a value on it, the Rust that the library has for the value (what it does not ship has none), the name in
-/// print, and a sentence. The default's values have the first three only.
+/// An axis, a value on it, the Rust that the library has for the value (what it does not ship has
+/// none), the name in print, and a sentence. The default's values have the first three only.
 type Row = (
     &'static str,
     &'static str,

@@ -21,7 +21,8 @@ use crate::kit::{docs, firmware, output, rows, shell};
 
 /// The bin on the target and the bin on the host.
 const BIN: &str = "own_accuracy";
-/// More joints than this do not fit into the RAM of the measured firmware, with 80 states and the ways' inputs.
+/// More joints than this do not fit into the RAM of the measured firmware, with 80 states and the
+/// ways' inputs.
 pub const MOST_JOINTS: u64 = 20;
 
 /// Measures and prints; with a budget, what it chooses.

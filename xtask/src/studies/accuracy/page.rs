@@ -1,4 +1,5 @@
-//! docs/accuracy.md: fronts, what single choices cost, yardsticks, simulations; and the README's few lines.
+//! docs/accuracy.md: fronts, what single choices cost, yardsticks, simulations; and the README's
+//! few lines.
 
 #[cfg(test)]
 mod tests;
@@ -33,7 +34,8 @@ pub const NAMES: Page<'_> = part(FILE, "accuracy-names");
 /// The few of them that the README shows.
 pub const README: Page<'_> = part("README.md", "accuracy");
 
-/// The configurations that the bins `accuracy_quick` run; those of the README, and of the pictures, come first.
+/// The configurations that the bins `accuracy_quick` run; those of the README, and of the pictures,
+/// come first.
 const SINGLE: &str = "default trig=table model=pruned1000 rate=10,between=linearised model=no_coriolis model=gravity \
                       trig=minimax5 trig=minimax3 trig=minimax7 trig=incremental model=params8 rate=10 \
                       rate=10,between=interpolated trig=table3x4,form=core";
@@ -45,11 +47,12 @@ pub fn is_single(point: &Point, most: usize) -> bool {
     SINGLE.split(' ').take(most).any(|key| key == point.key)
 }
 
-/// A step of a front is at least so much more accurate than the one before it: others are there, but not worth a word.
+/// A step of a front is at least so much more accurate than the one before it: others are there,
+/// but not worth a word.
 const STEP: f64 = 0.8;
 
-/// The negligible error, as a share of full scale, and what a point of the front may cost of the default at it: its
-/// worst tick, its mean.
+/// The negligible error, as a share of full scale, and what a point of the front may cost of the
+/// default at it: its worst tick, its mean.
 const ERROR: f64 = 1e-3;
 const MOST: [f64; 2] = [0.85, 0.6];
 
@@ -64,7 +67,8 @@ pub fn page_of(robot: Robot) -> Page<'static> {
     part(FILE, name)
 }
 
-/// The points of a front, from the cheapest on, each much more accurate than the one before; the default in any case.
+/// The points of a front, from the cheapest on, each much more accurate than the one before; the
+/// default in any case.
 pub fn steps<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
     let mut least = f64::INFINITY;
     let mut steps = front::front(points, cost);
@@ -249,7 +253,8 @@ fn section(head: &str, rows: &[(String, &Point)], first: &str, columns: &str) ->
     format!("### {head}\n\n{}\n", table(rows, first, columns).markdown())
 }
 
-/// The cheapest within [`ERROR`], by the worst tick and by the mean, each with its share of the default's cost.
+/// The cheapest within [`ERROR`], by the worst tick and by the mean, each with its share of the
+/// default's cost.
 fn cheapest<'a>(points: &[&'a Point]) -> Option<[(&'a Point, f64); 2]> {
     let default = points.iter().find(|point| point.is_default())?;
     let of = |cost: usize| {

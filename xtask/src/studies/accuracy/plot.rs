@@ -1,4 +1,5 @@
-//! The pictures: a robot's front with the names of its steps and of single changes, which the README's table has, and the simulations.
+//! The pictures: a robot's front with the names of its steps and of single changes, which the
+//! README's table has, and the simulations.
 
 use super::front as fronts;
 use super::join::Host;
@@ -18,7 +19,8 @@ const MEASURES: [(&str, &str); 3] = [
     ("inertial1", "inertias known to 1 %"),
     ("encoder14", "14-bit encoder"),
 ];
-/// By integrator, with the width of its line: semi-implicit Euler and implicit damping lie on each other.
+/// By integrator, with the width of its line: semi-implicit Euler and implicit damping lie on each
+/// other.
 const INTEGRATORS: [(&str, &str, RGBColor, u32); 5] = [
     ("euler", "explicit Euler", SKY, 2),
     ("semi_implicit", "semi-implicit Euler", GREEN, 6),
@@ -143,8 +145,8 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
         for place in proven {
             dot(root, plot.at(place), 3, GREEN)?;
         }
-        // Left of a front that falls to the right there is room, and above what stands too far left; names keep clear of each
-        // other and of dashed lines.
+        // Left of a front that falls to the right there is room, and above what stands too far
+        // left; names keep clear of each other and of dashed lines.
         let (mut last, mut above) = (i32::MIN / 2, 0);
         for point in on.chain(off) {
             let (x, y) = plot.at(point.place());

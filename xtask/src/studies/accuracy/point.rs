@@ -54,7 +54,8 @@ pub struct Point {
     pub fronts: [bool; 2],
     /// Axes that are not the default's, as one word.
     pub key: String,
-    /// Largest change of the energy in a simulated second, as a share of the largest kinetic energy.
+    /// Largest change of the energy in a simulated second, as a share of the largest kinetic
+    /// energy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drift: Option<f64>,
     /// The name of the type and the number of joints of a robot from a file.

@@ -1,5 +1,5 @@
-//! The generated code is built and measured beside the ways that it was chosen for, as it is printed: it must
-//! cost and err the same.
+//! The generated code is built and measured beside the ways that it was chosen for, as it is
+//! printed: it must cost and err the same.
 
 use std::path::PathBuf;
 
@@ -12,8 +12,9 @@ use crate::kit::workspace::{self, Workspace};
 /// The variable that says to the bins `accuracy_quick` where the file is.
 pub const PRINTED: &str = "ACCURACY_PRINTED";
 
-/// Generated code may take so much more than was promised, or less, as shares: a caller gets torques in registers in
-/// the one program and through memory in the other, and a function may be compiled into its caller.
+/// Generated code may take so much more than was promised, or less, as shares: a caller gets
+/// torques in registers in the one program and through memory in the other, and a function may be
+/// compiled into its caller.
 const CLOSE: std::ops::RangeInclusive<f64> = 0.95..=1.02;
 
 /// Every single change of the UR5e for which there is code, and one of the leg.

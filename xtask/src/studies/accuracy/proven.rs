@@ -1,5 +1,5 @@
-//! Errors that the package `certification` proves of configurations for every state of the joints' box: beside the measured ones on the page, in
-//! their place for `--proven-error`.
+//! Errors that the package `certification` proves of configurations for every state of the joints'
+//! box: beside the measured ones on the page, in their place for `--proven-error`.
 
 use std::collections::BTreeMap;
 
@@ -90,7 +90,8 @@ pub fn attach(all: &[Proven], points: &mut [Point]) {
     }
 }
 
-/// Fails if more was measured than is proven, or nothing is proven. The paths of the page's robots lie in their boxes.
+/// Fails if more was measured than is proven, or nothing is proven. The paths of the page's robots
+/// lie in their boxes.
 pub fn check(points: &[Point]) -> Result<usize> {
     let proven = || points.iter().filter(|point| point.proven.is_some());
     if let Some(wrong) = proven().find(|point| point.proven < point.error_max) {
@@ -104,7 +105,8 @@ pub fn check(points: &[Point]) -> Result<usize> {
     Ok(proven().count())
 }
 
-/// The points of which an error is proven, with that one in place of the measured one and their own fronts; and what holds for them.
+/// The points of which an error is proven, with that one in place of the measured one and their own
+/// fronts; and what holds for them.
 pub fn chosen(all: &[Proven], mut points: Vec<Point>) -> Result<(Vec<Point>, String)> {
     attach(all, &mut points);
     let in_place = |point: Point| {

@@ -12,7 +12,8 @@ use crate::kit::workspace::{self, Workspace};
 /// The points, one a line.
 pub const FILE: &str = "docs/accuracy.json";
 
-/// Recorded figures may be so far from today's, as a share: those of one program, these of another one.
+/// Recorded figures may be so far from today's, as a share: those of one program, these of another
+/// one.
 const CLOSE: f64 = 0.05;
 
 pub fn read(workspace: &Workspace) -> Result<Vec<Point>> {

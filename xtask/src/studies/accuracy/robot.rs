@@ -16,7 +16,8 @@ impl Robot {
     /// The robots whose torques are computed.
     pub const COMPUTED: [Self; 3] = [Self::Ur5e, Self::Panda, Self::A1Leg];
 
-    /// Its name in rows, lines and files, in print, and in the library; and the number of its joints.
+    /// Its name in rows, lines and files, in print, and in the library; and the number of its
+    /// joints.
     pub fn names(self) -> [&'static str; 4] {
         match self {
             Self::Ur5e => ["ur5e", "UR5e", "Ur5e", "6"],

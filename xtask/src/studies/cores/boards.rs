@@ -17,9 +17,11 @@ struct Bin {
     name: &'static str,
     profile: &'static str,
     target: &'static str,
-    /// The handler of the interrupt that runs a tick, if one does; else a part of the name of a function that runs one.
+    /// The handler of the interrupt that runs a tick, if one does; else a part of the name of a
+    /// function that runs one.
     tick: Option<&'static str>,
-    /// Whether an executor calls the tick through a pointer, and start-up too: their stack has then no bound that the code says.
+    /// Whether an executor calls the tick through a pointer, and start-up too: their stack has then
+    /// no bound that the code says.
     is_polled: bool,
 }
 
@@ -51,7 +53,8 @@ pub struct Board {
 }
 
 impl Board {
-    /// Variables and the larger of both stacks, if they have bounds: start-up has ended when the first tick begins.
+    /// Variables and the larger of both stacks, if they have bounds: start-up has ended when the
+    /// first tick begins.
     fn total(&self) -> Option<u64> {
         let start = self.start?;
         Some(self.ram + start.max(self.tick.unwrap_or_default()))
@@ -70,7 +73,8 @@ pub fn missing() -> Vec<&'static str> {
 /// Builds and reads every image whose target is installed, and compares it with its bars.
 ///
 /// # Errors
-/// An image beyond a bar, or whose stack has no bound although nothing calls it through a pointer; a tick that can panic.
+/// An image beyond a bar, or whose stack has no bound although nothing calls it through a pointer;
+/// a tick that can panic.
 pub fn measure(workspace: &Workspace, bars: &Bars) -> Result<Vec<Board>> {
     let (mut boards, missing) = (Vec::new(), missing());
     for bin in BINS.iter().filter(|bin| !missing.contains(&bin.target)) {

@@ -1,7 +1,8 @@
 //! The effect of single instructions on the stack pointer, and the targets of those of RISC-V.
 //!
-//! Every instruction that lowers the stack pointer is added up, wherever in a function it stands: the sum is a bound of the
-//! frame, since compilers lower it in the prologue and nowhere in a loop. What restores it is left out.
+//! Every instruction that lowers the stack pointer is added up, wherever in a function it stands:
+//! the sum is a bound of the frame, since compilers lower it in the prologue and nowhere in a loop.
+//! What restores it is left out.
 
 use crate::kit::error::{Result, bail};
 
@@ -13,8 +14,8 @@ pub struct Flow {
     pub targets: Vec<u64>,
 }
 
-/// By how many bytes an instruction of Thumb lowers the stack pointer (ARMv7-M manual, A7.7); nothing if the code does not
-/// say by how many.
+/// By how many bytes an instruction of Thumb lowers the stack pointer (ARMv7-M manual, A7.7);
+/// nothing if the code does not say by how many.
 pub fn thumb([first, second]: [u16; 2]) -> Option<u64> {
     let low = u64::from(second & 0xff);
     Some(match first {

@@ -85,8 +85,8 @@ pub fn needed() -> (Vec<&'static str>, Vec<&'static str>) {
     )
 }
 
-/// The flag of the compiler that shortens paths of the registry, which the messages of panics name: flash would depend on
-/// who builds.
+/// The flag of the compiler that shortens paths of the registry, which the messages of panics name:
+/// flash would depend on who builds.
 pub fn without_home() -> Option<String> {
     let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
     let home = home.or_else(|| Some(std::env::home_dir()?.join(".cargo")))?;

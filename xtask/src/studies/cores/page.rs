@@ -70,7 +70,8 @@ impl Report {
     }
 }
 
-/// A page without the rows of other cores, without the rows of boards whose target is missing, and without padding.
+/// A page without the rows of other cores, without the rows of boards whose target is missing, and
+/// without padding.
 pub fn rows_of(page: &str, names: &[&str], missing: &[&str]) -> String {
     let is_missing = |line: &&str| {
         let mut targets = missing.iter().map(|target| format!("`{target}`"));

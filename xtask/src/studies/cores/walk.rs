@@ -1,4 +1,5 @@
-//! The largest stack of a function and of all that it calls: read from the machine code of any of the cores.
+//! The largest stack of a function and of all that it calls: read from the machine code of any of
+//! the cores.
 
 use std::collections::BTreeMap;
 
@@ -12,11 +13,12 @@ enum State {
     Known(u64),
 }
 
-/// The largest sum of frames along a chain of calls from the function at an address: no call of it takes more stack.
+/// The largest sum of frames along a chain of calls from the function at an address: no call of it
+/// takes more stack.
 ///
 /// # Errors
-/// Something in reach calls through a register, calls itself, takes a frame whose size the code does not say, leaves
-/// the known functions, computes in f64, or panics.
+/// Something in reach calls through a register, calls itself, takes a frame whose size the code
+/// does not say, leaves the known functions, computes in f64, or panics.
 pub fn stack(image: &Image, is_risc_v: bool, address: u64) -> Result<u64> {
     // The lowest bit says Thumb and is no part of the address.
     let address = if is_risc_v { address } else { address & !1 };

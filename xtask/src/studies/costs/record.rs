@@ -25,9 +25,9 @@ const FIGURES: [&str; 11] = [
 /// Those of which another compiler's may be larger by its share, and not more.
 const BOUNDED: [&str; 4] = ["insn max", "cycles max", "code", "stack"];
 
-/// Fails unless the rows of the page are those of a report and every bar holds; else says how many rows
-/// there are. The report has the rows of all robots, and then the rest of the page is compared too, or
-/// those of one robot.
+/// Fails unless the rows of the page are those of a report and every bar holds; else says how many
+/// rows there are. The report has the rows of all robots, and then the rest of the page is compared
+/// too, or those of one robot.
 pub fn hold(page: &str, report: &Report, all: bool) -> Result<String> {
     let (rustc, fresh) = (&report.rustc, report.markdown());
     let first = report.rows.first().filter(|_| !all);
@@ -46,9 +46,9 @@ pub fn hold(page: &str, report: &Report, all: bool) -> Result<String> {
     Ok(format!("{} rows", report.rows.len()))
 }
 
-/// The differences, in words, between the rows of a page and those that were measured with the compiler
-/// `rustc`; between those of one robot, if it is named. If the page names another compiler, figures may be
-/// smaller, or larger by its share.
+/// The differences, in words, between the rows of a page and those that were measured with the
+/// compiler `rustc`; between those of one robot, if it is named. If the page names another
+/// compiler, figures may be smaller, or larger by its share.
 fn differences(page: &str, fresh: &str, robot: Option<&str>, rustc: &str) -> Vec<String> {
     let by_other = rustc_of(page).filter(|by| *by != rustc);
     let (there, now) = (rows(page), rows(fresh));

@@ -45,7 +45,8 @@ impl Report {
         )
     }
 
-    /// Every bar that there is a figure for: of the rows, then of the engine at opt-level s against itself at 3.
+    /// Every bar that there is a figure for: of the rows, then of the engine at opt-level s against
+    /// itself at 3.
     fn compared(&self) -> Vec<Compared> {
         let mut all = Vec::new();
         for (key, figures) in self

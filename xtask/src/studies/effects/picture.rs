@@ -9,7 +9,8 @@ use crate::kit::error::Result;
 
 /// The robot that is shown, which a scene has too: the other's picture would look much the same.
 const ROBOT: &str = "ur5e";
-/// px: the upper edge of the charts, the distance from one effect to the next, and the room of an axis.
+/// px: the upper edge of the charts, the distance from one effect to the next, and the room of an
+/// axis.
 const TOP: u32 = 84;
 const STEP: u32 = 26;
 const ROOM: u32 = 46;
@@ -19,8 +20,8 @@ const ERRORS: i32 = 590;
 /// The right end of the costs.
 const CYCLES: i32 = 940;
 
-/// By effect, its name in lower case without signs, how many times larger the scene's tracking error is without it: by the table of
-/// the README.
+/// By effect, its name in lower case without signs, how many times larger the scene's tracking
+/// error is without it: by the table of the README.
 pub fn factors(readme: &str) -> BTreeMap<String, f64> {
     let factor = |row: Vec<&str>| {
         let times = row.get(1)?.strip_suffix(" ×")?.parse().ok()?;

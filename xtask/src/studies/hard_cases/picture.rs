@@ -1,4 +1,5 @@
-//! The picture of all cases: how near to its bound the worst error of each is, and how far beyond it a naive way.
+//! The picture of all cases: how near to its bound the worst error of each is, and how far beyond
+//! it a naive way.
 
 use super::{Row, Suite};
 use crate::kit::chart::{Axis, BLUE, ORANGE, Panels, RED, Shape};

@@ -59,8 +59,8 @@ pub fn of_code(root: &Path) -> Result<Table> {
     Ok(table)
 }
 
-/// Adds a file, or a folder's files by name, to a hash (FNV-1a, 64 bits); of Rust the lines of code alone, so that a
-/// comment changes nothing.
+/// Adds a file, or a folder's files by name, to a hash (FNV-1a, 64 bits); of Rust the lines of code
+/// alone, so that a comment changes nothing.
 fn add(hash: &mut u64, path: &Path) -> Result<()> {
     let mut add_line = |line: &str| {
         for byte in line.bytes().chain([b'\n']) {

@@ -10,7 +10,8 @@ use crate::kit::workspace::{self, Workspace};
 use crate::studies::peers::robots::Robot;
 use crate::studies::peers::tools::Peers;
 
-/// The limits that Pinocchio needs in Boost: it has more types of joints than Boost's defaults allow.
+/// The limits that Pinocchio needs in Boost: it has more types of joints than Boost's defaults
+/// allow.
 const BOOST: &str = "-DBOOST_MPL_LIMIT_LIST_SIZE=30 -DBOOST_MPL_LIMIT_VECTOR_SIZE=30 \
     -DBOOST_FUSION_INVOKE_MAX_ARITY=12 -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS";
 
@@ -60,9 +61,9 @@ impl<'a> Workshop<'a> {
         })
     }
 
-    /// Compiles `sources`, the first of them by name, with these arguments to the file `name`, unless that was
-    /// made by this very command of these very sources with these very compilers and packages: Pinocchio
-    /// takes minutes.
+    /// Compiles `sources`, the first of them by name, with these arguments to the file `name`,
+    /// unless that was made by this very command of these very sources with these very compilers
+    /// and packages: Pinocchio takes minutes.
     pub fn make(
         &self,
         name: &str,
@@ -120,7 +121,8 @@ impl<'a> Workshop<'a> {
         self.robots.join("robots.txt")
     }
 
-    /// Pinocchio's dynamics, or those of robots with loops, by a compiler: the source `NAME.cpp` as a shared library.
+    /// Pinocchio's dynamics, or those of robots with loops, by a compiler: the source `NAME.cpp` as
+    /// a shared library.
     pub fn pinocchio(&self, name: &str, compiler: &str) -> Result<PathBuf> {
         let _spinner = Spinner::start(&format!("building {name} by {compiler}"));
         let library = format!("{}_{compiler}.so", name.trim_end_matches("_peer"));

@@ -132,8 +132,8 @@ fn wanted(robots: &[Robot]) -> impl Iterator<Item = Wanted<'_>> {
     })
 }
 
-/// A library's function (see `lab/peers/bench/src/foreign.rs`): the names of all its functions begin with `prefix`,
-/// and the one that opens takes a file.
+/// A library's function (see `lab/peers/bench/src/foreign.rs`): the names of all its functions
+/// begin with `prefix`, and the one that opens takes a file.
 fn foreign(
     (robot, algorithm, precision): Wanted<'_>,
     peer: &str,

@@ -36,7 +36,8 @@ struct Placement {
     position: [f64; 3],
 }
 
-/// The library's robots that are compared: of revolute joints, as the peers' form is, and a free base.
+/// The library's robots that are compared: of revolute joints, as the peers' form is, and a free
+/// base.
 const COMPARED: [&str; 7] = ["ur5e", "panda", "iiwa14", "a1", "a1_free", "g1", "g1_free"];
 /// What is compared of a free base and of a robot with many joints.
 const DYNAMICS: [&str; 3] = ["rnea", "crba", "aba"];
@@ -118,7 +119,8 @@ impl Robot {
         self.is_free() || !self.has_many_joints()
     }
 
-    /// The functions of it that CasADi is to write: `cs` ones, which take cosines, are for the target.
+    /// The functions of it that CasADi is to write: `cs` ones, which take cosines, are for the
+    /// target.
     pub fn casadi(&self) -> impl Iterator<Item = [&'static str; 3]> {
         let angles = self.precisions().iter().map(|precision| ["q", precision]);
         let target = PRECISIONS.iter().map(|precision| ["cs", precision]);

@@ -18,8 +18,8 @@ use crate::studies::peers::robots::Robot;
 /// The firmware's bin, and the feature that it is built with.
 const BIN: &str = "peers";
 
-/// Largest error relative to full scale of a function that is worth measuring: forward dynamics and Λ⁻¹ are
-/// ill-conditioned.
+/// Largest error relative to full scale of a function that is worth measuring: forward dynamics and
+/// Λ⁻¹ are ill-conditioned.
 fn bound(algorithm: &str) -> f64 {
     match algorithm {
         "aba" | "osim" => 1e-3,
@@ -27,8 +27,8 @@ fn bound(algorithm: &str) -> f64 {
     }
 }
 
-/// Ways to compile the C: what each is called at the end of its symbols, in the report, the compiler and its flags; of
-/// clang those of `.cargo/config.toml` in its words.
+/// Ways to compile the C: what each is called at the end of its symbols, in the report, the
+/// compiler and its flags; of clang those of `.cargo/config.toml` in its words.
 const BUILDS: [[&str; 4]; 3] = [
     ["gcc", "casadi gcc", "arm-none-eabi-gcc", "-mcpu=cortex-m4"],
     [
@@ -47,8 +47,8 @@ const COMMON: &str = "-c -O3 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard";
 /// symbols: the better of the two is the peer.
 const OVERLAP: [(&str, &str); 2] = [("", ""), ("restrict", "_r")];
 
-/// Compiles the C and the firmwares, and runs them under the meter: one of each robot on a fixed base, and of each function
-/// of a free base. Returns the seconds of the builds of those, too.
+/// Compiles the C and the firmwares, and runs them under the meter: one of each robot on a fixed
+/// base, and of each function of a free base. Returns the seconds of the builds of those, too.
 pub fn measure(
     workspace: &Workspace,
     shop: &Workshop<'_>,
@@ -70,8 +70,8 @@ pub fn measure(
     Ok((found, builds))
 }
 
-/// Rows of a firmware with these objects and the table of their functions, and the seconds of processor time of its build, over a
-/// library that is built.
+/// Rows of a firmware with these objects and the table of their functions, and the seconds of
+/// processor time of its build, over a library that is built.
 fn firmware(
     workspace: &Workspace,
     tools: &Tools,
@@ -103,7 +103,8 @@ fn firmware(
     Ok((rows(measured, &lines)?, seconds))
 }
 
-/// The seconds in the last line of a shell's `times`, which is of its children: `1m2.5s 0m0.5s`, of the user and the system.
+/// The seconds in the last line of a shell's `times`, which is of its children: `1m2.5s 0m0.5s`, of
+/// the user and the system.
 fn processor_time(said: &str) -> Result<f64> {
     let seconds = |word: &str| {
         let (minutes, seconds) = word.strip_suffix('s')?.split_once('m')?;
@@ -165,7 +166,8 @@ fn peer(form: &str) -> &str {
     build.map_or(form, |[_, name, ..]| name)
 }
 
-/// The firmware's measurements with its errors in the same order; of two forms of a build the better.
+/// The firmware's measurements with its errors in the same order; of two forms of a build the
+/// better.
 fn rows(measured: Vec<MeasuredRow>, lines: &[String]) -> Result<Vec<Row>> {
     let errors = lines.iter().filter_map(|line| line.strip_prefix("error "));
     let errors: Vec<f64> = errors

@@ -1,4 +1,5 @@
-//! docs/peers.md, which no step measures anew, against itself, `budgets.toml` and what a decision says of it.
+//! docs/peers.md, which no step measures anew, against itself, `budgets.toml` and what a decision
+//! says of it.
 
 use super::bars::compared;
 use super::report::{HOST, M4F, Report, Row};
@@ -164,7 +165,8 @@ fn a_page_that_disagrees_is_refused() {
     assert!(check(&page, &stricter).is_err());
 }
 
-/// The figures of a row of the decision's table by robot, and in how many digits; none without the row.
+/// The figures of a row of the decision's table by robot, and in how many digits; none without the
+/// row.
 fn decided(name: &str) -> Vec<(String, f64, usize)> {
     let text = read("docs/decisions/0002-bars.md");
     let rows = rows_of(&text);

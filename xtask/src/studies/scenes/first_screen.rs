@@ -33,8 +33,8 @@ pub fn composed(workspace: &Workspace) -> Result<String> {
     why(&read(PEERS)?, &read(WHY.file)?, &read(TICK.file)?)
 }
 
-/// From the bars of the peers' page, as it was recorded, from the README's other parts and from the default scene's page. A figure is
-/// copied, or has fewer digits than there.
+/// From the bars of the peers' page, as it was recorded, from the README's other parts and from the
+/// default scene's page. A figure is copied, or has fewer digits than there.
 fn why(peers: &str, readme: &str, scenes: &str) -> Result<String> {
     let wishes = wishes(readme)?;
     let range = |bar: &str| range(peers, bar);
@@ -72,7 +72,8 @@ fn cell<'a>(page: &'a str, name: &str, count: usize) -> Result<Vec<&'a str>> {
     row.ok_or_else(|| check!("no page has a row {name} of {count} cells"))
 }
 
-/// The questions that the README's pictures answer, each with its figures as the README's other parts have them.
+/// The questions that the README's pictures answer, each with its figures as the README's other
+/// parts have them.
 fn wishes(readme: &str) -> Result<String> {
     let lacks = |what: &str| check!("README.md has no {what}");
     let (all, pruned) = (
@@ -105,7 +106,8 @@ fn wishes(readme: &str) -> Result<String> {
     ))
 }
 
-/// The least and the greatest figure of the bars whose names contain these words, of free bases only if they are named.
+/// The least and the greatest figure of the bars whose names contain these words, of free bases
+/// only if they are named.
 fn range(page: &str, bar: &str) -> Result<String> {
     let is_free = |text: &str| text.contains("_free ");
     let figures = page

@@ -1,5 +1,5 @@
-//! The picture of the tracking, a column of charts for each joint: where the reference leads it, and how far it
-//! strays under each law.
+//! The picture of the tracking, a column of charts for each joint: where the reference leads it,
+//! and how far it strays under each law.
 
 use std::path::Path;
 
@@ -43,7 +43,8 @@ pub fn svg(recording: &Recording) -> Result<String> {
     })
 }
 
-/// A chart for each joint, side by side, the first of which has the axis of all; `top` pixels are for a head.
+/// A chart for each joint, side by side, the first of which has the axis of all; `top` pixels are
+/// for a head.
 fn columns(
     recording: &Recording,
     area: &Area<'_>,
@@ -166,7 +167,8 @@ fn errors(recording: &Recording, plant: &str, what: &str, below: u32, area: &Are
     })
 }
 
-/// Where gravity has no torque, a law of gravity is PD alone: that is the wide line, so that it is seen below the other.
+/// Where gravity has no torque, a law of gravity is PD alone: that is the wide line, so that it is
+/// seen below the other.
 fn width(law: &str) -> u32 {
     if law == PD { 5 } else { 2 }
 }

@@ -1,4 +1,5 @@
-//! A rod on a bearing, moved by a Nucleo-F446RE: encoder, drive, brake and button around the control loop.
+//! A rod on a bearing, moved by a Nucleo-F446RE: encoder, drive, brake and button around the
+//! control loop.
 #![cfg_attr(target_arch = "arm", no_std, no_main)]
 
 #[cfg(target_arch = "arm")]

@@ -20,8 +20,8 @@ use super::yardsticks;
 /// States beside those recorded, whose oracle is our f64.
 const MORE_STATES: usize = 2000;
 
-/// Ticks that the robot rests before it goes, so that its way-points, where the torque bends, fall between the ticks
-/// that compute: elsewhere, what rates lose would look too small.
+/// Ticks that the robot rests before it goes, so that its way-points, where the torque bends, fall
+/// between the ticks that compute: elsewhere, what rates lose would look too small.
 const REST: u32 = 3;
 
 /// The reference that every way of a robot is compared with.
@@ -93,7 +93,8 @@ fn ours<T: Robot<B, N, N>, const B: usize, const N: usize>(state: &State<f32, N,
     Core::<T>::rnea(&widened(state), &RIGID_BODY)
 }
 
-/// Prints how far the f64 is off from what was recorded; returns the full scale and the largest error.
+/// Prints how far the f64 is off from what was recorded; returns the full scale and the largest
+/// error.
 fn print_oracle<T: Robot<B, N, N>, const B: usize, const N: usize>(
     name: &str,
     recorded: &[Problem<N>],

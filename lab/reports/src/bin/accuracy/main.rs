@@ -1,5 +1,6 @@
-//! Prints the errors of every way to compute a torque, one line of JSON each: `cargo xtask accuracy` joins them with
-//! what the ways cost on the target. f32 gives the same bits here and there.
+//! Prints the errors of every way to compute a torque, one line of JSON each:
+//! `cargo xtask accuracy` joins them with what the ways cost on the target. f32 gives the same bits
+//! here and there.
 //!
 //! | kind of line | what |
 //! |---|---|

@@ -1,5 +1,5 @@
-//! The errors of single changes to the default way to compute a torque, on the robot of a file. Nothing is recorded of
-//! it: errors are those from the core in f64.
+//! The errors of single changes to the default way to compute a torque, on the robot of a file.
+//! Nothing is recorded of it: errors are those from the core in f64.
 
 mod inverse;
 mod problem;

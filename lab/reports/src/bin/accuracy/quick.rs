@@ -1,5 +1,6 @@
-//! The errors of single changes to the default way to compute a torque: what the bin `accuracy` prints of them, from less
-//! to build; and of the generated code, as it is printed. Arguments name the robots; none names all.
+//! The errors of single changes to the default way to compute a torque: what the bin `accuracy`
+//! prints of them, from less to build; and of the generated code, as it is printed. Arguments name
+//! the robots; none names all.
 
 mod inverse;
 /// Written by `cargo xtask accuracy`.

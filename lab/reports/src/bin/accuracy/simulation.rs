@@ -1,8 +1,10 @@
-//! Simulations: how far each way drifts off in energy and from the true motion, for every length of step.
+//! Simulations: how far each way drifts off in energy and from the true motion, for every length of
+//! step.
 //!
-//! The true motion is Runge and Kutta's in f64 with the oracle's step, on the core; the tests compare the double
-//! pendulum's with Lagrange's equations written out by hand. Trajectory errors are over the first second, since both
-//! robots are chaotic; energy is watched for longer. Where friction takes energy, it is compared with the true motion's.
+//! The true motion is Runge and Kutta's in f64 with the oracle's step, on the core; the tests
+//! compare the double pendulum's with Lagrange's equations written out by hand. Trajectory errors
+//! are over the first second, since both robots are chaotic; energy is watched for longer. Where
+//! friction takes energy, it is compared with the true motion's.
 
 use dynamics_core::Core;
 use dynamics_core::effects::RIGID_BODY;

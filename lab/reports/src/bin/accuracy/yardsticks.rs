@@ -1,6 +1,7 @@
-//! Other torque errors, those of measurement and identification, for comparison with those of the computation: along the
-//! robot's way, in f64, so that nothing of the computation is in them. And what leaving out the velocity products loses,
-//! against the joints' speed: a slow arm does not need them.
+//! Other torque errors, those of measurement and identification, for comparison with those of the
+//! computation: along the robot's way, in f64, so that nothing of the computation is in them. And
+//! what leaving out the velocity products loses, against the joints' speed: a slow arm does not
+//! need them.
 
 use std::f64::consts::{PI, TAU};
 
@@ -20,8 +21,8 @@ const STEPS: f64 = 16384.0;
 /// Drawings of parameters that are off.
 const DRAWINGS: usize = 20;
 
-/// Share of a joint's greatest torque that friction takes at its greatest speed: assumed, of the order of harmonic
-/// drives.
+/// Share of a joint's greatest torque that friction takes at its greatest speed: assumed, of the
+/// order of harmonic drives.
 const FRICTION: f64 = 0.1;
 
 /// rad/s: every joint's speed lies within ± this.

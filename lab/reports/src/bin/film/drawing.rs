@@ -23,7 +23,8 @@ const FLOOR: f64 = 0.64;
 /// The strokes of the arm: from which point of the skeleton to which, and their width, px.
 const STROKES: [([usize; 2], f64); 3] = [([0, 4], 26.0), ([4, 8], 19.0), ([8, 9], 7.0)];
 
-/// The plot of the error: its left, upper, right and lower end, px, and the error at its upper end, mm.
+/// The plot of the error: its left, upper, right and lower end, px, and the error at its upper end,
+/// mm.
 const PLOT: [f64; 4] = [52.0, 410.0, 622.0, 526.0];
 const MOST: f64 = 40.0;
 
@@ -134,7 +135,8 @@ fn floor() -> String {
     format!("<path class=\"faint-line\" d=\"{lines}\"/>\n")
 }
 
-/// An arm along the skeletons of the samples, again and again; where nothing is to move, that of one sample.
+/// An arm along the skeletons of the samples, again and again; where nothing is to move, that of
+/// one sample.
 fn arm(
     class: &str,
     samples: &[Tick],

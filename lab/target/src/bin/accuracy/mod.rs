@@ -1,6 +1,7 @@
-//! What each way to compute a robot's torques, or to simulate it, costs, between the meter's markers. `cargo xtask
-//! accuracy` reads the log: rows as those of `costs`, of the algorithms `inverse` and `simulation`, their inputs the key
-//! without what the target does not know. A call is a tick or a step.
+//! What each way to compute a robot's torques, or to simulate it, costs, between the meter's
+//! markers. `cargo xtask accuracy` reads the log: rows as those of `costs`, of the algorithms
+//! `inverse` and `simulation`, their inputs the key without what the target does not know. A call
+//! is a tick or a step.
 #![allow(dead_code, reason = "not every bin measures all")]
 
 #[path = "../costs/row.rs"]

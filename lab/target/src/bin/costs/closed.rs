@@ -25,7 +25,8 @@ pub fn delta<const N: usize>() -> [State<f32, 22, 21>; N] {
     states::<Delta, 10, 22, 21, 6, 18, 3, N>(home, ([7, 12, 17], 0.4))
 }
 
-/// States near a configuration, by motors that are moved within `range` of theirs; the velocities do not fit the loops.
+/// States near a configuration, by motors that are moved within `range` of theirs; the velocities
+/// do not fit the loops.
 fn states<
     T,
     const B: usize,

@@ -68,7 +68,8 @@ const SELECTED: SelectedParameters<f32, P, N> = SelectedParameters {
     spread: [[0.0; P]; N],
 };
 
-/// The estimator of the SO-101's parameters: an update with the row of its first joint, and with one that is given.
+/// The estimator of the SO-101's parameters: an update with the row of its first joint, and with
+/// one that is given.
 pub fn parameters(asks: &[Ask<6>; STATES]) {
     let config = ParameterEstimatorConfig {
         noise: [1.0; 6],

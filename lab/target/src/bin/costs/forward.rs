@@ -97,8 +97,8 @@ fn core_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
     Ok(Core::<T>::solve(&Core::<T>::ltdl(m)?, tau))
 }
 
-/// Measures the rows of these forms. Torques are the states' accelerations: any will do, since the work
-/// does not depend on what they move.
+/// Measures the rows of these forms. Torques are the states' accelerations: any will do, since the
+/// work does not depend on what they move.
 fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>(
     asks: &'a [Ask<N>; STATES],
     forms: &[Forms<'a, N, TIP>],

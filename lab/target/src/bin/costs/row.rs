@@ -4,8 +4,8 @@
 //! config ROBOT ALGORITHM FORM INPUTS TRIG JOINTS STATES ADDRESS STACK
 //! ```
 //!
-//! TRIG is 1 if sines and cosines are computed inside; ADDRESS is the function's, and STACK the bytes
-//! that it and all that it calls were seen to use.
+//! TRIG is 1 if sines and cosines are computed inside; ADDRESS is the function's, and STACK the
+//! bytes that it and all that it calls were seen to use.
 
 use core::arch::asm;
 use core::hint::black_box;
@@ -47,8 +47,8 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Logs the row, then runs the function of this address once for each ask in region 0. Taking the
-    /// address also keeps the compiler from shaping the function to its calls.
+    /// Logs the row, then runs the function of this address once for each ask in region 0. Taking
+    /// the address also keeps the compiler from shaping the function to its calls.
     #[inline(always)]
     pub fn measure<'b, A, T>(self, address: usize, asks: &'b [A], mut run: impl FnMut(&'b A) -> T) {
         let stack = asks

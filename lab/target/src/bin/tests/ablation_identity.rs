@@ -1,5 +1,6 @@
-//! What is not named is not there: inverse dynamics of a rigid body alone, beside effects that do nothing,
-//! and beside friction and rotors. `cargo xtask test absent-effects` compares what the compiler made of them.
+//! What is not named is not there: inverse dynamics of a rigid body alone, beside effects that do
+//! nothing, and beside friction and rotors. `cargo xtask test absent-effects` compares what the
+//! compiler made of them.
 #![no_std]
 #![no_main]
 
@@ -38,7 +39,8 @@ fn main() -> ! {
     both("full", &asks, &RIGID_BODY);
     both("idle", &asks, &(Nothing, RIGID_BODY, (Nothing, Nothing)));
     both("friction", &asks, &(RIGID_BODY, VISCOUS, COULOMB, ROTORS));
-    // As a scene has them: their numbers known while compiling, of types that nothing else here has.
+    // As a scene has them: their numbers known while compiling, of types that nothing else here
+    // has.
     row("engine", "full_known").measure(full as *const () as usize, &asks, |ask| full(&ask.state));
     row("engine", "friction_known").measure(friction as *const () as usize, &asks, |ask| {
         friction(&ask.state)

@@ -1,5 +1,5 @@
-//! The same work whatever the data: dynamics, sine and cosine, control law, drives and motion controller on random
-//! and adversarial states, between the meter's markers.
+//! The same work whatever the data: dynamics, sine and cosine, control law, drives and motion
+//! controller on random and adversarial states, between the meter's markers.
 //!
 //! ```text
 //! constant NAME STATES
@@ -7,8 +7,9 @@
 //! done
 //! ```
 //!
-//! The controller's common path is that without a fault, so what it gets is what its safety gate accepts: positions
-//! within the joints' limits and finite torques, however odd. Its way back from a fault is bounded, not constant.
+//! The controller's common path is that without a fault, so what it gets is what its safety gate
+//! accepts: positions within the joints' limits and finite torques, however odd. Its way back from
+//! a fault is bounded, not constant.
 #![no_std]
 #![no_main]
 
@@ -167,12 +168,13 @@ fn law(
     feedback(gains, reference, estimate)
 }
 
-/// The controller on accepted commands: at full authority, or, with a reset every so many ticks, during the return to
-/// it.
+/// The controller on accepted commands: at full authority, or, with a reset every so many ticks,
+/// during the return to it.
 fn control(noise: &mut Noise, reset: Option<usize>) {
     const SPEED: f32 = 3.2;
     const RANGE: f32 = 6.3;
-    // Steps whose mean over any ticks is a speed within its limit, so that the estimate of the observer is one too.
+    // Steps whose mean over any ticks is a speed within its limit, so that the estimate of the
+    // observer is one too.
     const STEP: f32 = 0.99 * SPEED * 1e-3;
     let mut controller = MotionController::new(MotionControllerConfig {
         supervisor: SupervisorConfig {

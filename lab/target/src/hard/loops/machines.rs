@@ -1,4 +1,5 @@
-//! Planar linkages in numbers that f32 has: four-bars as loops and as clusters, a slider-crank, a rig with three motors.
+//! Planar linkages in numbers that f32 has: four-bars as loops and as clusters, a slider-crank, a
+//! rig with three motors.
 
 use dynamics_core::clusters::{Branch, ClusteredRobot, Driven};
 use dynamics_core::loops::{BodyFrame, LoopJoint, LoopRobot, Loops};

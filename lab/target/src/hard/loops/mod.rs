@@ -12,10 +12,12 @@ pub use machines::{FourBar, LINKAGES, Linkage, Rig, SliderCrank};
 use dynamics_core::loops::{LoopRobot, Loops, Moving};
 use dynamics_core::model::ArmModel;
 
-/// q, q̇ and q̈ as they are written: those of the coordinates that are held, and a guess of the others.
+/// q, q̇ and q̈ as they are written: those of the coordinates that are held, and a guess of the
+/// others.
 pub type Start<const N: usize> = [[f32; N]; 3];
 
-/// One problem of a hard case: a machine with one loop of five rows, of which A coordinates have motors.
+/// One problem of a hard case: a machine with one loop of five rows, of which A coordinates have
+/// motors.
 #[derive(Clone, Copy, Debug)]
 pub struct LoopProblem<const N: usize, const A: usize> {
     /// The number of the case that it belongs to.

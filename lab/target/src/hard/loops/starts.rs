@@ -45,7 +45,8 @@ pub(super) const fn parallelogram(angle: f32) -> [Start<3>; 2] {
     ]
 }
 
-/// Near a change point at 0, where coupler and rocker turn by 0.0883 and 0.7208 of the crank's angle.
+/// Near a change point at 0, where coupler and rocker turn by 0.0883 and 0.7208 of the crank's
+/// angle.
 pub(super) const fn changing(angle: f32) -> [Start<3>; 2] {
     let guess = [-0.911_706 * angle, 0.720_785 * angle];
     [

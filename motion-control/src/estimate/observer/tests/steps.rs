@@ -2,7 +2,8 @@
 
 use super::*;
 
-/// An observer of two joints that move, with a tick of 0.5 s and a step of the gains that is not small.
+/// An observer of two joints that move, with a tick of 0.5 s and a step of the gains that is not
+/// small.
 fn moving() -> Observer<f64, 2> {
     let config = ObserverConfig {
         bandwidth: 1.5,

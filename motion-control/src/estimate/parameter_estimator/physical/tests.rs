@@ -118,7 +118,8 @@ fn a_set_follows_to_the_margin() {
     let mut two = two();
     assert_eq!(two.follow(&with(20, 0.25)), 1.0);
     assert_eq!(two.parameters(), &with(20, 0.25));
-    // From 0.25 to a margin of 0.025 at 0.6008 of the way, of which 615/1024 are the steps of the bisection.
+    // From 0.25 to a margin of 0.025 at 0.6008 of the way, of which 615/1024 are the steps of the
+    // bisection.
     let share = two.follow(&with(20, 0.25 - 0.225 / 0.6008));
     assert_eq!(share, 615.0 / 1024.0);
     let stored = two.parameters()[20];

@@ -15,7 +15,8 @@ fn a_base_parameter_has_the_prior_of_its_sum() {
     let base: SelectedParameters<f64, 2, 3> = motion
         .select::<_, 0, 2>(&nominal, share)
         .expect("two columns");
-    // Of deviations 2 and 2 · 0.5 the first has the larger effect; the last has the largest, and stays behind it.
+    // Of deviations 2 and 2 · 0.5 the first has the larger effect; the last has the largest, and
+    // stays behind it.
     assert_eq!(base.columns, [0, 2]);
     let variances = nominal.map(|x: f64| share * share * x * x);
     let sum = variances[0] + 4.0 * variances[1];
@@ -166,8 +167,8 @@ fn a_row_has_the_selected_columns_of_its_joint() {
     assert_eq!(friction.own::<3>(BODIES, 2), [2, 1, 1]);
 }
 
-// Columns that are correlated: of the regression K of all columns on the selected ones and the covariance C, the prior is
-// K C Kᵀ and the spread C Kᵀ (K C Kᵀ)⁻¹.
+// Columns that are correlated: of the regression K of all columns on the selected ones and the
+// covariance C, the prior is K C Kᵀ and the spread C Kᵀ (K C Kᵀ)⁻¹.
 #[test]
 fn the_spread_is_that_of_the_regression_on_the_selection() {
     const ROWS: [[f64; 5]; 6] = [
@@ -207,7 +208,8 @@ fn the_spread_is_that_of_the_regression_on_the_selection() {
             assert!((row[k] - expected[k]).abs() < 1e-12, "{i}");
         }
     }
-    // The last column that was selected explains more of what the others leave than any that was not.
+    // The last column that was selected explains more of what the others leave than any that was
+    // not.
     let left = |of: &[usize; 2], i: usize| {
         let own = of.map(|a| of.map(|b| product(a, b)));
         let with = of.map(|a| product(a, i));

@@ -2,7 +2,8 @@
 
 use super::*;
 
-/// One parameter of each of two joints, known to a millionth, with a limit of 4: an innovation counts 16 at most.
+/// One parameter of each of two joints, known to a millionth, with a limit of 4: an innovation
+/// counts 16 at most.
 type Pair = ParameterEstimator<f64, 2, 2>;
 const MOST: f64 = 16.0;
 

@@ -1,4 +1,5 @@
-//! Which measurements are refused, and when the estimator freezes, thaws and changes to another load.
+//! Which measurements are refused, and when the estimator freezes, thaws and changes to another
+//! load.
 
 use super::*;
 
@@ -250,7 +251,8 @@ fn ticks_of_a_fault_begin_the_other_load_anew() {
     assert!((mass(&one) - 40.0).abs() < 0.01, "{}", mass(&one));
 }
 
-/// One of a limit of 5, whose bounds are 2² and 2.5², frozen at no load with these levels and ticks of the other load.
+/// One of a limit of 5, whose bounds are 2² and 2.5², frozen at no load with these levels and ticks
+/// of the other load.
 fn frozen_with(level: f64, other: f64, ticks: u32) -> One {
     let config = PayloadEstimatorConfig {
         noise: [1.0],

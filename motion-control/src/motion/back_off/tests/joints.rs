@@ -110,7 +110,8 @@ fn the_bounds_follow_the_joints_inwards_only() {
     }
 }
 
-/// The torques of a law after the limits, of joints that have moved at these speeds to where they are.
+/// The torques of a law after the limits, of joints that have moved at these speeds to where they
+/// are.
 fn limited(at: [f64; 3], speeds: [f64; 3], mut tau: [f64; 3]) -> [f64; 3] {
     let mut back_off = back_off_with(0.125);
     let q = |ticks: f64| core::array::from_fn(|joint| at[joint] - TICK * ticks * speeds[joint]);
@@ -162,7 +163,8 @@ fn an_outward_torque_brakes_no_more_than_the_speed_needs() {
     assert_eq!(at_bound, [30.0, -30.0, 0.0]);
 }
 
-/// Leads an arm that follows exactly back; the ticks of its path, those with the brake open, and the reason of its hold.
+/// Leads an arm that follows exactly back; the ticks of its path, those with the brake open, and
+/// the reason of its hold.
 fn lead_back(mut arm: Arm, q: [f64; 3]) -> (u32, u32, Option<Fault>) {
     let clock = arm.trajectory_tick();
     let mut back_off = BackOff::start(&mut arm, &SLOW).expect("measured");

@@ -1,4 +1,5 @@
-//! Claims about the limits of a retraction, the path that it follows, and the clock of the motion that it interrupts.
+//! Claims about the limits of a retraction, the path that it follows, and the clock of the motion
+//! that it interrupts.
 
 use super::*;
 

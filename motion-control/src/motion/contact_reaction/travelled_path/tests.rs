@@ -28,7 +28,8 @@ fn travelled<const N: usize>() -> TravelledPath<f64, 2, N> {
     path
 }
 
-/// The largest distance of the retraction from the path, rad: its ellipse's equation over the slope of that.
+/// The largest distance of the retraction from the path, rad: its ellipse's equation over the slope
+/// of that.
 fn off<const N: usize>(path: &TravelledPath<f64, 2, N>) -> f64 {
     let distance = |[x, y]: [f64; 2]| {
         let [u, v] = [x / 0.5, y / 0.3];

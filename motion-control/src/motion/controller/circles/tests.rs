@@ -51,7 +51,8 @@ fn point(q: [f32; 2], ticks: u32) -> WayPoint<f32, 2> {
     }
 }
 
-/// Two joints without gravity, of which the first is measured within a turn; the true first angle counts turns.
+/// Two joints without gravity, of which the first is measured within a turn; the true first angle
+/// counts turns.
 struct Bench {
     controller: Controller,
     q: [f64; 2],

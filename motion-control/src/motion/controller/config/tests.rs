@@ -47,7 +47,8 @@ fn a_configuration_in_other_units_gets_this_advice_alone() {
     assert_eq!(of(|c| c.restart_distance = f32::INFINITY), none);
     assert_eq!(of(|c| c.restart_distance = 15.0), ["FarRestart"]);
     assert_eq!(of(|c| c.supervisor.limits.rate[1] = 0.0), ["ZeroRate"]);
-    // A second is far beyond every frequency, and an observer of 250 rad/s multiplies each step of the encoder.
+    // A second is far beyond every frequency, and an observer of 250 rad/s multiplies each step of
+    // the encoder.
     let long = of(|c| c.supervisor.tick = 1.0);
     let all = [
         "LongTick",

@@ -1,4 +1,5 @@
-//! The clock of the trajectory, the reference, and the estimate, in ticks that were missed or had no measurement.
+//! The clock of the trajectory, the reference, and the estimate, in ticks that were missed or had
+//! no measurement.
 
 use super::*;
 
@@ -11,7 +12,8 @@ fn tick(controller: &mut Controller, q: f64) -> Command<f64, 1> {
     controller.tick(Ok(&[q]), &Cruise, |_, _| [1.0])
 }
 
-/// A controller in its return after a fault, of which so many ticks have passed, on a joint that follows.
+/// A controller in its return after a fault, of which so many ticks have passed, on a joint that
+/// follows.
 fn returning(ticks: u32) -> Controller {
     let mut config = CONFIG;
     config.supervisor.reentry_ticks = RETURN;

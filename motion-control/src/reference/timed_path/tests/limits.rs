@@ -27,7 +27,8 @@ fn share<const V: usize, P: GeometricPath<f64, V>, const M: usize>(
     most
 }
 
-/// An arc on which the inertia of the second joint along the path, 0.8 q₁′ + 0.6 q₂′, changes its sign twice.
+/// An arc on which the inertia of the second joint along the path, 0.8 q₁′ + 0.6 q₂′, changes its
+/// sign twice.
 fn arc(s: f64) -> [[f64; 2]; 3] {
     let (sin, cos) = (5.0 * s).sin_cos();
     [
@@ -65,7 +66,8 @@ fn a_point_of_zero_inertia_is_no_special_case() {
 
 #[test]
 fn a_grid_point_of_zero_inertia_exactly_bounds_x() {
-    // The second joint has no inertia along this line, and centrifugal torque −2 x along it: x ≤ 3/2.
+    // The second joint has no inertia along this line, and centrifugal torque −2 x along it: x ≤
+    // 3/2.
     let path = Curve(|s: f64| [[s, 0.0], [1.0, 0.0], [0.0, 0.0]]);
     let id = |state: &State<f64, 2, 2>| [0.01 * state.qdd[0], -2.0 * state.qd[0] * state.qd[0]];
     let timed = TimedPath::<_, _, 101>::new(&path, 1e-3, &torques([1.0, 3.0]), id).unwrap();
@@ -82,7 +84,8 @@ fn friction_helps_only_as_far_as_it_is_certain() {
         let qd = state.qd[0];
         [2.5 * state.qdd[0] + viscous * qd + coulomb * qd.signum() * f64::from(qd != 0.0)]
     };
-    // The fastest motion, by small steps: with all torque forward, and from the end with all torque backward.
+    // The fastest motion, by small steps: with all torque forward, and from the end with all torque
+    // backward.
     let fastest = |certain: f64| {
         let (mut x, mut down, h) = (vec![0.0], vec![0.0], 1e-5);
         for _ in 0..(d / h) as usize {

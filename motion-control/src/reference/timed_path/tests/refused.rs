@@ -14,7 +14,8 @@ fn refused<const V: usize>(
 
 #[test]
 fn gravity_beyond_a_limit_names_joint_and_point() {
-    // A pendulum that is lifted: 9 sin q exceeds 6 N·m from 0.73 rad on, which is after grid point 4 of 1.8 rad.
+    // A pendulum that is lifted: 9 sin q exceeds 6 N·m from 0.73 rad on, which is after grid point
+    // 4 of 1.8 rad.
     let path = Curve(|s: f64| [[0.0, 1.8 * s], [0.1, 1.8], [0.0; 2]]);
     let lift = |state: &State<f64, 2, 2>| [state.qdd[0], state.qdd[1] + 9.0 * state.q[1].sin()];
     let error = refused(&path, &torques([6.0; 2]), lift);

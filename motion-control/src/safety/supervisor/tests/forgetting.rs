@@ -47,7 +47,8 @@ fn a_reset_forgets_all_that_was_before() {
         good_ticks(&mut after, 1);
         of(&mut after);
         after.reset();
-        // The reason is that of the last tick until there is another, and the last position is compared with nothing.
+        // The reason is that of the last tick until there is another, and the last position is
+        // compared with nothing.
         (after.fault, after.last_good) = (fresh.fault, fresh.last_good);
         // The rate of a stopped arm is limited from the torque that its drives have.
         if name.contains("stop") || name.contains("lasting") {

@@ -1,5 +1,6 @@
-//! All states of supervisors with small numbers of ticks, in each of which everything happens that can, against the
-//! table of transitions in the guide, of which `transitions/table.md` is the copy that this crate carries.
+//! All states of supervisors with small numbers of ticks, in each of which everything happens that
+//! can, against the table of transitions in the guide, of which `transitions/table.md` is the copy
+//! that this crate carries.
 
 use std::collections::{HashMap, HashSet};
 use std::mem::{Discriminant, discriminant};
@@ -25,7 +26,8 @@ const CATEGORIES: [StopCategory<f32, 1>; 4] = [
     StopCategory::ControlledHold,
     StopCategory::DampedLowering { damping: [1.0] },
 ];
-/// `ride_through_ticks`, `hold_ticks` and `reentry_ticks`; without a ride-through, a first fault is held or lasting.
+/// `ride_through_ticks`, `hold_ticks` and `reentry_ticks`; without a ride-through, a first fault is
+/// held or lasting.
 const TICKS: [[u32; 3]; 3] = [[2, 3, 1], [0, 1, 2], [1, 1, 0]];
 /// Faults that no input has: of the tick before, of a report, and the reason of a stop.
 const BEFORE: Fault = Fault::Model;
@@ -88,8 +90,8 @@ fn step(before: &One, input: Input) -> (One, Option<Command<f32, 1>>) {
     (one, command)
 }
 
-/// The same state with the numbers that the inputs are relative to: positions, torques, and which faults there were
-/// choose no transition.
+/// The same state with the numbers that the inputs are relative to: positions, torques, and which
+/// faults there were choose no transition.
 fn canonical(mut one: One) -> One {
     (one.last_good, one.torque) = ([0.0], [0.0]);
     if one.known {
@@ -123,7 +125,8 @@ fn table() -> Table {
     cells
 }
 
-/// Every supervisor before its first input: with each category, in the full law, on its brake, and with useless limits.
+/// Every supervisor before its first input: with each category, in the full law, on its brake, and
+/// with useless limits.
 fn starts() -> Vec<(One, Expected)> {
     let mut starts = Vec::new();
     for (ticks, category) in TICKS
@@ -171,7 +174,8 @@ pub struct Found {
     pub links: HashMap<[Discriminant<State>; 2], [State; 2]>,
 }
 
-/// Everything that can happen, in every state to which it leads; `spoil` can make a transition wrong.
+/// Everything that can happen, in every state to which it leads; `spoil` can make a transition
+/// wrong.
 fn enumerate(spoil: &dyn Fn(Cell, &One, Input, &mut One)) -> Result<Found, String> {
     let table = table();
     let mut found = Found::default();

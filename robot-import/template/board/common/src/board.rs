@@ -1,6 +1,8 @@
-//! Encoders and drives of the robot: their kinds, and how they are mounted. Adapt them to your parts.
+//! Encoders and drives of the robot: their kinds, and how they are mounted. Adapt them to your
+//! parts.
 //!
-//! `joint-drivers` has further kinds; its control loop takes all that implement `JointEncoder` and `JointDrive`.
+//! `joint-drivers` has further kinds; its control loop takes all that implement `JointEncoder` and
+//! `JointDrive`.
 
 use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle, spi::SpiDevice};
 use joint_drivers::as5047p::As5047p;
@@ -15,15 +17,17 @@ pub use crate::control::{FeedForward as Law, Found, SetupError, detectors, gains
 pub use crate::scene::{Motion, N};
 pub use joint_drivers::as5047p::RESOLUTION;
 
-/// The angle that the encoder of each joint reads at the joint's zero, rad. Its range is in `scene.rs`.
+/// The angle that the encoder of each joint reads at the joint's zero, rad. Its range is in
+/// `scene.rs`.
 pub const ZERO: [f32; N] = [0.0; N];
 /// Which way each joint turns while its encoder's angle increases.
 pub const ENCODERS: [Direction; N] = [Direction::Forward; N];
 /// Which way each joint turns under a duty above 50 %.
 pub const DRIVES: [Direction; N] = [Direction::Forward; N];
 
-/// The torque of each joint at a duty of 100 %, N·m or N: current limit times torque constant times gear ratio. Here each
-/// drive is taken as one that delivers the joint's limit of torque: replace it by the figures of your drives.
+/// The torque of each joint at a duty of 100 %, N·m or N: current limit times torque constant times
+/// gear ratio. Here each drive is taken as one that delivers the joint's limit of torque: replace
+/// it by the figures of your drives.
 pub fn full_scale(motion: &Motion) -> [f32; N] {
     scene::limits(motion).torque
 }

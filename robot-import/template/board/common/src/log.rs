@@ -1,5 +1,5 @@
-//! Messages of the firmware over RTT, which `cargo run` shows: each change of its state with the reason, where
-//! its joints are while it stands on its brake, and why it does not start.
+//! Messages of the firmware over RTT, which `cargo run` shows: each change of its state with the
+//! reason, where its joints are while it stands on its brake, and why it does not start.
 
 use defmt::{error, info, warn};
 use defmt_rtt as _;

@@ -31,7 +31,8 @@ pub fn is_pressed(button: &Button) -> bool {
     button.is_low()
 }
 
-/// 168 MHz from the 8 MHz of the ST-LINK: five wait states of the flash at 3.3 V, with its accelerator.
+/// 168 MHz from the 8 MHz of the ST-LINK: five wait states of the flash at 3.3 V, with its
+/// accelerator.
 pub fn clocks() -> Config {
     Config::hse(8.MHz())
         .bypass_hse_oscillator()

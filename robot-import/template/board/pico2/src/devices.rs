@@ -1,6 +1,7 @@
 //! Pins and PWM channels of the chip whose registers are chosen when they are made.
 //!
-//! The HAL's own choose them at each call by a number, and panic for one that does not exist: no tick may reach that.
+//! The HAL's own choose them at each call by a number, and panic for one that does not exist: no
+//! tick may reach that.
 
 use core::convert::Infallible;
 use core::mem::forget;
@@ -48,8 +49,8 @@ impl OutputPin for Line {
     }
 }
 
-/// The select of an encoder: its clock begins later than 350 ns after its fall, which the AS5048A needs and faster parts of
-/// the family do not mind.
+/// The select of an encoder: its clock begins later than 350 ns after its fall, which the AS5048A
+/// needs and faster parts of the family do not mind.
 #[derive(Debug)]
 pub struct Select(Line);
 

@@ -1,12 +1,14 @@
 //! The control loop as a task of Embassy.
 //!
-//! The arm starts on its brake. The button starts it if every joint is near the start of its motion. A tick that does not
-//! end within its period feeds no watchdog; 20 of them restart the processor, which sets the brake.
+//! The arm starts on its brake. The button starts it if every joint is near the start of its
+//! motion. A tick that does not end within its period feeds no watchdog; 20 of them restart the
+//! processor, which sets the brake.
 //!
-//! A PWM slice counts the millisecond, without pins, and its interrupt is at the same time the one in which the executor
-//! runs: nothing has to set the next alarm, and between the period's end and the tick lie no queue of timers and no second
-//! interrupt. What is left of jitter is the entry of an interrupt of the highest priority and the misses of the XIP cache.
-//! Embassy's own `Ticker` sets an alarm for each period, whose interrupt wakes the executor by a second one.
+//! A PWM slice counts the millisecond, without pins, and its interrupt is at the same time the one
+//! in which the executor runs: nothing has to set the next alarm, and between the period's end and
+//! the tick lie no queue of timers and no second interrupt. What is left of jitter is the entry of
+//! an interrupt of the highest priority and the misses of the XIP cache. Embassy's own `Ticker`
+//! sets an alarm for each period, whose interrupt wakes the executor by a second one.
 
 use cortex_m_rt::entry;
 use embassy_executor::InterruptExecutor;

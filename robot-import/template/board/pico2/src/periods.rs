@@ -1,9 +1,11 @@
-//! The count of the periods of a millisecond that a PWM slice measures, from the time and the slice's own counter.
+//! The count of the periods of a millisecond that a PWM slice measures, from the time and the
+//! slice's own counter.
 
 /// A period, µs.
 pub const PERIOD: u32 = 1000;
 
-/// A moment: the count of a timer that never stops, and how far the slice is in its period. Both in µs, from one oscillator.
+/// A moment: the count of a timer that never stops, and how far the slice is in its period. Both in
+/// µs, from one oscillator.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment {
     /// The timer, modulo 2³². It is read before the phase.
@@ -31,8 +33,8 @@ impl Periods {
 
     /// The count at a moment at most half an hour after the last [`advance`](Self::advance).
     pub fn count(&self, now: Moment) -> u32 {
-        // Both readings are rounded, and the slice may have begun a period between them: their difference is near a
-        // multiple of the period.
+        // Both readings are rounded, and the slice may have begun a period between them: their
+        // difference is near a multiple of the period.
         let passed = now.start().wrapping_sub(self.start);
         self.count
             .wrapping_add(passed.wrapping_add(PERIOD / 2) / PERIOD)

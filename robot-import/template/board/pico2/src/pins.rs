@@ -23,7 +23,8 @@ pub type Bus = Spi<'static, SPI0, Blocking>;
 /// An encoder's part of the bus.
 pub type Encoder<'a> = AtomicDevice<'a, Bus, Select, Spin>;
 
-/// Delays within a transaction, which the encoders do not have. The bus' own placeholder for them panics.
+/// Delays within a transaction, which the encoders do not have. The bus' own placeholder for them
+/// panics.
 #[derive(Clone, Copy)]
 pub struct Spin;
 

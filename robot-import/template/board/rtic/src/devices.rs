@@ -18,7 +18,8 @@ use crate::pins::{Bus, First};
 /// An encoder's part of the bus.
 pub type Encoder = AtomicDevice<'static, Bus, AnyPin<Output>, Spin>;
 
-/// Delays within a transaction, which the encoders do not have. The bus' own placeholder for them panics.
+/// Delays within a transaction, which the encoders do not have. The bus' own placeholder for them
+/// panics.
 #[derive(Clone, Copy)]
 pub struct Spin;
 
@@ -55,7 +56,8 @@ impl SetDutyCycle for Channel {
     }
 }
 
-/// The encoders on their bus. Not inlined, as all that start-up calls: it then needs the stack of one function at a time.
+/// The encoders on their bus. Not inlined, as all that start-up calls: it then needs the stack of
+/// one function at a time.
 #[inline(never)]
 pub fn encoders(bus: &'static AtomicCell<Bus>, selects: [AnyPin<Output>; N]) -> [Encoder; N] {
     selects.map(|select| {

@@ -1,7 +1,8 @@
 //! The control loop as a hardware task of RTIC.
 //!
-//! The arm starts on its brake. The button starts it if every joint is near the start of its motion. A tick that does not
-//! end within its period feeds no watchdog; 20 of them restart the processor, which sets the brake.
+//! The arm starts on its brake. The button starts it if every joint is near the start of its
+//! motion. A tick that does not end within its period feeds no watchdog; 20 of them restart the
+//! processor, which sets the brake.
 
 #[rtic::app(device = stm32f4xx_hal::pac, peripherals = true)]
 mod app {
@@ -133,7 +134,8 @@ mod app {
         }
         let mode = telemetry.status.mode;
         if matches!(mode, Mode::Stopped) && is_pressed(local.button) {
-            // Too far from the motion's start, or without a measurement: the arm stays on its brake.
+            // Too far from the motion's start, or without a measurement: the arm stays on its
+            // brake.
             if let Err(reason) = local.control.reset(motion) {
                 local.log.refused(reason);
             }

@@ -1,5 +1,5 @@
-//! Some ticks of inverse dynamics under a scene's effects, which remember: they lie in RAM. The log names
-//! how many bytes of it they take.
+//! Some ticks of inverse dynamics under a scene's effects, which remember: they lie in RAM. The log
+//! names how many bytes of it they take.
 
 use core::hint::black_box;
 

@@ -30,7 +30,8 @@ impl Reference<f32, 2> for Cruise {
     }
 }
 
-/// The largest error of the estimated speed, and of the tracking error, in three turns of a joint that lags by `lag` counts.
+/// The largest error of the estimated speed, and of the tracking error, in three turns of a joint
+/// that lags by `lag` counts.
 fn errors(turns: i64, step: i64, lag: i64) -> [f32; 2] {
     let cruise = Cruise {
         step,

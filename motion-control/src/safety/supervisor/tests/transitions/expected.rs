@@ -1,11 +1,13 @@
-//! What a supervisor is expected to do: the table chooses its state, and its ticks and faults are counted here.
+//! What a supervisor is expected to do: the table chooses its state, and its ticks and faults are
+//! counted here.
 
 use std::hash::{Hash, Hasher};
 
 use super::*;
 
-/// What shows of a supervisor after an input: its state, its fault, the authority of the full law, whether it knows and
-/// has accepted positions and was stopped again during a stop, and its command with the brake.
+/// What shows of a supervisor after an input: its state, its fault, the authority of the full law,
+/// whether it knows and has accepted positions and was stopped again during a stop, and its command
+/// with the brake.
 pub type Shown = (
     &'static str,
     Option<Fault>,
@@ -141,8 +143,8 @@ impl Expected {
         matches!(self.state, "to off" | "to stand" | "to lower" | "stand")
     }
 
-    /// The row of the first table: whether the next tick has no deceleration. An arm that will stand stands from the last
-    /// one on.
+    /// The row of the first table: whether the next tick has no deceleration. An arm that will
+    /// stand stands from the last one on.
     fn row(&self) -> &'static str {
         match (self.state, self.left) {
             ("to off", 0) => "to off, over",
@@ -229,7 +231,8 @@ impl Expected {
             class = self.class(self.faults + 1, if late { LATE_TICK } else { BAD_TICK });
             self.count(self.faults + 1);
         }
-        // The fault of a late tick comes before what its state does, and that of positions after it.
+        // The fault of a late tick comes before what its state does, and that of positions after
+        // it.
         let hidden = if late { class != BAD_TICK[2] } else { over };
         let fault = match self.state {
             "start" | "full" | "held" => fault,

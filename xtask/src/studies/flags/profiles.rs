@@ -126,8 +126,9 @@ fn measured(tools: &Tools, meter: &Path, name: &'static str, elf: &Path) -> Resu
     })
 }
 
-/// A figure without optimisation, of which further digits depend on the folder that the library lies in: hashes of its path
-/// order the functions.
+/// A figure without optimisation, rounded to three digits.
+///
+/// Further digits depend on the folder of the library: hashes of its path order the functions.
 fn three_digits(exact: u64) -> u64 {
     let unit = 10_u64.pow(exact.checked_ilog10().unwrap_or(0).saturating_sub(2));
     (exact + unit / 2) / unit * unit

@@ -187,7 +187,8 @@ export function frame(seconds) {
   state.view.place(computed.poses, all.map((joint, i) => (joint.torque ? computed.single[i] / joint.torque : 0)));
   const of = QUANTITIES[move.quantity];
   const now = state.moved[move.quantity];
-  // Every other frame: software in place of a graphics processor draws all that is between what changes.
+  // Bars and sliders change in every other frame, because software in place of a graphics processor
+  // draws the whole rectangle around everything that changes.
   if (performance.now() - move.shown > 30) {
     move.shown = performance.now();
     move.bars.draw(all.map((joint) => joint.name), computed, move.colour);

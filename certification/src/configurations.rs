@@ -103,7 +103,7 @@ pub struct Spent {
     pub parts: usize,
 }
 
-/// The key of a kernel and a model, as `lab_target::accuracy::key` prints it.
+/// The key of a kernel and a model, as `fixtures::accuracy::key` prints it.
 fn key(kernel: &str, model: &str) -> String {
     let axes = [("trig", kernel), ("model", model)];
     let changed = axes.iter().filter(|(_, value)| !value.is_empty());

@@ -1,5 +1,4 @@
-//! Puts the memory of a board where memory.x of the workspace includes it. Each package of this
-//! folder has this script.
+//! Puts the memory of a board where the linker finds it. Each package of a board has this script.
 
 use std::{env, error::Error, fs, path::PathBuf};
 
@@ -7,9 +6,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let package = env::var("CARGO_PKG_NAME")?;
     // The framework follows the name that the board has in the projects.
     let board = package.strip_suffix("-embassy").unwrap_or(&package);
-    let memory = format!("../../robot-import/template/board/{board}/memory.x");
+    let memory = format!("../../../tools/robot-import/template/board/{board}/memory.x");
     let out = PathBuf::from(env::var("OUT_DIR")?);
-    fs::copy(&memory, out.join("board.x"))?;
+    fs::copy(&memory, out.join("memory.x"))?;
     println!("cargo:rustc-link-search={}", out.display());
     println!("cargo:rerun-if-changed={memory}");
     Ok(())

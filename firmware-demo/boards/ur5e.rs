@@ -1,5 +1,5 @@
 //! The scene `ur5e` in place of a project's robot: what the templates' firmware calls
-//! (`robot-import/template/board`).
+//! (`tools/robot-import/template/board`).
 
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;

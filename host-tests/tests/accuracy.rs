@@ -9,14 +9,14 @@ use dynamics_core::robots::{A1Leg, Panda, Ur5e};
 use dynamics_core::state::State;
 use dynamics_core::trig::{Kernel, Minimax, Table};
 use dynamics_core::{Core, Engine};
+use fixtures::accuracy::key::Key;
+use fixtures::accuracy::model::Rounded;
+use fixtures::accuracy::simulation::{self, DoublePendulum};
+use fixtures::accuracy::{Inverse, Visitor, list};
 use host_tests::carried;
 use host_tests::measured::largest;
 use host_tests::recordings::{Precise, load, read};
 use host_tests::tolerances::check;
-use lab_target::accuracy::key::Key;
-use lab_target::accuracy::model::Rounded;
-use lab_target::accuracy::simulation::{self, DoublePendulum};
-use lab_target::accuracy::{Inverse, Visitor, list};
 use motion_control::{FirstOrderHold, InertiaUpdate};
 
 #[derive(Default)]

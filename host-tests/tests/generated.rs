@@ -6,8 +6,8 @@ mod ur5e_rk4;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::sim::RungeKutta;
 use dynamics_core::state::State;
-use lab_target::accuracy::passive_motion::{Free, PassiveMotion};
-use lab_target::accuracy::simulation::{Run, Simulation};
+use fixtures::accuracy::passive_motion::{Free, PassiveMotion};
+use fixtures::accuracy::simulation::{Run, Simulation};
 
 #[test]
 fn a_pasted_simulation_gives_the_bits_of_the_measured_one() {

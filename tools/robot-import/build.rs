@@ -13,7 +13,7 @@ const BESIDE: [&str; 3] = ["build.rs", "Cargo.toml", "NOTATION.md"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let own = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?);
-    let root = own.parent().ok_or("the repository")?;
+    let root = own.ancestors().nth(2).ok_or("the repository")?;
     let mut list = "&[\n".to_owned();
     for name in CRATES {
         let folder = root.join(name);

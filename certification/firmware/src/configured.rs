@@ -12,7 +12,7 @@ use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::Pruned;
 use dynamics_core::state::StateWithTrig;
 use firmware_demo::target;
-use lab_target::accuracy::model::Rounded;
+use fixtures::accuracy::model::Rounded;
 
 // `Robot`, and the numbers of its bodies and joints, B and N.
 include!(env!("CERTIFIED_ROBOT"));

@@ -54,9 +54,9 @@ fn the_tables_of_transitions_are_those_of_the_enumeration() {
 #[test]
 fn the_programs_on_the_page_are_those_that_are_compiled() {
     for program in [
-        include_str!("../firmware/src/bin/bare.rs"),
-        include_str!("../firmware/src/bin/rtic_app.rs"),
-        include_str!("../firmware/src/bin/embassy_app.rs"),
+        include_str!("../../../firmware-demo/boards/guide/src/bin/bare.rs"),
+        include_str!("../../../firmware-demo/boards/guide/src/bin/rtic_app.rs"),
+        include_str!("../../../firmware-demo/boards/guide/src/bin/embassy_app.rs"),
     ] {
         let shown = shown(program);
         assert!(PAGE.contains(&shown), "the page lacks:\n{shown}");
@@ -68,8 +68,8 @@ fn the_programs_on_the_page_are_those_that_are_compiled() {
 fn the_page_shows_the_board_that_is_compiled() {
     let page = include_str!("../src/board.md");
     for program in [
-        include_str!("../firmware/src/bin/board.rs"),
-        include_str!("../firmware/src/rod.rs"),
+        include_str!("../../../firmware-demo/boards/guide/src/bin/board.rs"),
+        include_str!("../../../firmware-demo/boards/guide/src/rod.rs"),
     ] {
         let shown = shown(program);
         assert!(page.contains(&shown), "the page lacks:\n{shown}");
@@ -79,7 +79,7 @@ fn the_page_shows_the_board_that_is_compiled() {
 
 #[test]
 fn the_page_shows_the_controller_of_the_programs() {
-    let library = include_str!("../firmware/src/lib.rs");
+    let library = include_str!("../../../firmware-demo/boards/guide/src/lib.rs");
     let (_, controller) = library.split_once("const TICK").expect("the constants");
     let (controller, _) = controller
         .split_once("/// Stands for encoders")
@@ -135,11 +135,11 @@ fn the_page_has_the_dependencies_of_the_templates() {
     let templates = [
         (
             "RTIC, STM32F4",
-            include_str!("../../../robot-import/template/board/rtic/Cargo.toml.liquid"),
+            include_str!("../../../tools/robot-import/template/board/rtic/Cargo.toml.liquid"),
         ),
         (
             "Embassy, RP2350",
-            include_str!("../../../robot-import/template/board/pico2/Cargo.toml.liquid"),
+            include_str!("../../../tools/robot-import/template/board/pico2/Cargo.toml.liquid"),
         ),
     ];
     let mut table = String::new();

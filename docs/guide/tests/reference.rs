@@ -71,8 +71,8 @@ static NAMES: LazyLock<BTreeSet<String>> = LazyLock::new(|| {
         }
     }
     // The constants of an imported robot's file, and of a written project.
-    let written = files(&root().join("robot-import/src/write"), "rs");
-    let project = files(&root().join("robot-import/template/rust"), "liquid");
+    let written = files(&root().join("tools/robot-import/src/write"), "rs");
+    let project = files(&root().join("tools/robot-import/template/rust"), "liquid");
     for file in written.iter().chain(&project) {
         let text = read_to_string(file).expect("a source file");
         names.extend(between(&text, "pub const ", ':').map(str::to_owned));
@@ -106,7 +106,7 @@ fn items(code: &str) -> Vec<&str> {
 
 /// Everything of a new project in C, which names what its users see: constants, settings, statuses.
 static PROJECT_IN_C: LazyLock<String> = LazyLock::new(|| {
-    let template = root().join("robot-import/template/c");
+    let template = root().join("tools/robot-import/template/c");
     let named = ["rs", "liquid", "h", "c", "cmake", "toml"];
     let all = named
         .iter()

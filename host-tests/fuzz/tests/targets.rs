@@ -25,7 +25,7 @@ fn frames() {
 /// and what is put there.
 #[test]
 fn import() {
-    const FILE: &str = include_str!("../../../robot-import/tests/urdf/zoo.urdf");
+    const FILE: &str = include_str!("../../../tools/robot-import/tests/urdf/zoo.urdf");
     const WORDS: [&str; 8] = ["<", "/>", "\"", "-1", "1e308", "nan", "name=\"base\"", ""];
     bolero::check!().for_each(|bytes| {
         let mut text: Vec<char> = FILE.chars().collect();

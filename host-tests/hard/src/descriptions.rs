@@ -9,8 +9,8 @@ use dynamics_core::model::{
 };
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use fixtures::hard::{DOUBLE, EXCESS, N};
 use host_tests::hard::{Case, Row};
-use lab_target::hard::{DOUBLE, EXCESS, N};
 
 pub const CASES: &[Case] = &[
     Case {

@@ -6,9 +6,9 @@ use dynamics_core::model::{ArmModel, Robot};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
+use fixtures::hard::{DOUBLE, N, SINGLE, scene, state};
 use host_tests::hard::{Case, Row};
 use host_tests::measured::larger;
-use lab_target::hard::{DOUBLE, N, SINGLE, scene, state};
 
 pub const CASES: &[Case] = &[Case {
     number: 47,

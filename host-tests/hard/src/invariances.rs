@@ -7,9 +7,9 @@ use super::setup::list::arm;
 use super::setup::{Setup, literally_in_f64, turning, widened};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use fixtures::hard::{Answers, N, RENUMBERING, Scene, answers_to, scene};
 use glam::DMat3;
 use host_tests::hard::{Case, Row};
-use lab_target::hard::{Answers, N, RENUMBERING, Scene, answers_to, scene};
 
 pub const CASES: &[Case] = &[
     Case {

@@ -4,8 +4,8 @@ use super::measure::{ErrorBounds, against_oracle, by_joints};
 use super::naive::floored;
 use super::setup::list::{arm, light_links};
 use dynamics_core::algorithms::NotPositiveDefinite;
+use fixtures::hard::{N, Scene, scene};
 use host_tests::hard::{Case, Row};
-use lab_target::hard::{N, Scene, scene};
 
 const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/hard.py)";
 
@@ -120,7 +120,7 @@ fn massless_tip() -> Vec<Row> {
 
 /// The joint that each algorithm of forward dynamics names.
 pub(super) fn refusals<R, const K: usize>(
-    a: &lab_target::hard::Answers<R, K>,
+    a: &fixtures::hard::Answers<R, K>,
 ) -> [Option<NotPositiveDefinite>; 4] {
     [
         a.forward.as_ref().err().copied(),

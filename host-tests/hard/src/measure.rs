@@ -3,9 +3,9 @@
 use super::setup::{Setup, TrueState};
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::scalar::Real;
+use fixtures::hard::Answers;
 use host_tests::hard::Row;
 use host_tests::measured::larger;
-use lab_target::hard::Answers;
 
 /// The quantities, in the order of [`ErrorBounds`].
 const QUANTITIES: [&str; 5] = [

@@ -6,7 +6,7 @@ use dynamics_core::model::ArmModel;
 use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::{Force, Motion, SpatialInertia, Xform};
 use dynamics_core::state::{JointTrig, State};
-use lab_target::hard::Scene;
+use fixtures::hard::Scene;
 
 /// Forward dynamics whose pivots are lifted to an absolute floor.
 pub fn floored<R: Real, const N: usize>(

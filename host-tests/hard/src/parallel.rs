@@ -9,10 +9,10 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use fixtures::hard::{GRAVITY, N, scene};
 use host_tests::hard::{Case, Row};
 use host_tests::measured::larger;
 use host_tests::random::{random_numbers, within};
-use lab_target::hard::{GRAVITY, N, scene};
 use proptest::test_runner::TestRng;
 
 const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/hard.py)";

@@ -5,9 +5,9 @@ use super::naive::{absolute, floored};
 use super::setup::list::{arm, reframed};
 use super::setup::{Setup, widened};
 use dynamics_core::scalar::Real;
+use fixtures::hard::{Answers, GRAVITY, N, scene};
 use host_tests::hard::{Case, Row};
 use host_tests::measured::larger;
-use lab_target::hard::{Answers, GRAVITY, N, scene};
 
 pub const CASES: &[Case] = &[
     Case {

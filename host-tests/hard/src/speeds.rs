@@ -6,9 +6,9 @@ use super::setup::turning;
 use dynamics_core::algorithms::rnea;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use fixtures::hard::{N, counts, scene};
 use host_tests::hard::{Case, Row};
 use joint_drivers::{JointMapping, JointRange, MultiTurnEncoder};
-use lab_target::hard::{N, counts, scene};
 use motion_control::{
     Fault, MotionController, MotionControllerConfig, SafetyLimits, SupervisorConfig,
 };

@@ -2,11 +2,11 @@
 //! hold, every fault has the reaction of the contract, the arm comes back, and the table of
 //! `docs/guide/src/faults.md` is what was observed. `TABLES_WRITE=1` writes the table.
 
-use host_tests::page::Table;
-use lab_target::faults::{
+use fixtures::faults::{
     HOLD, Kind, Observed, Pendulum, Plant, RIDE, Setup, TICK, TICKS, Ur5eArm, Violation, at_speed,
     controller, one,
 };
+use host_tests::page::Table;
 use motion_control::{
     CurrentTick, Fault, Mode, MotionController, Reaction, StopCategory, Trajectory, WayPoint,
 };

@@ -11,10 +11,10 @@ use dynamics_core::sim::{
     SemiImplicit, linearly_implicit,
 };
 use dynamics_core::state::State;
+use fixtures::accuracy::simulation::{DoublePendulum, PassiveMotion};
 use host_tests::everyday_or_full;
 use host_tests::measured::{largest, within};
 use host_tests::tolerances::check;
-use lab_target::accuracy::simulation::{DoublePendulum, PassiveMotion};
 
 /// Where the double pendulum is after a second in so many steps, all of which `see` is shown;
 /// nothing if some acceleration has become none.

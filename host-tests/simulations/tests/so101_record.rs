@@ -11,10 +11,10 @@ use dynamics_core::robots::So101;
 use dynamics_core::state::State;
 use firmware_demo::scene::Scene;
 use firmware_demo::scenes::so101_teach::TaughtPath;
-use identify::recorded::Recorded;
-use identify::report::Found;
-use identify::robot::Robot;
-use identify::run::{self, JointEffect, Options};
+use identification::files::recorded::Recorded;
+use identification::files::report::Found;
+use identification::files::robot::Robot;
+use identification::files::run::{self, JointEffect, Options};
 use motion_control::{Observer, ObserverConfig};
 use robot_import::import::Options as Selection;
 use robot_import::inertia::MassProperties;
@@ -61,7 +61,7 @@ fn record(friction: impl Effect<f32, 6, 6> + Clone) -> String {
 fn described() -> Robot {
     let file = concat!(
         env!("CARGO_MANIFEST_DIR"),
-        "/../../robot-import/tests/urdf/so101.urdf"
+        "/../../tools/robot-import/tests/urdf/so101.urdf"
     );
     let mut robot = Robot::read(Path::new(file), None, &Selection::default()).expect("a robot");
     let mut factors = [0.7, 1.3, 1.3, 0.7, 1.3, 0.7, 0.7].into_iter().cycle();

@@ -5,8 +5,8 @@ mod motion;
 
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
+use fixtures::accuracy::simulation::{DoublePendulum, PassiveMotion};
 use host_tests::measured::largest;
-use lab_target::accuracy::simulation::{DoublePendulum, PassiveMotion};
 
 /// The double pendulum by Lagrange's equations, angles from the vertical, the second's relative to
 /// the first.

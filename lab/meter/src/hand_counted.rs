@@ -1,6 +1,6 @@
 //! Sequences counted by hand, against which the meter is checked.
 //!
-//! They are executed by `lab/target/src/bin/tests/meter_check.rs`, where each figure is derived
+//! They are executed by `lab/firmware/src/bin/tests/meter_check.rs`, where each figure is derived
 //! next to its sequence. The sums were made from the table in this crate's
 //! documentation, not from what the meter said.
 

@@ -162,7 +162,7 @@ def test_another_description_is_taken_or_refused(tmp_path):
     from lerobot_teleoperator_so101_floating.motors import Motors
 
     q, qd = np.array([0.3, 0.6, -0.6, 0.2, 0.1, 0.3]), np.full(6, 0.2)
-    file = REPOSITORY / "robot-import/tests/urdf/so101.urdf"
+    file = REPOSITORY / "tools/robot-import/tests/urdf/so101.urdf"
     for own, library in zip(floating_dynamics(Motors(), str(file))(q, qd), floating_dynamics(Motors(), None)(q, qd), strict=True):
         assert np.allclose(own, library, atol=1e-6)
     (tmp_path / "renamed.urdf").write_text(file.read_text().replace('"wrist_roll"', '"wrist_yaw"'))

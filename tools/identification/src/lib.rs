@@ -10,6 +10,7 @@
 //! | base parameters with standard deviations | [`Batch`], [`Identified`] |
 //! | the same from ticks of any motion | [`TickRecording`], [`Fit`], [`Fitted`] |
 //! | parameters of each body that are possible | [`PhysicalSet`] |
+//! | the parameters of a robot's file, from a record of `cargo xtask watch` | module `files`, with the feature of this name |
 //!
 //! The recursive estimator for the tick is `motion_control::ParameterEstimator`.
 //!
@@ -63,6 +64,9 @@ mod batch;
 mod columns;
 mod error;
 mod export;
+#[cfg(feature = "files")]
+#[allow(missing_docs, reason = "the program `identify` and its tests call it")]
+pub mod files;
 mod fit;
 mod fourier;
 mod identified;

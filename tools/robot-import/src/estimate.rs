@@ -143,7 +143,7 @@ mod tests {
         let selected = Selection::default().of(&robot).expect("all joints");
         let tree = Tree::of(&robot, &selected, Numbers::Exact).expect("a tree");
         let estimated = cycles(&tree).expect("joints of one coordinate") as f64;
-        let page = include_str!("../../docs/robots.md");
+        let page = include_str!("../../../docs/robots.md");
         let row = page
             .lines()
             .find(|line| line.starts_with("| so101 "))

@@ -23,7 +23,7 @@ mod chain;
 #[path = "../template/rust/src/robot.rs"]
 #[allow(dead_code, reason = "a robot's file has more than the test compares")]
 mod pendulum;
-#[path = "../../dynamics-core/src/robots/imported/so101.rs"]
+#[path = "../../../dynamics-core/src/robots/imported/so101.rs"]
 mod so101;
 
 /// The torques of the projects' probe, as bits.
@@ -77,7 +77,7 @@ struct Trial {
 
 impl Trial {
     fn new(name: &str, robot: RobotFile, kind: Kind) -> Self {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dynamics-core");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../dynamics-core");
         Self::with(name, robot, kind, Library::Path(folder))
     }
 
@@ -299,7 +299,7 @@ fn a_pendulum() {
 #[test]
 #[ignore = "builds firmware"]
 fn an_arm() {
-    let text = include_str!("../../dynamics-core/src/robots/imported/so101.rs");
+    let text = include_str!("../../../dynamics-core/src/robots/imported/so101.rs");
     let robot = robot(
         "So101",
         text,
@@ -335,7 +335,7 @@ fn the_boards() {
     let so101 = || {
         robot(
             "So101",
-            include_str!("../../dynamics-core/src/robots/imported/so101.rs"),
+            include_str!("../../../dynamics-core/src/robots/imported/so101.rs"),
             [&so101::JOINTS, &so101::BODIES],
             FileEffects::default(),
         )
@@ -480,7 +480,7 @@ fn two_robots_in_c() {
         [&pendulum::JOINTS, &pendulum::BODIES],
         effects,
     );
-    let text = include_str!("../../dynamics-core/src/robots/imported/so101.rs");
+    let text = include_str!("../../../dynamics-core/src/robots/imported/so101.rs");
     let other = robot(
         "So101",
         text,
@@ -528,7 +528,7 @@ fn two_robots_in_c() {
         assert_eq!(text.lines().last(), Some("good"), "{text}");
     }
     // The guide's code compiles with the header.
-    let page = include_str!("../../docs/guide/src/c.md");
+    let page = include_str!("../../../docs/guide/src/c.md");
     let blocks = page.split("```c\n").skip(1);
     let code: String = blocks
         .filter_map(|block| block.split("```").next())

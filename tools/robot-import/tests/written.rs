@@ -23,7 +23,7 @@ use robot_import::selection::Selection;
 use robot_import::tree::{Numbers, Tree};
 use robot_import::{check, loops, source};
 
-const SO101: &str = include_str!("../../dynamics-core/src/robots/imported/so101.rs");
+const SO101: &str = include_str!("../../../dynamics-core/src/robots/imported/so101.rs");
 const DRIVEN: &str = include_str!("robots/driven_loop.rs");
 const PASSIVE: &str = include_str!("robots/passive_loop.rs");
 const PARALLELOGRAM: &str = include_str!("robots/parallelogram.rs");

@@ -1,5 +1,5 @@
 //! `cargo xtask identify`: the parameters of a robot's file from a recording, by the package
-//! `identify`; `cargo xtask certify`: proven rounding errors, by the package `certification`.
+//! `identification`; `cargo xtask certify`: proven rounding errors, by the package `certification`.
 
 use std::process::ExitCode;
 
@@ -8,7 +8,7 @@ use crate::kit::host_bin::SIMULATED;
 use crate::kit::shell;
 use crate::kit::workspace::Workspace;
 
-/// A recording, and options of the package `identify`.
+/// A recording, and options of the package `identification`.
 #[derive(clap::Args)]
 pub struct Args {
     /// The record of `cargo xtask watch`, --robot FILE, and other options: --name, --effects,

@@ -23,8 +23,8 @@ pub struct Together {
 
 /// All but those that simulate. xtask is there already, with features of its own.
 pub const SHARED: Together = Together {
-    packages: "--workspace --exclude xtask --exclude telemetry-watch --exclude firmware-demo --exclude lab-target \
-         --exclude identification --exclude identify --exclude simulation-tests --exclude play",
+    packages: "--workspace --exclude xtask --exclude telemetry-watch --exclude firmware-demo --exclude lab-firmware \
+         --exclude identification --exclude simulation-tests --exclude play",
     programs: "",
     // What computes for minutes is optimised, which would take the compiler longer than the parts
     // of an everyday run.
@@ -35,7 +35,7 @@ pub const SHARED: Together = Together {
 
 /// The packages that simulate, and the profile that inlines the library into them.
 pub const SIMULATED: Together = Together {
-    packages: "--profile simulated --package identification --package identify --package simulation-tests",
+    packages: "--profile simulated --package identification --package simulation-tests --features identification/files",
     programs: "--package certification",
     full: "--features simulation-tests/full",
     folder: "simulated",

@@ -67,7 +67,7 @@ impl OwnRobot {
     pub fn included(&self) -> Result<PathBuf> {
         let [file, bins] = ["robot.rs", "own_robot.rs"].map(|name| self.folder.path().join(name));
         let text = format!(
-            "#[path = {file:?}]\nmod robot;\ntype Robot = lab_target::Own<robot::{}>;\n\
+            "#[path = {file:?}]\nmod robot;\ntype Robot = fixtures::Own<robot::{}>;\n\
              const N: usize = robot::V;\n",
             self.type_name
         );

@@ -62,11 +62,11 @@ mod tests {
             std::fs::create_dir_all(path.parent().expect("a folder")).expect("made");
             std::fs::write(path, "").expect("written");
         };
-        put("lab/target/lib.rs");
+        put("lab/firmware/lib.rs");
         put("target/CACHEDIR.TAG");
         put("target/generated.rs");
         let found = sources(folder.path()).expect("read");
-        assert_eq!(found, [folder.path().join("lab/target/lib.rs")]);
+        assert_eq!(found, [folder.path().join("lab/firmware/lib.rs")]);
     }
 
     #[test]

@@ -215,7 +215,7 @@ mod tests {
         let without = format!("inverse dynamics takes {} more cycles", excess(&full));
         let tick = format!("a tick takes {} more cycles", excess(&[project(1)]));
         let megabytes = of_profile("dev at 0, `package", 4) / 1e6;
-        let template = |kind| format!("robot-import/template/{kind}/.cargo/config.toml");
+        let template = |kind| format!("tools/robot-import/template/{kind}/.cargo/config.toml");
         for (file, said) in [
             ("README.md", &without),
             (&*template("c"), &without),

@@ -212,7 +212,7 @@ fn measure(workspace: &Workspace, tools: &Tools, folder: &Path, lines: &mut [Lin
 }
 
 /// The description that the repository has, and its line of the page.
-const SAMPLE: (&str, &str) = ("robot-import/tests/urdf/so101.urdf", "so101");
+const SAMPLE: (&str, &str) = ("tools/robot-import/tests/urdf/so101.urdf", "so101");
 
 /// Fails unless the page has today's figures of the sample, measured with the page's compiler.
 pub fn check(bench: &Bench<'_>) -> Result<String> {

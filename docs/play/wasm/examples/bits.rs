@@ -4,7 +4,7 @@
 use std::cell::RefCell;
 use std::fmt::Write;
 
-use lab_target::{hard, recorded};
+use fixtures::{hard, recorded};
 
 thread_local! {
     static LINES: RefCell<String> = RefCell::default();

@@ -6,9 +6,9 @@ use dynamics_core::robots::{A1Leg, Panda, Ur5e};
 use dynamics_core::state::State;
 use dynamics_core::trig::{Minimax, Table};
 use dynamics_core::{Core, Engine};
-use lab_target::accuracy::Inverse;
-use lab_target::accuracy::inverse::{By, In};
-use lab_target::accuracy::model::{Full, GravityOnly, NoCoriolis, Without};
+use fixtures::accuracy::Inverse;
+use fixtures::accuracy::inverse::{By, In};
+use fixtures::accuracy::model::{Full, GravityOnly, NoCoriolis, Without};
 
 use crate::machine::Motion;
 

@@ -12,7 +12,7 @@ use dynamics_core::model::{
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::{State, manifold};
-use lab_target::hard::OnLast;
+use fixtures::hard::OnLast;
 use serde::{Deserialize, Serialize};
 
 /// A joint with one coordinate.

@@ -1,7 +1,7 @@
 //! What of the firmware of a Pico 2 needs no chip: the template's, tested on the host.
 #![no_std]
 
-#[path = "../../../robot-import/template/board/pico2/src/periods.rs"]
+#[path = "../../../../tools/robot-import/template/board/pico2/src/periods.rs"]
 pub mod periods;
 
 #[cfg(test)]

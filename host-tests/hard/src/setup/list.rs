@@ -3,8 +3,8 @@
 use super::{Exported, Setup};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::state::State;
+use fixtures::hard::{DOUBLE, Extras, N, SINGLE, state};
 use glam::DMat3;
-use lab_target::hard::{DOUBLE, Extras, N, SINGLE, state};
 use proptest::test_runner::TestRng;
 
 use host_tests::random::{random_numbers, within};

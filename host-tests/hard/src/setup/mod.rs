@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use dynamics_core::model::{ArmModel, BASE, JointKind, Link, RobotModel};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use fixtures::hard::{Answers, Extras, GRAVITY, Revolute, answers_to, scene};
 use glam::{DMat3, Mat3, Vec3};
-use lab_target::hard::{Answers, Extras, GRAVITY, Revolute, answers_to, scene};
 use serde::{Deserialize, Serialize};
 
 /// A robot, its load, and the states at which it is evaluated.

@@ -1,7 +1,7 @@
 //! The cases.
 
+use fixtures::hard::loops::RIG;
 use host_tests::hard::Case;
-use lab_target::hard::loops::RIG;
 
 use super::four_bars::{of_case, problem};
 use super::setup::{Planar, Setup};

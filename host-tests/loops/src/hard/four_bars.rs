@@ -4,8 +4,8 @@ use dynamics_core::clusters::{Clustered, ClusteredRobot, ForwardError};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
+use fixtures::hard::loops::{FourBar, LoopProblem, PROBLEMS, scene};
 use host_tests::hard::Row;
-use lab_target::hard::loops::{FourBar, LoopProblem, PROBLEMS, scene};
 
 use super::outcome::{Outcome, rows};
 use super::setup::{Planar, Truth, rounded};

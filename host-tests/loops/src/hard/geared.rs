@@ -7,9 +7,9 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
+use fixtures::hard::loops::scene;
 use host_tests::export::robot;
 use host_tests::hard::Row;
-use lab_target::hard::loops::scene;
 
 use super::outcome::{Outcome, rows};
 use super::setup::{Exported, Start, WEIGHT, rounded};

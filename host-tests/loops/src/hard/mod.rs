@@ -1,6 +1,6 @@
 //! Hard cases with kinematic loops, as those of `host_tests::hard`, in whose numbers these go on.
 //!
-//! Planar linkages are in `lab_target::hard::loops`, where a microcontroller computes them, too.
+//! Planar linkages are in `fixtures::hard::loops`, where a microcontroller computes them, too.
 
 mod bounds;
 mod cases;
@@ -18,7 +18,7 @@ pub use four_bars::problem;
 pub use outcome::{Outcome, rows};
 pub use setup::{Exported, Planar, Setup, Start, TrueState, Truth};
 
-use lab_target::hard::loops::{PROBLEMS, RIG};
+use fixtures::hard::loops::{PROBLEMS, RIG};
 
 /// Runs the case of this number.
 ///

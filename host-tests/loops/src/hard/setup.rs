@@ -6,10 +6,10 @@ use dynamics_core::loops::{LoopError, Loops, Moving, Stabilisation, assemble, fo
 use dynamics_core::model::{Model, RobotModel};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::{State, all_finite};
+use fixtures::hard::GRAVITY;
+use fixtures::hard::loops::{LoopProblem, scene};
 use host_tests::export::{Robot, robot};
 use host_tests::hard::Row;
-use lab_target::hard::GRAVITY;
-use lab_target::hard::loops::{LoopProblem, scene};
 use serde::{Deserialize, Serialize};
 
 use super::outcome::{Outcome, is_bounded, rows};

@@ -6,8 +6,8 @@ use dynamics_core::loops::{Drive, LoopError, Moving, assemble, coordinate_map, i
 use dynamics_core::model::RobotModel;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use fixtures::hard::loops::{FourBar, LoopProblem, PROBLEMS, RIG, scene};
 use host_tests::hard::Row;
-use lab_target::hard::loops::{FourBar, LoopProblem, PROBLEMS, RIG, scene};
 
 use super::four_bars::crank;
 use super::robots;

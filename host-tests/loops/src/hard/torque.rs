@@ -5,7 +5,7 @@ use dynamics_core::loops::{Drive, LoopTorque, Loops, SINGULAR, inverse_dynamics}
 use dynamics_core::model::RobotModel;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use lab_target::hard::loops::scene;
+use fixtures::hard::loops::scene;
 
 use super::outcome::Outcome;
 use super::setup::Setup;

@@ -19,8 +19,8 @@ use dynamics_core::model::{JointKind, Model};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::State;
+use fixtures::hard::OnLast;
 use host_tests::tolerances;
-use lab_target::hard::OnLast;
 use proptest::prelude::RngExt;
 use proptest::test_runner::TestRng;
 

@@ -10,7 +10,7 @@ mod printed {
 }
 
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
-use lab_target::accuracy::list;
+use fixtures::accuracy::list;
 
 /// Robots, and what is printed of them.
 macro_rules! measure {

@@ -6,7 +6,7 @@ mod accuracy;
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    accuracy::simulated::<lab_target::accuracy::passive_motion::DoublePendulum, 2>();
+    accuracy::simulated::<fixtures::accuracy::passive_motion::DoublePendulum, 2>();
     accuracy::simulated::<dynamics_core::robots::Ur5e, 6>();
     accuracy::done()
 }

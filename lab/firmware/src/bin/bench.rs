@@ -5,7 +5,7 @@
 //! board without a crystal stops before the first figure. It is built for a board alone:
 //!
 //! ```text
-//! cargo build --release -p lab-target --features board --bin bench --target thumbv7em-none-eabihf
+//! cargo build --release -p lab-firmware --features board --bin bench --target thumbv7em-none-eabihf
 //! ```
 #![no_std]
 #![no_main]

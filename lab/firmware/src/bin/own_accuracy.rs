@@ -10,6 +10,6 @@ include!(env!("OWN_ROBOT"));
 #[cortex_m_rt::entry]
 fn main() -> ! {
     let mut priced = accuracy::states::<Robot, N, N, _>();
-    lab_target::accuracy::list::single::<Robot, N, N>(&mut priced);
+    fixtures::accuracy::list::single::<Robot, N, N>(&mut priced);
     accuracy::done()
 }

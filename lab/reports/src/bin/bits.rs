@@ -1,6 +1,6 @@
 //! Prints the digests of the dynamics' results, as the firmware's bin `bits` does.
 
-use lab_target::{hard, recorded};
+use fixtures::{hard, recorded};
 
 fn main() {
     recorded::digests(|robot, quantity, digest| {

@@ -10,8 +10,8 @@ use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::state::State;
 use firmware_demo::scene::TICK;
 use firmware_demo::trajectories::PICK_AND_PLACE;
-use lab_target::effect_presets::{self, RIGID, Visitor};
-use lab_target::trajectories::PANDA_PICK_AND_PLACE;
+use fixtures::effect_presets::{self, RIGID, Visitor};
+use fixtures::trajectories::PANDA_PICK_AND_PLACE;
 use motion_control::{MotionLimits, Trajectory, WayPoint};
 
 /// Greatest acceleration of each joint, rad/s², as in the scene `ur5e`.

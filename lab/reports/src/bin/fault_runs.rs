@@ -1,6 +1,6 @@
 //! Prints the digests of 100 arms under injected faults, as the firmware's bin `fault_runs` does.
 
-use lab_target::faults::{Setup, one};
+use fixtures::faults::{Setup, one};
 
 fn main() {
     for seed in 0..100 {

@@ -34,7 +34,7 @@ fn main() {
     }
     let suite = Suite {
         cases,
-        in_qemu: lab_target::hard::cases().collect(),
+        in_qemu: fixtures::hard::cases().collect(),
         rows,
         wrong,
     };

@@ -18,6 +18,6 @@ const fn table(name: &'static str) -> Table {
     Table {
         page: "identification.md",
         name,
-        test: "identification/tests/ur5e",
+        test: "tools/identification/tests/ur5e",
     }
 }

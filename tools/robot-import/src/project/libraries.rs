@@ -12,18 +12,19 @@ struct Crate {
 
 const CRATES: &[Crate] = include!(concat!(env!("OUT_DIR"), "/crates.rs"));
 /// The manifest of the repository, from which those of its crates inherit.
-const WORKSPACE: &str = include_str!("../../../Cargo.toml");
+const WORKSPACE: &str = include_str!("../../../../Cargo.toml");
 /// The versions of the registry's crates that the repository's tests have compiled. Cargo drops
 /// what a project does not use.
-pub(super) const LOCK: &str = include_str!("../../../Cargo.lock");
+pub(super) const LOCK: &str = include_str!("../../../../Cargo.lock");
+pub(super) const LOCK_OF_BOARDS: &str = include_str!("../../../../firmware-demo/boards/Cargo.lock");
 const LICENCES: [(&str, &str); 2] = [
     (
         "libraries/LICENSE-APACHE",
-        include_str!("../../../LICENSE-APACHE"),
+        include_str!("../../../../LICENSE-APACHE"),
     ),
     (
         "libraries/LICENSE-MIT",
-        include_str!("../../../LICENSE-MIT"),
+        include_str!("../../../../LICENSE-MIT"),
     ),
 ];
 

@@ -270,7 +270,11 @@ pub fn files(project: &Project) -> Result<Vec<(String, String)>, ProjectError> {
         let copies = manifest.map(|(_, text)| libraries::copies(text));
         files.extend(copies.unwrap_or_default());
     }
-    files.push(("Cargo.lock".to_owned(), libraries::LOCK.to_owned()));
+    let lock = match project.kind {
+        Kind::Board(_) => libraries::LOCK_OF_BOARDS,
+        Kind::Simulation | Kind::C => libraries::LOCK,
+    };
+    files.push(("Cargo.lock".to_owned(), lock.to_owned()));
     files.push(robot);
     Ok(files)
 }

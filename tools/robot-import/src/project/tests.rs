@@ -271,7 +271,7 @@ fn the_boards_use_the_versions_of_the_lock_file() {
             let name = line.split(' ').next().unwrap_or_default();
             let version = line.split('"').nth(1).unwrap_or_default();
             let locked = format!("name = \"{name}\"\nversion = \"{version}\"\n");
-            assert!(libraries::LOCK.contains(&locked), "{line}");
+            assert!(libraries::LOCK_OF_BOARDS.contains(&locked), "{line}");
             count += 1;
         }
         assert!(count > 6, "{manifest}");

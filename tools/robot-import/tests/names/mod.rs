@@ -139,7 +139,7 @@ fn project(name: &str, robot: RobotFile, c: bool) -> Project {
     Project {
         name: name.to_owned(),
         robot,
-        library: Library::Path(Path::new(env!("CARGO_MANIFEST_DIR")).join("../dynamics-core")),
+        library: Library::Path(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../dynamics-core")),
         kind: if c { Kind::C } else { Kind::Simulation },
     }
 }

@@ -145,7 +145,7 @@ fn projects_of_names_that_once_failed_pass_cargo_check() {
         "Cargo.toml",
         &format!("[workspace]\nresolver = \"3\"\nmembers = [{members}]\n"),
     );
-    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     fs::copy(workspace.join("Cargo.lock"), folder.0.join("Cargo.lock")).expect("a lock file");
     let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     let output = Command::new(cargo)

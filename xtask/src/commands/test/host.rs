@@ -9,7 +9,7 @@ use crate::kit::sources::sources;
 use crate::kit::workspace;
 
 /// All but the firmware, whose bins link only for a Cortex-M.
-const WITHOUT_FIRMWARE: &str = "--exclude firmware-demo --exclude lab-target";
+const WITHOUT_FIRMWARE: &str = "--exclude firmware-demo --exclude lab-firmware";
 
 /// All packages, with what the tests of a full run have besides.
 fn everything() -> String {

@@ -24,7 +24,7 @@ use crate::kit::progress::Spinner;
 use crate::kit::qemu::Run;
 use crate::kit::scene::Scene;
 use crate::kit::setup::{self, Options, Tools};
-use crate::kit::workspace::Workspace;
+use crate::kit::workspace::{BOARDS, Workspace};
 use crate::kit::{firmware, meter, output, shell};
 use crate::studies::STUDIES;
 use crate::studies::study::{Bench, Held, Lane, Scope, Study};
@@ -55,7 +55,7 @@ struct Context {
 
 #[rustfmt::skip]
 const STEPS: &[Step] = &[
-    ("fmt", Host, Everyday, "rustfmt has nothing to change", |c| c.cargo(&["fmt --all --check"])),
+    ("fmt", Host, Everyday, "rustfmt has nothing to change", |c| c.cargo(&["fmt --all --check", &format!("fmt --manifest-path {BOARDS} --all --check")])),
     ("clippy", Host, Full, "clippy has nothing to say of the host crates", host::clippy),
     ("clippy-firmware", Target, Full, "clippy has nothing to say of the firmware", functions::clippy),
     ("host", Host, Everyday, "the host tests pass", host::tests),
@@ -198,7 +198,7 @@ pub fn list() -> Result<ExitCode> {
         steps(Named),
         unheld.collect::<String>()
     );
-    for folder in "docs/guide/tests host-tests/hard/tests host-tests/tests host-tests/simulations/tests host-tests/specialised/tests robot-import/tests".split(' ') {
+    for folder in "docs/guide/tests host-tests/hard/tests host-tests/tests host-tests/simulations/tests host-tests/specialised/tests tools/robot-import/tests".split(' ') {
         for (program, test) in claims::full_only(&workspace.root.join(folder))? {
             text += &format!("  {program:16} {}\n", test.replace('_', " "));
         }

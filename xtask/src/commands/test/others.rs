@@ -5,6 +5,7 @@ use std::process::Command;
 
 use super::Context;
 use crate::kit::error::{Error, Result};
+use crate::kit::workspace::BOARDS;
 use crate::kit::{host_bin::SHARED, setup, shell, toolchain, workspace};
 
 fn skip<T>(why: impl Into<String>) -> Result<T> {
@@ -35,14 +36,15 @@ const PICO_2: &str = "thumbv8m.main-none-eabihf";
 /// The guide's programs, and the servo bus on a serial port of Embassy where the target of its chip
 /// can be had.
 pub fn guide(context: &Context) -> Result<String> {
-    context.cargo(&["check --package guide-firmware --target thumbv7em-none-eabihf"])?;
+    let check = |words: &str| format!("clippy --manifest-path {BOARDS} {words} -- -D warnings");
+    context.cargo(&[check(
+        "--package guide-firmware --package nucleo-f446re --target thumbv7em-none-eabihf",
+    )])?;
     if !toolchain::native_has(PICO_2) {
         setup::for_cores(context.options, &[PICO_2], &[])
             .or_else(|_| skip(format!("no {PICO_2}")))?;
     }
-    context.cargo(&[format!(
-        "check --package pico2-embassy --bins --target {PICO_2}"
-    )])?;
+    context.cargo(&[check(&format!("--package pico2-embassy --target {PICO_2}"))])?;
     Ok(String::new())
 }
 

@@ -147,12 +147,12 @@ const BY_TESTS: [(&str, &str, &str); 14] = [
     (
         "docs/guide/src/identification.md",
         "conditions",
-        "identification/tests/ur5e/main.rs",
+        "tools/identification/tests/ur5e/main.rs",
     ),
     (
         "docs/guide/src/identification.md",
         "results",
-        "identification/tests/ur5e/main.rs",
+        "tools/identification/tests/ur5e/main.rs",
     ),
     (
         "docs/guide/src/lerobot.md",

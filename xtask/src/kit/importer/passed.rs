@@ -4,7 +4,7 @@ use clap::{Arg, ArgAction, ArgMatches};
 
 /// The arguments of `robot-import`: subcommand, option (`-`: none), value (`-`: none; `!`:
 /// required), help. A test there compares this list with what it takes.
-const OPTIONS: &str = include_str!("../../../../robot-import/options.txt");
+const OPTIONS: &str = include_str!("../../../../tools/robot-import/options.txt");
 
 pub const IMPORT: u8 = 0;
 pub const NEW: u8 = 1;

@@ -39,7 +39,7 @@ fn shipped<const K: usize>(point: &Point, axes: [&str; K]) -> Result<[&'static s
         let lacks = || {
             let robot = &point.robot;
             check!(
-                "there is no Rust to paste of {robot} with {axis}={value}: see lab/target/src/accuracy"
+                "there is no Rust to paste of {robot} with {axis}={value}: see host-tests/fixtures/src/accuracy"
             )
         };
         *rust = names::rust(axis, value).ok_or_else(lacks)?;

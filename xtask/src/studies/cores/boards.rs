@@ -10,7 +10,7 @@ use crate::kit::error::{Result, check};
 use crate::kit::shell;
 use crate::kit::table::{Column, Table, thousands};
 use crate::kit::toolchain::{self, RELEASE, SMALL};
-use crate::kit::workspace::Workspace;
+use crate::kit::workspace::{BOARDS, Workspace};
 
 struct Bin {
     package: &'static str,
@@ -86,8 +86,11 @@ pub fn measure(workspace: &Workspace, bars: &Bars) -> Result<Vec<Board>> {
 }
 
 fn read(workspace: &Workspace, bin: &Bin) -> Result<Board> {
+    let target = workspace.target.join("boards");
     let mut command = workspace.cargo("build");
     command
+        .args(["--manifest-path", BOARDS, "--target-dir"])
+        .arg(&target)
         .args(["--profile", bin.profile, "--package", bin.package])
         .args(["--bin", bin.name, "--target", bin.target]);
     if let Some(flag) = without_home() {
@@ -96,7 +99,7 @@ fn read(workspace: &Workspace, bin: &Bin) -> Result<Board> {
         command.args(["--config", &flags]);
     }
     shell::cargo(&mut command)?;
-    let elf = workspace.target.join(bin.target).join(bin.profile);
+    let elf = target.join(bin.target).join(bin.profile);
     let image = Image::read(&elf.join(bin.name))?;
     let address = |name: &str| {
         let is_it = |own: &String| own == name || (bin.is_polled && own.contains(name));

@@ -7,7 +7,7 @@ use crate::kit::{shell, system, toolchain};
 #[derive(Debug)]
 pub struct Core {
     pub name: &'static str,
-    /// The machine of QEMU, which names the memory map in `cores/machines/` too.
+    /// The machine of QEMU, which names the memory map in `firmware-demo/cores/machines/` too.
     pub machine: &'static str,
     pub target: &'static str,
     /// The flags of the compiler.
@@ -101,7 +101,8 @@ mod tests {
     #[test]
     fn every_machine_has_a_memory_map() {
         for core in CORES {
-            let map = repository::root().join(format!("cores/machines/{}.x", core.machine));
+            let map =
+                repository::root().join(format!("firmware-demo/cores/machines/{}.x", core.machine));
             assert!(map.is_file(), "{}", map.display());
         }
     }

@@ -9,11 +9,10 @@ use super::list::{self, Core};
 use super::walk;
 use crate::kit::elf::Image;
 use crate::kit::error::{Result, check, refuse_if};
-use crate::kit::host_bin::SHARED;
 use crate::kit::qemu::Qemu;
 use crate::kit::shell;
 use crate::kit::toolchain::RELEASE;
-use crate::kit::workspace::Workspace;
+use crate::kit::workspace::{BOARDS, Workspace};
 
 const PACKAGE: &str = "cores";
 /// The time limit of a core in QEMU.
@@ -84,22 +83,28 @@ impl Said {
 
 /// The torques of this machine, which no emulator computes.
 pub fn on_host(workspace: &Workspace) -> Result<Vec<Torques>> {
-    Ok(Said::read(&SHARED.text(workspace, PACKAGE)?)?.torques)
+    let mut command = workspace.cargo("run");
+    command.args(["--quiet", "--manifest-path", BOARDS, "--package", PACKAGE]);
+    command
+        .arg("--target-dir")
+        .arg(workspace.target.join(PACKAGE));
+    Ok(Said::read(&shell::capture(&mut command)?)?.torques)
 }
 
 /// Builds the bin for a core.
 pub fn build(workspace: &Workspace, core: &Core) -> Result<PathBuf> {
     let mut flags: Vec<String> = core.flags.iter().map(ToString::to_string).collect();
-    // Cargo calls the compiler in the root of the workspace.
+    // Cargo calls the linker in the folder of the workspace.
     for script in [format!("machines/{}.x", core.machine), "link.x".into()] {
-        flags.push(format!("-Clink-arg=-T{PACKAGE}/{script}"));
+        flags.push(format!("-Clink-arg=-T../{PACKAGE}/{script}"));
     }
     flags.extend(list::without_home());
     // Apart from other firmware of the same targets, whose flags differ.
     let target = workspace.target.join(PACKAGE);
     let mut command = workspace.cargo("build");
     command
-        .args(["--profile", RELEASE, "--package", PACKAGE])
+        .args(["--manifest-path", BOARDS, "--profile", RELEASE])
+        .args(["--package", PACKAGE])
         .args(["--target", core.target, "--target-dir"])
         .arg(&target)
         // Instead of those of `.cargo/config.toml`, which has another linker script.
@@ -160,7 +165,7 @@ mod tests {
             "done\n",
             "digest small 2 00ff\n",
             "digest small two 00ff\ndone\n",
-            "panicked at cores/src/main.rs\n",
+            "panicked at firmware-demo/cores/src/main.rs\n",
             "digest small 2 00ff\ndone\nstack small 200\n",
         ] {
             assert!(Said::read(bad).is_err(), "{bad:?}");

@@ -19,7 +19,7 @@ use crate::kit::{firmware, importer, shell};
 /// The page that has the table.
 pub const PAGE: &str = "docs/guide/src/firmware.md";
 
-const ROBOT: &str = "robot-import/tests/urdf/so101.urdf";
+const ROBOT: &str = "tools/robot-import/tests/urdf/so101.urdf";
 const PROJECT: &str = "own-arm";
 /// A Cortex-M4F with a memory in which the largest project has room, and its memory.x.
 const MACHINE: &str = "mps2-an386";

@@ -15,7 +15,7 @@ use crate::studies::peers::PAGE;
 const MEASURED: [&str; 5] = [
     "dynamics-core/src",
     "lab/peers",
-    "lab/target/src/bin/peers.rs",
+    "lab/firmware/src/bin/peers.rs",
     "xtask/src/studies/peers",
     ".cargo/config.toml",
 ];

@@ -6,16 +6,16 @@
 #[path = "../../../ur5e.rs"]
 mod board;
 #[cfg(target_arch = "arm")]
-#[path = "../../../../robot-import/template/board/rtic/src/devices.rs"]
+#[path = "../../../../../tools/robot-import/template/board/rtic/src/devices.rs"]
 mod devices;
 #[cfg(target_arch = "arm")]
-#[path = "../../../../robot-import/template/board/rtic/src/firmware.rs"]
+#[path = "../../../../../tools/robot-import/template/board/rtic/src/firmware.rs"]
 mod firmware;
 #[cfg(target_arch = "arm")]
 #[path = "../../../silent.rs"]
 mod log;
 #[cfg(target_arch = "arm")]
-#[path = "../../../../robot-import/template/board/nucleo-f446re/src/pins.rs"]
+#[path = "../../../../../tools/robot-import/template/board/nucleo-f446re/src/pins.rs"]
 mod pins;
 
 #[cfg(target_arch = "arm")]

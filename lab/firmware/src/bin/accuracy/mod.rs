@@ -12,10 +12,10 @@ use core::fmt::{Display, Write};
 use cortex_m_semihosting::debug;
 use dynamics_core::state::State;
 use firmware_demo::target;
+use fixtures::accuracy::robots::Compared;
+use fixtures::accuracy::simulation::{self, PassiveMotion, Simulation};
+use fixtures::accuracy::{Inverse, Visitor, list};
 use heapless::String;
-use lab_target::accuracy::robots::Compared;
-use lab_target::accuracy::simulation::{self, PassiveMotion, Simulation};
-use lab_target::accuracy::{Inverse, Visitor, list};
 use row::{Row, numbers};
 
 /// Ticks of each way: two periods of the lowest rate.

@@ -13,7 +13,7 @@ use dynamics_core::effects::Effect;
 use dynamics_core::model::Robot;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use lab_target::effect_presets::{self, Visitor};
+use fixtures::effect_presets::{self, Visitor};
 
 use super::row::Row;
 use super::{Ask, STATES, asks, done};

@@ -5,7 +5,7 @@
 use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
 use firmware_demo::target;
-use lab_target::{hard, recorded::digests};
+use fixtures::{hard, recorded::digests};
 
 #[entry]
 fn main() -> ! {

@@ -5,7 +5,7 @@
 use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
 use firmware_demo::target;
-use lab_target::faults::{Setup, one};
+use fixtures::faults::{Setup, one};
 
 #[entry]
 fn main() -> ! {

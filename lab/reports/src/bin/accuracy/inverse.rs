@@ -7,10 +7,10 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Robot;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use fixtures::accuracy::robots::Compared;
+use fixtures::accuracy::{Inverse, Visitor};
 use host_tests::random::random_numbers;
 use host_tests::recordings::{Precise, load, read};
-use lab_target::accuracy::robots::Compared;
-use lab_target::accuracy::{Inverse, Visitor};
 use serde_json::json;
 
 use super::problem::{Problem, drawn};

@@ -20,7 +20,7 @@ mod statistics;
 mod yardsticks;
 
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
-use lab_target::accuracy::list;
+use fixtures::accuracy::list;
 
 fn main() {
     let requested: Vec<String> = std::env::args().skip(1).collect();

@@ -4,7 +4,7 @@ use dynamics_core::effects::Effect;
 use dynamics_core::model::Static;
 use dynamics_core::sim::{Integrator, KahanState, ModelDynamics, RungeKutta};
 use dynamics_core::state::State;
-use lab_target::accuracy::simulation::PassiveMotion;
+use fixtures::accuracy::simulation::PassiveMotion;
 
 /// µs from one comparison to the next.
 pub const SAMPLE: u32 = 20_000;

@@ -9,5 +9,5 @@ mod yardsticks;
 include!(env!("OWN_ROBOT"));
 
 fn main() {
-    inverse::print::<Robot, N, N, _>(lab_target::accuracy::list::single::<Robot, N, N>);
+    inverse::print::<Robot, N, N, _>(fixtures::accuracy::list::single::<Robot, N, N>);
 }

@@ -12,7 +12,7 @@ mod statistics;
 mod yardsticks;
 
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
-use lab_target::accuracy::list;
+use fixtures::accuracy::list;
 
 macro_rules! print {
     ($($robot:ident, $b:literal, $n:literal, $w:literal, $name:ident;)*) => {

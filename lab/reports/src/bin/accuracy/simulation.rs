@@ -10,10 +10,10 @@ use dynamics_core::Core;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
-use host_tests::measured::largest;
-use lab_target::accuracy::simulation::{
+use fixtures::accuracy::simulation::{
     Damped, DoublePendulum, PassiveMotion, Scene, Simulation, Visitor, every,
 };
+use host_tests::measured::largest;
 use serde_json::{Value, json};
 
 use super::motion::{FINE, SAMPLE, SECOND, true_motion};

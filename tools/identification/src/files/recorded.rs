@@ -4,10 +4,10 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-use identification::TickRecording;
+use crate::TickRecording;
 
-use crate::MOST_JOINTS;
-use crate::error::{Error, Problem, Result};
+use super::MOST_JOINTS;
+use super::error::{Error, Problem, Result};
 
 /// The longest line, bytes.
 const LONGEST: usize = 16 * 1024;

@@ -3,16 +3,16 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY, Width};
-use dynamics_core::model::ArmModel;
-use identification::{
+use crate::{
     BaseModel, ExcitationLimits, Fit, Fitted, IdentificationError, OfJoint, Parameter, PhysicalSet,
     TickRecording,
 };
+use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY, Width};
+use dynamics_core::model::ArmModel;
 
-use crate::delay;
-use crate::error::{Error, Result};
-use crate::robot::Robot;
+use super::delay;
+use super::error::{Error, Result};
+use super::robot::Robot;
 
 /// How far the numbers of a description are believed: a relative standard deviation.
 const BELIEVED: f64 = 0.3;

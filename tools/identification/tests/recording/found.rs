@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use identify::error::Error;
-use identify::report::Found;
-use identify::robot::Robot;
-use identify::{paste, picture, run};
+use identification::files::error::Error;
+use identification::files::report::Found;
+use identification::files::robot::Robot;
+use identification::files::{paste, picture, run};
 use robot_import::inertia::MassProperties;
 
 use crate::arm::*;

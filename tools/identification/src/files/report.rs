@@ -6,7 +6,7 @@ use dynamics_core::model::BodyInertia;
 use robot_import::inertia::MassProperties;
 use serde::Serialize;
 
-use crate::mistakes::{IMPOSSIBLE, Mistake};
+use super::mistakes::{IMPOSSIBLE, Mistake};
 
 /// The digits of numbers to paste.
 const DIGITS: usize = 6;

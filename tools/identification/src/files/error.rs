@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use identification::IdentificationError;
+use crate::IdentificationError;
 use robot_import::error::ImportError;
 
-use crate::mistake::Mistake;
+use super::mistake::Mistake;
 
 /// The result of anything here that reads a file.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -126,7 +126,7 @@ pub enum Problem {
         expected: f64,
         tick: f64,
     },
-    #[error("{0} joints are more than {max}", max = crate::MOST_JOINTS)]
+    #[error("{0} joints are more than {max}", max = crate::files::MOST_JOINTS)]
     TooManyJoints(usize),
     #[error("more than {0} ticks")]
     TooLong(usize),

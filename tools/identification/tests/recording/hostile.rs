@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use identify::recorded::Recorded;
-use identify::robot::Robot;
-use identify::run;
+use identification::files::recorded::Recorded;
+use identification::files::robot::Robot;
+use identification::files::run;
 
 use crate::arm::*;
 

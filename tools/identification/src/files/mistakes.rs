@@ -3,10 +3,10 @@
 //! If no physically possible robot fits a recording, each mistake is corrected on trial and the
 //! recording is fitted again. The mistake whose correction lowers the residuals most is reported.
 
-use identification::{OfJoint, Parameter, TickRecording};
+use crate::{OfJoint, Parameter, TickRecording};
 
-use crate::attempt::{Attempt, Task, own};
-pub use crate::mistake::Mistake;
+use super::attempt::{Attempt, Task, own};
+pub use super::mistake::Mistake;
 
 /// A physical set at more than this distance from the estimate, in standard deviations, does not
 /// fit.

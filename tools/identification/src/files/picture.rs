@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use crate::report::Trace;
+use super::report::Trace;
 
 /// The size of a chart, and the most of the picture.
 const WIDTH: f64 = 600.0;

@@ -5,7 +5,7 @@
 //! is short relative to the periods of the motion. The minimum of a parabola through three values
 //! is taken, and again from there.
 
-use identification::{Fit, Fitted, IdentificationError};
+use crate::{Fit, Fitted, IdentificationError};
 
 /// The distance of the three values, s; a tick if that is longer.
 const STEP: f64 = 5e-3;

@@ -7,9 +7,9 @@ use dynamics_core::model::ArmModel;
 use robot_import::import::{self, Imported, Options};
 use robot_import::model;
 
-use crate::error::{Error, Result};
+use super::error::{Error, Result};
 
-/// The parameters of a joint in the order of [`identification::OfJoint`].
+/// The parameters of a joint in the order of [`crate::OfJoint`].
 pub type OfJoint = [f64; 4];
 
 /// A model, the ten parameters of each body, and those of each joint.

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use identify::mistakes::Mistake;
-use identify::paste;
-use identify::report::{Found, rounded};
+use identification::files::mistakes::Mistake;
+use identification::files::paste;
+use identification::files::report::{Found, rounded};
 
 use crate::arm::*;
 
@@ -125,7 +125,8 @@ fn a_late_torque_is_estimated_and_reported() {
         let text = record_late(motion, 2_500, late);
         let recorded = read(&text).expect("ticks");
         let file = Path::new("run.csv");
-        let found = identify::run::identify(&off(), (file, &recorded), None, &OPTIONS());
+        let found =
+            identification::files::run::identify(&off(), (file, &recorded), None, &OPTIONS());
         let found = found.expect("parameters");
         // The torque belongs to the time before it was recorded.
         assert!(

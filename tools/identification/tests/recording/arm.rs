@@ -6,11 +6,11 @@ use std::path::Path;
 use dynamics_core::algorithms::rnea;
 use dynamics_core::effects::{Coulomb, RIGID_BODY, Viscous, Width};
 use dynamics_core::state::State;
-use identify::error::Result;
-use identify::recorded::Recorded;
-use identify::report::Found;
-use identify::robot::Robot;
-use identify::run::{self, JointEffect, Options};
+use identification::files::error::Result;
+use identification::files::recorded::Recorded;
+use identification::files::report::Found;
+use identification::files::robot::Robot;
+use identification::files::run::{self, JointEffect, Options};
 use robot_import::import::Options as Selection;
 use robot_import::model;
 

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
-use identify::error::{Error, Result};
-use identify::recorded::Recorded;
-use identify::robot::Robot;
-use identify::run::{self, JointEffect, Options};
-use identify::{paste, picture};
+use identification::files::error::{Error, Result};
+use identification::files::recorded::Recorded;
+use identification::files::robot::Robot;
+use identification::files::run::{self, JointEffect, Options};
+use identification::files::{paste, picture};
 
 /// The parameters of a robot's file from a recording of its ticks
 #[derive(Parser)]

@@ -2,17 +2,17 @@
 
 use std::path::Path;
 
+use crate::{Comparison, IdentificationError, OfJoint, TickRecording};
 use dynamics_core::model::BodyInertia;
 use dynamics_core::spatial::SpatialInertia;
-use identification::{Comparison, IdentificationError, OfJoint, TickRecording};
 
-use crate::attempt::{Attempt, Task, own, possible};
-pub use crate::attempt::{JointEffect, Options};
-use crate::error::{Error, Result};
-use crate::mistakes;
-use crate::recorded::Recorded;
-use crate::report::{BodyFound, Found, Gear, JointFound, Numbers, ParameterFound, Part, Trace};
-use crate::robot::Robot;
+use super::attempt::{Attempt, Task, own, possible};
+pub use super::attempt::{JointEffect, Options};
+use super::error::{Error, Result};
+use super::mistakes;
+use super::recorded::Recorded;
+use super::report::{BodyFound, Found, Gear, JointFound, Numbers, ParameterFound, Part, Trace};
+use super::robot::Robot;
 
 /// The most points of a trace.
 const POINTS: usize = 800;
@@ -51,7 +51,7 @@ pub fn identify(
                 $($v => of_size::<$v>(robot, recording, other, options),)*
                 _ => Err(Error::Unsuitable {
                     path: robot.path.clone(),
-                    reason: format!("{} joints are not between 1 and {}", names.len(), crate::MOST_JOINTS),
+                    reason: format!("{} joints are not between 1 and {}", names.len(), super::MOST_JOINTS),
                 }),
             }
         };

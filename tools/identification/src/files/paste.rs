@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use robot_import::inertia::MassProperties;
 use robot_import::write;
 
-use crate::report::{Found, rounded};
-use crate::robot::Robot;
+use super::report::{Found, rounded};
+use super::robot::Robot;
 
 /// The width with which the importer writes Coulomb friction.
 const WIDTH: &str = "Width::f32(0.02)";

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Record what Pinocchio says about robots with kinematic loops: the oracle of the tests of clusters.
 
-    cargo run -p cluster-tests --bin export_clusters | venv/bin/python host-tests/oracle/clusters.py
+    cargo run -p loop-tests --bin export_clusters | venv/bin/python host-tests/oracle/clusters.py
 
 reads the spanning trees as the Rust code has them and writes host-tests/recordings/clusters/<robot>.json. With --check it
 writes nothing and fails if a file would change.

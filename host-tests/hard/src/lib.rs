@@ -30,8 +30,8 @@ pub mod suite;
 pub mod top;
 
 use host_tests::hard::{Case, demand_of};
-use long_cases::name;
-pub use long_cases::{attitude, day, integrators, pendulum};
+use simulation_tests::long::name;
+pub use simulation_tests::long::{attitude, day, integrators, pendulum};
 
 /// All cases, a slice a family.
 pub const CASES: &[&[Case]] = &[

@@ -1,5 +1,6 @@
-//! Machines with kinematic loops, their random states, and the hard cases of them.
+//! Machines with kinematic loops, robots with clusters, their states, and the hard cases of them.
 
+pub mod clusters;
 pub mod distance;
 pub mod export;
 pub mod hard;

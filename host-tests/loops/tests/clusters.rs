@@ -1,7 +1,7 @@
 //! The parallel robots as clusters and as general loops: two descriptions and two algorithms, the
 //! same motors' torques.
 
-use cluster_tests::{DeltaRobot, apart, hold, largest, stewart_states};
+use loop_tests::clusters::{DeltaRobot, apart, hold, largest, stewart_states};
 use dynamics_core::Core;
 use dynamics_core::algorithms::rnea;
 use dynamics_core::clusters::Clustered;

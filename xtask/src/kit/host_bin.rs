@@ -28,8 +28,8 @@ pub const SHARED: Together = Together {
     programs: "",
     // What computes for minutes is optimised, which would take the compiler longer than the parts
     // of an everyday run.
-    full: "--features guide/full,host-tests/full,robot-import/full,specialised-tests/full \
-         --config profile.dev.package.long-cases.opt-level=2 --config profile.dev.package.flexible-tests.opt-level=2",
+    full: "--features guide/full,host-tests/full,robot-import/full \
+         --config profile.dev.package.simulation-tests.opt-level=2 --config profile.dev.package.flexible-tests.opt-level=2",
     folder: "debug",
 };
 

@@ -132,7 +132,7 @@ fn wanted(robots: &[Robot]) -> impl Iterator<Item = Wanted<'_>> {
     })
 }
 
-/// A library's function (see `lab/peers/bench/src/foreign.rs`): the names of all its functions
+/// A library's function (see `lab/peers/bench/foreign.rs`): the names of all its functions
 /// begin with `prefix`, and the one that opens takes a file.
 fn foreign(
     (robot, algorithm, precision): Wanted<'_>,
@@ -157,7 +157,7 @@ pub fn bench(workspace: &Workspace) -> Result<PathBuf> {
     let target = workspace.target.join("peers/native");
     let mut command = workspace.cargo("build");
     command
-        .args(["--release", "--package", "peers-bench", "--target-dir"])
+        .args(["--release", "--package", "host-reports", "--bin", "peers-bench", "--features", "peers", "--target-dir"])
         .arg(&target)
         .env("RUSTFLAGS", "-Ctarget-cpu=native")
         // It would take precedence.

@@ -1,6 +1,6 @@
 //! Motors at dead points: a status, and torques that are finite, bounded and continuous.
 
-use cluster_tests::hold;
+use loop_tests::clusters::hold;
 use dynamics_core::Core;
 use dynamics_core::clusters::{
     Branch, Clustered, ClusteredRobot, DEAD_POINT, Driven, FiveBar, FourBar, MotorTorques,

@@ -1,6 +1,6 @@
 //! A day of ticks.
 
-use crate::name;
+use super::name;
 use dynamics_core::scalar::Real;
 use host_tests::controller::TICK;
 use host_tests::hard::Row;

@@ -1,6 +1,6 @@
 //! Prints the spanning trees of robots with clusters as JSON for `host-tests/oracle/clusters.py`.
 
-use cluster_tests::{DeltaRobot, FiveBarLeg, Geared, Wrist};
+use loop_tests::clusters::{DeltaRobot, FiveBarLeg, Geared, Wrist};
 use dynamics_core::model::Robot;
 use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
 use host_tests::export::robot;

@@ -1,5 +1,4 @@
-//! What hard cases compute for minutes: a package of its own, because a full run of the tests
-//! optimises it.
+//! Computations of hard cases that take minutes: a full run of the tests optimises this package.
 
 pub mod attitude;
 pub mod day;

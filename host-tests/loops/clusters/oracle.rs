@@ -1,8 +1,8 @@
 //! What Pinocchio says of robots with loops (`host-tests/oracle/clusters.py`), by core and engine,
 //! in f64 and f32; and that the engine gives what the core gives.
 
-use cluster_tests::recorded::errors;
-use cluster_tests::{DeltaRobot, FiveBarLeg, Geared, Wrist};
+use loop_tests::clusters::recorded::errors;
+use loop_tests::clusters::{DeltaRobot, FiveBarLeg, Geared, Wrist};
 use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
 
 #[test]

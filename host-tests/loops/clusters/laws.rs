@@ -1,6 +1,6 @@
 //! Laws of inverse and forward dynamics with clusters, on 200 random states of every robot.
 
-use cluster_tests::{
+use loop_tests::clusters::{
     DeltaRobot, FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart,
     delta_states, five_bar_states, floating_states, four_bar_states, geared_states, hold, largest,
     stewart_states, wrist_states,

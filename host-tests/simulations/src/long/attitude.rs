@@ -1,7 +1,7 @@
 //! Attitudes that turn for long: a quaternion after ten million steps, the Dzhanibekov body.
 
-use crate::integrators::{INTEGRATORS, Integrator};
-use crate::name;
+use super::integrators::{INTEGRATORS, Integrator};
+use super::name;
 use dynamics_core::algorithms::{kinetic_energy, momentum};
 use dynamics_core::effects::{Coriolis, Inertia};
 use dynamics_core::model::{BASE, Body, Joint, Model};

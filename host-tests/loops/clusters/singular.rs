@@ -2,7 +2,7 @@
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
-use cluster_tests::{DeltaRobot, Random, ankle_states, apart, hold};
+use loop_tests::clusters::{DeltaRobot, Random, ankle_states, apart, hold};
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::clusters::{
     Belt, Branch, Cluster, ClusterError, ClusterProblem, Clustered, ClusteredRobot, DEAD_POINT,

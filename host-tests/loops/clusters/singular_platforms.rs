@@ -1,7 +1,7 @@
 //! Singular postures of the parallel robots' clusters: a status or an error, and numbers that are
 //! finite and bounded.
 
-use cluster_tests::hold;
+use loop_tests::clusters::hold;
 use dynamics_core::clusters::{Cluster, ClusterMotion, ClusterProblem, Delta, Leg, Stewart};
 use dynamics_core::model::JointCoordinate;
 use dynamics_core::scalar::{Native, Real};

@@ -1,7 +1,7 @@
 //! γ, G and Ġ ẏ of every linkage, in the tree: its loops are closed, and its rates are the
 //! derivatives of its positions.
 
-use cluster_tests::{
+use loop_tests::clusters::{
     DeltaRobot, FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart,
     delta_states, five_bar_states, floating_states, four_bar_states, geared_states, stewart_states,
     wrist_states,
@@ -66,7 +66,7 @@ fn rates_are_derivatives<T, const B: usize, const N: usize, const Y: usize>(
         let motion = Clustered::<Core<T>>::motion(y).expect("it closes");
         let tree = motion.state();
         let tree = tree.state();
-        let scale = |row: &[f64]| cluster_tests::largest(row).max(1.0);
+        let scale = |row: &[f64]| loop_tests::clusters::largest(row).max(1.0);
         worst[0] = worst[0].max(apart(&rate, &tree.qd) / scale(&rate));
         worst[1] = worst[1].max(apart(&accel, &tree.qdd) / scale(&accel));
         assert_eq!(motion.singular(), None);

@@ -1,6 +1,6 @@
 //! Motors at actuated rows, and forward dynamics of a robot with inertias of its own.
 
-use cluster_tests::{DeltaRobot, ankle_states, apart, delta_states, hold, largest};
+use loop_tests::clusters::{DeltaRobot, ankle_states, apart, delta_states, hold, largest};
 use dynamics_core::clusters::{Clustered, ClusteredRobot};
 use dynamics_core::effects::{Armature, RIGID_BODY, Viscous};
 use dynamics_core::model::Calibrated;

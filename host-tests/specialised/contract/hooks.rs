@@ -452,7 +452,7 @@ fn declared(source: &str) -> Vec<&str> {
 
 #[test]
 fn every_added_hook_is_forwarded_and_tested() {
-    let effects = include_str!("../../../../dynamics-core/src/effects/mod.rs");
+    let effects = include_str!("../../../dynamics-core/src/effects/mod.rs");
     let (_, the_trait) = effects
         .split_once("pub trait Effect<")
         .expect("the trait is there");
@@ -467,7 +467,7 @@ fn every_added_hook_is_forwarded_and_tested() {
             .collect()
     };
     let none: [&str; 0] = [];
-    let forwarding = include_str!("../../../../dynamics-core/src/effects/delegate.rs");
+    let forwarding = include_str!("../../../dynamics-core/src/effects/delegate.rs");
     assert_eq!(missing(forwarding), none);
     // The effect of this test.
     assert_eq!(missing(include_str!("hooks.rs")), none);

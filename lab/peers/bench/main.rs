@@ -11,7 +11,7 @@ mod subject;
 use std::error::Error;
 use std::path::PathBuf;
 
-use cluster_tests::DeltaRobot;
+use loop_tests::clusters::DeltaRobot;
 use dynamics_core::robots::{A1, A1Free, G1, G1Free, Iiwa14, Panda, Ur5e};
 use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
 use loop_tests::machines::{Delta, Stewart};

@@ -1,6 +1,6 @@
 //! The energy of a double pendulum for an hour.
 
-use crate::integrators::INTEGRATORS;
+use super::integrators::INTEGRATORS;
 use dynamics_core::effects::{Coriolis, Gravity, Inertia};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::scalar::Real;

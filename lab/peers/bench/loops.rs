@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::hint::black_box;
 use std::path::PathBuf;
 
-use cluster_tests::recorded as clusters;
+use loop_tests::clusters::recorded as clusters;
 use dynamics_core::clusters::{Clustered, ClusteredRobot};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::loops::{Loops, Stabilisation, forward_dynamics, inverse_dynamics};

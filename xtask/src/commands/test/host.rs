@@ -30,7 +30,9 @@ pub fn clippy(context: &Context) -> Result<String> {
 fn unnamed(root: &Path) -> Result<Vec<PathBuf>> {
     let mut unnamed = Vec::new();
     let all = sources(root)?;
-    for main in all.iter().filter(|path| path.ends_with("tests/main.rs")) {
+    let programs = ["tests", "clusters", "specialised"].map(|name| format!("{name}/main.rs"));
+    let is_of_tests = |path: &&PathBuf| programs.iter().any(|program| path.ends_with(program));
+    for main in all.iter().filter(is_of_tests) {
         let text = workspace::read(main)?;
         let beside = all.iter().filter(|path| path.parent() == main.parent());
         unnamed.extend(beside.filter(|path| {

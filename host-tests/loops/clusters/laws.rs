@@ -1,10 +1,5 @@
 //! Laws of inverse and forward dynamics with clusters, on 200 random states of every robot.
 
-use loop_tests::clusters::{
-    DeltaRobot, FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart,
-    delta_states, five_bar_states, floating_states, four_bar_states, geared_states, hold, largest,
-    stewart_states, wrist_states,
-};
 use dynamics_core::algorithms::MassMatrix;
 use dynamics_core::clusters::{Clustered, ClusteredRobot};
 use dynamics_core::effects::{Armature, Effect, Gravity, JointState, RIGID_BODY, Viscous};
@@ -13,6 +8,11 @@ use dynamics_core::scalar::Real;
 use dynamics_core::state::{RobotState, State};
 use dynamics_core::{Core, Engine, algorithms};
 use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
+use loop_tests::clusters::{
+    DeltaRobot, FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart,
+    delta_states, five_bar_states, floating_states, four_bar_states, geared_states, hold, largest,
+    stewart_states, wrist_states,
+};
 
 /// x with M x = τ, by elimination: M is positive definite.
 fn solved<const N: usize>(m: &MassMatrix<f64, N>, tau: &[f64; N]) -> [f64; N] {

@@ -1,11 +1,6 @@
 //! γ, G and Ġ ẏ of every linkage, in the tree: its loops are closed, and its rates are the
 //! derivatives of its positions.
 
-use loop_tests::clusters::{
-    DeltaRobot, FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart,
-    delta_states, five_bar_states, floating_states, four_bar_states, geared_states, stewart_states,
-    wrist_states,
-};
 use dynamics_core::algorithms::{Pose, frame};
 use dynamics_core::clusters::{
     Branch, Cluster, ClusterProblem, Clustered, ClusteredRobot, FiveBar, Stewart,
@@ -18,6 +13,11 @@ use dynamics_core::state::{RobotState, State};
 use dynamics_core::{Core, Engine, algorithms};
 use firmware_demo::robots::{AnkleLeg, FourBarLeg, LEGS, StewartPlatform};
 use glam::{DMat3, DVec3};
+use loop_tests::clusters::{
+    DeltaRobot, FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart,
+    delta_states, five_bar_states, floating_states, four_bar_states, geared_states, stewart_states,
+    wrist_states,
+};
 
 /// d/dt of q and of q̇ of the tree along y(t) = y + ẏ t + ÿ t²/2, by differences of sixth order.
 fn derivatives<T, const B: usize, const N: usize, const Y: usize>(

@@ -1,12 +1,12 @@
 //! Motors at actuated rows, and forward dynamics of a robot with inertias of its own.
 
-use loop_tests::clusters::{DeltaRobot, ankle_states, apart, delta_states, hold, largest};
 use dynamics_core::clusters::{Clustered, ClusteredRobot};
 use dynamics_core::effects::{Armature, RIGID_BODY, Viscous};
 use dynamics_core::model::Calibrated;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine, algorithms};
 use firmware_demo::robots::AnkleLeg;
+use loop_tests::clusters::{DeltaRobot, ankle_states, apart, delta_states, hold, largest};
 
 /// The errors that the tests of a robot measure.
 #[derive(Debug, Default)]

@@ -1,6 +1,5 @@
 //! Motors at dead points: a status, and torques that are finite, bounded and continuous.
 
-use loop_tests::clusters::hold;
 use dynamics_core::Core;
 use dynamics_core::clusters::{
     Branch, Clustered, ClusteredRobot, DEAD_POINT, Driven, FiveBar, FourBar, MotorTorques,
@@ -9,6 +8,7 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use firmware_demo::robots::StewartPlatform;
+use loop_tests::clusters::hold;
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 

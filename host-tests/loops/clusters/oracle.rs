@@ -1,9 +1,9 @@
 //! What Pinocchio says of robots with loops (`host-tests/oracle/clusters.py`), by core and engine,
 //! in f64 and f32; and that the engine gives what the core gives.
 
+use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
 use loop_tests::clusters::recorded::errors;
 use loop_tests::clusters::{DeltaRobot, FiveBarLeg, Geared, Wrist};
-use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
 
 #[test]
 fn pinocchio_agrees_on_the_four_bar_leg() {

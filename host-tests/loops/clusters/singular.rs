@@ -2,7 +2,6 @@
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
-use loop_tests::clusters::{DeltaRobot, Random, ankle_states, apart, hold};
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::clusters::{
     Belt, Branch, Cluster, ClusterError, ClusterProblem, Clustered, ClusteredRobot, DEAD_POINT,
@@ -14,6 +13,7 @@ use dynamics_core::scalar::{Native, Real};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
+use loop_tests::clusters::{DeltaRobot, Random, ankle_states, apart, hold};
 
 /// The follower's motion at a crank angle, in the scalar R.
 fn at<R: Real, C: Cluster<M, 1>, const M: usize>(

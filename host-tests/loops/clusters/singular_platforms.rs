@@ -1,11 +1,11 @@
 //! Singular postures of the parallel robots' clusters: a status or an error, and numbers that are
 //! finite and bounded.
 
-use loop_tests::clusters::hold;
 use dynamics_core::clusters::{Cluster, ClusterMotion, ClusterProblem, Delta, Leg, Stewart};
 use dynamics_core::model::JointCoordinate;
 use dynamics_core::scalar::{Native, Real};
 use firmware_demo::robots::LEGS;
+use loop_tests::clusters::hold;
 
 /// The square of a sine below which clusters are damped: in f64, in f32.
 const DAMPED: (f64, f64) = (1e-9, 256.0 * f32::EPSILON as f64);

@@ -1,7 +1,6 @@
 //! The parallel robots as clusters and as general loops: two descriptions and two algorithms, the
 //! same motors' torques.
 
-use loop_tests::clusters::{DeltaRobot, apart, hold, largest, stewart_states};
 use dynamics_core::Core;
 use dynamics_core::algorithms::rnea;
 use dynamics_core::clusters::Clustered;
@@ -11,6 +10,7 @@ use dynamics_core::model::{BodyInertia, Calibrated, RobotModel, Static};
 use dynamics_core::state::State;
 use firmware_demo::robots::{LEGS, StewartPlatform};
 use glam::{DQuat, DVec3, EulerRot};
+use loop_tests::clusters::{DeltaRobot, apart, hold, largest, stewart_states};
 use loop_tests::machines::{Delta, Stewart};
 use loop_tests::states::closed_states;
 

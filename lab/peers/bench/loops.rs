@@ -7,7 +7,6 @@ use std::fmt::Write as _;
 use std::hint::black_box;
 use std::path::PathBuf;
 
-use loop_tests::clusters::recorded as clusters;
 use dynamics_core::clusters::{Clustered, ClusteredRobot};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::loops::{Loops, Stabilisation, forward_dynamics, inverse_dynamics};
@@ -16,6 +15,7 @@ use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use host_tests::export::{Placement, Robot};
 use host_tests::recordings::{full_scale, row};
+use loop_tests::clusters::recorded as clusters;
 use loop_tests::machines::Machine;
 use loop_tests::recorded::Recording;
 

@@ -11,9 +11,9 @@ mod subject;
 use std::error::Error;
 use std::path::PathBuf;
 
-use loop_tests::clusters::DeltaRobot;
 use dynamics_core::robots::{A1, A1Free, G1, G1Free, Iiwa14, Panda, Ur5e};
 use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
+use loop_tests::clusters::DeltaRobot;
 use loop_tests::machines::{Delta, Stewart};
 use serde::Deserialize;
 

@@ -1,9 +1,9 @@
 //! Prints the spanning trees of robots with clusters as JSON for `host-tests/oracle/clusters.py`.
 
-use loop_tests::clusters::{DeltaRobot, FiveBarLeg, Geared, Wrist};
 use dynamics_core::model::Robot;
 use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
 use host_tests::export::robot;
+use loop_tests::clusters::{DeltaRobot, FiveBarLeg, Geared, Wrist};
 
 fn main() -> serde_json::Result<()> {
     let robots = [

@@ -157,7 +157,16 @@ pub fn bench(workspace: &Workspace) -> Result<PathBuf> {
     let target = workspace.target.join("peers/native");
     let mut command = workspace.cargo("build");
     command
-        .args(["--release", "--package", "host-reports", "--bin", "peers-bench", "--features", "peers", "--target-dir"])
+        .args([
+            "--release",
+            "--package",
+            "host-reports",
+            "--bin",
+            "peers-bench",
+            "--features",
+            "peers",
+            "--target-dir",
+        ])
         .arg(&target)
         .env("RUSTFLAGS", "-Ctarget-cpu=native")
         // It would take precedence.

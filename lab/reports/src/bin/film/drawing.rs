@@ -147,11 +147,9 @@ fn arm(
     let mut shapes = String::new();
     for ([from, to], width) in STROKES {
         let at = |tick: &Tick| points(of(tick)[from..=to].iter().map(|point| place(*point)));
-        let moves = animate(
-            "points",
-            seconds,
-            &samples.iter().map(at).collect::<Vec<_>>(),
-        );
+        // The first again at the end: a value then takes the same time of one part as of all.
+        let all = samples.iter().chain(&samples[..1]);
+        let moves = animate("points", seconds, &all.map(at).collect::<Vec<_>>());
         let line = format!("polyline class=\"{class}-line");
         let still = at(&samples[still]);
         writeln!(
@@ -261,8 +259,8 @@ fn plot(errors: &[f64], still: usize, labels: &[String; PARTS.len()]) -> String 
         points(curve.iter().copied())
     );
     let [x, y] = [|at: &DVec2| at.x, |at: &DVec2| at.y].map(|of| {
-        let values: Vec<String> = curve.iter().map(|at| format!("{:.1}", of(at))).collect();
-        values
+        let all = curve.iter().chain(&curve[curve.len() - 1..]);
+        all.map(|at| format!("{:.1}", of(at))).collect::<Vec<_>>()
     });
     let at = curve[still];
     shapes

@@ -149,7 +149,10 @@ impl Report {
             let mine: Vec<&Torques> = row.scenes.iter().map(|scene| &scene.torques).collect();
             same_bits(core.name, &mine, &torques)?;
             for scene in &row.scenes {
-                let (tick, stack) = (format!("{} tick", scene.torques.scene), scene.bound);
+                let (tick, stack) = (
+                    format!("{} tick", scene.torques.scene),
+                    scene.bound.unwrap_or(scene.stack),
+                );
                 bars::hold(&bars, &tick, [("stack_bytes", stack as f64)])
                     .map_err(|error| check!("{}, {error}", core.name))?;
             }

@@ -111,11 +111,11 @@ fn read(workspace: &Workspace, bin: &Bin) -> Result<Board> {
     };
     let (start, tick) = if bin.is_polled {
         if let Some(name) = bin.tick {
-            walk::stack(&image, false, address(name)?)?;
+            walk::stack(&image, address(name)?)?;
         }
         (None, None)
     } else {
-        let stack = |name| walk::stack(&image, false, address(name)?);
+        let stack = |name| walk::stack(&image, address(name)?);
         let tick = bin.tick.map(stack).transpose()?;
         let start = walk::stack_of_start(&image, address("main")?)?;
         (Some(start), tick.map(|stack| stack + INTERRUPT))

@@ -43,8 +43,8 @@ impl Report {
         let [small, large] = scenes[..] else {
             bail!("two scenes were expected: {scenes:?}");
         };
-        let of = |index: usize, what: fn(&Replayed) -> u64| {
-            move |(row, _): &Line<'_>| thousands(what(&row.scenes[index]))
+        let of = |index: usize, what: fn(&Replayed) -> Option<u64>| {
+            move |(row, _): &Line<'_>| what(&row.scenes[index]).map_or("–".into(), thousands)
         };
         let columns: [Column<'_, Line<'_>>; 8] = [
             ("core", &|(row, _)| row.core.into()),
@@ -53,12 +53,12 @@ impl Report {
             ("flags", &|(_, core)| core.shown_flags()),
             (
                 &format!("stack written, `{small}`, B"),
-                &of(0, |scene| scene.stack),
+                &of(0, |scene| Some(scene.stack)),
             ),
             ("stack, bound", &of(0, |scene| scene.bound)),
             (
                 &format!("stack written, `{large}`, B"),
-                &of(1, |scene| scene.stack),
+                &of(1, |scene| Some(scene.stack)),
             ),
             ("stack, bound", &of(1, |scene| scene.bound)),
         ];

@@ -1,9 +1,9 @@
-//! The largest stack of a function and of all that it calls: read from the machine code of any of
-//! the cores.
+//! The largest stack of a function and of all that it calls, read from the machine code of a
+//! Cortex-M.
 
 use std::collections::BTreeMap;
 
-use super::frame::{self, Flow};
+use super::frame;
 use crate::kit::elf::{Function, Image, is_f64, is_panic};
 use crate::kit::error::{Result, bail, check, refuse_if};
 
@@ -19,30 +19,24 @@ enum State {
 /// # Errors
 /// Something in reach calls through a register, calls itself, takes a frame whose size the code
 /// does not say, leaves the known functions, computes in f64, or panics.
-pub fn stack(image: &Image, is_risc_v: bool, address: u64) -> Result<u64> {
-    // The lowest bit says Thumb and is no part of the address.
-    let address = if is_risc_v { address } else { address & !1 };
+pub fn stack(image: &Image, address: u64) -> Result<u64> {
     let unwanted = |name: &str| is_f64(name) || is_panic(name);
-    stack_of(image, (is_risc_v, unwanted), address, &mut BTreeMap::new())
+    // The lowest bit says Thumb and is no part of the address.
+    stack_of(image, unwanted, address & !1, &mut BTreeMap::new())
 }
 
-/// As [`stack`] for a Cortex-M, of what may compute in f64 and panic.
+/// As [`stack`], of a function that may compute in f64 and panic.
 ///
 /// # Errors
 /// As [`stack`], without those two.
 pub fn stack_of_start(image: &Image, address: u64) -> Result<u64> {
-    stack_of(
-        image,
-        (false, |_| false),
-        address & !1,
-        &mut BTreeMap::new(),
-    )
+    stack_of(image, |_| false, address & !1, &mut BTreeMap::new())
 }
 
 /// The stack of the function that an address lies in, and of all that it calls.
 fn stack_of(
     image: &Image,
-    (is_risc_v, unwanted): (bool, fn(&str) -> bool),
+    unwanted: fn(&str) -> bool,
     address: u64,
     known: &mut BTreeMap<usize, State>,
 ) -> Result<u64> {
@@ -62,37 +56,37 @@ fn stack_of(
         bail!("the tick reaches `{name}`");
     }
     known.insert(index, State::Open);
-    let flow = flow(function, is_risc_v).map_err(|e| check!("`{name}`: {e}"))?;
+    let (frame, targets) = flow(function).map_err(|e| check!("`{name}`: {e}"))?;
     let mut deepest = 0;
-    for target in flow
-        .targets
-        .iter()
-        .filter(|target| !function.contains(**target))
+    for target in targets
+        .into_iter()
+        .filter(|target| !function.contains(*target))
     {
-        let callee = stack_of(image, (is_risc_v, unwanted), *target, known);
+        let callee = stack_of(image, unwanted, target, known);
         deepest = deepest.max(callee.map_err(|e| check!("`{name}` → {e}"))?);
     }
-    let stack = flow.frame + deepest;
+    let stack = frame + deepest;
     known.insert(index, State::Known(stack));
     Ok(stack)
 }
 
-/// The frame of a function and where it goes.
-fn flow(function: &Function, is_risc_v: bool) -> Result<Flow> {
+/// The bytes of a function's frame, at most, and the targets of its calls and jumps.
+///
+/// Every instruction that lowers the stack pointer is added up, wherever in the function it stands:
+/// the sum is a bound of the frame, since compilers lower it in the prologue and nowhere in a loop.
+/// Instructions that restore it are left out.
+fn flow(function: &Function) -> Result<(u64, Vec<u64>)> {
     refuse_if!(function.bytes.is_empty(), "it has no code");
-    if is_risc_v {
-        return frame::risc_v(function.address, &function.bytes);
-    }
-    let mut flow = Flow::default();
     if let Some(at) = function.unknown_jump() {
         bail!("it calls through a register at {at:#x}");
     }
+    let (mut frame, mut targets) = (0, Vec::new());
     for one in function.instructions() {
-        flow.frame += frame::thumb(one.code)
+        frame += frame::thumb(one.code)
             .ok_or_else(|| check!("its frame at {:#x} is of an unknown size", one.address))?;
-        flow.targets.extend(one.target());
+        targets.extend(one.target());
     }
-    Ok(flow)
+    Ok((frame, targets))
 }
 
 #[cfg(test)]
@@ -120,7 +114,7 @@ mod tests {
             ("shallow", 0x1020, SHALLOW),
             ("deep", 0x1040, DEEP),
         ]);
-        assert_eq!(stack(&image, false, 0x1001).expect("a bound"), 16 + 64);
+        assert_eq!(stack(&image, 0x1001).expect("a bound"), 16 + 64);
     }
 
     #[test]
@@ -143,17 +137,15 @@ mod tests {
             ("__aeabi_dadd", DEEP, "reaches `__aeabi_dadd`"),
             ("_ZN4core9panicking5panicE", DEEP, "panicking"),
         ] {
-            let error = stack(&of(name, code), false, 0x1000)
-                .expect_err(what)
-                .to_string();
+            let error = stack(&of(name, code), 0x1000).expect_err(what).to_string();
             assert!(error.contains(what), "{error}");
         }
         for name in ["__aeabi_d2f", "_ZN4core9panicking5panicE"] {
             let image = of(name, DEEP);
             assert!(stack_of_start(&image, 0x1000).is_ok());
-            assert!(stack(&image, false, 0x1000).is_err(), "{name}");
+            assert!(stack(&image, 0x1000).is_err(), "{name}");
         }
-        let error = stack(&image(&[("tick", 0x1000, CALLER)]), false, 0x1000);
+        let error = stack(&image(&[("tick", 0x1000, CALLER)]), 0x1000);
         assert!(
             error
                 .expect_err("a gap")

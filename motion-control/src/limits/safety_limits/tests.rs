@@ -1,15 +1,16 @@
 use super::*;
+use crate::tests::{safety_limits, supervised};
 use crate::limits::{ConfigError, Fault, Mode};
 use crate::safety::SupervisorConfig;
 use crate::safety::supervisor::Supervisor;
 
-const GOOD: SafetyLimits<f32, 2> = SafetyLimits {
-    torque: [10.0, 0.0],
-    rate: [4.0, f32::INFINITY],
-    speed: [2.0, f32::INFINITY],
-    lower: [-1.0, f32::NEG_INFINITY],
-    upper: [1.0, f32::INFINITY],
-};
+const GOOD: SafetyLimits<f32, 2> = safety_limits(
+    [10.0, 0.0],
+    [4.0, f32::INFINITY],
+    [2.0, f32::INFINITY],
+    [-1.0, f32::NEG_INFINITY],
+    [1.0, f32::INFINITY],
+);
 
 fn with(of: LimitKind, limit: f32) -> SafetyLimits<f32, 2> {
     let mut limits = GOOD;
@@ -26,14 +27,7 @@ fn with(of: LimitKind, limit: f32) -> SafetyLimits<f32, 2> {
 }
 
 fn config(limits: SafetyLimits<f32, 2>) -> SupervisorConfig<f32, 2> {
-    SupervisorConfig {
-        limits,
-        tick: 0.01,
-        resolution: 0.0,
-        ride_through_ticks: 0,
-        hold_ticks: 3,
-        reentry_ticks: 4,
-    }
+    supervised(limits, 0.01, [0, 3, 4])
 }
 
 #[test]

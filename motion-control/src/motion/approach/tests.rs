@@ -1,48 +1,44 @@
 use super::*;
+use crate::tests::{Motion, controlled, motion_limits, safety_limits, stop};
 use crate::limits::Fault;
 use crate::motion::MotionControllerConfig;
-use crate::safety::{StopCategory, SupervisorConfig};
+use crate::reference::Trajectory;
+use crate::safety::StopCategory;
 
 const TICK: f64 = 1e-3;
-const LIMITS: [MotionLimits<f64>; 2] = [
-    MotionLimits {
-        velocity: 1.0,
-        acceleration: 4.0,
-    },
-    MotionLimits {
-        velocity: 2.0,
-        acceleration: 3.0,
-    },
-];
-const BOUNDS: SafetyLimits<f64, 2> = SafetyLimits {
-    torque: [10.0; 2],
-    rate: [10.0; 2],
-    speed: [3.0; 2],
-    lower: [-2.0; 2],
-    upper: [2.0; 2],
+const LIMITS: [MotionLimits<f64>; 2] = [motion_limits(1.0, 4.0), motion_limits(2.0, 3.0)];
+const BOUNDS: SafetyLimits<f64, 2> =
+    safety_limits([10.0; 2], [10.0; 2], [3.0; 2], [-2.0; 2], [2.0; 2]);
+
+const CONFIG: MotionControllerConfig<f64, 2> =
+    controlled(BOUNDS, TICK, [2, 3, 10], [250.0, 25.0, 0.1]);
+/// Rest at zero.
+const REST: State<f64, 2, 2> = State {
+    q: [0.0; 2],
+    qd: [0.0; 2],
+    qdd: [0.0; 2],
 };
 
-/// Rest at zero.
-#[derive(Debug)]
-struct Rest;
-
-impl Reference<f64, 2> for Rest {
-    fn at(&self, _: u32) -> State<f64, 2, 2> {
-        State::at([0.0; 2])
-    }
-    fn ticks(&self) -> u32 {
-        0
-    }
+fn plan<M: Reference<f64, 2>>(
+    from: [f64; 2],
+    motion: &M,
+) -> Result<Approach<'_, f64, 2, M>, ApproachError> {
+    Approach::plan(&from, motion, TICK, &LIMITS, &BOUNDS, Circles::NONE)
 }
 
-fn plan(from: [f64; 2]) -> Result<Approach<'static, f64, 2, Rest>, ApproachError> {
-    Approach::plan(&from, &Rest, TICK, &LIMITS, &BOUNDS, Circles::NONE)
+fn outside(joint: usize, position: f64) -> ApproachError {
+    ApproachError::Position {
+        joint,
+        position,
+        lower: -2.0,
+        upper: 2.0,
+    }
 }
 
 #[test]
 fn a_way_uses_its_limits_and_keeps_them() {
     for from in [[1.9, -0.3], [-0.01, 1.5], [1e-6, 0.0], [-2.0, 2.0]] {
-        let way = plan(from).expect("within the limits");
+        let way = plan(from, &REST).expect("within the limits");
         assert_eq!((way.at(0).q, way.at(way.path_ticks()).q), (from, [0.0; 2]));
         assert_eq!((way.first_point(), way.last_point()), (&from, &[0.0; 2]));
         let mut used = 0.0_f64;
@@ -56,155 +52,86 @@ fn a_way_uses_its_limits_and_keeps_them() {
         }
         assert!(used <= 1.0, "{used}");
         // One tick of rounding of a way of a tick or two is much.
-        assert!(
-            used >= 0.98 || way.path_ticks() < 10,
-            "{used} in {}",
-            way.path_ticks()
-        );
+        assert!(used >= 0.98 || way.path_ticks() < 10, "{used}");
     }
 }
 
 #[test]
-fn refusals_name_the_joint_and_the_limit() {
-    let outside = |joint, position| ApproachError::Position {
-        joint,
-        position,
-        lower: -2.0,
-        upper: 2.0,
+fn limits_without_motion_are_refused_by_joint_and_name() {
+    let planned = |from: [f64; 2], limits| {
+        let way = Approach::plan(&from, &REST, TICK, &limits, &BOUNDS, Circles::NONE);
+        way.map(|way| way.path_ticks())
     };
-    assert_eq!(plan([0.0, 2.1]).unwrap_err(), outside(1, 2.1));
-    assert_eq!(plan([-2.1, 2.1]).unwrap_err(), outside(0, -2.1));
-    assert_eq!(
-        plan([0.0, f64::NAN]).unwrap_err(),
-        ApproachError::NotFinite { joint: 1 }
-    );
-    for (change, of) in [
-        (
-            (|l| l.velocity = 0.0) as fn(&mut MotionLimits<f64>),
-            LimitKind::Speed,
-        ),
-        (|l| l.acceleration = -1.0, LimitKind::Torque),
-        (|l| l.velocity = f64::NAN, LimitKind::Speed),
+    let good = LIMITS[1];
+    for (limit, of) in [
+        (motion_limits(0.0, good.acceleration), LimitKind::Speed),
+        (motion_limits(good.velocity, -1.0), LimitKind::Torque),
+        (motion_limits(f64::NAN, good.acceleration), LimitKind::Speed),
     ] {
-        let mut limits = LIMITS;
-        change(&mut limits[1]);
-        let refused =
-            Approach::plan(&[1.0; 2], &Rest, TICK, &limits, &BOUNDS, Circles::NONE).unwrap_err();
-        assert_eq!(refused, ApproachError::NoMotion { joint: 1, of });
+        let refused = Err(ApproachError::NoMotion { joint: 1, of });
+        assert_eq!(planned([1.0; 2], [LIMITS[0], limit]), refused);
     }
     // A joint that does not have to move needs no speed.
-    let mut limits = LIMITS;
-    limits[1].velocity = 0.0;
-    assert!(Approach::plan(&[1.0, 0.0], &Rest, TICK, &limits, &BOUNDS, Circles::NONE).is_ok());
-    let slow = [MotionLimits {
-        velocity: 1e-7,
-        acceleration: 1.0,
-    }; 2];
-    let refused =
-        Approach::plan(&[1.0; 2], &Rest, TICK, &slow, &BOUNDS, Circles::NONE).unwrap_err();
+    let still = [LIMITS[0], motion_limits(0.0, good.acceleration)];
+    assert!(planned([1.0, 0.0], still).is_ok());
+    let refused = planned([1.0; 2], [motion_limits(1e-7, 1.0); 2]).unwrap_err();
     assert!(matches!(refused, ApproachError::Path(_)), "{refused}");
 }
 
 #[test]
 fn an_unknown_position_gets_no_approach_and_no_torque() {
-    let mut controller = MotionController::<f64, 2>::new(MotionControllerConfig {
-        supervisor: SupervisorConfig {
-            limits: BOUNDS,
-            tick: TICK,
-            resolution: 0.0,
-            ride_through_ticks: 2,
-            hold_ticks: 3,
-            reentry_ticks: 10,
-        },
-        observer_bandwidth: 250.0,
-        decay_rate: 25.0,
-        restart_distance: 0.1,
-    });
+    let mut controller = MotionController::<f64, 2>::new(CONFIG);
     for on_brake in [false, true] {
         if on_brake {
             controller = controller.on_brake();
         }
         for measured in [Err(Fault::Stale), Ok(&[f64::NAN; 2])] {
-            let command = controller.tick(measured, &Rest, |_, _| [5.0; 2]);
+            let command = controller.tick(measured, &REST, |_, _| [5.0; 2]);
             assert_eq!((command.torque, command.brake), ([0.0; 2], true));
-            let refused = controller.approach(&Rest, &LIMITS, &BOUNDS).unwrap_err();
+            let refused = controller.approach(&REST, &LIMITS, &BOUNDS).unwrap_err();
             assert_eq!(refused, ApproachError::Reset(ResetError::NoMeasurement));
             controller.stop_by(Fault::External, StopCategory::ControlledHold);
         }
     }
-    controller.tick(Ok(&[1.0; 2]), &Rest, |_, _| [0.0; 2]);
-    assert!(controller.approach(&Rest, &LIMITS, &BOUNDS).is_ok());
+    controller.tick(Ok(&[1.0; 2]), &REST, |_, _| [0.0; 2]);
+    assert!(controller.approach(&REST, &LIMITS, &BOUNDS).is_ok());
 }
 
 /// From a place on, at a constant speed.
-#[derive(Debug)]
-struct Leave {
-    q: [f64; 2],
-    qd: [f64; 2],
-}
-
-impl Reference<f64, 2> for Leave {
-    fn at(&self, tick: u32) -> State<f64, 2, 2> {
-        let [a, b] = self.q;
+fn leave(q: [f64; 2], qd: [f64; 2]) -> Motion<impl Fn(u32) -> State<f64, 2, 2>> {
+    Motion(move |tick| {
         let gone = if tick == 0 { 0.0 } else { 0.5 };
-        State {
-            qd: self.qd,
-            ..State::at([a + gone, b])
-        }
-    }
-    fn ticks(&self) -> u32 {
-        700
-    }
+        let state = State::at([q[0] + gone, q[1]]);
+        State { qd, ..state }
+    })
 }
 
 #[test]
 fn a_way_ends_at_the_begin_of_its_motion() {
     let q = [1.0, -1.0];
-    let motion = Leave { q, qd: [0.0; 2] };
-    let way = Approach::plan(&q, &motion, TICK, &LIMITS, &BOUNDS, Circles::NONE)
-        .expect("within the limits");
-    // It is there already.
-    assert_eq!((way.last_point(), way.path_ticks()), (&q, 1));
-    let way = Approach::plan(
-        &[-0.6, -1.0],
-        &motion,
-        TICK,
-        &LIMITS,
-        &BOUNDS,
-        Circles::NONE,
-    );
-    let way = way.expect("within the limits");
-    // 15/8 · 1.6 rad at 1 rad/s, and a tick for rounding.
-    assert_eq!((way.last_point(), way.path_ticks()), (&q, 3001));
-    assert_eq!(way.ticks(), 3001 + 700);
-    assert_eq!(way.path_seconds(TICK), 3001.0 * TICK);
+    let motion = leave(q, [0.0; 2]);
+    // An arm that is there already; and 15/8 · 1.6 rad at 1 rad/s, and a tick for rounding.
+    for (from, ticks) in [(q, 1), ([-0.6, -1.0], 3001)] {
+        let way = plan(from, &motion).ok().expect("within the limits");
+        assert_eq!((way.last_point(), way.path_ticks()), (&q, ticks));
+        assert_eq!(way.path_seconds(TICK), f64::from(ticks) * TICK);
+    }
+    let motion = Trajectory::new(&[stop(q, 0), stop(q, 700)], TICK, &LIMITS).expect("at rest");
+    let way = plan([-0.6, -1.0], &motion).ok();
+    assert_eq!(way.expect("within the limits").ticks(), 3001 + 700);
 }
 
 #[test]
 fn a_motion_that_begins_in_motion_is_refused() {
     for bad in [0.5, -0.5, f64::NAN, f64::INFINITY] {
-        let motion = Leave {
-            q: [0.0; 2],
-            qd: [0.0, bad],
-        };
-        let refused =
-            Approach::plan(&[0.0; 2], &motion, TICK, &LIMITS, &BOUNDS, Circles::NONE).unwrap_err();
-        assert_eq!(refused, ApproachError::Moving { joint: 1 });
+        let refused = plan([0.0; 2], &leave([0.0; 2], [0.0, bad])).err();
+        assert_eq!(refused, Some(ApproachError::Moving { joint: 1 }));
     }
 }
 
 #[test]
 fn both_ends_of_a_way_have_to_be_within_the_bounds() {
-    let outside = |joint, position| ApproachError::Position {
-        joint,
-        position,
-        lower: -2.0,
-        upper: 2.0,
-    };
-    let way = |from: [f64; 2], q| {
-        let motion = Leave { q, qd: [0.0; 2] };
-        Approach::plan(&from, &motion, TICK, &LIMITS, &BOUNDS, Circles::NONE).map(|way| way.ends)
-    };
+    let way = |from, q| plan(from, &leave(q, [0.0; 2])).map(|way| way.ends);
     // On the bounds themselves.
     for ends in [[[2.0; 2], [-2.0; 2]], [[-2.0; 2], [2.0; 2]]] {
         assert_eq!(way(ends[0], ends[1]), Ok(ends));
@@ -224,22 +151,18 @@ fn both_ends_of_a_way_have_to_be_within_the_bounds() {
 
 #[test]
 fn the_slowest_joint_has_the_time_that_its_limits_need() {
-    let limit = |velocity, acceleration| MotionLimits {
-        velocity,
-        acceleration,
-    };
     // 15/8 of the distance by the speed, and √(10/√3 · distance by the acceleration): the longer
     // one.
     for (distance, limit, seconds) in [
-        (2.0, limit(0.5, 1e3), 7.5),
-        (2.0, limit(1e3, 2.0), 2.402_811_414_134_757_2),
+        (2.0, motion_limits(0.5, 1e3), 7.5),
+        (2.0, motion_limits(1e3, 2.0), 2.402_811_414_134_757_2),
         (
             0.5,
-            limit(2.0, 10.0 / 3.0_f64.sqrt()),
+            motion_limits(2.0, 10.0 / 3.0_f64.sqrt()),
             0.707_106_781_186_547_5,
         ),
-        (0.5, limit(f64::INFINITY, 5.0 / 3.0_f64.sqrt()), 1.0),
-        (0.0, limit(0.0, 0.0), 0.0),
+        (0.5, motion_limits(f64::INFINITY, 5.0 / 3.0_f64.sqrt()), 1.0),
+        (0.0, motion_limits(0.0, 0.0), 0.0),
     ] {
         let least = least_seconds(0, distance, &limit).expect("a limit that allows motion");
         assert!((least - seconds).abs() < 1e-12, "{least}, not {seconds}");
@@ -251,36 +174,23 @@ fn the_slowest_joint_has_the_time_that_its_limits_need() {
             ..BOUNDS
         };
         let way =
-            Approach::plan(&from, &Rest, TICK, &LIMITS, &bounds, Circles::NONE).expect("limits");
+            Approach::plan(&from, &REST, TICK, &LIMITS, &bounds, Circles::NONE).expect("limits");
         assert_eq!(way.path_ticks(), 3001);
     }
 }
 
 #[test]
 fn a_stopped_arm_alone_gets_an_approach() {
-    let config = MotionControllerConfig {
-        supervisor: SupervisorConfig {
-            limits: BOUNDS,
-            tick: TICK,
-            resolution: 0.0,
-            ride_through_ticks: 2,
-            hold_ticks: 3,
-            reentry_ticks: 10,
-        },
-        observer_bandwidth: 250.0,
-        decay_rate: 25.0,
-        restart_distance: 0.1,
-    };
-    let mut controller = MotionController::<f64, 2>::new(config);
+    let mut controller = MotionController::<f64, 2>::new(CONFIG);
     let tick = |controller: &mut MotionController<f64, 2>| {
-        controller.tick(Ok(&[1.0; 2]), &Rest, |_, _| [0.0; 2])
+        controller.tick(Ok(&[1.0; 2]), &REST, |_, _| [0.0; 2])
     };
     for _ in 0..5 {
         tick(&mut controller);
     }
     let refused = Some(ApproachError::Reset(ResetError::NotStopped));
     let asked = |controller: &mut MotionController<f64, 2>| {
-        controller.approach(&Rest, &LIMITS, &BOUNDS).err()
+        controller.approach(&REST, &LIMITS, &BOUNDS).err()
     };
     assert_eq!(asked(&mut controller), refused, "it follows");
     assert_eq!(controller.trajectory_tick(), 5);
@@ -296,17 +206,8 @@ fn a_stopped_arm_alone_gets_an_approach() {
 
 #[test]
 fn a_circle_goes_the_short_way_and_a_line_as_far_as_its_number() {
-    let limits = [MotionLimits {
-        velocity: 1.0,
-        acceleration: 4.0,
-    }];
-    let bounds = |end: f32| SafetyLimits {
-        torque: [10.0],
-        rate: [8.0],
-        speed: [3.0],
-        lower: [-end],
-        upper: [end],
-    };
+    let limits = [motion_limits(1.0, 4.0)];
+    let bounds = |end: f32| safety_limits([10.0], [8.0], [3.0], [-end], [end]);
     let travel = |from: f32, to: f32, end: f32, circles| {
         let motion = State::at([to]);
         let way = Approach::plan(&[from], &motion, 1e-3, &limits, &bounds(end), circles);

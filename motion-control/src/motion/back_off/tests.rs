@@ -1,36 +1,19 @@
 use super::*;
-use crate::limits::SafetyLimits;
+use crate::tests::{controlled, motion_limits, safety_limits};
 use crate::motion::{CurrentTick, MotionControllerConfig};
-use crate::safety::SupervisorConfig;
 
 mod joints;
 
 const TICK: f64 = 1e-3;
 const INERTIA: f64 = 2.0;
-const CONFIG: MotionControllerConfig<f64, 1> = MotionControllerConfig {
-    supervisor: SupervisorConfig {
-        limits: SafetyLimits {
-            torque: [40.0],
-            rate: [10.0],
-            speed: [3.0],
-            lower: [-1.0],
-            upper: [1.0],
-        },
-        tick: TICK,
-        resolution: 0.0,
-        ride_through_ticks: 2,
-        hold_ticks: 100,
-        reentry_ticks: 50,
-    },
-    observer_bandwidth: 250.0,
-    decay_rate: 25.0,
-    restart_distance: 0.1,
-};
+const CONFIG: MotionControllerConfig<f64, 1> = controlled(
+    safety_limits([40.0], [10.0], [3.0], [-1.0], [1.0]),
+    TICK,
+    [2, 100, 50],
+    [250.0, 25.0, 0.1],
+);
 const SLOW: BackOffConfig<f64> = BackOffConfig {
-    limits: MotionLimits {
-        velocity: 0.5,
-        acceleration: 2.0,
-    },
+    limits: motion_limits(0.5, 2.0),
     margin: 0.05,
 };
 

@@ -1,21 +1,18 @@
 //! Claims about the configuration, about what ends a reaction, and about the reset.
 
 use super::*;
+use crate::tests::{motion_limits, safety_limits, supervised};
+use crate::limits::ConfigParameter;
 use crate::limits::MotionLimits;
-use crate::limits::{ConfigParameter, SafetyLimits};
 use crate::motion::MotionControllerConfig;
 use crate::reference::{Trajectory, WayPoint};
-use crate::safety::SupervisorConfig;
 
 mod ends;
 mod motion;
 mod stops;
 
 const TICK: f64 = 1e-3;
-const SLOW: MotionLimits<f64> = MotionLimits {
-    velocity: 0.5,
-    acceleration: 2.0,
-};
+const SLOW: MotionLimits<f64> = motion_limits(0.5, 2.0);
 const DISTANCE: f64 = 0.2;
 
 fn config() -> ContactReactionConfig<f64> {
@@ -43,10 +40,7 @@ fn numbers_that_are_no_configuration_are_refused_by_name() {
     };
     let retract = |distance, velocity, acceleration| ContactResponse::Retract {
         distance,
-        limits: MotionLimits {
-            velocity,
-            acceleration,
-        },
+        limits: motion_limits(velocity, acceleration),
     };
     let float = |damping, speed| ContactResponse::Float { damping, speed };
     use ConfigParameter::*;
@@ -93,20 +87,11 @@ impl Joint {
             response,
             ..config()
         };
-        let supervisor = SupervisorConfig {
-            limits: SafetyLimits {
-                torque: [10.0],
-                rate: [10.0],
-                speed: [3.0],
-                lower: [-2.0],
-                upper: [2.0],
-            },
-            tick: TICK,
-            resolution: 0.0,
-            ride_through_ticks: 2,
-            hold_ticks,
-            reentry_ticks,
-        };
+        let supervisor = supervised(
+            safety_limits([10.0], [10.0], [3.0], [-2.0], [2.0]),
+            TICK,
+            [2, hold_ticks, reentry_ticks],
+        );
         let controller = MotionController::try_new(MotionControllerConfig {
             supervisor,
             observer_bandwidth: 250.0,
@@ -118,10 +103,7 @@ impl Joint {
             qd: [0.0],
             ticks,
         };
-        let limits = [MotionLimits {
-            velocity: 3.0,
-            acceleration: 10.0,
-        }];
+        let limits = [motion_limits(3.0, 10.0)];
         Self {
             controller: controller.expect("a good one"),
             reaction: ContactReaction::try_new(config).expect("a good one"),

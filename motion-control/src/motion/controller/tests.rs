@@ -1,4 +1,5 @@
 use super::*;
+use crate::tests::{controlled, safety_limits};
 use crate::*;
 
 mod clock;
@@ -9,25 +10,12 @@ const TICK: f64 = 1e-3;
 const RIDE: u32 = 2;
 const HOLD: u32 = 3;
 
-const CONFIG: MotionControllerConfig<f64, 1> = MotionControllerConfig {
-    supervisor: SupervisorConfig {
-        limits: SafetyLimits {
-            torque: [10.0],
-            rate: [10.0],
-            speed: [3.0],
-            lower: [-2.0],
-            upper: [2.0],
-        },
-        tick: TICK,
-        resolution: 0.0,
-        ride_through_ticks: RIDE,
-        hold_ticks: HOLD,
-        reentry_ticks: 4,
-    },
-    observer_bandwidth: 250.0,
-    decay_rate: 25.0,
-    restart_distance: 0.1,
-};
+const CONFIG: MotionControllerConfig<f64, 1> = controlled(
+    safety_limits([10.0], [10.0], [3.0], [-2.0], [2.0]),
+    TICK,
+    [RIDE, HOLD, 4],
+    [250.0, 25.0, 0.1],
+);
 
 const LOST: Result<&[f64; 1], Fault> = Err(Fault::Encoder { joint: 0 });
 

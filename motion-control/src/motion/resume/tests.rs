@@ -1,5 +1,5 @@
 use super::*;
-use crate::limits::MotionLimits;
+use crate::tests::{estimate_of, motion_limits};
 use crate::reference::{Trajectory, WayPoint};
 
 const H: f64 = 1e-3;
@@ -7,10 +7,7 @@ const TICKS: u32 = 200;
 const DECAY: f64 = 40.0;
 
 fn trajectory() -> Trajectory<f64, 1, 2> {
-    let limits = [MotionLimits {
-        velocity: 3.0,
-        acceleration: 20.0,
-    }];
+    let limits = [motion_limits(3.0, 20.0)];
     let point = |q, ticks| WayPoint {
         q: [q],
         qd: [0.0],
@@ -22,10 +19,7 @@ fn trajectory() -> Trajectory<f64, 1, 2> {
 #[test]
 fn the_return_reaches_the_trajectory_without_a_jump() {
     let trajectory = trajectory();
-    let start = Estimate {
-        q: [trajectory.at(400).q[0] + 0.03],
-        qd: [1.0],
-    };
+    let start = estimate_of([trajectory.at(400).q[0] + 0.03], [1.0]);
     let mut resume = ResumeTrajectory::new(H, DECAY, TICKS);
     resume.start(&start, 400);
     let mut way: Vec<_> = (0..TICKS)
@@ -49,10 +43,7 @@ fn the_return_reaches_the_trajectory_without_a_jump() {
 fn a_way_that_is_left_early_keeps_the_trajectorys_progress() {
     let trajectory = trajectory();
     let mut resume = ResumeTrajectory::new(H, DECAY, TICKS);
-    let start = Estimate {
-        q: [0.5],
-        qd: [0.0],
-    };
+    let start = estimate_of([0.5], [0.0]);
     resume.start(&start, 400);
     for tick in 0..=TICKS / 2 {
         resume.at(&trajectory, f64::from(tick) / f64::from(TICKS));
@@ -76,10 +67,7 @@ fn the_trajectory_waits_where_a_decaying_speed_ends() {
 #[test]
 fn a_return_that_begins_again_is_a_new_one() {
     let trajectory = trajectory();
-    let start = Estimate {
-        q: [0.5],
-        qd: [2.0],
-    };
+    let start = estimate_of([0.5], [2.0]);
     let mut new = ResumeTrajectory::new(H, DECAY, TICKS);
     let mut used = new;
     used.start(&start, 300);
@@ -97,26 +85,14 @@ fn a_return_that_begins_again_is_a_new_one() {
 #[test]
 fn a_return_of_no_ticks_advances_by_one() {
     let mut resume = ResumeTrajectory::<f64, 1>::new(H, DECAY, 0);
-    resume.start(
-        &Estimate {
-            q: [0.0],
-            qd: [0.0],
-        },
-        400,
-    );
+    resume.start(&estimate_of([0.0], [0.0]), 400);
     assert_eq!(resume.finish(), 401);
 }
 
 #[test]
 fn a_whole_tick_that_has_passed_is_counted() {
     let mut resume = ResumeTrajectory::new(H, DECAY, TICKS);
-    resume.start(
-        &Estimate {
-            q: [0.0],
-            qd: [0.0],
-        },
-        400,
-    );
+    resume.start(&estimate_of([0.0], [0.0]), 400);
     // The rate is one at the end.
     resume.at(&trajectory(), 2.0);
     assert_eq!(resume.cancel(), 401);
@@ -149,13 +125,7 @@ impl Reference<f64, 1> for Parabola {
 #[test]
 fn between_two_ticks_the_trajectory_is_extrapolated() {
     let mut resume = ResumeTrajectory::new(H, DECAY, TICKS);
-    let (start, clock) = (
-        Estimate {
-            q: [0.0],
-            qd: [0.0],
-        },
-        100,
-    );
+    let (start, clock) = (estimate_of([0.0], [0.0]), 100);
     resume.start(&start, clock);
     for tick in 0..TICKS {
         let share = f64::from(tick) / f64::from(TICKS);
@@ -174,10 +144,7 @@ fn between_two_ticks_the_trajectory_is_extrapolated() {
 #[test]
 fn the_acceleration_of_a_return_is_that_of_its_velocity() {
     let mut resume = ResumeTrajectory::new(H, 2.0, TICKS);
-    let start = Estimate {
-        q: [0.0],
-        qd: [1.0],
-    };
+    let start = estimate_of([0.0], [1.0]);
     resume.start(&start, 100);
     let way: Vec<_> = (0..TICKS)
         .map(|tick| resume.at(&Parabola, f64::from(tick) / f64::from(TICKS)))
@@ -208,10 +175,7 @@ impl Reference<f64, 1> for Steady {
 fn before_the_return_no_time_passes() {
     // A return of four ticks, which begins with a share of zero.
     let mut resume = ResumeTrajectory::<f64, 1>::new(H, DECAY, 4);
-    let start = Estimate {
-        q: [0.5],
-        qd: [0.0],
-    };
+    let start = estimate_of([0.5], [0.0]);
     resume.start(&start, 400);
     assert_eq!(resume.at(&Steady, 0.0).q, [0.5]);
     assert_eq!((resume.fraction, resume.advanced), (0.0, 0));
@@ -224,10 +188,7 @@ fn before_the_return_no_time_passes() {
 fn a_speed_that_decays_within_a_tick_does_not_turn_back() {
     for (decay, keep) in [(0.5 / H, 0.5), (1.0 / H, 0.0), (3.0 / H, 0.0)] {
         let mut resume = ResumeTrajectory::<f64, 1>::new(H, decay, TICKS);
-        let start = Estimate {
-            q: [0.25],
-            qd: [2.0],
-        };
+        let start = estimate_of([0.25], [2.0]);
         resume.start(&start, 400);
         resume.at(&Steady, 0.0);
         assert_eq!((resume.rest.q, resume.rest.qd), ([0.25], [2.0]));

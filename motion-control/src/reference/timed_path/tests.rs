@@ -1,6 +1,7 @@
 //! Claims about closed forms, limits, zero inertia, refused paths, and f32.
 
 use super::*;
+use crate::tests::motion_limits;
 use crate::limits::MotionLimits;
 use crate::reference::PathPoint;
 
@@ -27,10 +28,7 @@ fn line<R: Real>(d: R) -> Curve<impl Fn(R) -> [[R; 1]; 3]> {
     Curve(move |s| [[d * s], [d], [R::ZERO]])
 }
 
-const ANY: MotionLimits<f64> = MotionLimits {
-    velocity: f64::INFINITY,
-    acceleration: f64::INFINITY,
-};
+const ANY: MotionLimits<f64> = motion_limits(f64::INFINITY, f64::INFINITY);
 
 fn torques<const V: usize>(torque: [f64; V]) -> PathLimits<f64, V> {
     PathLimits {
@@ -78,10 +76,7 @@ fn limits_of_speed_and_acceleration_make_it_a_trapezoid() {
     let best = d / v + v / a;
     let path = line(d);
     let by_acceleration = PathLimits {
-        motion: [MotionLimits {
-            velocity: v,
-            acceleration: a,
-        }],
+        motion: [motion_limits(v, a)],
         ..torques([1e3])
     };
     let by_torque = PathLimits {
@@ -137,10 +132,7 @@ fn f32_has_the_motion_of_f64() {
     let path = line(1.3_f32);
     let limits = PathLimits {
         torque: [8.0_f32],
-        motion: [MotionLimits {
-            velocity: f32::INFINITY,
-            acceleration: f32::INFINITY,
-        }],
+        motion: [motion_limits(f32::INFINITY, f32::INFINITY)],
         friction: [JointFriction::NONE],
     };
     let id = |state: &State<f32, 1, 1>| [2.5 * state.qdd[0]];

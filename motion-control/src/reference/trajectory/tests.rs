@@ -1,12 +1,10 @@
 //! Peaks against dense sampling, ends, and what makes no trajectory.
 
 use super::segment::sqrt;
+use crate::tests::motion_limits;
 use super::*;
 
-const FREE: MotionLimits<f64> = MotionLimits {
-    velocity: 1e9,
-    acceleration: 1e9,
-};
+const FREE: MotionLimits<f64> = motion_limits(1e9, 1e9);
 
 fn stop(q: f64, ticks: u32) -> WayPoint<f64, 1> {
     pass(q, 0.0, ticks)
@@ -57,13 +55,7 @@ fn peaks_are_those_of_dense_sampling() {
             });
             // A limit just above the sampled peak holds, one just below names it.
             let limit = |velocity, acceleration| {
-                segment.check(
-                    point,
-                    &[MotionLimits {
-                        velocity,
-                        acceleration,
-                    }],
-                )
+                segment.check(point, &[motion_limits(velocity, acceleration)])
             };
             let close = 1.0 + 1e-6;
             assert_eq!(limit(qd * close, qdd * close), Ok(()));
@@ -141,10 +133,7 @@ fn a_day_later_a_move_has_the_same_bits() {
         WayPoint { ticks: day, ..end },
         WayPoint { q: [2.0], ..end },
     ];
-    let limits = [MotionLimits {
-        velocity: 2.0,
-        acceleration: 10.0,
-    }];
+    let limits = [motion_limits(2.0, 10.0)];
     let late = Trajectory::new(&points, 1e-3, &limits).unwrap();
     let early = Trajectory::new(&[WayPoint { ticks: 0, ..end }, points[2]], 1e-3, &limits);
     let early = early.unwrap();
@@ -200,10 +189,7 @@ fn unusable_way_points_are_named() {
 
 #[test]
 fn overflows_and_nan_limits_are_errors() {
-    let unlimited = MotionLimits {
-        velocity: f64::INFINITY,
-        acceleration: f64::INFINITY,
-    };
+    let unlimited = motion_limits(f64::INFINITY, f64::INFINITY);
     for points in [
         [stop(1e308, 0), stop(-1e308, 10)],
         [stop(0.0, 0), stop(1e307, 10)],

@@ -1,6 +1,7 @@
 //! One step of each kind, in numbers.
 
 use super::*;
+use crate::tests::estimate_of;
 
 /// An observer of two joints that move, with a tick of 0.5 s and a step of the gains that is not
 /// small.
@@ -11,10 +12,7 @@ fn moving() -> Observer<f64, 2> {
     };
     let mut observer = Observer::new(config);
     observer.reset(&[0.0; 2]);
-    observer.estimate = Estimate {
-        q: [1.0, -2.0],
-        qd: [4.0, -0.5],
-    };
+    observer.estimate = estimate_of([1.0, -2.0], [4.0, -0.5]);
     observer
 }
 

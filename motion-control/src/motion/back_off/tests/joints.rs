@@ -1,6 +1,7 @@
 //! The parts of a return, of joints at either side of ranges that are not centred.
 
 use super::*;
+use crate::tests::{safety_limits, supervised};
 
 const LOWER: [f64; 3] = [-1.0, 0.5, -1.0];
 const UPPER: [f64; 3] = [0.5, 2.0, 1.0];
@@ -11,21 +12,8 @@ const LIMIT: f64 = 40.0;
 type Arm = MotionController<f64, 3, CurrentTick>;
 
 fn arm(q: [f64; 3]) -> Arm {
-    let limits = SafetyLimits {
-        torque: [LIMIT; 3],
-        rate: [LIMIT; 3],
-        speed: [3.0; 3],
-        lower: LOWER,
-        upper: UPPER,
-    };
-    let supervisor = SupervisorConfig {
-        limits,
-        tick: TICK,
-        resolution: 0.0,
-        ride_through_ticks: 2,
-        hold_ticks: 100,
-        reentry_ticks: 50,
-    };
+    let limits = safety_limits([LIMIT; 3], [LIMIT; 3], [3.0; 3], LOWER, UPPER);
+    let supervisor = supervised(limits, TICK, [2, 100, 50]);
     let mut arm = Arm::new(MotionControllerConfig {
         supervisor,
         observer_bandwidth: 250.0,

@@ -1,12 +1,10 @@
 //! Claims about the retraction.
 
 use super::*;
+use crate::tests::motion_limits;
 
 const TICK: f64 = 1e-3;
-const SLOW: MotionLimits<f64> = MotionLimits {
-    velocity: 0.5,
-    acceleration: 2.0,
-};
+const SLOW: MotionLimits<f64> = motion_limits(0.5, 2.0);
 const DISTANCE: f64 = 0.2;
 
 /// A path with a bend, at a phase of it.
@@ -74,10 +72,7 @@ fn the_retraction_follows_the_path_from_rest_to_rest() {
 fn the_retraction_is_as_fast_as_its_limits_allow() {
     let mut path = travelled();
     for (velocity, acceleration) in [(0.5, 2.0), (0.2, 20.0), (3.0, 1.0), (3.0, f64::INFINITY)] {
-        let limits = MotionLimits {
-            velocity,
-            acceleration,
-        };
+        let limits = motion_limits(velocity, acceleration);
         let from = path.point(0);
         assert!(path.plan(&from, TICK, &limits));
         let [speed, change] = peaks(&path);
@@ -150,14 +145,7 @@ fn the_retraction_in_f32_is_that_in_f64() {
         single.record(&double.point(k).map(|q| q as f32));
     }
     single.distance = DISTANCE as f32;
-    assert!(single.plan(
-        &single.point(0),
-        1e-3,
-        &MotionLimits {
-            velocity: 0.5,
-            acceleration: 2.0
-        }
-    ));
+    assert!(single.plan(&single.point(0), 1e-3, &motion_limits(0.5, 2.0)));
     assert!(single.ticks().abs_diff(double.ticks()) <= 1);
     for tick in 0..=double.ticks() {
         let (a, b) = (single.at(tick), double.at(tick));
@@ -191,10 +179,7 @@ fn a_straight_retraction_takes_the_least_time() {
         path.record(&[q]);
     }
     assert_eq!(path.count, 3);
-    let limits = MotionLimits {
-        velocity: 0.625,
-        acceleration: f64::INFINITY,
-    };
+    let limits = motion_limits(0.625, f64::INFINITY);
     assert!(path.plan(&[1.0], TICK, &limits));
     // 15/8 · 1 rad at 0.625 rad/s, and a tick for rounding.
     assert_eq!(path.ticks(), 3001);

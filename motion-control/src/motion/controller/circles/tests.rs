@@ -1,6 +1,7 @@
 use core::f32::consts::{PI, TAU};
 
 use super::*;
+use crate::tests::{controlled, full_command, motion_limits, safety_limits, stop};
 use crate::*;
 use dynamics_core::state::manifold::nearest_turn;
 
@@ -12,43 +13,25 @@ const TICK: f32 = 1e-3;
 /// The first joint is a circle, the second one slides.
 const WHEEL: u128 = Circles::NONE.with(0).bits();
 const INERTIA: f32 = 2.0;
-const LIMITS: [MotionLimits<f32>; 2] = [MotionLimits {
-    velocity: 1.0,
-    acceleration: 4.0,
-}; 2];
+const LIMITS: [MotionLimits<f32>; 2] = [motion_limits(1.0, 4.0); 2];
 
 type Controller = MotionController<f32, 2, OnCircles<WHEEL, CurrentTick>>;
 
 fn config(lower: f32, upper: f32) -> MotionControllerConfig<f32, 2> {
-    MotionControllerConfig {
-        supervisor: SupervisorConfig {
-            limits: SafetyLimits {
-                torque: [40.0; 2],
-                rate: [10.0; 2],
-                speed: [3.0; 2],
-                lower: [lower, -7.0],
-                upper: [upper, 7.0],
-            },
-            tick: TICK,
-            resolution: 0.0,
-            ride_through_ticks: 2,
-            hold_ticks: 100,
-            reentry_ticks: 200,
-        },
-        observer_bandwidth: 250.0,
-        decay_rate: 25.0,
-        restart_distance: 0.1,
-    }
+    controlled(
+        safety_limits([40.0; 2], [10.0; 2], [3.0; 2], [lower, -7.0], [upper, 7.0]),
+        TICK,
+        [2, 100, 200],
+        [250.0, 25.0, 0.1],
+    )
 }
 
 const FREE: [f32; 2] = [f32::NEG_INFINITY, f32::INFINITY];
 
-fn point(q: [f32; 2], ticks: u32) -> WayPoint<f32, 2> {
-    WayPoint {
-        q,
-        qd: [0.0; 2],
-        ticks,
-    }
+/// A motion of the first joint from rest to rest.
+fn line(from: [f32; 2], way: f32, ticks: u32) -> Trajectory<f32, 2, 2> {
+    let points = [stop(from, 0), stop([from[0] + way, from[1]], ticks)];
+    Trajectory::new(&points, TICK, &LIMITS).expect("within the limits")
 }
 
 /// Two joints without gravity, of which the first is measured within a turn; the true first angle
@@ -62,21 +45,43 @@ struct Bench {
 
 impl Bench {
     fn new(controller: Controller, q: [f64; 2]) -> Self {
-        let command = Command {
-            torque: [0.0; 2],
-            brake: true,
-            status: Status {
-                mode: Mode::Stopped,
-                fault: None,
-                limited: false,
-            },
-        };
+        let command = full_command([0.0; 2], true);
+        let qd = [0.0; 2];
         Self {
             controller,
             q,
-            qd: [0.0; 2],
+            qd,
             command,
         }
+    }
+
+    /// One without bounds, at rest at the start of its motion.
+    fn at(start: [f32; 2]) -> Self {
+        let controller = Controller::try_new(config(FREE[0], FREE[1])).expect("a circle");
+        Self::new(controller, start.map(f64::from))
+    }
+
+    /// Goes from the brake to a place, and how far the first joint went.
+    fn approach(&mut self, [lower, upper]: [f32; 2], goal: [f32; 2]) -> f64 {
+        let motion = State::at(goal);
+        let bounds = config(lower, upper).supervisor.limits;
+        let path = self.controller.approach(&motion, &LIMITS, &bounds);
+        let (path, begin) = (path.expect("a way"), self.q[0]);
+        self.controller.reset(&path).expect("near");
+        let mut steps = ReferenceStep::new([2e-3; 2]).on_circles::<WHEEL>();
+        for _ in 0..path.ticks() + 500 {
+            self.follow(&path);
+            assert_eq!(steps.check(self.controller.reference()), Ok(()));
+            assert!((lower..upper).contains(&(self.q[0] as f32)));
+        }
+        assert!((self.q[1] as f32 - goal[1]).abs() < 2e-3);
+        self.q[0] - begin
+    }
+
+    /// A tick without a fault.
+    fn follow(&mut self, motion: &impl Reference<f32, 2>) {
+        self.tick(motion);
+        assert_eq!(self.command.status.fault, None, "{:?}", self.q);
     }
 
     fn measured(&self) -> [f32; 2] {
@@ -124,52 +129,41 @@ fn a_reset_at_the_same_place_on_another_turn_starts() {
         (-25.13, 12.57),
     ] {
         let mut bench = on_brake(FREE, [stands, 0.0]);
-        let motion = Trajectory::new(
-            &[point([begins, 0.0], 0), point([begins + 0.2, 0.0], 1000)],
-            TICK,
-            &LIMITS,
-        );
-        let motion = motion.expect("within the limits");
+        let motion = line([begins, 0.0], 0.2, 1000);
         assert_eq!(bench.controller.reset(&motion), Ok(()), "{stands} {begins}");
         for _ in 0..1500 {
-            bench.tick(&motion);
-            assert_eq!(bench.command.status.fault, None);
+            bench.follow(&motion);
             assert!(bench.command.torque[0].abs() < 10.0);
         }
         let travel = bench.q[0] - stands;
-        assert!(
-            (0.17..0.23).contains(&travel),
-            "{stands} {begins}: {travel}"
-        );
+        let near = (0.17..0.23).contains(&travel);
+        assert!(near, "{stands} {begins}: {travel}");
     }
 }
 
 #[test]
-fn an_approach_crosses_the_seam_both_ways() {
-    for (stands, begins, way) in [
-        (3.0, -3.0, 0.2832),
-        (-3.0, 3.0, -0.2832),
-        (2.0, -2.0, 2.2832),
-        (0.0, 25.13, -0.0027),
-        (1.0, 1.0 - 5.0 * TAU, 0.0),
+fn an_approach_goes_over_the_seam_unless_its_range_does_not() {
+    // From 2.5 rad over π to 3.8 rad, and from −2.5 rad through zero.
+    let [over, through] = [[2.5, 3.8], [-2.5, 2.5]];
+    for (range, stands, begins, way) in [
+        (FREE, 3.0, -3.0, 0.2832),
+        (FREE, -3.0, 3.0, -0.2832),
+        (FREE, 2.0, -2.0, 2.2832),
+        (FREE, 0.0, 25.13, -0.0027),
+        (FREE, 1.0, 1.0 - 5.0 * TAU, 0.0),
+        (over, 3.7, 2.6 - TAU, -1.1),
+        (through, 2.4, -2.4, -4.8),
     ] {
-        let mut bench = on_brake(FREE, [stands, 0.5]);
-        let motion = State::at([begins, 0.4]);
-        let bounds = config(FREE[0], FREE[1]).supervisor.limits;
-        let path = bench.controller.approach(&motion, &LIMITS, &bounds);
-        let path = path.expect("a way");
-        bench.controller.reset(&path).expect("near");
-        let mut steps = ReferenceStep::new([2e-3; 2]).on_circles::<WHEEL>();
-        let most = path.ticks() + 500;
-        for _ in 0..most {
-            bench.tick(&path);
-            assert_eq!(bench.command.status.fault, None);
-            assert_eq!(steps.check(bench.controller.reference()), Ok(()));
-            assert!(bench.controller.estimate().q[0].abs() < PI + 0.01);
-        }
-        let travel = bench.q[0] - stands;
+        let mut bench = on_brake(range, [stands, 0.5]);
+        let travel = bench.approach(range, [begins, 0.4]);
         assert!((travel - way).abs() < 2e-3, "{stands} {begins}: {travel}");
-        assert!((bench.q[1] - 0.4).abs() < 2e-3);
+        let near = range != FREE || bench.controller.estimate().q[0].abs() < PI + 0.01;
+        assert!(near, "{stands} {begins}");
+    }
+    for outside in [2.45, 3.85, 0.5, -2.4] {
+        let mut bench = on_brake(over, [outside, 0.0]);
+        let error = ResetError::OutOfBounds { joint: 0 };
+        assert_eq!(bench.controller.reset(&State::at([3.0, 0.0])), Err(error));
     }
 }
 
@@ -178,13 +172,10 @@ fn a_trajectory_crosses_the_seam_without_a_leap() {
     for way in [2.0_f32, -2.0, 13.0] {
         let start = [PI - 0.5, 0.0];
         let ticks = (way.abs() * 2000.0) as u32;
-        let goal = point([start[0] + way, 0.3], ticks);
-        let motion = Trajectory::new(&[point(start, 0), goal], TICK, &LIMITS).expect("slow");
-        let controller = Controller::try_new(config(FREE[0], FREE[1])).expect("a circle");
-        let mut bench = Bench::new(controller, start.map(f64::from));
+        let motion = line(start, way, ticks);
+        let mut bench = Bench::at(start);
         for tick in 0..ticks + 200 {
-            bench.tick(&motion);
-            assert_eq!(bench.command.status.fault, None, "{tick}");
+            bench.follow(&motion);
             let is = bench.controller.estimate();
             let wanted = bench.controller.reference();
             assert!((wanted.q[0] - is.q[0]).abs() < 0.01, "{tick}");
@@ -198,12 +189,9 @@ fn a_trajectory_crosses_the_seam_without_a_leap() {
 fn a_slide_is_never_moved_by_a_turn() {
     let mut bench = on_brake(FREE, [0.0, 6.5]);
     let far = ResetError::TooFar { joint: 1 };
-    assert_eq!(
-        bench.controller.reset(&State::at([0.0, 6.5 - TAU])),
-        Err(far)
-    );
-    let bounds = config(FREE[0], FREE[1]).supervisor.limits;
     let motion = State::at([0.0, 6.5 - TAU]);
+    assert_eq!(bench.controller.reset(&motion), Err(far));
+    let bounds = config(FREE[0], FREE[1]).supervisor.limits;
     let path = bench.controller.approach(&motion, &LIMITS, &bounds);
     assert_eq!(path.expect("a way").first_point()[1], 6.5);
 }
@@ -211,15 +199,9 @@ fn a_slide_is_never_moved_by_a_turn() {
 #[test]
 fn a_lost_measurement_at_the_seam_is_ridden_through() {
     let start = [PI - 0.1, 0.0];
-    let motion = Trajectory::new(
-        &[point(start, 0), point([start[0] + 0.4, 0.0], 1000)],
-        TICK,
-        &LIMITS,
-    );
-    let motion = motion.expect("slow");
+    let motion = line(start, 0.4, 1000);
     for lost in [1, 2, 50] {
-        let controller = Controller::try_new(config(FREE[0], FREE[1])).expect("a circle");
-        let mut bench = Bench::new(controller, start.map(f64::from));
+        let mut bench = Bench::at(start);
         let mut left = lost;
         for _ in 0..2000 {
             let near = bench.q[0] > f64::from(PI) - 2e-3;
@@ -241,69 +223,26 @@ fn a_lost_measurement_at_the_seam_is_ridden_through() {
 #[test]
 fn a_missed_tick_at_the_seam_leads_on() {
     let start = [PI - 0.02, 0.0];
-    let goal = point([start[0] + 0.2, 0.0], 1000);
-    let motion = Trajectory::new(&[point(start, 0), goal], TICK, &LIMITS).expect("slow");
-    let controller = Controller::try_new(config(FREE[0], FREE[1])).expect("a circle");
-    let mut bench = Bench::new(controller, start.map(f64::from));
+    let motion = line(start, 0.2, 1000);
+    let mut bench = Bench::at(start);
     for tick in 0..1500 {
         if tick % 20 == 10 {
             bench.advance();
             bench.controller.missed(1, &motion);
         }
-        bench.tick(&motion);
-        assert_eq!(bench.command.status.fault, None);
-        assert!(
-            (bench.controller.reference().q[0] - bench.controller.estimate().q[0]).abs() < 0.02
-        );
+        bench.follow(&motion);
+        let off = bench.controller.reference().q[0] - bench.controller.estimate().q[0];
+        assert!(off.abs() < 0.02);
     }
-    assert!((bench.q[0] - f64::from(goal.q[0])).abs() < 2e-3);
-}
-
-#[test]
-fn an_arc_over_the_seam_has_its_bounds_there() {
-    // From 2.5 rad over π to 3.8 rad.
-    let mut bench = on_brake([2.5, 3.8], [3.7, 0.0]);
-    let bounds = config(2.5, 3.8).supervisor.limits;
-    let motion = State::at([2.6 - TAU, 0.0]);
-    let path = bench.controller.approach(&motion, &LIMITS, &bounds);
-    let path = path.expect("a way within the arc");
-    bench.controller.reset(&path).expect("near");
-    for _ in 0..path.ticks() + 300 {
-        bench.tick(&path);
-        assert_eq!(bench.command.status.fault, None);
-        assert!((2.5..3.8).contains(&bench.q[0]));
-    }
-    assert!((bench.q[0] - 2.6).abs() < 2e-3);
-    for outside in [2.45, 3.85, 0.5, -2.4] {
-        let mut bench = on_brake([2.5, 3.8], [outside, 0.0]);
-        let error = ResetError::OutOfBounds { joint: 0 };
-        assert_eq!(bench.controller.reset(&State::at([3.0, 0.0])), Err(error));
-    }
-}
-
-#[test]
-fn a_way_within_an_arc_does_not_leave_it() {
-    let mut bench = on_brake([-2.5, 2.5], [2.4, 0.0]);
-    let bounds = config(-2.5, 2.5).supervisor.limits;
-    let motion = State::at([-2.4, 0.0]);
-    let path = bench.controller.approach(&motion, &LIMITS, &bounds);
-    let path = path.expect("a way through zero");
-    bench.controller.reset(&path).expect("near");
-    for _ in 0..path.ticks() + 300 {
-        bench.tick(&path);
-        assert_eq!(bench.command.status.fault, None);
-    }
-    assert!((bench.q[0] + 2.4).abs() < 2e-3);
+    assert!((bench.q[0] - f64::from(start[0] + 0.2)).abs() < 2e-3);
 }
 
 #[test]
 fn a_range_that_counts_turns_is_refused_for_a_circle() {
     for [lower, upper] in [[-7.0, 7.0], [-1.0, f32::INFINITY], [-9e3, 9e3]] {
-        let error = Controller::try_new(config(lower, upper)).unwrap_err();
-        assert!(matches!(
-            error,
-            ConfigError::Limits(SafetyLimitsError::CountsTurns { joint: 0, .. })
-        ));
+        let counts = |error| matches!(error, SafetyLimitsError::CountsTurns { joint: 0, .. });
+        let refused = Controller::try_new(config(lower, upper)).unwrap_err();
+        assert!(matches!(refused, ConfigError::Limits(error) if counts(error)));
         let mut unchecked = Controller::new(config(lower, upper));
         let command = unchecked.tick(Ok(&[0.0; 2]), &State::at([0.0; 2]), |_, _| [1.0; 2]);
         assert_eq!(command.status.fault, Some(Fault::Limits { joint: 0 }));
@@ -316,16 +255,12 @@ fn a_range_that_counts_turns_is_refused_for_a_circle() {
 #[test]
 fn numbers_that_are_no_angles_are_rejected_as_before() {
     for wrong in [f32::NAN, f32::INFINITY, 1e30, -2e4] {
-        let mut bench = on_brake(FREE, [0.5, 0.0]);
-        bench
-            .controller
-            .reset(&State::at([0.5, 0.0]))
-            .expect("near");
-        bench.tick(&State::at([0.5, 0.0]));
+        let (mut bench, rest) = (on_brake(FREE, [0.5, 0.0]), State::at([0.5, 0.0]));
+        bench.controller.reset(&rest).expect("near");
+        bench.tick(&rest);
         let before = *bench.controller.estimate();
-        let command = bench
-            .controller
-            .tick(Ok(&[wrong, 0.0]), &State::at([0.5, 0.0]), Bench::law);
+        let measured = Ok(&[wrong, 0.0]);
+        let command = bench.controller.tick(measured, &rest, Bench::law);
         assert!(command.status.fault.is_some(), "{wrong}");
         assert!((bench.controller.estimate().q[0] - before.q[0]).abs() < 1e-3);
     }

@@ -1,8 +1,10 @@
 use std::string::{String, ToString};
+use crate::tests::{controlled, safety_limits};
 use std::vec::Vec;
 
-use crate::{MotionControllerConfig, SafetyLimits, SupervisorConfig};
+use crate::MotionControllerConfig;
 use dynamics_core::advice::Advice;
+use dynamics_core::scalar::Real;
 
 fn kind(advice: &Advice) -> String {
     let text = std::format!("{advice:?}");
@@ -10,25 +12,14 @@ fn kind(advice: &Advice) -> String {
 }
 
 fn config() -> MotionControllerConfig<f32, 2> {
-    MotionControllerConfig {
-        supervisor: SupervisorConfig {
-            limits: SafetyLimits {
-                torque: [10.0; 2],
-                rate: [5.0; 2],
-                speed: [3.0; 2],
-                lower: [-2.0; 2],
-                upper: [2.0; 2],
-            },
-            tick: 1e-3,
-            resolution: core::f32::consts::TAU / 16_384.0,
-            ride_through_ticks: 5,
-            hold_ticks: 100,
-            reentry_ticks: 200,
-        },
-        observer_bandwidth: 250.0,
-        decay_rate: 25.0,
-        restart_distance: 0.15,
-    }
+    let limits = safety_limits([10.0; 2], [5.0; 2], [3.0; 2], [-2.0; 2], [2.0; 2]);
+    let mut config = controlled(limits, 1e-3, [5, 100, 200], [250.0, 25.0, 0.15]);
+    config.supervisor.resolution = core::f32::consts::TAU / 16_384.0;
+    config
+}
+
+fn kinds<const V: usize, R: Real>(config: &MotionControllerConfig<R, V>) -> Vec<String> {
+    config.advice().map(|advice| kind(&advice)).collect()
 }
 
 #[test]
@@ -37,10 +28,7 @@ fn a_configuration_in_other_units_gets_this_advice_alone() {
         let mut config = config();
         change(&mut config);
         assert_eq!(config.check(), Ok(()), "advice is not a refusal");
-        config
-            .advice()
-            .map(|advice| kind(&advice))
-            .collect::<Vec<_>>()
+        kinds(&config)
     };
     let none: [&str; 0] = [];
     assert_eq!(of(|_| ()), none);
@@ -50,25 +38,10 @@ fn a_configuration_in_other_units_gets_this_advice_alone() {
     // A second is far beyond every frequency, and an observer of 250 rad/s multiplies each step of
     // the encoder.
     let long = of(|c| c.supervisor.tick = 1.0);
-    let all = [
-        "LongTick",
-        "BeyondNyquist",
-        "BeyondNyquist",
-        "CoarseEncoder",
-        "CoarseEncoder",
-    ];
-    assert_eq!(long, all);
-    assert_eq!(
-        of(|c| {
-            c.supervisor.limits.lower = [-115.0; 2];
-            c.supervisor.limits.upper = [115.0; 2];
-        }),
-        ["PositionsInDegrees"]
-    );
-    assert_eq!(
-        of(|c| c.supervisor.limits.speed = [172.0; 2]),
-        ["SpeedsInDegrees"]
-    );
+    let twice = [["BeyondNyquist"; 2], ["CoarseEncoder"; 2]].concat();
+    assert_eq!(long, [vec!["LongTick"], twice].concat());
+    let fast = of(|c| c.supervisor.limits.speed = [172.0; 2]);
+    assert_eq!(fast, ["SpeedsInDegrees"]);
     assert_eq!(of(|c| c.supervisor.limits.speed = [f32::INFINITY; 2]), none);
     assert_eq!(of(|c| c.decay_rate = 250.0), ["BeyondObserver"]);
     assert_eq!(of(|c| c.observer_bandwidth = 4000.0)[0], "BeyondNyquist");
@@ -83,6 +56,7 @@ fn the_farther_end_of_a_range_is_the_one_in_degrees() {
         let mut config = config();
         config.supervisor.limits.lower = [lower; 2];
         config.supervisor.limits.upper = [upper; 2];
+        assert_eq!(kinds(&config), ["PositionsInDegrees"]);
         let first = config.advice().next();
         let Some(Advice::PositionsInDegrees { limit: found, .. }) = first else {
             panic!("no such advice: {first:?}");
@@ -109,59 +83,36 @@ fn the_advice_on_a_configuration_says_number_reason_and_remedy() {
              degrees; 0.15 is usual",
         ]
     );
-    assert!(
-        words
-            .iter()
-            .any(|text| text.starts_with("joint 1 (`elbow`): a rate of zero")),
-        "{words:?}"
-    );
+    let rate = "joint 1 (`elbow`): a rate of zero";
+    assert!(words.iter().any(|text| text.starts_with(rate)), "{words:?}");
     let feedback = config().advice_on_feedback(5000.0, 300.0);
     let kinds: Vec<String> = feedback.map(|advice| kind(&advice)).collect();
     assert_eq!(kinds, ["BeyondNyquist", "BeyondObserver", "BeyondDrive"]);
-    assert_eq!(
-        config().advice_on_feedback(25.0, f32::INFINITY).next(),
-        None
-    );
+    let none = config().advice_on_feedback(25.0, f32::INFINITY).next();
+    assert_eq!(none, None);
+    // A drive that is as fast as the feedback is too slow.
+    let slow = config().advice_on_feedback(25.0, 25.0);
+    let kinds: Vec<String> = slow.map(|advice| kind(&advice)).collect();
+    assert_eq!(kinds, ["BeyondDrive"]);
 }
 
 /// In f64, whose numbers are at the thresholds exactly.
 #[test]
 fn a_number_at_its_threshold_gets_no_advice() {
     let kinds = |change: fn(&mut MotionControllerConfig<f64, 1>)| {
-        let mut config = MotionControllerConfig {
-            supervisor: SupervisorConfig {
-                limits: SafetyLimits {
-                    torque: [10.0],
-                    rate: [5.0],
-                    speed: [3.0],
-                    lower: [-2.0],
-                    upper: [2.0],
-                },
-                tick: 1e-3,
-                resolution: 0.0,
-                ride_through_ticks: 5,
-                hold_ticks: 100,
-                reentry_ticks: 200,
-            },
-            observer_bandwidth: 50.0,
-            decay_rate: 25.0,
-            restart_distance: 0.15,
-        };
+        let limits = safety_limits([10.0], [5.0], [3.0], [-2.0], [2.0]);
+        let mut config = controlled(limits, 1e-3, [5, 100, 200], [50.0, 25.0, 0.15]);
         change(&mut config);
-        config.advice().map(|one| kind(&one)).collect::<Vec<_>>()
+        self::kinds(&config)
     };
     let none: [&str; 0] = [];
     assert_eq!(kinds(|c| c.supervisor.tick = 0.05), none);
     assert_eq!(kinds(|c| c.restart_distance = 1.0), none);
     // A joint without a torque has no rate; one with little has.
-    assert_eq!(
-        kinds(|c| (c.supervisor.limits.rate, c.supervisor.limits.torque) = ([0.0], [0.0])),
-        none
-    );
-    assert_eq!(
-        kinds(|c| (c.supervisor.limits.rate, c.supervisor.limits.torque) = ([0.0], [0.5])),
-        ["ZeroRate"]
-    );
+    let weak = kinds(|c| (c.supervisor.limits.rate, c.supervisor.limits.torque) = ([0.0], [0.0]));
+    assert_eq!(weak, none);
+    let little = kinds(|c| (c.supervisor.limits.rate, c.supervisor.limits.torque) = ([0.0], [0.5]));
+    assert_eq!(little, ["ZeroRate"]);
     // A step of 0.2 rad/s of 1 rad/s, and the highest frequency that a tick can have.
     let second = |c: &mut MotionControllerConfig<f64, 1>| {
         c.supervisor.tick = 1.0;
@@ -179,17 +130,8 @@ fn a_number_at_its_threshold_gets_no_advice() {
 }
 
 #[test]
-fn a_drive_as_fast_as_the_feedback_is_too_slow() {
-    let advice = config().advice_on_feedback(25.0, 25.0);
-    let kinds: Vec<String> = advice.map(|advice| kind(&advice)).collect();
-    assert_eq!(kinds, ["BeyondDrive"]);
-}
-
-#[test]
 fn a_restart_distance_of_zero_is_a_configuration() {
-    let config = MotionControllerConfig {
-        restart_distance: 0.0,
-        ..config()
-    };
+    let mut config = config();
+    config.restart_distance = 0.0;
     assert_eq!(config.check(), Ok(()));
 }

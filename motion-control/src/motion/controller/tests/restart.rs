@@ -1,13 +1,11 @@
 //! What a reset leaves of a stop, and what it keeps.
 
 use super::*;
+use crate::tests::motion_limits;
 
 type Controller = MotionController<f64, 1, CurrentTick>;
 
-const WAY: [MotionLimits<f64>; 1] = [MotionLimits {
-    velocity: 1.0,
-    acceleration: 4.0,
-}];
+const WAY: [MotionLimits<f64>; 1] = [motion_limits(1.0, 4.0)];
 const HOLDS: StopCategory<f64, 1> = StopCategory::ControlledHold;
 
 /// A controller whose torque changes slowly, and that has followed for 100 ticks.

@@ -1,6 +1,7 @@
 //! Paths, inertias and limits of all sizes, in f32.
 
 use super::*;
+use crate::tests::motion_limits;
 use dynamics_core::state::all_finite;
 
 /// Numbers in [−1, 1), by xorshift.
@@ -52,10 +53,7 @@ fn random_motions_are_finite_and_within_the_torques() {
         };
         let limits = PathLimits {
             torque: [g * random.size(0.4), g],
-            motion: [MotionLimits {
-                velocity: random.size(2.0),
-                acceleration: random.size(3.0),
-            }; 2],
+            motion: [motion_limits(random.size(2.0), random.size(3.0)); 2],
             friction: [JointFriction {
                 coulomb: 0.1 * g,
                 viscous,

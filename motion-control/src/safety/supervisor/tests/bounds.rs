@@ -104,7 +104,10 @@ fn an_arm_at_the_slowest_speed_is_at_rest() {
     let supervisor = at([0.0, 0.7]);
     let slowest = 1e-2 * 3.0 + 1e-3;
     assert!(supervisor.at_rest(&[slowest, -slowest]));
-    assert!(!supervisor.at_rest(&[0.0, 1.01 * slowest]));
+    let fast = 1.01 * slowest;
+    for qd in [[0.0, fast], [-fast, 0.0], [0.0, f32::NAN]] {
+        assert!(!supervisor.at_rest(&qd), "{qd:?}");
+    }
 }
 
 #[test]

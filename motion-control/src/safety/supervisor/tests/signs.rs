@@ -23,6 +23,10 @@ fn a_first_position_beyond_either_end_is_refused() {
         let fault = Some(Fault::Position { joint });
         assert_eq!(fault_at(&mut supervisor(), q), fault, "{q:?}");
     }
+    for none in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let fault = Some(Fault::NotFinite { joint: 1 });
+        assert_eq!(fault_at(&mut supervisor(), [0.0, none]), fault, "{none}");
+    }
     for q in [[0.99, -0.99], [-0.99, 0.99], [1.0, -1.0]] {
         assert_eq!(fault_at(&mut supervisor(), q), None, "{q:?}");
     }

@@ -7,6 +7,7 @@ use std::mem::{Discriminant, discriminant};
 use std::sync::LazyLock;
 
 use super::*;
+use crate::tests::{safety_limits, supervised};
 use crate::safety::StopCategory;
 use expected::Expected;
 
@@ -33,6 +34,10 @@ const TICKS: [[u32; 3]; 3] = [[2, 3, 1], [0, 1, 2], [1, 1, 0]];
 const BEFORE: Fault = Fault::Model;
 const REPORTED: Fault = Fault::Overrun;
 const REASON: Fault = Fault::Restarted;
+
+/// The torque of the tick before, and the greatest one that its rate allows then, N·m.
+const LAST: f32 = 1.0;
+const WANTED: f32 = LAST + 4.0;
 
 /// The faults of positions.
 const BAD: [Fault; 4] = [
@@ -75,8 +80,8 @@ fn step(before: &One, input: Input) -> (One, Option<Command<f32, 1>>) {
         Bad(0) => one.accept_fault(BAD[0]),
         Bad(which) => one.accept_positions(&[[f32::NAN, 1.01, 1.01 * reach][which - 1]]),
         Fast => drop(one.check_speed(&[2.01])),
-        Torque => command = Some(one.gate(&[4.0], &[0.0])),
-        Limited => command = Some(one.gate(&[4.01], &[0.0])),
+        Torque => command = Some(one.gate(&[WANTED], &[0.0])),
+        Limited => command = Some(one.gate(&[1.01 * WANTED], &[0.0])),
         NoTorque => command = Some(one.gate(&[f32::NAN], &[0.0])),
         Report => one.react(REPORTED),
         Missed => one.missed(2),
@@ -93,7 +98,7 @@ fn step(before: &One, input: Input) -> (One, Option<Command<f32, 1>>) {
 /// The same state with the numbers that the inputs are relative to: positions, torques, and which
 /// faults there were choose no transition.
 fn canonical(mut one: One) -> One {
-    (one.last_good, one.torque) = ([0.0], [0.0]);
+    (one.last_good, one.torque) = ([0.0], [LAST]);
     if one.known {
         one.ticks_since_good = 1.0;
     }
@@ -135,21 +140,12 @@ fn starts() -> Vec<(One, Expected)> {
     {
         let [ride_through_ticks, hold_ticks, reentry_ticks] = ticks;
         let with = |torque| {
-            let limits = SafetyLimits {
-                torque: [torque],
-                rate: [4.0],
-                speed: [2.0],
-                lower: [-1.0],
-                upper: [1.0],
-            };
-            let one = Supervisor::new(SupervisorConfig {
+            let limits = safety_limits([torque], [4.0], [2.0], [-1.0], [1.0]);
+            let one = Supervisor::new(supervised(
                 limits,
-                tick: TICK,
-                resolution: 0.0,
-                ride_through_ticks,
-                hold_ticks,
-                reentry_ticks,
-            });
+                TICK,
+                [ride_through_ticks, hold_ticks, reentry_ticks],
+            ));
             // The same damping for all, so that a stop by another category does not change it.
             let one = one.with_stop(CATEGORIES[3]);
             one.with_stop(CATEGORIES[category])

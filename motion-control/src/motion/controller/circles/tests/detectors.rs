@@ -16,9 +16,8 @@ fn a_jump_is_measured_along_the_circle() {
         let mut bench = on_brake(FREE, [3.140_6, 0.0]);
         bench.controller.reset(&rest).expect("near");
         bench.tick(&rest);
-        let command = bench
-            .controller
-            .tick(Ok(&[next, 0.0]), &rest, |_, _| [0.0; 2]);
+        let measured = Ok(&[next, 0.0]);
+        let command = bench.controller.tick(measured, &rest, |_, _| [0.0; 2]);
         assert_eq!(command.status.fault, fault, "{next}");
     }
 }
@@ -37,15 +36,11 @@ fn a_step_of_a_turn_of_a_circle_is_none() {
     assert_eq!(faults(steps.on_circles::<WHEEL>(), turn), [None; 3]);
     assert_eq!(faults(steps, turn), [None, step(0), step(0)]);
     let slide = turn.map(|[q, _]| [0.0, q]);
-    assert_eq!(
-        faults(steps.on_circles::<WHEEL>(), slide),
-        [None, step(1), step(1)]
-    );
+    let moved = faults(steps.on_circles::<WHEEL>(), slide);
+    assert_eq!(moved, [None, step(1), step(1)]);
     let real = [[3.140_6, 0.0], [-3.1, 0.0], [-3.1, 0.0]];
-    assert_eq!(
-        faults(steps.on_circles::<WHEEL>(), real),
-        [None, step(0), None]
-    );
+    let found = faults(steps.on_circles::<WHEEL>(), real);
+    assert_eq!(found, [None, step(0), None]);
 }
 
 #[test]
@@ -71,10 +66,7 @@ fn a_joint_that_stops_on_the_seam_is_not_frozen() {
 fn all_detectors_are_silent_along_a_motion_over_the_seam() {
     for way in [1.0, -1.0] {
         let start = [PI - 0.5 * way, 0.0];
-        let goal = point([start[0] + way, 0.0], 2000);
-        let motion = Trajectory::new(&[point(start, 0), goal], TICK, &LIMITS).expect("slow");
-        let controller = Controller::try_new(config(FREE[0], FREE[1])).expect("a circle");
-        let mut bench = Bench::new(controller, start.map(f64::from));
+        let (motion, mut bench) = (line(start, way, 2000), Bench::at(start));
         let mut detectors = Detectors {
             frozen: FrozenEncoder::new([0.01; 2], 4),
             steps: ReferenceStep::new([2e-3; 2]),

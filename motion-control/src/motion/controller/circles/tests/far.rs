@@ -1,6 +1,7 @@
 //! After ten thousand turns a controller computes what it computes after none.
 
 use super::*;
+use crate::tests::{controlled, safety_limits};
 
 /// Cruises at a constant speed, its angle in integer counts and within a turn.
 struct Cruise {
@@ -94,27 +95,14 @@ fn an_observer_alone_estimates_the_same_after_ten_thousand_turns() {
 #[test]
 fn a_count_of_turns_in_f64_is_a_place_after_ten_thousand_of_them() {
     type Double = MotionController<f64, 1, OnCircles<1, CurrentTick>>;
-    let limits = SafetyLimits {
-        torque: [40.0],
-        rate: [40.0],
-        speed: [3.0],
-        lower: [f64::NEG_INFINITY],
-        upper: [f64::INFINITY],
-    };
+    let limits = safety_limits([40.0], [40.0], [3.0], [f64::NEG_INFINITY], [f64::INFINITY]);
     let single = config(FREE[0], FREE[1]);
-    let config = MotionControllerConfig {
-        supervisor: SupervisorConfig {
-            limits,
-            tick: 1e-3,
-            resolution: 0.0,
-            ride_through_ticks: 2,
-            hold_ticks: 100,
-            reentry_ticks: 50,
-        },
-        observer_bandwidth: f64::from(single.observer_bandwidth),
-        decay_rate: 25.0,
-        restart_distance: 0.1,
-    };
+    let config = controlled(
+        limits,
+        1e-3,
+        [2, 100, 50],
+        [f64::from(single.observer_bandwidth), 25.0, 0.1],
+    );
     let mut controller = Double::try_new(config).expect("a circle");
     for tick in 0..3000 {
         let q = 62_831.0 + 2e-3 * f64::from(tick);

@@ -1,11 +1,22 @@
 //! Reactions of an arm near the seam.
 
 use super::*;
+use crate::tests::{Motion, motion_limits};
 
-const SLOW: MotionLimits<f32> = MotionLimits {
-    velocity: 0.5,
-    acceleration: 2.0,
+const SLOW: MotionLimits<f32> = motion_limits(0.5, 2.0);
+const BACK: BackOffConfig<f32> = BackOffConfig {
+    limits: SLOW,
+    margin: 0.05,
 };
+
+impl Bench {
+    fn back_off(&mut self, back: &mut BackOff<f32, 2>) {
+        let measured = self.measured();
+        self.command = back.tick(&mut self.controller, Ok(&measured), Self::law);
+        assert_eq!(self.command.status.fault, None, "{:?}", self.q);
+        self.advance();
+    }
+}
 
 #[test]
 fn a_joint_beyond_its_arc_goes_back_to_the_nearest_end() {
@@ -20,23 +31,12 @@ fn a_joint_beyond_its_arc_goes_back_to_the_nearest_end() {
         ([-3.0, 3.0], -3.141_52, -2.95),
     ] {
         let mut bench = on_brake(ends, [q, 0.0]);
-        let config = BackOffConfig {
-            limits: SLOW,
-            margin: 0.05,
-        };
-        let mut back = BackOff::start(&mut bench.controller, &config).expect("a way");
+        let mut back = BackOff::start(&mut bench.controller, &BACK).expect("a way");
         for _ in 0..4000 {
             if back.is_done() {
                 break;
             }
-            let measured = bench.measured();
-            bench.command = back.tick(&mut bench.controller, Ok(&measured), Bench::law);
-            assert_eq!(
-                bench.command.status.fault, None,
-                "{ends:?} {q} {}",
-                bench.q[0]
-            );
-            bench.advance();
+            bench.back_off(&mut back);
         }
         assert!(back.is_done());
         let off = nearest_turn(bench.q[0] as f32, goal) - goal;
@@ -48,11 +48,7 @@ fn a_joint_beyond_its_arc_goes_back_to_the_nearest_end() {
 #[test]
 fn a_circle_stands_on_the_seam_while_another_joint_backs_off() {
     let mut bench = on_brake(FREE, [f64::from(PI), 7.2]);
-    let config = BackOffConfig {
-        limits: SLOW,
-        margin: 0.05,
-    };
-    let mut back = BackOff::start(&mut bench.controller, &config).expect("a way");
+    let mut back = BackOff::start(&mut bench.controller, &BACK).expect("a way");
     let mut tick = 0;
     while !back.is_done() {
         tick += 1;
@@ -60,11 +56,8 @@ fn a_circle_stands_on_the_seam_while_another_joint_backs_off() {
         // Noise to both sides of the seam.
         bench.q[0] = f64::from(PI) + [1e-4, -1e-4][tick % 2];
         bench.qd[0] = 0.0;
-        let measured = bench.measured();
-        bench.command = back.tick(&mut bench.controller, Ok(&measured), Bench::law);
-        assert_eq!(bench.command.status.fault, None);
+        bench.back_off(&mut back);
         assert!(bench.command.torque[0].abs() < 2.0);
-        bench.advance();
     }
     assert!((bench.q[1] - 6.95).abs() < 5e-3);
 }
@@ -72,47 +65,33 @@ fn a_circle_stands_on_the_seam_while_another_joint_backs_off() {
 #[test]
 fn an_arm_is_held_on_the_seam() {
     let start = [PI - 0.05, 0.0];
-    let goal = point([start[0] + 0.4, 0.0], 1000);
-    let motion = Trajectory::new(&[point(start, 0), goal], TICK, &LIMITS).expect("slow");
-    let controller = Controller::try_new(config(FREE[0], FREE[1])).expect("a circle");
-    let mut bench = Bench::new(controller, start.map(f64::from));
+    let (motion, mut bench) = (line(start, 0.4, 1000), Bench::at(start));
     for tick in 0..3000 {
         if tick == 280 {
-            bench
-                .controller
-                .stop_by(Fault::External, StopCategory::ControlledHold);
+            let hold = StopCategory::ControlledHold;
+            bench.controller.stop_by(Fault::External, hold);
         }
         if tick == 1000 {
-            bench
-                .controller
-                .reset(&motion)
-                .expect("held near its motion");
+            bench.controller.reset(&motion).expect("held near it");
         }
         bench.tick(&motion);
         assert!(bench.command.torque[0].abs() < 30.0, "{tick}");
         assert!((bench.q[0] - f64::from(PI)).abs() < 0.4);
     }
-    assert!((bench.q[0] - f64::from(goal.q[0])).abs() < 2e-3);
+    assert!((bench.q[0] - f64::from(start[0] + 0.4)).abs() < 2e-3);
 }
 
 #[test]
 fn a_retraction_leads_back_over_the_seam() {
     for way in [0.5_f32, -0.5] {
         let start = [PI - 0.4 * way, 0.0];
-        let goal = point([start[0] + way, 0.0], 1500);
-        let motion = Trajectory::new(&[point(start, 0), goal], TICK, &LIMITS).expect("slow");
-        let controller = Controller::try_new(config(FREE[0], FREE[1])).expect("a circle");
-        let mut bench = Bench::new(controller, start.map(f64::from));
-        let response = ContactResponse::Retract {
-            distance: 0.2,
-            limits: SLOW,
-        };
+        let (motion, mut bench) = (line(start, way, 1500), Bench::at(start));
+        let (distance, limits) = (0.2, SLOW);
         let config = ContactReactionConfig {
-            response,
+            response: ContactResponse::Retract { distance, limits },
             release_ticks: 50,
         };
-        let mut reaction: ContactReaction<f32, 2> =
-            ContactReaction::try_new(config).expect("positive numbers");
+        let mut reaction = ContactReaction::<f32, 2>::try_new(config).expect("positive");
         let mut before = bench.q[0];
         for tick in 0..4000 {
             let measured = bench.measured();
@@ -190,16 +169,8 @@ fn a_taught_path_goes_the_way_of_the_hand() {
 
 #[test]
 fn a_shaped_reference_that_leaps_by_a_turn_does_not() {
-    /// Cruises through π, within a turn.
-    struct Within;
-    impl Reference<f32, 1> for Within {
-        fn at(&self, tick: u32) -> State<f32, 1, 1> {
-            State::at([nearest_turn(3.0 + 1e-3 * tick as f32, 0.0)])
-        }
-        fn ticks(&self) -> u32 {
-            400
-        }
-    }
+    // Through π, within a turn.
+    let within = |tick| State::at([nearest_turn(3.0 + 1e-3 * tick as f32, 0.0)]);
     let sway = Vibration {
         link: "boom",
         mode: 0,
@@ -208,7 +179,7 @@ fn a_shaped_reference_that_leaps_by_a_turn_does_not() {
     };
     let shaper = Shaper::<f32, 3>::zv(&[sway], TICK).expect("a vibration");
     let shaped = Shaped {
-        reference: Within,
+        reference: Motion(within),
         shaper: shaper.on_circles::<1>(),
     };
     for tick in 100..400 {

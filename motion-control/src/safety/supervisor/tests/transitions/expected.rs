@@ -13,7 +13,7 @@ pub type Shown = (
     Option<Fault>,
     f32,
     [bool; 3],
-    Option<(Status, bool)>,
+    Option<(Status, bool, [f32; 1])>,
 );
 /// A class of inputs, and the fault after one.
 type Outcome = (&'static str, Option<Fault>);
@@ -47,7 +47,7 @@ pub(super) fn shown(one: &One, command: Option<Command<f32, 1>>) -> Shown {
     };
     let again = state.required().is_some_and(|(required, _)| required.again);
     let flags = [one.known, one.accepted, again];
-    let command = command.map(|command| (command.status, command.brake));
+    let command = command.map(|command| (command.status, command.brake, command.torque));
     (name, one.fault, one.authority(), flags, command)
 }
 
@@ -197,7 +197,12 @@ impl Expected {
                 fault,
                 limited: limited & !stops,
             };
-            (status, stops | self.braked)
+            let torque = match input {
+                _ if stops => 0.0,
+                NoTorque => LAST,
+                _ => WANTED,
+            };
+            (status, stops | self.braked, [torque])
         });
         let rise = (self.ramp + 1) as f32 / self.ticks[2] as f32;
         let rises = (self.mode() == Mode::Full) & !self.braked;

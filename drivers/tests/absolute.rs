@@ -8,7 +8,7 @@ use joint_drivers::as5047p::{self, As5047p, FrameError, READ_ANGLE, READ_ERRORS}
 use joint_drivers::as5600::{As5600, As5600Error};
 use joint_drivers::{Direction, JointMapping, JointRange};
 
-use super::near_zero;
+use super::{identity, near_zero};
 
 /// The transactions of one AS5047P frame.
 fn frame(command: u16, answer: u16) -> [spi::Transaction<u8>; 3] {
@@ -29,10 +29,7 @@ fn the_as5047p_is_commanded_as_its_data_sheet_says() {
     // Read ANGLECOM: bits 15 (parity of 15 ones) and 14 (read) and the address 0x3FFF. Read ERRFL:
     // 0x4001 is even.
     assert_eq!((READ_ANGLE, READ_ERRORS), (0xffff, 0x4001));
-    let mut encoder = As5047p::new(
-        spi::Mock::new(&restart()),
-        near_zero(JointMapping::IDENTITY),
-    );
+    let mut encoder = As5047p::new(spi::Mock::new(&restart()), identity());
     encoder.start();
     encoder.release().done();
 }
@@ -69,10 +66,7 @@ fn each_as5047p_error_costs_one_angle_and_a_restart() {
         ok(),
     ]
     .concat();
-    let mut encoder = As5047p::new(
-        spi::Mock::new(&transactions),
-        near_zero(JointMapping::IDENTITY),
-    );
+    let mut encoder = As5047p::new(spi::Mock::new(&transactions), identity());
     let angle = 100.0 * as5047p::RESOLUTION;
     assert_eq!(encoder.read(), Ok(angle));
     for error in [FrameError::Parity, FrameError::Flag] {
@@ -98,7 +92,7 @@ impl SpiDevice for FailedBus {
 
 #[test]
 fn an_as5047p_bus_failure_is_an_error() {
-    let mut encoder = As5047p::new(FailedBus, near_zero(JointMapping::IDENTITY));
+    let mut encoder = As5047p::new(FailedBus, identity());
     assert_eq!(encoder.read(), Err(FrameError::Bus(SpiError::Overrun)));
     assert!(encoder.angle().abs() < as5047p::RESOLUTION);
 }
@@ -146,7 +140,7 @@ fn a_geared_encoder_starts_near_the_known_turn() {
 }
 
 /// The transactions of one reading of an AS5600.
-fn registers(status: u8, angle: u16) -> [i2c::Transaction; 2] {
+pub(crate) fn registers(status: u8, angle: u16) -> [i2c::Transaction; 2] {
     [
         i2c::Transaction::write_read(0x36, vec![0x0b], vec![status]),
         i2c::Transaction::write_read(0x36, vec![0x0c], angle.to_be_bytes().to_vec()),
@@ -212,7 +206,7 @@ fn an_absent_weak_or_strong_magnet_is_an_error() {
     ];
     for (status, error) in cases {
         let bus = i2c::Mock::new(&registers(status, 0)[..1]);
-        let mut encoder = As5600::new(bus, near_zero(JointMapping::IDENTITY));
+        let mut encoder = As5600::new(bus, identity());
         assert_eq!(encoder.read(), Err(error));
         encoder.release().done();
     }
@@ -223,10 +217,7 @@ fn an_as5600_bus_failure_keeps_the_last_angle() {
     let [_, angle] = registers(0x20, 1024);
     let lost =
         i2c::Transaction::write_read(0x36, vec![0x0c], vec![0, 0]).with_error(I2cError::Other);
-    let mut encoder = As5600::new(
-        i2c::Mock::new(&[angle, lost]),
-        near_zero(JointMapping::IDENTITY),
-    );
+    let mut encoder = As5600::new(i2c::Mock::new(&[angle, lost]), identity());
     assert_eq!(encoder.read_angle(), Ok(FRAC_PI_2));
     assert_eq!(encoder.read_angle(), Err(As5600Error::Bus(I2cError::Other)));
     assert_eq!(encoder.angle(), FRAC_PI_2);

@@ -2,50 +2,35 @@
 //! ranges.
 
 use embedded_can::{ExtendedId, Frame, StandardId};
-use embedded_hal_mock::eh1::{digital, i2c, pwm};
+use embedded_hal_mock::eh1::{digital, i2c};
 use joint_drivers::as5600::{As5600, As5600Error};
 use joint_drivers::can::FdFrame;
 use joint_drivers::h_bridge::{FullScale, LockedAntiphase, SignMagnitude};
 use joint_drivers::incremental::{
     IncrementalEncoder, IncrementalError, QuadratureCounter, QuadratureDecoder,
 };
-use joint_drivers::moteus::Moteus;
-use joint_drivers::odrive::ODrive;
 use joint_drivers::{
     Direction, JointDrive, JointDrives, JointEncoders, JointError, JointMapping, JointRange,
     MultiTurnEncoder, Resolution,
 };
 
-use super::near_zero;
-
-/// The exchanges of an AS5600 in one reading.
-fn registers(status: u8, angle: u16) -> Vec<i2c::Transaction> {
-    let angle = angle.to_be_bytes().to_vec();
-    vec![
-        i2c::Transaction::write_read(0x36, vec![0x0b], vec![status]),
-        i2c::Transaction::write_read(0x36, vec![0x0c], angle),
-    ]
-}
+use super::absolute::registers;
+use super::drives::{channel, done};
+use super::identity;
 
 #[test]
 fn encoders_of_an_array_are_read_through_their_trait() {
     let turns = [0x0400, 0x0c00].map(|raw| registers(0x20, raw));
-    let mut encoders =
-        turns.map(|all| As5600::new(i2c::Mock::new(&all), near_zero(JointMapping::IDENTITY)));
+    let mut encoders = turns.map(|all| As5600::new(i2c::Mock::new(&all), identity()));
     let quarter = core::f32::consts::FRAC_PI_2;
     assert_eq!(encoders.read(), Ok([quarter, -quarter]));
-    encoders
-        .into_iter()
-        .for_each(|encoder| encoder.release().done());
+    let [(), ()] = encoders.map(|encoder| encoder.release().done());
     // The second has no magnet; the first is read nevertheless.
-    let all = [registers(0x20, 0), registers(0, 0)[..1].to_vec()];
-    let mut encoders =
-        all.map(|all| As5600::new(i2c::Mock::new(&all), near_zero(JointMapping::IDENTITY)));
+    let all = [registers(0x20, 0).to_vec(), registers(0, 0)[..1].to_vec()];
+    let mut encoders = all.map(|all| As5600::new(i2c::Mock::new(&all), identity()));
     let (joint, error) = (1, As5600Error::MagnetAbsent);
     assert_eq!(encoders.read(), Err(JointError { joint, error }));
-    encoders
-        .into_iter()
-        .for_each(|encoder| encoder.release().done());
+    let [(), ()] = encoders.map(|encoder| encoder.release().done());
 }
 
 #[test]
@@ -53,7 +38,7 @@ fn an_incremental_encoder_of_an_array_is_unknown_before_its_index() {
     let resolution = Resolution::new(40).unwrap();
     let of = |_| {
         let decoder = QuadratureDecoder::new();
-        IncrementalEncoder::new(decoder, resolution, near_zero(JointMapping::IDENTITY)).unwrap()
+        IncrementalEncoder::new(decoder, resolution, identity()).unwrap()
     };
     let mut encoders = [0, 1].map(of);
     let edge = |encoder: &mut IncrementalEncoder<QuadratureDecoder>, z| {
@@ -69,46 +54,20 @@ fn an_incremental_encoder_of_an_array_is_unknown_before_its_index() {
     assert_eq!(known.read(), Ok([resolution.angle(1)]));
 }
 
-fn duties(all: &[u16]) -> pwm::Mock {
-    let most = std::iter::repeat_n(pwm::Transaction::max_duty_cycle(1000), 1);
-    let set = all
-        .iter()
-        .map(|duty| pwm::Transaction::set_duty_cycle(*duty));
-    pwm::Mock::new(&most.chain(set).collect::<Vec<_>>())
-}
-
 #[test]
 fn drives_of_an_array_are_set_through_their_trait() {
     let scale = FullScale::new(2.0).unwrap();
     let mut drives = [[500, 750], [500, 250]].map(|all| {
-        let pwm = duties(&all);
+        let pwm = channel(&all);
         LockedAntiphase::new(pwm, scale, Direction::Forward)
     });
     drives.set_torques(&[0.0, 0.0]).unwrap();
     drives.set_torques(&[1.0, -1.0]).unwrap();
     drives.into_iter().for_each(|drive| drive.release().done());
     let level = digital::Mock::new(&[digital::Transaction::set(digital::State::Low)]);
-    let mut drive = SignMagnitude::new(duties(&[0, 500]), level, scale, Direction::Forward);
+    let mut drive = SignMagnitude::new(channel(&[0, 500]), level, scale, Direction::Forward);
     JointDrive::set_torque(&mut drive, -1.0).unwrap();
-    let (mut pwm, mut level) = drive.release();
-    pwm.done();
-    level.done();
-}
-
-#[test]
-fn an_index_within_half_a_turn_of_its_place_is_off_by_the_short_way() {
-    for excess in [19, 14, -14, -19] {
-        let counts = [5_u16, 50_u16.wrapping_add_signed(excess)];
-        let indices = [2_u16, 42_u16.wrapping_add_signed(excess)];
-        let (mut counts, mut indices) = (counts.into_iter(), indices.into_iter());
-        let timer = (move || counts.next().unwrap(), move || indices.next());
-        let resolution = Resolution::new(40).unwrap();
-        let mut encoder =
-            IncrementalEncoder::new(timer, resolution, near_zero(JointMapping::IDENTITY)).unwrap();
-        encoder.read().unwrap();
-        let excess = i32::from(excess);
-        assert_eq!(encoder.read(), Err(IncrementalError::Index { excess }));
-    }
+    done(drive.release());
 }
 
 #[test]
@@ -139,16 +98,6 @@ fn an_angle_within_a_turn_has_both_signs() {
             joint.update(raw).unwrap();
             assert_eq!(joint.within_turn::<f32>(), angle, "{turns} {raw}");
         }
-    }
-}
-
-#[test]
-fn the_greatest_nodes_of_a_bus_are_nodes() {
-    let identity = near_zero(JointMapping::IDENTITY);
-    assert!(ODrive::new(0x3f, 1.0, identity).is_ok());
-    assert!(ODrive::new(0, 1.0, identity).is_ok());
-    for (id, host) in [(1, 0), (127, 0), (1, 127)] {
-        assert!(Moteus::new(id, host, 1.0, identity).is_ok());
     }
 }
 

@@ -4,11 +4,11 @@ use core::f32::consts::{PI, TAU};
 
 use embedded_can::{ExtendedId, Frame, Id, StandardId};
 use joint_drivers::can::{CanError, FdFrame};
-use joint_drivers::moteus::{self, Mode, Moteus};
+use joint_drivers::moteus::{Mode, Moteus};
 use joint_drivers::odrive::{AxisState, ODrive, Reply};
 use joint_drivers::{Direction, EncoderMapping, JointMapping, JointRange};
 
-use super::near_zero;
+use super::{identity, near_zero};
 
 /// A frame of classic CAN: at most 8 bytes.
 #[derive(Debug, PartialEq)]
@@ -62,18 +62,15 @@ fn near(a: f32, b: f32) -> bool {
 
 #[test]
 fn odrive_commands_are_the_protocols_golden_frames() {
-    let axis = ODrive::new(1, 100.0, near_zero(JointMapping::IDENTITY)).unwrap();
+    let axis = ODrive::new(1, 100.0, identity()).unwrap();
+    let closed_loop = AxisState::ClosedLoopControl;
     // The identifier of axis 1, command 0x0C, is 0x2C in the document: commands of axis 1 begin at
     // 0x20.
     let golden: [(Result<ClassicFrame, _>, u16, &[u8]); 7] = [
         (axis.set_torque(1.5), 0x2e, &[0x00, 0x00, 0xc0, 0x3f]),
         (axis.set_torque(-0.1), 0x2e, &[0xcd, 0xcc, 0xcc, 0xbd]),
         (axis.set_torque_mode(), 0x2b, &[1, 0, 0, 0, 1, 0, 0, 0]),
-        (
-            axis.set_state(AxisState::ClosedLoopControl),
-            0x27,
-            &[8, 0, 0, 0],
-        ),
+        (axis.set_state(closed_loop), 0x27, &[8, 0, 0, 0]),
         (axis.set_state(AxisState::Idle), 0x27, &[1, 0, 0, 0]),
         (axis.stop(), 0x22, &[]),
         (axis.clear_errors(), 0x38, &[0]),
@@ -81,10 +78,14 @@ fn odrive_commands_are_the_protocols_golden_frames() {
     for (frame, id, data) in golden {
         assert_eq!(frame, Ok(ClassicFrame(standard(id, data))));
     }
-    let remote: ClassicFrame = axis.request_estimates().unwrap();
-    assert!(remote.is_remote_frame() && remote.id() == Id::from(StandardId::new(0x29).unwrap()));
-    let remote: ClassicFrame = axis.request_torques().unwrap();
-    assert!(remote.is_remote_frame() && remote.id() == Id::from(StandardId::new(0x3c).unwrap()));
+    for (request, id) in [
+        (axis.request_estimates(), 0x29),
+        (axis.request_torques(), 0x3c),
+    ] {
+        let remote: ClassicFrame = request.unwrap();
+        assert!(remote.is_remote_frame());
+        assert_eq!(remote.id(), StandardId::new(id).unwrap().into());
+    }
 }
 
 #[test]
@@ -103,10 +104,8 @@ fn odrive_replies_are_mapped_to_the_joint() {
         errors: 0x4000_0000,
         state: AxisState::ClosedLoopControl,
     };
-    assert_eq!(
-        axis.reply(&standard(0x001, &[0, 0, 0, 0x40, 8, 0, 1, 0])),
-        Ok(running)
-    );
+    let heartbeat = standard(0x001, &[0, 0, 0, 0x40, 8, 0, 1, 0]);
+    assert_eq!(axis.reply(&heartbeat), Ok(running));
     // 1.5 rev and −0.25 rev/s.
     let estimates = standard(0x009, &[0, 0, 0xc0, 0x3f, 0, 0, 0x80, 0xbe]);
     let Ok(Reply::Estimates { position, velocity }) = axis.reply(&estimates) else {
@@ -115,20 +114,16 @@ fn odrive_replies_are_mapped_to_the_joint() {
     assert!(near(position, (1.0 - 1.5 * TAU) / 2.0) && near(velocity, PI / 4.0));
     // 2 N·m and −0.5 N·m at the motor.
     let torques = standard(0x01c, &[0, 0, 0, 0x40, 0, 0, 0, 0xbf]);
-    assert_eq!(
-        axis.reply(&torques),
-        Ok(Reply::Torques {
-            target: -4.0,
-            estimate: 1.0
-        })
-    );
+    let (target, estimate) = (-4.0, 1.0);
+    let expected = Reply::Torques { target, estimate };
+    assert_eq!(axis.reply(&torques), Ok(expected));
     let command: FdFrame = axis.set_torque(3.0).unwrap();
     assert_eq!(command.data(), (-1.5_f32).to_le_bytes());
 }
 
 #[test]
 fn every_wrong_reply_of_an_odrive_is_a_typed_error() {
-    let mut axis = ODrive::new(3, 100.0, near_zero(JointMapping::IDENTITY)).unwrap();
+    let mut axis = ODrive::new(3, 100.0, identity()).unwrap();
     let nan = [[0, 0, 0xc0, 0x7f], [0; 4]].concat();
     let infinite = [[0; 4], [0, 0, 0x80, 0xff]].concat();
     let huge = [f32::MAX.to_le_bytes(), [0; 4]].concat();
@@ -145,27 +140,17 @@ fn every_wrong_reply_of_an_odrive_is_a_typed_error() {
         (standard(0x069, &infinite), CanError::NotFinite),
         (standard(0x069, &huge), CanError::NotFinite), // not finite in rad
         (standard(0x07c, &nan), CanError::NotFinite),
-        (
-            FdFrame::new_remote(StandardId::new(0x069).unwrap(), 8).unwrap(),
-            CanError::Remote,
-        ),
     ];
-    for (frame, error) in cases {
+    let remote = FdFrame::new_remote(StandardId::new(0x069).unwrap(), 8).unwrap();
+    for (frame, error) in cases.into_iter().chain([(remote, CanError::Remote)]) {
         assert_eq!(axis.reply(&frame), Err(error), "{frame:?}");
     }
 }
 
 #[test]
-fn a_remote_frame_has_the_lengths_of_classic_can() {
-    let remote = |length| FdFrame::new_remote(StandardId::new(1).unwrap(), length);
-    assert_eq!(remote(8).map(|frame| frame.dlc()), Some(8));
-    assert!(remote(9).is_none());
-}
-
-#[test]
 fn torques_are_limited_and_nan_becomes_zero() {
-    let axis = ODrive::new(3, 2.0, near_zero(JointMapping::IDENTITY)).unwrap();
-    let joint = Moteus::new(3, 0, 2.0, near_zero(JointMapping::IDENTITY)).unwrap();
+    let axis = ODrive::new(3, 2.0, identity()).unwrap();
+    let joint = Moteus::new(3, 0, 2.0, identity()).unwrap();
     for (torque, sent) in [(f32::NAN, 0.0_f32), (9.0, 2.0), (f32::NEG_INFINITY, -2.0)] {
         let frame: FdFrame = axis.set_torque(torque).unwrap();
         assert_eq!(frame.data(), sent.to_le_bytes());
@@ -176,20 +161,25 @@ fn torques_are_limited_and_nan_becomes_zero() {
 
 #[test]
 fn nodes_and_limits_outside_their_ranges_are_refused() {
-    let identity = near_zero(JointMapping::IDENTITY);
-    assert_eq!(ODrive::new(0x40, 1.0, identity), Err(CanError::Node));
+    assert_eq!(ODrive::new(0x40, 1.0, identity()), Err(CanError::Node));
+    for node in [0, 0x3f] {
+        assert!(ODrive::new(node, 1.0, identity()).is_ok());
+    }
+    for (id, host) in [(1, 0), (127, 0), (1, 127)] {
+        assert!(Moteus::new(id, host, 1.0, identity()).is_ok());
+    }
     for (id, host) in [(0, 0), (128, 0), (1, 128)] {
-        assert_eq!(Moteus::new(id, host, 1.0, identity), Err(CanError::Node));
+        assert_eq!(Moteus::new(id, host, 1.0, identity()), Err(CanError::Node));
     }
     for most in [0.0, -1.0, f32::NAN, f32::INFINITY] {
-        assert_eq!(ODrive::new(1, most, identity), Err(CanError::Torque));
-        assert_eq!(Moteus::new(1, 0, most, identity), Err(CanError::Torque));
+        assert_eq!(ODrive::new(1, most, identity()), Err(CanError::Torque));
+        assert_eq!(Moteus::new(1, 0, most, identity()), Err(CanError::Torque));
     }
 }
 
 #[test]
 fn commands_of_the_moteus_are_golden_frames_of_registers() {
-    let joint = Moteus::new(1, 0, 100.0, near_zero(JointMapping::IDENTITY)).unwrap();
+    let joint = Moteus::new(1, 0, 100.0, identity()).unwrap();
     let command = [
         0x01, 0x00, 0x0a, // write 1 int8: mode = position
         0x02, 0x20, 0x80, 0x00, // write 2 int8: position = the present one, velocity = 0
@@ -210,11 +200,9 @@ fn commands_of_the_moteus_are_golden_frames_of_registers() {
 
 #[test]
 fn moteus_commands_are_too_long_for_classic_can() {
-    let joint = Moteus::new(1, 0, 100.0, near_zero(JointMapping::IDENTITY)).unwrap();
-    assert_eq!(
-        joint.set_torque::<ClassicFrame>(1.0),
-        Err(CanError::Length(24))
-    );
+    let joint = Moteus::new(1, 0, 100.0, identity()).unwrap();
+    let torque = joint.set_torque::<ClassicFrame>(1.0);
+    assert_eq!(torque, Err(CanError::Length(24)));
     assert_eq!(joint.stop::<ClassicFrame>(), Err(CanError::Length(12)));
     assert!(joint.query::<ClassicFrame>().is_ok());
 }
@@ -232,7 +220,7 @@ fn moteus_reply(mode: u8, values: [f32; 3], fault: u8) -> Vec<u8> {
 
 #[test]
 fn moteus_replies_of_every_type_are_mapped_to_the_joint() {
-    let mut joint = Moteus::new(1, 0, 100.0, near_zero(JointMapping::IDENTITY)).unwrap();
+    let mut joint = Moteus::new(1, 0, 100.0, identity()).unwrap();
     // The document's example: position 2.88°, velocity 23.04°/s, torque −1.44 N·m, as int16.
     let golden = [
         0x24, 4, 0, 0x0a, 0, 0x50, 0, 0, 1, 0x70, 0xff, 0x23, 0x0d, 0x18, 0x14, 0,
@@ -274,27 +262,22 @@ fn moteus_replies_of_every_type_are_mapped_to_the_joint() {
 
 #[test]
 fn every_wrong_reply_of_a_moteus_is_a_typed_error() {
-    let mut joint = Moteus::new(1, 2, 100.0, near_zero(JointMapping::IDENTITY)).unwrap();
+    let mut joint = Moteus::new(1, 2, 100.0, identity()).unwrap();
     let good = moteus_reply(10, [0.0; 3], 0);
     assert!(joint.reply(&standard(0x102, &good)).is_ok());
     for id in [0x100, 0x202, 0x201, 0x002] {
         assert_eq!(joint.reply(&standard(id, &good)), Err(CanError::Identifier));
     }
-    assert_eq!(
-        joint.reply(&extended(0x1_0102, &good)),
-        Err(CanError::Identifier)
-    );
+    let other = joint.reply(&extended(0x1_0102, &good));
+    assert_eq!(other, Err(CanError::Identifier));
     for (at, error) in [
         (4, CanError::Short),
         (8, CanError::Short),
         (3, CanError::Missing(1)),
         (0, CanError::Missing(1)),
     ] {
-        assert_eq!(
-            joint.reply(&standard(0x102, &good[..at])),
-            Err(error),
-            "{at}"
-        );
+        let cut = joint.reply(&standard(0x102, &good[..at]));
+        assert_eq!(cut, Err(error), "{at}");
     }
     for place in 0..3 {
         for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
@@ -304,30 +287,16 @@ fn every_wrong_reply_of_a_moteus_is_a_typed_error() {
             assert_eq!(joint.reply(&frame), Err(CanError::NotFinite));
         }
     }
+    let refused = |register, code| CanError::Register { register, code };
     let cases: [(&[u8], CanError); 9] = [
         (&[0x25, 0x02, 0x00, 0x80], CanError::NotFinite),
         (&[0x29, 0x03, 0, 0, 0, 0x80], CanError::NotFinite),
         (&[0x2d, 0x00, 0, 0, 0xc0, 0x7f], CanError::NotFinite),
         (&[0x21, 0x01, 0x80], CanError::NotFinite),
-        (
-            &[0x31, 0x05, 0x03],
-            CanError::Register {
-                register: 5,
-                code: 3,
-            },
-        ),
-        (
-            &[0x30, 0x82, 0x01, 0x04],
-            CanError::Register {
-                register: 0x82,
-                code: 4,
-            },
-        ),
+        (&[0x31, 0x05, 0x03], refused(5, 3)),
+        (&[0x30, 0x82, 0x01, 0x04], refused(0x82, 4)),
         (&[0x40], CanError::Unknown(0x40)),
-        (
-            &[0x20, 0xff, 0xff, 0xff, 0xff, 0xff],
-            CanError::Unknown(0x80),
-        ),
+        (&[0x20, 255, 255, 255, 255, 255], CanError::Unknown(0x80)),
         (&[0x2c, 0xff, 0xff, 0xff, 0x7f, 0x40], CanError::Short),
     ];
     for (data, error) in cases {
@@ -339,8 +308,8 @@ fn every_wrong_reply_of_a_moteus_is_a_typed_error() {
 
 #[test]
 fn no_reply_bytes_panic_or_give_nonfinite_quantities() {
-    let mut axis = ODrive::new(1, 1.0, near_zero(JointMapping::IDENTITY)).unwrap();
-    let mut joint = Moteus::new(1, 0, 1.0, near_zero(JointMapping::IDENTITY)).unwrap();
+    let mut axis = ODrive::new(1, 1.0, identity()).unwrap();
+    let mut joint = Moteus::new(1, 0, 1.0, identity()).unwrap();
     let mut random = 7_u32;
     let mut next = || {
         random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -359,18 +328,9 @@ fn no_reply_bytes_panic_or_give_nonfinite_quantities() {
             }
             _ => {}
         }
-        if let Ok(moteus::State {
-            position,
-            velocity,
-            torque,
-            ..
-        }) = joint.reply(&standard(0x100, &data))
-        {
-            assert!(
-                [position, velocity, torque]
-                    .iter()
-                    .all(|value| value.is_finite())
-            );
+        if let Ok(state) = joint.reply(&standard(0x100, &data)) {
+            let values = [state.position, state.velocity, state.torque];
+            assert!(values.iter().all(|value| value.is_finite()));
             decoded += 1;
         }
         data.truncate(8);

@@ -6,11 +6,11 @@ use joint_drivers::can::{CanError, FdFrame};
 use joint_drivers::moteus::Moteus;
 use joint_drivers::odrive::ODrive;
 use joint_drivers::{CanJoints, DriveFault, DriveFaultKind};
-use joint_drivers::{JointDrives, JointEncoders, JointError, JointMapping};
+use joint_drivers::{JointDrives, JointEncoders, JointError};
 
 mod frames;
 
-use super::near_zero;
+use super::identity;
 
 #[derive(Default)]
 struct Bus {
@@ -46,10 +46,24 @@ fn reply(node: u32, mode: u8, turns: f32, fault: u8) -> FdFrame {
     FdFrame::new(ExtendedId::new(node << 8).unwrap(), &data).unwrap()
 }
 
-fn joints(bus: Bus) -> CanJoints<Bus, Moteus, 2> {
-    let of = |node| Moteus::new(node, 0, 10.0, near_zero(JointMapping::IDENTITY)).unwrap();
-    CanJoints::new(bus, [of(1), of(2)])
+fn joints<B: Can<Frame = FdFrame>>(bus: B) -> CanJoints<B, Moteus, 2> {
+    CanJoints::new(bus, [moteus(1), moteus(2)])
 }
+
+fn moteus(node: u8) -> Moteus {
+    Moteus::new(node, 0, 10.0, identity()).unwrap()
+}
+
+fn torque_frame(node: u8, torque: f32) -> FdFrame {
+    moteus(node).set_torque(torque).unwrap()
+}
+
+/// A frame of the ODrive 3.
+fn odrive_frame(command: u16, data: [u8; 8]) -> FdFrame {
+    FdFrame::new(StandardId::new(3 << 5 | command).unwrap(), &data).unwrap()
+}
+
+const HALF_A_TURN: [u8; 8] = [0, 0, 0, 0x3f, 0, 0, 0, 0];
 
 fn heard(received: &[FdFrame]) -> Bus {
     let received = received.to_vec();
@@ -72,64 +86,37 @@ fn positions_come_in_any_order_and_each_counts_once() {
 }
 
 #[test]
-fn a_joint_that_does_not_reply_is_named() {
-    let joints = joints(heard(&[reply(1, 10, 0.0, 0), reply(3, 10, 0.0, 0)]));
-    assert_eq!((&joints).read(), Err(at(1, CanError::NoReply)));
-}
-
-#[test]
 fn each_joint_gets_its_torque() {
     let joints = joints(Bus::default());
     (&joints).set_torques(&[1.0, -2.0]).unwrap();
     let sent = joints.release().sent;
-    let of = |node, torque| {
-        let joint = Moteus::new(node, 0, 10.0, near_zero(JointMapping::IDENTITY)).unwrap();
-        joint.set_torque::<FdFrame>(torque).unwrap()
-    };
-    assert_eq!(sent, [of(1, 1.0), of(2, -2.0)]);
-}
-
-#[test]
-fn a_controllers_fault_outranks_one_that_is_not_ready() {
-    let joints = joints(heard(&[reply(1, 0, 0.0, 0), reply(2, 1, 0.0, 33)]));
-    (&joints).read().unwrap();
-    let set = (&joints).set_torques(&[0.0; 2]);
-    assert_eq!(set, Err(at(1, CanError::Fault(33))));
-    assert_eq!(CanError::Fault(33).kind(), DriveFaultKind::Failed);
-    assert_eq!(CanError::NotReady.kind(), DriveFaultKind::NotReady);
+    assert_eq!(sent, [torque_frame(1, 1.0), torque_frame(2, -2.0)]);
 }
 
 #[test]
 fn a_bus_that_fails_or_is_full_is_an_error() {
+    let overrun = ErrorKind::Overrun;
     for (error, expected) in [
-        (
-            nb::Error::Other(ErrorKind::Overrun),
-            CanError::Bus(ErrorKind::Overrun),
-        ),
+        (nb::Error::Other(overrun), CanError::Bus(overrun)),
         (nb::Error::WouldBlock, CanError::Full),
     ] {
-        let error = Some(error);
-        let joints = joints(Bus {
-            error,
-            ..Bus::default()
-        });
+        let mut bus = Bus::default();
+        bus.error = Some(error);
+        let joints = joints(bus);
         assert_eq!((&joints).set_torques(&[0.0; 2]), Err(at(0, expected)));
     }
 }
 
 #[test]
 fn an_odrive_measures_and_says_whether_it_is_ready() {
-    let frame = |command: u16, data: [u8; 8]| {
-        FdFrame::new(StandardId::new(3 << 5 | command).unwrap(), &data).unwrap()
-    };
-    let half = frame(0x09, [0, 0, 0, 0x3f, 0, 0, 0, 0]);
+    let half = odrive_frame(0x09, HALF_A_TURN);
     for (heartbeat, expected) in [
         ([0, 0, 0, 0, 8, 0, 0, 0], Ok(())),
         ([0, 0, 0, 0, 1, 0, 0, 0], Err(at(0, CanError::NotReady))),
         ([1, 0, 0, 0, 1, 0, 0, 0], Err(at(0, CanError::Fault(1)))),
     ] {
-        let axis = ODrive::new(3, 10.0, near_zero(JointMapping::IDENTITY)).unwrap();
-        let joints = CanJoints::new(heard(&[half, frame(0x01, heartbeat)]), [axis]);
+        let axis = ODrive::new(3, 10.0, identity()).unwrap();
+        let joints = CanJoints::new(heard(&[half, odrive_frame(0x01, heartbeat)]), [axis]);
         assert_eq!((&joints).read(), Ok([core::f32::consts::PI]));
         assert_eq!((&joints).set_torques(&[0.0]), expected);
     }

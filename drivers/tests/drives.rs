@@ -11,14 +11,13 @@ use joint_drivers::three_phase::{Duties, LONGEST, PhaseError, ThreePhase};
 use joint_drivers::{Direction, JointMapping};
 
 /// A PWM channel of 1000 counts that expects these duties.
-fn channel(duties: &[u16]) -> pwm::Mock {
-    let set = duties
-        .iter()
-        .map(|duty| pwm::Transaction::set_duty_cycle(*duty));
-    let all: Vec<_> = [pwm::Transaction::max_duty_cycle(1000)]
-        .into_iter()
-        .chain(set)
-        .collect();
+pub(crate) fn channel(duties: &[u16]) -> pwm::Mock {
+    let mut all = vec![pwm::Transaction::max_duty_cycle(1000)];
+    all.extend(
+        duties
+            .iter()
+            .map(|duty| pwm::Transaction::set_duty_cycle(*duty)),
+    );
     pwm::Mock::new(&all)
 }
 
@@ -29,6 +28,11 @@ fn newton_metres(full_scale: f32) -> FullScale {
 fn pin(levels: &[digital::State]) -> digital::Mock {
     let set = levels.iter().map(|level| digital::Transaction::set(*level));
     digital::Mock::new(&set.collect::<Vec<_>>())
+}
+
+pub(crate) fn done((mut pwm, mut pin): (pwm::Mock, digital::Mock)) {
+    pwm.done();
+    pin.done();
 }
 
 fn failure() -> MockError {
@@ -54,9 +58,9 @@ fn locked_antiphase_duty_is_linear_saturated_and_directed() {
         (Direction::Reverse, duties.map(|duty| 1000 - duty)),
     ] {
         let mut drive = LockedAntiphase::new(channel(&duties), newton_metres(3.0), direction);
-        torques
-            .iter()
-            .for_each(|torque| drive.set_torque(*torque).unwrap());
+        for torque in torques {
+            drive.set_torque(torque).unwrap();
+        }
         drive.release().done();
     }
 }
@@ -96,45 +100,30 @@ fn sign_magnitude_is_off_while_the_sign_changes() {
     let duties = [0, 250, 500, 0, 500, 1000, 0, 0, 250, 0, 1000];
     let mut levels = [High, Low, High];
     for direction in [Direction::Forward, Direction::Reverse] {
-        let mut drive = SignMagnitude::new(
-            channel(&duties),
-            pin(&levels),
-            newton_metres(2.0),
-            direction,
-        );
-        torques
-            .iter()
-            .for_each(|torque| drive.set_torque(*torque).unwrap());
-        let (mut pwm, mut level) = drive.release();
-        pwm.done();
-        level.done();
+        let (pwm, pin, scale) = (channel(&duties), pin(&levels), newton_metres(2.0));
+        let mut drive = SignMagnitude::new(pwm, pin, scale, direction);
+        for torque in torques {
+            drive.set_torque(torque).unwrap();
+        }
+        done(drive.release());
         levels = [Low, High, Low];
     }
 }
 
 #[test]
 fn sign_magnitude_is_symmetric_up_to_full_duty() {
-    let mut pwm = channel(&[]);
-    let mut level = pin(&[]);
-    let drive = SignMagnitude::new(
-        pwm.clone(),
-        level.clone(),
-        newton_metres(2.0),
-        Direction::Forward,
-    );
+    let (pwm, pin, scale) = (channel(&[]), pin(&[]), newton_metres(2.0));
+    let drive = SignMagnitude::new(pwm, pin, scale, Direction::Forward);
     for torque in [2.0, 1e30, f32::INFINITY] {
         assert_eq!(drive.sign_and_duty(torque), (PinState::High, 1000));
         assert_eq!(drive.sign_and_duty(-torque), (PinState::Low, 1000));
     }
     for step in 1..1000 {
         let torque = step as f32 * 0.002;
-        assert_eq!(
-            drive.sign_and_duty(torque).1,
-            drive.sign_and_duty(-torque).1
-        );
+        let [forward, back] = [torque, -torque].map(|torque| drive.sign_and_duty(torque).1);
+        assert_eq!(forward, back);
     }
-    pwm.done();
-    level.done();
+    done(drive.release());
 }
 
 // The next torque sets the sign again.
@@ -146,19 +135,13 @@ fn a_pin_error_leaves_the_bridge_off() {
         digital::Transaction::set(Low).with_error(failure()),
         digital::Transaction::set(High),
     ];
-    let mut drive = SignMagnitude::new(
-        channel(&[0, 1000, 0, 0, 1000]),
-        digital::Mock::new(&levels),
-        newton_metres(1.0),
-        Direction::Forward,
-    );
+    let (pwm, pin) = (channel(&[0, 1000, 0, 0, 1000]), digital::Mock::new(&levels));
+    let mut drive = SignMagnitude::new(pwm, pin, newton_metres(1.0), Direction::Forward);
     assert_eq!(drive.set_torque(1.0), Ok(()));
     assert_eq!(drive.set_torque(-1.0), Err(DriveError::Pin(PinKind::Other)));
     // The pin may have either level.
     assert_eq!(drive.set_torque(1.0), Ok(()));
-    let (mut pwm, mut level) = drive.release();
-    pwm.done();
-    level.done();
+    done(drive.release());
 }
 
 #[test]
@@ -186,12 +169,12 @@ fn the_forward_transforms_of_the_duties_are_the_commanded_voltages() {
     let (mut worst, v_dc) = (0.0_f64, 24.0);
     for step in -200..200 {
         let angle = (step as f32) * 0.37;
-        for (d, q) in [
-            (0.0, 13.8),
-            (0.0, -13.8),
-            (5.0, 0.0),
-            (-4.0, 9.0),
-            (3.0, -1.0),
+        for [d, q] in [
+            [0.0, 13.8],
+            [0.0, -13.8],
+            [5.0, 0.0],
+            [-4.0, 9.0],
+            [3.0, -1.0],
         ] {
             let duties = Duties::new(d, q, angle, v_dc as f32);
             assert!(!duties.is_saturated);
@@ -236,12 +219,9 @@ fn too_long_a_voltage_is_shortened_in_its_direction() {
 #[test]
 fn invalid_voltages_give_no_voltage_and_finite_duties() {
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-        for inputs in [
-            [bad, 0.0, 0.0, 24.0],
-            [0.0, bad, 0.0, 24.0],
-            [0.0, 1.0, bad, 24.0],
-            [0.0, 1.0, 0.0, bad],
-        ] {
+        for place in 0..4 {
+            let mut inputs = [0.0, 1.0, 0.0, 24.0];
+            inputs[place] = bad;
             let [d, q, angle, v_dc] = inputs;
             assert_eq!(Duties::new(d, q, angle, v_dc), Duties::ZERO);
         }

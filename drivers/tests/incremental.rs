@@ -7,7 +7,7 @@ use joint_drivers::incremental::{
 };
 use joint_drivers::{Direction, EncoderMapping, JointMapping, JointRange, Resolution};
 
-use super::near_zero;
+use super::identity;
 
 /// Counts per turn of the simulated encoder.
 const TURN: i32 = 40;
@@ -15,11 +15,8 @@ const TURN: i32 = 40;
 /// The levels of A, B and Z at a count: the index is high in one state per turn.
 fn levels(count: i32) -> (bool, bool, bool) {
     let phase = count.rem_euclid(4);
-    (
-        matches!(phase, 1 | 2),
-        phase >= 2,
-        count.rem_euclid(TURN) == 2,
-    )
+    let a = matches!(phase, 1 | 2);
+    (a, phase >= 2, count.rem_euclid(TURN) == 2)
 }
 
 fn joint(mapping: EncoderMapping) -> IncrementalEncoder<QuadratureDecoder> {
@@ -77,7 +74,7 @@ fn the_joint_mapping_applies_from_the_index() {
 
 #[test]
 fn the_count_is_followed_across_the_wrap_of_16_bits() {
-    let mut encoder = joint(near_zero(JointMapping::IDENTITY));
+    let mut encoder = joint(identity());
     // Whole turns are counted from the first index that was read.
     turn(&mut encoder, 0, 20);
     assert_eq!(encoder.read(), Ok(angle(20)));
@@ -111,7 +108,7 @@ fn after_an_invalid_transition_the_position_is_unknown() {
 
 #[test]
 fn an_index_before_lost_counts_gives_no_position() {
-    let mut encoder = joint(near_zero(JointMapping::IDENTITY));
+    let mut encoder = joint(identity());
     turn(&mut encoder, 0, 8);
     let (a, b, z) = levels(10);
     encoder.counter().update(a, b, z).unwrap_err();
@@ -122,19 +119,15 @@ fn an_index_before_lost_counts_gives_no_position() {
 #[test]
 fn lost_or_added_counts_are_found_at_the_index() {
     // Two invalid transitions would be seen by the decoder; noise on a timer's input is not.
-    for excess in [-3, -1, 1, 5] {
+    // Half of 40 counts is the short way.
+    for excess in [-19, -14, -3, -1, 1, 5, 14, 19] {
         let counts = [0_u16, 7, 47_u16.wrapping_add_signed(excess), 60];
-        let indices = [
-            None,
-            Some(2),
-            Some(42_u16.wrapping_add_signed(excess)),
-            None,
-        ];
+        let last = 42_u16.wrapping_add_signed(excess);
+        let indices = [None, Some(2), Some(last), None];
         let (mut counts, mut indices) = (counts.into_iter(), indices.into_iter());
         let timer = (|| counts.next().unwrap(), || indices.next().unwrap());
         let resolution = Resolution::new(TURN as u32).unwrap();
-        let mut encoder =
-            IncrementalEncoder::new(timer, resolution, near_zero(JointMapping::IDENTITY)).unwrap();
+        let mut encoder = IncrementalEncoder::new(timer, resolution, identity()).unwrap();
         assert_eq!(encoder.read(), Err(IncrementalError::NotReferenced));
         assert_eq!(encoder.read(), Ok(resolution.angle(5)));
         let excess = i32::from(excess);
@@ -149,17 +142,13 @@ fn a_wide_index_is_tolerated_within_its_width() {
         let (mut counts, mut indices) = ([5, 50].into_iter(), [2, 42 + excess].into_iter());
         let timer = (move || counts.next().unwrap(), move || indices.next());
         let resolution = Resolution::new(TURN as u32).unwrap();
-        let mut encoder =
-            IncrementalEncoder::new(timer, resolution, near_zero(JointMapping::IDENTITY))
-                .unwrap()
-                .with_index_width(width);
+        let mut encoder = IncrementalEncoder::new(timer, resolution, identity())
+            .unwrap()
+            .with_index_width(width);
         encoder.read().unwrap();
         encoder.read()
     };
-    assert_eq!(
-        wide(2, 2),
-        Ok(Resolution::new(TURN as u32).unwrap().angle(48))
-    );
+    assert_eq!(wide(2, 2), Ok(angle(50)));
     assert_eq!(wide(3, 2), Err(IncrementalError::Index { excess: 3 }));
 }
 

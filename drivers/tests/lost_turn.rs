@@ -8,12 +8,10 @@ use std::rc::Rc;
 use dynamics_core::state::State;
 use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
 use joint_drivers::as5047p::{As5047p, FrameError, encode};
-use joint_drivers::{
-    ControlLoop, Direction, EncoderType, JointDrive, JointMapping, JointRange, Law, NoBrake,
-};
+use joint_drivers::{ControlLoop, Direction, JointDrive, JointMapping, JointRange, Law, NoBrake};
 use motion_control::{
-    CurrentTick, Estimate, Fault, Gains, Mode, MotionController, MotionControllerConfig, Reference,
-    ResetError, SafetyLimits, StopCategory, SupervisorConfig,
+    Fault, Gains, Mode, MotionController, MotionControllerConfig, Reference, ResetError,
+    SafetyLimits, StopCategory, SupervisorConfig,
 };
 
 const RATIO: f32 = 100.0;
@@ -80,12 +78,8 @@ struct Joint {
 
 impl Joint {
     fn advance(&self, brake: bool) {
-        let push = if brake {
-            0.0
-        } else {
-            f64::from(self.torque.get()) * 1e-3
-        };
-        self.qd.set(if brake { 0.0 } else { self.qd.get() + push });
+        let pushed = self.qd.get() + f64::from(self.torque.get()) * 1e-3;
+        self.qd.set(if brake { 0.0 } else { pushed });
         self.q.set(self.q.get() + self.qd.get() * 1e-3);
     }
 }
@@ -125,11 +119,17 @@ impl JointDrive for Joint {
 fn encoder(joint: &Joint) -> As5047p<Joint> {
     let mapping = JointMapping::new(0.0, Direction::Forward, RATIO).unwrap();
     // The motor turns by 0.3 rad in a tick at most: by half a turn in 11.
-    let range = JointRange::Near(0.0);
-    As5047p::new(
-        joint.clone(),
-        mapping.with_range(range, 3.0 * TICK).unwrap(),
-    )
+    let mapping = mapping.with_range(JointRange::Near(0.0), 3.0 * TICK);
+    As5047p::new(joint.clone(), mapping.unwrap())
+}
+
+type Control = ControlLoop<[As5047p<Joint>; 1], [Joint; 1], NoBrake, 1>;
+
+fn control(joint: &Joint, category: StopCategory<f32, 1>) -> Control {
+    let controller = MotionController::try_new(CONFIG).unwrap();
+    let (encoders, drives) = ([encoder(joint)], [joint.clone()]);
+    let controller = controller.with_stop(category);
+    ControlLoop::new(encoders, drives, NoBrake, GAINS, controller, ())
 }
 
 /// Frames that are lost from tick 300 on; whether the turn is lost with them.
@@ -144,93 +144,53 @@ const LOST: [(u32, bool); 8] = [
     (40, true),
 ];
 
-/// The distance of the joint from its measured position at the end, the modes of all ticks, and the
-/// last fault.
-fn alone(lost: u32, category: StopCategory<f32, 1>) -> (f64, [u32; 3], Option<Fault>) {
-    let joint = Joint::default();
-    joint.qd.set(2.0);
-    let mut encoder = encoder(&joint);
-    let controller = MotionController::<f32, 1, CurrentTick>::try_new(CONFIG).unwrap();
-    let mut controller = controller.with_stop(category);
-    let law = |reference: &State<f32, 1, 1>, estimate: &Estimate<f32, 1>| {
-        Unit::torque(&GAINS, reference, estimate, &())
-    };
-    let (mut modes, mut fault, mut measured) = ([0; 3], None, 0.0);
-    for tick in 0..2000 {
-        joint.is_broken.set((300..300 + lost).contains(&tick));
-        let read = encoder.read();
-        measured = read.unwrap_or(measured);
-        let read = read
-            .map(|q| [q])
-            .map_err(|error| As5047p::<Joint>::fault(&error, 0));
-        let command = controller.tick(read.as_ref().map_err(|fault| *fault), &Ramp, law);
-        modes[command.status.mode as usize] += 1;
-        fault = command.status.fault.or(fault);
-        joint.torque.set(command.torque[0]);
-        joint.advance(command.brake);
-    }
-    ((joint.q.get() - f64::from(measured)).abs(), modes, fault)
-}
-
 #[test]
-fn no_ride_through_ends_a_lost_turn() {
-    for (lost, is_unknown) in LOST {
-        for category in [StopCategory::ControlledOff, StopCategory::ControlledHold] {
-            let (off, [full, _, stopped], fault) = alone(lost, category);
-            if is_unknown {
-                assert_eq!(fault, Some(Fault::LostTurn { joint: 0 }), "{lost}");
-                assert!(full <= 305 && stopped > 1500, "{lost}: {full} {stopped}");
-            } else {
-                assert!(off < 1e-5 && stopped == 0, "{lost}: {off} {stopped}");
-                assert_eq!(fault, Some(Fault::Encoder { joint: 0 }));
-            }
-        }
-    }
-}
-
-#[test]
-fn a_lost_turn_is_cleared_only_by_its_place() {
-    for (lost, is_unknown) in LOST.into_iter().filter(|(lost, _)| *lost < 20) {
+fn no_ride_through_ends_a_lost_turn_which_its_place_clears() {
+    let categories = [StopCategory::ControlledOff, StopCategory::ControlledHold];
+    for (lost, category) in LOST
+        .iter()
+        .flat_map(|lost| categories.map(|one| (lost, one)))
+    {
+        let (lost, is_unknown) = *lost;
         let joint = Joint::default();
         joint.qd.set(2.0);
-        let controller = MotionController::try_new(CONFIG).unwrap();
-        let (encoders, drives) = ([encoder(&joint)], [joint.clone()]);
-        let mut control = ControlLoop::new(encoders, drives, NoBrake, GAINS, controller, ());
-        let run = |control: &mut ControlLoop<_, _, _, 1>, ticks: core::ops::Range<u32>| {
+        let mut control = control(&joint, category);
+        let (mut full, mut first) = (0, None);
+        let mut run = |control: &mut Control, ticks: core::ops::Range<u32>| {
             let mut last = None;
             for tick in ticks {
                 joint.is_broken.set((300..300 + lost).contains(&tick));
-                let telemetry = control.tick::<Unit, _, _>(&Ramp, &());
-                joint.advance(telemetry.status.mode == Mode::Stopped);
-                last = Some(telemetry.status);
+                let status = control.tick::<Unit, _, _>(&Ramp, &()).status;
+                joint.advance(status.mode == Mode::Stopped);
+                full += u32::from(status.mode == Mode::Full);
+                first = first.or(status.fault);
+                last = Some(status);
             }
-            last.unwrap()
+            (last.unwrap(), full, first)
         };
-        let status = run(&mut control, 0..1000);
+        let near_end = || assert!((joint.q.get() - END).abs() < 1e-3, "{lost}");
+        let (status, full, first) = run(&mut control, 0..2000);
+        assert_eq!(first, Some(Fault::Encoder { joint: 0 }));
         if !is_unknown {
             assert_eq!((status.mode, status.fault), (Mode::Full, None), "{lost}");
+            near_end();
             continue;
         }
         let fault = Fault::LostTurn { joint: 0 };
         assert_eq!((status.mode, status.fault), (Mode::Stopped, Some(fault)));
+        assert!(full <= 305, "{lost}: {full}");
         let error = control.encoder_error().map(|error| *error.error);
         assert_eq!(error, Some(FrameError::LostTurn));
-        assert!(
-            matches!(control.reset(&Ramp), Err(ResetError::NoMeasurement)),
-            "{lost}"
-        );
+        let refused = control.reset(&Ramp);
+        assert!(matches!(refused, Err(ResetError::NoMeasurement)), "{lost}");
         // Another sensor, or a hand that moved the joint, says where it is.
         let place = joint.q.get() as f32 + 0.02;
         control.encoders()[0].place_near(place).unwrap();
-        run(&mut control, 1000..1001);
+        run(&mut control, 2000..2001);
         control.reset(&Ramp).unwrap();
-        let status = run(&mut control, 1001..3000);
+        let (status, ..) = run(&mut control, 2001..4000);
         assert_eq!((status.mode, status.fault), (Mode::Full, None));
-        assert!(
-            (joint.q.get() - END).abs() < 1e-3,
-            "{lost}: {}",
-            joint.q.get()
-        );
+        near_end();
     }
 }
 
@@ -238,19 +198,14 @@ fn a_lost_turn_is_cleared_only_by_its_place() {
 fn ticks_that_a_timer_missed_are_missing_readings() {
     for (missed, is_unknown) in [(4, false), (9, false), (10, true), (17, true)] {
         let joint = Joint::default();
-        let controller = MotionController::try_new(CONFIG).unwrap();
-        let (encoders, drives) = ([encoder(&joint)], [joint.clone()]);
-        let mut control = ControlLoop::new(encoders, drives, NoBrake, GAINS, controller, ());
+        let mut control = control(&joint, StopCategory::ControlledOff);
         let mut fault = None;
         for tick in (0..100).chain(100 + missed..200) {
             let (telemetry, _) = control.tick_at::<Unit, _, _>(&Ramp, &(), || tick);
             fault = telemetry.status.fault.or(fault);
             joint.q.set(2e-3 * f64::from(tick + 1));
         }
-        assert_eq!(
-            fault == Some(Fault::LostTurn { joint: 0 }),
-            is_unknown,
-            "{missed}"
-        );
+        let lost = fault == Some(Fault::LostTurn { joint: 0 });
+        assert_eq!(lost, is_unknown, "{missed}");
     }
 }

@@ -17,3 +17,7 @@ mod mapping;
 fn near_zero(mapping: JointMapping) -> EncoderMapping {
     mapping.with_range(JointRange::Near(0.0), 1e-3).unwrap()
 }
+
+fn identity() -> EncoderMapping {
+    near_zero(JointMapping::IDENTITY)
+}

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::near_zero;
+use super::identity;
 use super::*;
 
 /// A bus that says in each call what is next.
@@ -20,8 +20,7 @@ impl Can for Script {
 }
 
 fn scripted(frames: &[nb::Result<FdFrame, ErrorKind>]) -> CanJoints<Script, Moteus, 2> {
-    let of = |node| Moteus::new(node, 0, 10.0, near_zero(JointMapping::IDENTITY)).unwrap();
-    CanJoints::new(Script(frames.iter().cloned().collect()), [of(1), of(2)])
+    joints(Script(frames.iter().cloned().collect()))
 }
 
 #[test]
@@ -55,15 +54,13 @@ fn the_start_commands_zero_torque() {
     let joints = joints(Bus::default());
     (&joints).start();
     let sent = joints.release().sent;
-    let of = |node| {
-        let joint = Moteus::new(node, 0, 10.0, near_zero(JointMapping::IDENTITY)).unwrap();
-        joint.set_torque::<FdFrame>(0.0).unwrap()
-    };
-    assert_eq!(sent, [of(1), of(2)]);
+    assert_eq!(sent, [torque_frame(1, 0.0), torque_frame(2, 0.0)]);
 }
 
 #[test]
 fn the_first_joint_that_failed_is_named_else_the_first_not_ready() {
+    assert_eq!(CanError::Fault(33).kind(), DriveFaultKind::Failed);
+    assert_eq!(CanError::NotReady.kind(), DriveFaultKind::NotReady);
     let (ready, waiting, fault) = ((10, 0), (0, 0), (1, 33));
     let failed = |joint| Err(at(joint, CanError::Fault(33)));
     for (states, expected) in [
@@ -106,8 +103,7 @@ impl Can for Crowded {
 #[test]
 fn every_joint_gets_a_frame_though_the_first_has_no_room() {
     for (full, joint) in [([true, false], 0), ([false, true], 1), ([true; 2], 0)] {
-        let of = |node| Moteus::new(node, 0, 10.0, near_zero(JointMapping::IDENTITY)).unwrap();
-        let joints = CanJoints::new(Crowded { sent: 0, full }, [of(1), of(2)]);
+        let joints = joints(Crowded { sent: 0, full });
         // A frame that takes another's place in the queue leaves that one unsent.
         let set = (&joints).set_torques(&[0.0; 2]);
         assert_eq!(set, Err(at(joint, CanError::Full)));
@@ -117,13 +113,10 @@ fn every_joint_gets_a_frame_though_the_first_has_no_room() {
 
 #[test]
 fn a_frame_without_a_position_keeps_the_one_before() {
-    let frame = |command: u16, data: [u8; 8]| {
-        FdFrame::new(StandardId::new(3 << 5 | command).unwrap(), &data).unwrap()
-    };
-    let half = frame(0x09, [0, 0, 0, 0x3f, 0, 0, 0, 0]);
-    let heartbeat = frame(0x01, [0, 0, 0, 0, 1, 0, 0, 0]);
+    let half = odrive_frame(0x09, HALF_A_TURN);
+    let heartbeat = odrive_frame(0x01, [0, 0, 0, 0, 1, 0, 0, 0]);
     // The target and the torque of the axis: neither a position nor a state.
-    let torques = frame(0x1c, [0; 8]);
+    let torques = odrive_frame(0x1c, [0; 8]);
     let waiting = Err(at(0, CanError::NotReady));
     // A bus hands out its last frame first.
     for frames in [
@@ -134,7 +127,7 @@ fn a_frame_without_a_position_keeps_the_one_before() {
         [heartbeat, torques, half],
         [torques, heartbeat, half],
     ] {
-        let axis = ODrive::new(3, 10.0, near_zero(JointMapping::IDENTITY)).unwrap();
+        let axis = ODrive::new(3, 10.0, identity()).unwrap();
         let joints = CanJoints::new(heard(&frames), [axis]);
         assert_eq!((&joints).read(), Ok([core::f32::consts::PI]));
         assert_eq!((&joints).set_torques(&[0.0]), waiting);

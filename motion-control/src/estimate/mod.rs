@@ -6,7 +6,7 @@ pub(crate) mod observer;
 pub(crate) mod parameter_estimator;
 pub(crate) mod payload_estimator;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 pub(crate) mod tip_wrench;
 
 pub use contact_detector::{ContactDetector, DetectedContact};

@@ -30,3 +30,13 @@ impl Numbers {
         (self.0 >> 33) as f64 / f64::from(1_u32 << 30) - 1.0
     }
 }
+
+/// The ticks after which a mean of 1/64 passes a bound, from a level towards a target.
+pub(crate) fn ticks(mut level: f64, target: f64, passed: impl Fn(f64) -> bool) -> u32 {
+    let mut ticks = 0;
+    while !passed(level) {
+        level += (target - level) / 64.0;
+        ticks += 1;
+    }
+    ticks
+}

@@ -13,18 +13,6 @@ fn single(bandwidth: f32, tick: f32) -> Observer<f32, 1> {
 }
 
 #[test]
-fn a_constant_acceleration_that_is_known_leaves_no_error() {
-    let mut observer = observer(250.0);
-    let mut estimate = observer.update(&[0.1], &[0.0]);
-    for tick in 1..500 {
-        let t = H * f64::from(tick);
-        estimate = observer.update(&[0.1 + 2.0 * t * t], &[4.0]);
-        assert!((estimate.qd[0] - 4.0 * t).abs() < 1e-9, "{tick}");
-    }
-    assert!((estimate.qd[0] - 1.996).abs() < 1e-9);
-}
-
-#[test]
 fn an_initial_error_decays_as_two_equal_poles_do() {
     let bandwidth = 150.0;
     let mut observer = observer(bandwidth);
@@ -91,11 +79,6 @@ fn useless_parameters_leave_no_gain_and_no_tick() {
     let still = single(f32::NAN, f32::NAN);
     for bad in [0.0, -1.0, f32::NAN, f32::INFINITY] {
         assert_eq!(single(200.0, bad), still, "tick {bad}");
-        let config = ObserverConfig {
-            bandwidth: 200.0,
-            tick: bad,
-        };
-        assert!(Observer::<f32, 1>::try_new(config).is_err());
     }
     for bad in [0.0, -1.0, f32::NAN] {
         assert_eq!(single(bad, 1e-3), still, "bandwidth {bad}");
@@ -111,11 +94,8 @@ fn a_late_first_position_is_no_motion() {
 
 #[test]
 fn what_is_not_finite_changes_no_estimate() {
-    let config = ObserverConfig {
-        bandwidth: 200.0_f32,
-        tick: 1e-3,
-    };
-    let mut observer: Observer<f32, 2> = Observer::new(config);
+    let (bandwidth, tick) = (200.0_f32, 1e-3);
+    let mut observer = Observer::<f32, 2>::new(ObserverConfig { bandwidth, tick });
     observer.reset(&[0.5, 1.0]);
     let before = observer;
     // The last position is near the end of the range: its velocity alone is infinite.

@@ -1,7 +1,7 @@
 //! The estimator against least squares with a whole matrix of information, as the module has them.
 
 use super::*;
-use crate::estimate::tests::{Numbers, inverse};
+use crate::estimate::tests::{Numbers, inverse, ticks};
 use crate::limits::ConfigParameter;
 
 mod config;

@@ -2,7 +2,7 @@
 //! measurement.
 
 use super::*;
-use crate::estimate::tests::{Numbers, inverse, solved};
+use crate::estimate::tests::{Numbers, inverse, solved, ticks};
 
 mod decisions;
 

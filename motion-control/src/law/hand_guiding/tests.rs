@@ -3,7 +3,6 @@
 use super::*;
 use dynamics_core::effects::smooth_sign;
 
-mod config;
 mod numbers;
 
 const BAD: [f64; 4] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX];
@@ -24,6 +23,13 @@ fn config() -> HandGuidingConfig<f64, 1> {
         wall: spring,
         lock: spring,
     }
+}
+
+/// The whole friction is compensated.
+fn full() -> HandGuidingConfig<f64, 1> {
+    let mut config = config();
+    (config.share, config.error) = (1.0, 0.0);
+    config
 }
 
 fn guiding(config: HandGuidingConfig<f64, 1>) -> HandGuiding<f64, 1> {
@@ -72,12 +78,7 @@ fn compensation_and_true_friction_together_never_have_positive_power() {
     // positive.
     assert!(power(config(), 0.12, &WIDTHS) > 0.01);
     assert!(power(config(), 0.1, &[0.05]) > 0.01);
-    let full = HandGuidingConfig {
-        share: 1.0,
-        error: 0.0,
-        ..config()
-    };
-    assert!(power(full, 0.1, &WIDTHS) > 0.1);
+    assert!(power(full(), 0.1, &WIDTHS) > 0.1);
 }
 
 #[test]
@@ -100,15 +101,10 @@ fn a_lagging_observer_keeps_the_compensation_passive() {
         }
         least
     };
-    let full = HandGuidingConfig {
-        share: 1.0,
-        error: 0.0,
-        ..config()
-    };
     for omega in [1.0, 5.0, 20.0, 100.0] {
         assert!(least(config(), 0.1, omega) > -1e-4, "{omega} rad/s");
     }
-    assert!(least(full, 0.1, 5.0) < -0.1);
+    assert!(least(full(), 0.1, 5.0) < -0.1);
 }
 
 // It is an error of the other torques.
@@ -141,46 +137,17 @@ fn walls_only_push_and_damp_inward_motion() {
             for inward in [-10.0, -0.1, 0.0, 0.1, 10.0] {
                 let push = -side * wall(side * (1.0 + depth), side * inward);
                 let spring = if depth > 0.0 { 200.0 * depth } else { 0.0 };
-                let damper = if depth > 0.0 {
-                    20.0 * f64::max(inward, 0.0)
-                } else {
-                    0.0
-                };
-                assert!(
-                    (push - (spring + damper).min(10.0)).abs() < 1e-6,
-                    "{depth} {inward}"
-                );
+                let touches = f64::from(u8::from(depth > 0.0));
+                let damper = touches * 20.0 * f64::max(inward, 0.0);
+                let off = push - (spring + damper).min(10.0);
+                assert!(off.abs() < 1e-6, "{depth} {inward}");
             }
         }
     }
-    let open = HandGuidingConfig {
-        lower: [f64::NEG_INFINITY],
-        upper: [f64::INFINITY],
-        ..config()
-    };
-    assert_eq!(
-        torque(&super::tests::guiding(open), 1e3, 1.0, 0.0, 0.0),
-        0.0
-    );
-}
-
-#[test]
-fn a_locked_joint_is_held_where_first_locked() {
-    let mut guiding = guiding(config());
-    guiding.lock(&[true], &[0.5]).expect("finite");
-    guiding.lock(&[true], &[0.7]).expect("finite");
-    assert_eq!(guiding.locked(), [true]);
-    assert!((torque(&guiding, 0.48, 0.1, 8.0, 0.0) - (200.0 * 0.02 - 2.0)).abs() < 1e-12);
-    assert_eq!(torque(&guiding, 0.0, 0.0, 8.0, 0.0), 10.0);
-    guiding
-        .lock(&[false], &[f64::NAN])
-        .expect("nothing to lock");
-    assert_eq!(torque(&guiding, 0.48, 0.0, 0.0, 0.0), 0.0);
-    assert_eq!(
-        guiding.lock(&[true], &[f64::NAN]),
-        Err(Fault::NotFinite { joint: 0 })
-    );
-    assert_eq!(guiding.locked(), [false]);
+    let mut open = config();
+    (open.lower, open.upper) = ([f64::NEG_INFINITY], [f64::INFINITY]);
+    let open = HandGuiding::try_new(open).expect("a good one");
+    assert_eq!(torque(&open, 1e3, 1.0, 0.0, 0.0), 0.0);
 }
 
 #[test]

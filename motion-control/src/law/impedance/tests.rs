@@ -161,6 +161,15 @@ fn a_jump_is_not_taken_for_a_motion() {
     }
 }
 
+fn orthogonal<R: Real, const M: usize>(vectors: &[[R; M]; M], small: f64) {
+    for (i, a) in vectors.iter().enumerate() {
+        for (j, b) in vectors.iter().enumerate() {
+            let off = dot(a, b).to_f64() - f64::from(u8::from(i == j));
+            assert!(off.abs() < small, "{i} {j} {off:e}");
+        }
+    }
+}
+
 /// Modes of M directions whose squares spread over many powers of ten, in f64 and f32: within eight
 /// passes, and orthogonal.
 fn spread<R: Real, const M: usize>(small: f64) {
@@ -194,12 +203,7 @@ fn spread<R: Real, const M: usize>(small: f64) {
         let found = modes.follow(&rows, &|x: &[R; M]| *x, &[R::ONE; M], R::ONE);
         assert!(found.search() != ModeSearch::Coupled, "{round}");
         most = most.max(found.passes);
-        for (i, a) in modes.vectors.iter().enumerate() {
-            for (j, b) in modes.vectors.iter().enumerate() {
-                let off = dot(a, b).to_f64() - f64::from(u8::from(i == j));
-                assert!(off.abs() < small, "{round} {off:e}");
-            }
-        }
+        orthogonal(&modes.vectors, small);
     }
     std::println!("{M} directions: {most} passes");
     assert!(most <= 7);
@@ -227,10 +231,5 @@ fn the_modes_stay_orthogonal() {
         });
         let _ = modes.follow(&rows, &|x: &[f32; 6]| *x, &[0.0; 6], 1e-2);
     }
-    for (i, a) in modes.vectors.iter().enumerate() {
-        for (j, b) in modes.vectors.iter().enumerate() {
-            let off = dot(a, b) - if i == j { 1.0 } else { 0.0 };
-            assert!(off.abs() < 5e-6, "{i} {j} {off:e}");
-        }
-    }
+    orthogonal(&modes.vectors, 5e-6);
 }

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::estimate::{MomentumObserver, ObserverConfig};
+use crate::tests::refused;
 
 const H: f64 = 1e-4;
 const INERTIA: f64 = 1.5;
@@ -124,19 +125,14 @@ fn only_a_passive_joint_rests_on_a_spring() {
 // Every torque is finite.
 #[test]
 fn the_dead_band_is_not_amplified_and_torques_limited() {
-    let law = InertiaShaping::try_new(InertiaShapingConfig {
-        amplification: 2.0,
-        dead_band: [3.0],
-        damping: [0.0],
-        torque: [10.0],
-    });
-    let law: InertiaShaping<f64, 1> = law.expect("a good one");
-    for (r, tau) in [
-        (2.9, 0.0),
-        (-2.9, 0.0),
-        (4.0, 2.0),
-        (-4.0, -2.0),
-        (1e3, 10.0),
+    let mut law = shaping(2.0, 0.0, 10.0);
+    law.config.dead_band = [3.0];
+    for [r, tau] in [
+        [2.9, 0.0],
+        [-2.9, 0.0],
+        [4.0, 2.0],
+        [-4.0, -2.0],
+        [1e3, 10.0],
     ] {
         assert_eq!(law.torque(&[r], &[0.0]), [tau]);
     }
@@ -170,39 +166,20 @@ fn numbers_that_are_negative_or_not_finite_are_refused() {
         damping: [1.0],
         torque: [1.0],
     };
-    for bad in [-1.0, f64::NAN, f64::INFINITY] {
-        let named = |config: InertiaShapingConfig<f64, 1>| {
-            assert_eq!(InertiaShaping::try_new(config).err(), config.check().err());
-            config.check()
-        };
-        let amplification = InertiaShapingConfig {
-            amplification: bad,
-            ..good
-        };
-        let of = |parameter| Err(ConfigError::OutOfRange { parameter });
-        assert_eq!(named(amplification), of(ConfigParameter::Amplification));
-        let joint = of(ConfigParameter::ShapedJoint);
-        assert_eq!(
-            named(InertiaShapingConfig {
-                dead_band: [bad],
-                ..good
-            }),
-            joint
-        );
-        assert_eq!(
-            named(InertiaShapingConfig {
-                damping: [bad],
-                ..good
-            }),
-            joint
-        );
-        assert_eq!(
-            named(InertiaShapingConfig {
-                torque: [bad],
-                ..good
-            }),
-            joint
-        );
+    type Change = fn(&mut InertiaShapingConfig<f64, 1>, f64);
+    let changes: [(Change, _); 4] = [
+        (|c, x| c.amplification = x, ConfigParameter::Amplification),
+        (|c, x| c.dead_band = [x], ConfigParameter::ShapedJoint),
+        (|c, x| c.damping = [x], ConfigParameter::ShapedJoint),
+        (|c, x| c.torque = [x], ConfigParameter::ShapedJoint),
+    ];
+    for (change, parameter) in changes {
+        for bad in [-1.0, f64::NAN, f64::INFINITY] {
+            let mut config = good;
+            change(&mut config, bad);
+            assert_eq!(refused(config.check()), Some(parameter));
+            assert!(InertiaShaping::try_new(config).is_err());
+        }
     }
     assert_eq!(good.check(), Ok(()));
 }

@@ -1,8 +1,8 @@
 use super::*;
-use crate::tests::{safety_limits, supervised};
 use crate::limits::{ConfigError, Fault, Mode};
 use crate::safety::SupervisorConfig;
 use crate::safety::supervisor::Supervisor;
+use crate::tests::{safety_limits, supervised};
 
 const GOOD: SafetyLimits<f32, 2> = safety_limits(
     [10.0, 0.0],
@@ -30,6 +30,14 @@ fn config(limits: SafetyLimits<f32, 2>) -> SupervisorConfig<f32, 2> {
     supervised(limits, 0.01, [0, 3, 4])
 }
 
+fn empty(joint: usize, lower: f64, upper: f64) -> SafetyLimitsError {
+    SafetyLimitsError::Empty {
+        joint,
+        lower,
+        upper,
+    }
+}
+
 #[test]
 fn limits_that_allow_nothing_are_refused_by_joint_and_name() {
     assert_eq!(GOOD.check(), Ok(()));
@@ -51,15 +59,7 @@ fn limits_that_allow_nothing_are_refused_by_joint_and_name() {
     }
     let mut limits = with(LimitKind::GreatestPosition, -1.0);
     limits.lower[1] = -0.5;
-    let (lower, upper) = (-0.5, -1.0);
-    assert_eq!(
-        limits.check(),
-        Err(SafetyLimitsError::Empty {
-            joint,
-            lower,
-            upper
-        })
-    );
+    assert_eq!(limits.check(), Err(empty(joint, -0.5, -1.0)));
     limits.lower[1] = -1.0;
     assert_eq!(limits.check(), Ok(()));
 }
@@ -72,47 +72,28 @@ fn the_text_of_a_limit_has_joint_limit_and_value() {
             .expect_err("it allows nothing");
         std::format!("{error}")
     };
-    let cases = [
+    use LimitKind::{LeastPosition, Rate, Speed, Torque};
+    for (of, limit, expected) in [
+        (Torque, -35.5, "torque limit, -35.5, is negative"),
         (
-            LimitKind::Torque,
-            -35.5,
-            "joint 1: its torque limit, -35.5, is negative",
-        ),
-        (
-            LimitKind::Torque,
+            Torque,
             f32::INFINITY,
-            "joint 1: its torque limit is infinite and has to be finite",
+            "torque limit is infinite and has to be finite",
         ),
-        (
-            LimitKind::Rate,
-            f32::NAN,
-            "joint 1: its torque rate limit is not a number",
-        ),
-        (
-            LimitKind::Speed,
-            -2.0,
-            "joint 1: its speed limit, -2, is negative",
-        ),
-        (
-            LimitKind::LeastPosition,
-            f32::NAN,
-            "joint 1: its least position is not a number",
-        ),
-    ];
-    for (of, limit, expected) in cases {
-        assert_eq!(text(of, limit), expected);
+        (Rate, f32::NAN, "torque rate limit is not a number"),
+        (Speed, -2.0, "speed limit, -2, is negative"),
+        (LeastPosition, f32::NAN, "least position is not a number"),
+    ] {
+        assert_eq!(text(of, limit), std::format!("joint 1: its {expected}"));
     }
     let mut limits = GOOD;
     (limits.lower[0], limits.upper[0]) = (2.0, 1.5);
     let error = limits.check().expect_err("an empty range");
-    assert_eq!(
-        std::format!("{}", error.named(&["shoulder"])),
-        "joint `shoulder`: its least position, 2, is above its greatest, 1.5"
-    );
-    assert_eq!(
-        std::format!("{}", error.named(&[])),
-        "joint 0: its least position, 2, is above its greatest, 1.5"
-    );
+    let range = "its least position, 2, is above its greatest, 1.5";
+    for (names, joint) in [(&["shoulder"][..], "`shoulder`"), (&[], "0")] {
+        let text = std::format!("{}", error.named(names));
+        assert_eq!(text, std::format!("joint {joint}: {range}"));
+    }
 }
 
 #[test]
@@ -176,13 +157,5 @@ fn a_margin_makes_a_range_smaller_at_both_ends() {
     let all = GOOD.with_position_margin(1.0).check();
     assert_eq!(all, Ok(()));
     let more = GOOD.with_position_margin(1.125).check();
-    let (joint, lower, upper) = (0, 0.125, -0.125);
-    assert_eq!(
-        more,
-        Err(SafetyLimitsError::Empty {
-            joint,
-            lower,
-            upper
-        })
-    );
+    assert_eq!(more, Err(empty(0, 0.125, -0.125)));
 }

@@ -1,9 +1,9 @@
 use super::*;
-use crate::tests::{Motion, controlled, motion_limits, safety_limits, stop};
 use crate::limits::Fault;
 use crate::motion::MotionControllerConfig;
 use crate::reference::Trajectory;
 use crate::safety::StopCategory;
+use crate::tests::{Motion, controlled, motion_limits, safety_limits, stop};
 
 const TICK: f64 = 1e-3;
 const LIMITS: [MotionLimits<f64>; 2] = [motion_limits(1.0, 4.0), motion_limits(2.0, 3.0)];

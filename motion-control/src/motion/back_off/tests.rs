@@ -1,6 +1,6 @@
 use super::*;
-use crate::tests::{controlled, motion_limits, safety_limits};
 use crate::motion::{CurrentTick, MotionControllerConfig};
+use crate::tests::{controlled, motion_limits, safety_limits};
 
 mod joints;
 
@@ -18,6 +18,14 @@ const SLOW: BackOffConfig<f64> = BackOffConfig {
 };
 
 type Controller = MotionController<f64, 1, CurrentTick>;
+
+/// The law of a joint under this gravity.
+fn law(gravity: f64) -> impl Fn(&State<f64, 1, 1>, &Estimate<f64, 1>) -> [f64; 1] {
+    move |r, e| {
+        let gap = [r.q[0] - e.q[0], r.qd[0] - e.qd[0]];
+        [INERTIA * r.qdd[0] - gravity + 1250.0 * gap[0] + 100.0 * gap[1]]
+    }
+}
 
 /// A joint on its brake beyond its bound, where it has been measured.
 struct Bench {
@@ -54,14 +62,7 @@ impl Bench {
     }
 
     fn back_off(&mut self, back_off: &mut BackOff<f64, 1>, push: f64) {
-        let law = |reference: &State<f64, 1, 1>, estimate: &Estimate<f64, 1>| {
-            let (e, ed) = (
-                reference.q[0] - estimate.q[0],
-                reference.qd[0] - estimate.qd[0],
-            );
-            let tau = INERTIA * reference.qdd[0] - self.gravity + 1250.0 * e + 100.0 * ed;
-            [tau + push]
-        };
+        let law = law(self.gravity - push);
         self.command = back_off.tick(&mut self.controller, Ok(&[self.q]), law);
         self.step();
     }
@@ -87,13 +88,10 @@ fn a_joint_beyond_a_bound_backs_off_under_gravity() {
             assert!(fastest < 0.6, "{fastest} {gravity}");
             assert!((side * bench.q - 0.95).abs() < 0.06, "{}", bench.q);
             // Held there; from there on as any stopped arm.
+            let rest = State::at([0.0]);
             for _ in 0..500 {
-                let law = |r: &State<f64, 1, 1>, e: &Estimate<f64, 1>| {
-                    let gap = [r.q[0] - e.q[0], r.qd[0] - e.qd[0]];
-                    [INERTIA * r.qdd[0] - gravity + 1250.0 * gap[0] + 100.0 * gap[1]]
-                };
-                let rest = State::at([0.0]);
-                bench.command = bench.controller.tick(Ok(&[bench.q]), &rest, law);
+                let measured = Ok(&[bench.q]);
+                bench.command = bench.controller.tick(measured, &rest, law(gravity));
                 bench.step();
                 assert_eq!(bench.command.status.mode, Mode::Hold);
                 assert!(bench.q.abs() <= 1.0);
@@ -123,12 +121,10 @@ fn a_joint_pushed_outwards_stops_in_its_tick() {
     // Nearer than where it began, and further than where it was.
     bench.q += 0.02;
     bench.back_off(&mut back_off, 0.0);
+    let command = bench.command;
     let fault = Some(Fault::Position { joint: 0 });
-    assert_eq!(
-        (bench.command.status.fault, bench.command.brake),
-        (fault, true)
-    );
-    assert_eq!(bench.command.torque, [0.0]);
+    assert_eq!(command.status.fault, fault);
+    assert_eq!((command.torque, command.brake), ([0.0], true));
 }
 
 #[test]
@@ -137,11 +133,8 @@ fn the_configured_bounds_hold_outside_of_its_ticks() {
     let mut back_off = BackOff::start(&mut bench.controller, &SLOW).expect("measured");
     (0..10).for_each(|_| bench.back_off(&mut back_off, 0.0));
     let rest = State::at([0.0]);
-    let status = bench
-        .controller
-        .tick(Ok(&[bench.q]), &rest, |_, _| [0.0])
-        .status;
-    assert_eq!(status.fault, Some(Fault::Position { joint: 0 }));
+    let command = bench.controller.tick(Ok(&[bench.q]), &rest, law(0.0));
+    assert_eq!(command.status.fault, Some(Fault::Position { joint: 0 }));
 }
 
 #[test]
@@ -159,14 +152,9 @@ fn by_hand_an_arm_comes_back_as_well() {
 #[test]
 fn back_off_needs_a_measurement_and_a_stop() {
     let mut controller = Controller::new(CONFIG);
-    let refused = |controller: &mut Controller| BackOff::start(controller, &SLOW).unwrap_err();
-    assert_eq!(
-        refused(&mut controller),
-        ApproachError::Reset(ResetError::NotStopped)
-    );
-    controller = controller.on_brake();
-    assert_eq!(
-        refused(&mut controller),
-        ApproachError::Reset(ResetError::NoMeasurement)
-    );
+    for reason in [ResetError::NotStopped, ResetError::NoMeasurement] {
+        let refused = BackOff::start(&mut controller, &SLOW).err();
+        assert_eq!(refused, Some(ApproachError::Reset(reason)));
+        controller = controller.on_brake();
+    }
 }

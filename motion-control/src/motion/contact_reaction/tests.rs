@@ -1,11 +1,10 @@
 //! Claims about the configuration, about what ends a reaction, and about the reset.
 
 use super::*;
-use crate::tests::{motion_limits, safety_limits, supervised};
 use crate::limits::ConfigParameter;
 use crate::limits::MotionLimits;
-use crate::motion::MotionControllerConfig;
-use crate::reference::{Trajectory, WayPoint};
+use crate::reference::Trajectory;
+use crate::tests::{controlled, motion_limits, safety_limits, stop};
 
 mod ends;
 mod motion;
@@ -33,10 +32,7 @@ fn numbers_that_are_no_configuration_are_refused_by_name() {
             response,
             release_ticks,
         };
-        match ContactReaction::<f64, 1>::try_new(config) {
-            Err(ConfigError::OutOfRange { parameter }) => Some(parameter),
-            _ => None,
-        }
+        crate::tests::refused(ContactReaction::<f64, 1>::try_new(config))
     };
     let retract = |distance, velocity, acceleration| ContactResponse::Retract {
         distance,
@@ -87,30 +83,35 @@ impl Joint {
             response,
             ..config()
         };
-        let supervisor = supervised(
+        let controller = MotionController::try_new(controlled(
             safety_limits([10.0], [10.0], [3.0], [-2.0], [2.0]),
             TICK,
             [2, hold_ticks, reentry_ticks],
-        );
-        let controller = MotionController::try_new(MotionControllerConfig {
-            supervisor,
-            observer_bandwidth: 250.0,
-            decay_rate: 25.0,
-            restart_distance: 1.0,
-        });
-        let stop = |q, ticks| WayPoint {
-            q: [q],
-            qd: [0.0],
-            ticks,
-        };
-        let limits = [motion_limits(3.0, 10.0)];
+            [250.0, 25.0, 1.0],
+        ));
+        let points = [stop([0.0], 0), stop([1.0], 1000)];
+        let motion = Trajectory::new(&points, TICK, &[motion_limits(3.0, 10.0)]);
         Self {
             controller: controller.expect("a good one"),
             reaction: ContactReaction::try_new(config).expect("a good one"),
-            motion: Trajectory::new(&[stop(0.0, 0), stop(1.0, 1000)], TICK, &limits)
-                .expect("a slow one"),
+            motion: motion.expect("a slow one"),
             q: 0.0,
         }
+    }
+
+    /// One that has followed its motion for half of it.
+    fn halfway(response: ContactResponse<f64>) -> Self {
+        let mut joint = Self::new(response);
+        joint.run(500, Ok(None));
+        joint
+    }
+
+    fn phase(&self) -> ContactPhase {
+        self.reaction.phase()
+    }
+
+    fn reset(&mut self) -> Result<(), ResetError> {
+        self.reaction.reset(&mut self.controller, &self.motion)
     }
 
     fn run(&mut self, ticks: u32, contact: Result<Option<DetectedContact<f64>>, Fault>) {
@@ -133,51 +134,48 @@ fn a_second_contact_or_lasting_fault_holds_the_retraction() {
         (CONTACT, ContactPhase::Held),
         (lost, ContactPhase::Held),
     ] {
-        let mut joint = Joint::new(config().response);
-        joint.run(500, Ok(None));
+        let mut joint = Joint::halfway(config().response);
         // The contact that began it does not end it.
         joint.run(10, CONTACT);
-        assert_eq!(joint.reaction.phase(), ContactPhase::Retracting);
+        assert_eq!(joint.phase(), ContactPhase::Retracting);
         joint.run(25, Ok(None));
         joint.run(4, again);
-        assert_eq!(joint.reaction.phase(), phase, "{again:?}");
+        assert_eq!(joint.phase(), phase, "{again:?}");
     }
 }
 
 // The arm goes on where it left its motion.
 #[test]
 fn a_reset_after_contactless_ticks_resumes_the_motion() {
-    let mut joint = Joint::new(config().response);
-    joint.run(500, Ok(None));
+    let mut joint = Joint::halfway(config().response);
     let left = joint.controller.trajectory_tick();
     joint.run(1, CONTACT);
     joint.run(2000, Ok(None));
-    assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+    assert_eq!(joint.phase(), ContactPhase::Held);
     assert!((left..left + 60).contains(&joint.controller.trajectory_tick()));
-    let reset = |joint: &mut Joint| joint.reaction.reset(&mut joint.controller, &joint.motion);
     for unknown in [CONTACT, Err(Fault::Stale)] {
         joint.run(1, unknown);
         joint.run(19, Ok(None));
-        assert_eq!(reset(&mut joint), Err(ResetError::Contact));
+        assert_eq!(joint.reset(), Err(ResetError::Contact));
         joint.run(1, Ok(None));
         assert!(joint.reaction.released());
     }
-    assert_eq!(reset(&mut joint), Ok(()));
+    assert_eq!(joint.reset(), Ok(()));
     joint.run(1000, Ok(None));
-    assert_eq!(joint.reaction.phase(), ContactPhase::Watching);
+    assert_eq!(joint.phase(), ContactPhase::Watching);
     assert!((joint.q - 1.0).abs() < 1e-9, "{}", joint.q);
     // A reset of the controller itself counts as well.
     joint.run(1, CONTACT);
-    assert_eq!(joint.reaction.phase(), ContactPhase::Retracting);
+    assert_eq!(joint.phase(), ContactPhase::Retracting);
     joint.run(25, Ok(None));
     joint.run(50, CONTACT);
-    assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+    assert_eq!(joint.phase(), ContactPhase::Held);
     assert_eq!(joint.controller.reset(&joint.motion), Ok(()));
     joint.run(1, Ok(None));
-    assert_eq!(joint.reaction.phase(), ContactPhase::Watching);
+    assert_eq!(joint.phase(), ContactPhase::Watching);
     // An arm that has no path yet stops.
     joint.run(1, CONTACT);
-    assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+    assert_eq!(joint.phase(), ContactPhase::Held);
 }
 
 const FLOAT: ContactResponse<f64> = ContactResponse::Float {
@@ -188,53 +186,47 @@ const FLOAT: ContactResponse<f64> = ContactResponse::Float {
 // This holds after a hold too.
 #[test]
 fn a_floating_arms_reference_is_its_estimate() {
-    let mut joint = Joint::new(FLOAT);
-    joint.run(500, Ok(None));
+    let mut joint = Joint::halfway(FLOAT);
     // The first tick after a hold is one of the hold.
     for first in [0, 1] {
         joint.run(first, CONTACT);
         for _ in 0..10 {
             joint.run(1, CONTACT);
             joint.q += 1e-3; // by a hand
-            assert_eq!(joint.reaction.phase(), ContactPhase::Floating);
-            let [reference, estimate] = [
-                joint.controller.reference().q,
-                joint.controller.estimate().q,
-            ];
-            assert_eq!(reference, estimate);
+            assert_eq!(joint.phase(), ContactPhase::Floating);
+            let controller = &joint.controller;
+            assert_eq!(controller.reference().q, controller.estimate().q);
         }
         joint.run(1000, Ok(None));
-        assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+        assert_eq!(joint.phase(), ContactPhase::Held);
     }
 }
 
 #[test]
 fn an_arm_floats_until_rest_or_a_lasting_fault() {
-    let mut joint = Joint::new(FLOAT);
-    joint.run(500, Ok(None));
+    let mut joint = Joint::halfway(FLOAT);
     joint.run(1, CONTACT);
     for _ in 0..40 {
         joint.run(1, Ok(None));
         joint.q += 1e-3;
     }
-    assert_eq!(joint.reaction.phase(), ContactPhase::Floating);
+    assert_eq!(joint.phase(), ContactPhase::Floating);
     joint.run(2, Err(Fault::Stale));
-    assert_eq!(joint.reaction.phase(), ContactPhase::Floating);
+    assert_eq!(joint.phase(), ContactPhase::Floating);
     joint.run(2, Err(Fault::Stale));
-    assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+    assert_eq!(joint.phase(), ContactPhase::Held);
     // A stopped arm does not float again.
     joint.controller.stop(Fault::External);
     joint.run(5, CONTACT);
-    assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+    assert_eq!(joint.phase(), ContactPhase::Held);
 }
 
 #[test]
 fn an_arm_that_is_held_for_another_reason_stays_held() {
-    let mut joint = Joint::new(FLOAT);
-    joint.run(500, Ok(None));
+    let mut joint = Joint::halfway(FLOAT);
     let hold = StopCategory::ControlledHold;
     joint.controller.stop_by(Fault::External, hold);
     joint.run(50, CONTACT);
     assert_eq!(joint.controller.mode(), Mode::Hold);
-    assert_eq!(joint.reaction.phase(), ContactPhase::Watching);
+    assert_eq!(joint.phase(), ContactPhase::Watching);
 }

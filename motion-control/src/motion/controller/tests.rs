@@ -100,20 +100,6 @@ fn the_steps_of_a_tick_are_those_of_the_closure() {
 }
 
 #[test]
-fn a_tick_without_command_faults_the_next() {
-    let mut controller = following::<PreviousTick>(50, 1);
-    let _ = controller.observe(Ok(&Cruise.at(49).q));
-    let command = controller.tick(Ok(&Cruise.at(50).q), &Cruise, |_, _| [1.0]);
-    assert_eq!(command.status.fault, Some(Fault::Unfinished));
-    assert_eq!(command.status.mode, Mode::Full);
-    for _ in 0..RIDE + HOLD {
-        let _ = controller.observe(Ok(&Cruise.at(50).q));
-    }
-    let command = controller.tick(Ok(&Cruise.at(50).q), &Cruise, |_, _| [1.0]);
-    assert_eq!((command.torque, command.brake), ([0.0], true));
-}
-
-#[test]
 fn missed_ticks_move_the_estimate_and_the_trajectory_on() {
     let mut controller = following::<PreviousTick>(100, 1);
     controller.missed(4, &Cruise);
@@ -152,9 +138,8 @@ fn a_held_arm_slows_down_and_its_trajectory_waits() {
     assert_eq!(controller.trajectory_tick(), 100 + RIDE + 40);
 }
 
-// It acts in its own tick.
 #[test]
-fn an_external_stop_lasts_until_a_reset() {
+fn a_stop_within_a_tick_acts_in_it() {
     let mut controller = following::<PreviousTick>(50, 1);
     assert_eq!(controller.reset(&Cruise), Err(ResetError::NotStopped));
     let q = Cruise.at(49).q;
@@ -163,54 +148,40 @@ fn an_external_stop_lasts_until_a_reset() {
     let command = step.command(&[1.0]);
     assert_eq!((command.torque, command.brake), ([0.0], true));
     assert_eq!(command.status.fault, Some(Fault::External));
-
-    assert!(controller.tick(LOST, &Cruise, |_, _| [1.0]).brake);
-    assert_eq!(controller.reset(&Cruise), Err(ResetError::NoMeasurement));
-    let far = [q[0] + 0.2];
-    assert!(controller.tick(Ok(&far), &Cruise, |_, _| [1.0]).brake);
-    assert_eq!(
-        controller.reset(&Cruise),
-        Err(ResetError::TooFar { joint: 0 })
-    );
-    assert!(controller.tick(Ok(&q), &Cruise, |_, _| [1.0]).brake);
-    assert_eq!(controller.reset(&Cruise), Ok(()));
-    let command = controller.tick(Ok(&q), &Cruise, |_, _| [1.0]);
-    assert_eq!((command.torque, command.status.fault), ([1.0], None));
 }
 
 #[test]
 fn numbers_outside_their_range_are_refused_by_name() {
     use core::error::Error;
-    let of = |change: fn(&mut MotionControllerConfig<f64, 1>)| {
+    type Change = fn(&mut MotionControllerConfig<f64, 1>);
+    let of = |change: Change| {
         let mut config = CONFIG;
         change(&mut config);
         MotionController::<f64, 1>::try_new(config).unwrap_err()
     };
-    for (error, parameter) in [
-        (of(|c| c.supervisor.tick = 0.0), ConfigParameter::Tick),
+    let changes: [(Change, _); 5] = [
+        (|c| c.supervisor.tick = 0.0, ConfigParameter::Tick),
         (
-            of(|c| c.supervisor.resolution = -1.0),
+            |c| c.supervisor.resolution = -1.0,
             ConfigParameter::Resolution,
         ),
         (
-            of(|c| c.observer_bandwidth = f64::NAN),
+            |c| c.observer_bandwidth = f64::NAN,
             ConfigParameter::Bandwidth,
         ),
-        (of(|c| c.decay_rate = -1.0), ConfigParameter::DecayRate),
+        (|c| c.decay_rate = -1.0, ConfigParameter::DecayRate),
         (
-            of(|c| c.restart_distance = f64::NAN),
+            |c| c.restart_distance = f64::NAN,
             ConfigParameter::RestartDistance,
         ),
-    ] {
-        assert_eq!(error, ConfigError::OutOfRange { parameter });
-        assert!(error.source().is_none());
+    ];
+    for (change, parameter) in changes {
+        assert_eq!(of(change), ConfigError::OutOfRange { parameter });
     }
     let error = of(|c| c.supervisor.limits.torque = [-1.0]);
     assert!(error.source().is_none());
-    assert_eq!(
-        error.to_string(),
-        "joint 0: its torque limit, -1, is negative"
-    );
+    let text = "joint 0: its torque limit, -1, is negative";
+    assert_eq!(error.to_string(), text);
 }
 
 // The arm has to be near its trajectory.
@@ -221,10 +192,8 @@ fn a_braked_arm_starts_only_by_a_near_reset() {
     for q in [[0.2], [0.2]] {
         let command = controller.tick(Ok(&q), &Cruise, |_, _| [1.0]);
         assert_eq!((command.torque, command.brake), ([0.0], true));
-        assert_eq!(
-            (command.status.mode, command.status.fault),
-            (Mode::Stopped, None)
-        );
+        let status = command.status;
+        assert_eq!((status.mode, status.fault), (Mode::Stopped, None));
     }
     let far = ResetError::TooFar { joint: 0 };
     assert_eq!(controller.reset(&Cruise), Err(far));

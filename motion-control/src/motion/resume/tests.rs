@@ -1,6 +1,6 @@
 use super::*;
-use crate::tests::{estimate_of, motion_limits};
-use crate::reference::{Trajectory, WayPoint};
+use crate::reference::Trajectory;
+use crate::tests::{Motion, estimate_of, motion_limits, stop};
 
 const H: f64 = 1e-3;
 const TICKS: u32 = 200;
@@ -8,12 +8,7 @@ const DECAY: f64 = 40.0;
 
 fn trajectory() -> Trajectory<f64, 1, 2> {
     let limits = [motion_limits(3.0, 20.0)];
-    let point = |q, ticks| WayPoint {
-        q: [q],
-        qd: [0.0],
-        ticks,
-    };
-    Trajectory::new(&[point(0.0, 0), point(1.5, 1000)], H, &limits).unwrap()
+    Trajectory::new(&[stop([0.0], 0), stop([1.5], 1000)], H, &limits).unwrap()
 }
 
 #[test]
@@ -98,29 +93,25 @@ fn a_whole_tick_that_has_passed_is_counted() {
     assert_eq!(resume.cancel(), 401);
 }
 
-/// A constant acceleration, of which a step between two ticks is exact.
-struct Parabola;
-
 const A: f64 = 8.0;
 
-impl Parabola {
-    fn after(seconds: f64) -> State<f64, 1, 1> {
-        State {
-            q: [0.5 * A * seconds * seconds],
-            qd: [A * seconds],
-            qdd: [A],
-        }
+/// A constant acceleration, of which a step between two ticks is exact.
+fn after(seconds: f64) -> State<f64, 1, 1> {
+    State {
+        q: [0.5 * A * seconds * seconds],
+        qd: [A * seconds],
+        qdd: [A],
     }
 }
 
-impl Reference<f64, 1> for Parabola {
-    fn at(&self, tick: u32) -> State<f64, 1, 1> {
-        Self::after(H * f64::from(tick))
-    }
-    fn ticks(&self) -> u32 {
-        u32::MAX
-    }
-}
+type Plain = Motion<fn(u32) -> State<f64, 1, 1>>;
+const PARABOLA: Plain = Motion(|tick| after(H * f64::from(tick)));
+/// A motion of one rad in each tick.
+const STEADY: Plain = Motion(|tick| State {
+    q: [tick as f64],
+    qd: [1.0 / H],
+    qdd: [0.0],
+});
 
 #[test]
 fn between_two_ticks_the_trajectory_is_extrapolated() {
@@ -130,9 +121,9 @@ fn between_two_ticks_the_trajectory_is_extrapolated() {
     for tick in 0..TICKS {
         let share = f64::from(tick) / f64::from(TICKS);
         let [w, slope, _] = resume.weights(share);
-        let goal = resume.goal(&Parabola, share, w, slope);
+        let goal = resume.goal(&PARABOLA, share, w, slope);
         let ticks = f64::from(clock + resume.advanced) + resume.fraction;
-        let exact = Parabola::after(H * ticks);
+        let exact = after(H * ticks);
         let rates = [w * exact.qd[0], w * w * A + slope * exact.qd[0]];
         assert!((goal.q[0] - exact.q[0]).abs() < 1e-12, "{tick}");
         assert!((goal.qd[0] - rates[0]).abs() < 1e-12, "{tick}");
@@ -147,27 +138,12 @@ fn the_acceleration_of_a_return_is_that_of_its_velocity() {
     let start = estimate_of([0.0], [1.0]);
     resume.start(&start, 100);
     let way: Vec<_> = (0..TICKS)
-        .map(|tick| resume.at(&Parabola, f64::from(tick) / f64::from(TICKS)))
+        .map(|tick| resume.at(&PARABOLA, f64::from(tick) / f64::from(TICKS)))
         .collect();
     for pair in way.windows(2) {
         let mean = 0.5 * (pair[0].qdd[0] + pair[1].qdd[0]);
         let change = pair[1].qd[0] - pair[0].qd[0] - H * mean;
         assert!(change.abs() < 2e-4, "{change}");
-    }
-}
-
-/// A motion of one rad in each tick.
-struct Steady;
-
-impl Reference<f64, 1> for Steady {
-    fn at(&self, tick: u32) -> State<f64, 1, 1> {
-        State {
-            qd: [1.0 / H],
-            ..State::at([f64::from(tick)])
-        }
-    }
-    fn ticks(&self) -> u32 {
-        u32::MAX
     }
 }
 
@@ -177,10 +153,10 @@ fn before_the_return_no_time_passes() {
     let mut resume = ResumeTrajectory::<f64, 1>::new(H, DECAY, 4);
     let start = estimate_of([0.5], [0.0]);
     resume.start(&start, 400);
-    assert_eq!(resume.at(&Steady, 0.0).q, [0.5]);
+    assert_eq!(resume.at(&STEADY, 0.0).q, [0.5]);
     assert_eq!((resume.fraction, resume.advanced), (0.0, 0));
     // w at 1/8, the middle of the first quarter: 0.125³ · (10 − 15/8 + 6/64).
-    resume.at(&Steady, 0.25);
+    resume.at(&STEADY, 0.25);
     assert!((resume.fraction - 0.016_052_246_093_75).abs() < 1e-15);
 }
 
@@ -190,9 +166,9 @@ fn a_speed_that_decays_within_a_tick_does_not_turn_back() {
         let mut resume = ResumeTrajectory::<f64, 1>::new(H, decay, TICKS);
         let start = estimate_of([0.25], [2.0]);
         resume.start(&start, 400);
-        resume.at(&Steady, 0.0);
+        resume.at(&STEADY, 0.0);
         assert_eq!((resume.rest.q, resume.rest.qd), ([0.25], [2.0]));
-        resume.at(&Steady, 1.0 / f64::from(TICKS));
+        resume.at(&STEADY, 1.0 / f64::from(TICKS));
         let [qd] = resume.rest.qd;
         assert!((qd - 2.0 * keep).abs() < 1e-12, "{qd}");
         // The mean speed of the tick.

@@ -1,8 +1,9 @@
 //! Peaks against dense sampling, ends, and what makes no trajectory.
 
 use super::segment::sqrt;
-use crate::tests::motion_limits;
 use super::*;
+use crate::estimate::tests::Numbers;
+use crate::tests::motion_limits;
 
 const FREE: MotionLimits<f64> = motion_limits(1e9, 1e9);
 
@@ -11,19 +12,8 @@ fn stop(q: f64, ticks: u32) -> WayPoint<f64, 1> {
 }
 
 fn pass(q: f64, qd: f64, ticks: u32) -> WayPoint<f64, 1> {
-    WayPoint {
-        q: [q],
-        qd: [qd],
-        ticks,
-    }
-}
-
-/// Repeatable numbers in ±1.
-fn noise(seed: &mut u64) -> f64 {
-    *seed = seed
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
-    (*seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    let (q, qd) = ([q], [qd]);
+    WayPoint { q, qd, ticks }
 }
 
 #[test]
@@ -37,15 +27,15 @@ fn roots_are_square_roots() {
 #[test]
 #[cfg_attr(miri, ignore = "18 million samples")]
 fn peaks_are_those_of_dense_sampling() {
-    let mut seed = 1;
+    let mut numbers = Numbers(1);
     // Miri takes a minute for what is a second otherwise.
     for _ in 0..if cfg!(miri) { 1 } else { 60 } {
-        let [a, b] = [noise(&mut seed), noise(&mut seed)];
+        let [a, b] = [(); 2].map(|()| numbers.next());
         let points = [
             stop(0.0, 0),
-            pass(a, 3.0 * noise(&mut seed), 700),
-            pass(b, 3.0 * noise(&mut seed), 900),
-            stop(noise(&mut seed), 500),
+            pass(a, 3.0 * numbers.next(), 700),
+            pass(b, 3.0 * numbers.next(), 900),
+            stop(numbers.next(), 500),
         ];
         let motion = Trajectory::new(&points, 1e-3, &[FREE]).unwrap();
         for (point, segment) in (1..4).zip(&motion.segments.each) {
@@ -58,17 +48,14 @@ fn peaks_are_those_of_dense_sampling() {
                 segment.check(point, &[motion_limits(velocity, acceleration)])
             };
             let close = 1.0 + 1e-6;
+            let near = |needed: f64, peak: f64| (1.0 - 1e-12..=close).contains(&(needed / peak));
             assert_eq!(limit(qd * close, qdd * close), Ok(()));
             match limit(qd / close, qdd) {
-                Err(TrajectoryError::Velocity { needed, .. }) => {
-                    assert!(needed >= qd * (1.0 - 1e-12) && needed <= qd * close);
-                }
+                Err(TrajectoryError::Velocity { needed, .. }) if near(needed, qd) => {}
                 other => panic!("{other:?}"),
             }
             match limit(qd * close, qdd / close) {
-                Err(TrajectoryError::Acceleration { needed, .. }) => {
-                    assert!(needed >= qdd * (1.0 - 1e-12) && needed <= qdd * close);
-                }
+                Err(TrajectoryError::Acceleration { needed, .. }) if near(needed, qdd) => {}
                 other => panic!("{other:?}"),
             }
         }
@@ -93,49 +80,32 @@ fn velocity_and_acceleration_are_the_derivatives() {
 
 #[test]
 fn way_points_are_met_exactly() {
-    let points = [
-        stop(0.3, 0),
-        pass(1.1, 0.7, 1234),
-        pass(0.9, -0.2, 777),
-        stop(0.1, 400),
-    ];
+    let between = [pass(1.1, 0.7, 1234), pass(0.9, -0.2, 777)];
+    let points = [stop(0.3, 0), between[0], between[1], stop(0.1, 400)];
     let motion = Trajectory::new(&points, 1e-3, &[FREE]).unwrap();
     let mut tick = 0;
     for (at, point) in points.iter().enumerate() {
         tick += point.ticks;
         let state = motion.at(tick);
         assert_eq!((state.q, state.qd, state.qdd), (point.q, point.qd, [0.0]));
-        if let Some(segment) = at
-            .checked_sub(1)
-            .and_then(|at| motion.segments.each.get(at))
-        {
-            let end = segment.at(1.0);
+        if at > 0 {
+            let end = motion.segments.each[at - 1].at(1.0);
             assert_eq!((end.qd, end.qdd), (point.qd, [0.0]));
             assert!((end.q[0] - point.q[0]).abs() < 1e-15);
         }
     }
-    assert_eq!(
-        (motion.ticks(), motion.at(u32::MAX)),
-        (2411, State::at([0.1]))
-    );
+    assert_eq!(motion.ticks(), 2411);
+    assert_eq!(motion.at(u32::MAX), State::at([0.1]));
 }
 
 #[test]
 fn a_day_later_a_move_has_the_same_bits() {
     let day = 86_400_000;
-    let end = WayPoint {
-        q: [1.0_f32],
-        qd: [0.0],
-        ticks: 1000,
-    };
-    let points = [
-        WayPoint { ticks: 0, ..end },
-        WayPoint { ticks: day, ..end },
-        WayPoint { q: [2.0], ..end },
-    ];
+    let end = |q: f32, ticks| crate::tests::stop([q], ticks);
+    let points = [end(1.0, 0), end(1.0, day), end(2.0, 1000)];
     let limits = [motion_limits(2.0, 10.0)];
     let late = Trajectory::new(&points, 1e-3, &limits).unwrap();
-    let early = Trajectory::new(&[WayPoint { ticks: 0, ..end }, points[2]], 1e-3, &limits);
+    let early = Trajectory::new(&[points[0], points[2]], 1e-3, &limits);
     let early = early.unwrap();
     for tick in 0..=1001 {
         assert_eq!(late.at(day + tick), early.at(tick));
@@ -152,38 +122,23 @@ fn unusable_way_points_are_named() {
         new(points)
     };
     assert_eq!(new(good), None);
+    let joint = 0;
+    let moving = |point| TrajectoryError::NotAtRest { point, joint };
+    let none = TrajectoryError::NotFinite { point: 1, joint };
     for (at, point, error) in [
         (0, stop(0.0, 1), TrajectoryError::Ticks { point: 0 }),
         (1, stop(1.0, 0), TrajectoryError::Ticks { point: 1 }),
         (2, stop(0.0, u32::MAX), TrajectoryError::Ticks { point: 2 }),
-        (
-            0,
-            pass(0.0, 0.1, 0),
-            TrajectoryError::NotAtRest { point: 0, joint: 0 },
-        ),
-        (
-            2,
-            pass(0.0, 0.1, 9),
-            TrajectoryError::NotAtRest { point: 2, joint: 0 },
-        ),
-        (
-            1,
-            stop(f64::NAN, 9),
-            TrajectoryError::NotFinite { point: 1, joint: 0 },
-        ),
-        (
-            1,
-            pass(0.0, f64::INFINITY, 9),
-            TrajectoryError::NotFinite { point: 1, joint: 0 },
-        ),
+        (0, pass(0.0, 0.1, 0), moving(0)),
+        (2, pass(0.0, 0.1, 9), moving(2)),
+        (1, stop(f64::NAN, 9), none),
+        (1, pass(0.0, f64::INFINITY, 9), none),
     ] {
         assert_eq!(with(at, point), Some(error));
     }
     for tick in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert_eq!(
-            Trajectory::new(&good, tick, &[FREE]).err(),
-            Some(TrajectoryError::Tick)
-        );
+        let refused = Trajectory::new(&good, tick, &[FREE]).err();
+        assert_eq!(refused, Some(TrajectoryError::Tick));
     }
 }
 

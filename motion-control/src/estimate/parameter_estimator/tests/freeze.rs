@@ -26,21 +26,11 @@ fn update(pair: &mut Pair, joint: usize, residual: f64) -> Result<(), RejectedRo
     pair.update(joint, &row(joint), residual)
 }
 
-/// The rows after which a mean of 1/64 passes a bound, from a level towards a target.
-fn rows(mut level: f64, target: f64, passed: impl Fn(f64) -> bool) -> usize {
-    let mut rows = 0;
-    while !passed(level) {
-        level += (target - level) / 64.0;
-        rows += 1;
-    }
-    rows
-}
-
 /// One that is frozen by the second joint, and the level of that.
 fn frozen() -> (Pair, f64) {
     let mut pair = pair();
     let joint = 1;
-    let until = rows(1.0, MOST, |level| level > 0.25 * MOST);
+    let until = ticks(1.0, MOST, |level| level > 0.25 * MOST);
     for _ in 1..until {
         assert_eq!(
             update(&mut pair, joint, 99.0),
@@ -53,7 +43,7 @@ fn frozen() -> (Pair, f64) {
         Err(RejectedRow::Frozen { joint })
     );
     assert_eq!(pair.frozen(), Some(joint));
-    assert_eq!(pair.rejected(), &[0, until as u32]);
+    assert_eq!(pair.rejected(), &[0, until]);
     let level = pair.consistency()[joint];
     (pair, level)
 }
@@ -97,7 +87,7 @@ fn a_row_at_the_limit_is_no_outlier() {
 fn consistent_rows_of_its_joint_thaw_the_estimate() {
     let (mut pair, level) = frozen();
     let joint = 1;
-    let until = rows(level, 0.0, |level| level <= 0.16 * MOST);
+    let until = ticks(level, 0.0, |level| level <= 0.16 * MOST);
     for _ in 1..until {
         assert_eq!(
             update(&mut pair, joint, 0.0),

@@ -41,12 +41,12 @@ fn compensation_is_a_share_less_the_error_of_either_sign() {
     }
     let none = [0.0; 2];
     // Nothing up to the speed of rest, all of it from twice that speed on.
-    for (speed, share) in [
-        (0.5, 0.0),
-        (1.0, 0.0),
-        (1.25, 0.25),
-        (1.75, 0.75),
-        (2.0, 1.0),
+    for [speed, share] in [
+        [0.5, 0.0],
+        [1.0, 0.0],
+        [1.25, 0.25],
+        [1.75, 0.75],
+        [2.0, 1.0],
     ] {
         let qd = [0.01 * speed, -0.02 * speed];
         let tau = torque(qd, [4.0, -8.0], none);
@@ -82,36 +82,76 @@ fn each_joint_has_its_own_walls_and_its_own_lock() {
     guiding.lock(&[true, true], &[0.5, 7.0]).expect("finite");
     // The one that was locked stays where it was.
     near(at(&guiding, [0.48, 0.98], none), [2.0, 6.0]);
-    // At a wall a locked joint has both.
-    guiding.lock(&[true, false], &[0.5, 0.0]).expect("finite");
+    assert_eq!(guiding.locked(), [true; 2]);
+    // At a wall a locked joint has both. There is nothing to lock of the other one.
+    guiding
+        .lock(&[true, false], &[0.5, f64::NAN])
+        .expect("finite");
     near(at(&guiding, [1.51, 0.0], none), [-5.0 - 1.0, 0.0]);
 }
 
 #[test]
-fn every_joint_of_a_configuration_is_checked() {
-    use crate::limits::ConfigParameter::{Compensation, Lock, RestSpeed, Wall, WallPosition};
+fn every_number_of_a_configuration_is_checked() {
+    use crate::limits::ConfigParameter::*;
     let good = two();
     assert_eq!(good.check(), Ok(()));
-    type Change = fn(&mut HandGuidingConfig<f64, 2>, usize);
+    let refuse = |change: &dyn Fn(&mut HandGuidingConfig<f64, 2>), parameter| {
+        let mut config = good;
+        change(&mut config);
+        let refused = ConfigError::OutOfRange { parameter };
+        assert_eq!(config.check(), Err(refused));
+        assert_eq!(HandGuiding::try_new(config).err(), Some(refused));
+    };
+    type Change = fn(&mut HandGuidingConfig<f64, 2>, usize, f64);
     let changes: [(Change, _); 10] = [
-        (|c, k| c.rest_speed[k] = 0.0, RestSpeed),
-        (|c, k| c.compensation[k] = -1.0, Compensation),
-        (|c, k| c.lower[k] = 9.0, WallPosition),
-        (|c, k| c.upper[k] = -9.0, WallPosition),
-        (|c, k| c.wall.stiffness[k] = -1.0, Wall),
-        (|c, k| c.wall.damping[k] = -1.0, Wall),
-        (|c, k| c.wall.torque[k] = -1.0, Wall),
-        (|c, k| c.lock.stiffness[k] = -1.0, Lock),
-        (|c, k| c.lock.damping[k] = -1.0, Lock),
-        (|c, k| c.lock.torque[k] = -1.0, Lock),
+        (|c, _, x| c.error = x, FrictionError),
+        (|c, _, x| c.share = x, CompensatedShare),
+        (|c, k, x| c.rest_speed[k] = x, RestSpeed),
+        (|c, k, x| c.compensation[k] = x, Compensation),
+        (|c, k, x| c.wall.stiffness[k] = x, Wall),
+        (|c, k, x| c.wall.damping[k] = x, Wall),
+        (|c, k, x| c.wall.torque[k] = x, Wall),
+        (|c, k, x| c.lock.stiffness[k] = x, Lock),
+        (|c, k, x| c.lock.damping[k] = x, Lock),
+        (|c, k, x| c.lock.torque[k] = x, Lock),
     ];
-    for (change, parameter) in changes {
-        for joint in 0..2 {
-            let mut config = good;
-            change(&mut config, joint);
-            let refused = Err(ConfigError::OutOfRange { parameter });
-            assert_eq!(config.check(), refused, "joint {joint}");
-            assert!(HandGuiding::try_new(config).is_err());
+    for joint in 0..2 {
+        for (change, parameter) in changes {
+            for bad in [-0.1, f64::NAN, f64::INFINITY] {
+                refuse(&|c| change(c, joint, bad), parameter);
+            }
         }
+        refuse(&|c| c.rest_speed[joint] = 0.0, RestSpeed);
+        for [lower, upper] in [[9.0, 2.5], [-1.0, -9.0], [1.0, 1.0], [f64::NAN, 1.0]] {
+            let walls = |c: &mut HandGuidingConfig<f64, 2>| {
+                (c.lower[joint], c.upper[joint]) = (lower, upper);
+            };
+            refuse(&walls, WallPosition);
+        }
+    }
+    // The error leaves 1/1.25.
+    refuse(&|c| c.share = 0.81, CompensatedShare);
+}
+
+#[test]
+fn a_share_that_is_rounded_to_the_error_is_a_configuration() {
+    let zero = LimitedSpring {
+        stiffness: [0.0],
+        damping: [0.0],
+        torque: [0.0],
+    };
+    for k in 0..1000 {
+        let error = 1e-3 * k as f32;
+        let config = HandGuidingConfig::<f32, 1> {
+            error,
+            share: 1.0 / (1.0 + error),
+            rest_speed: [1.0],
+            compensation: [0.0],
+            lower: [-1.0],
+            upper: [1.0],
+            wall: zero,
+            lock: zero,
+        };
+        assert_eq!(config.check(), Ok(()), "{error}");
     }
 }

@@ -1,7 +1,7 @@
 //! The parts of a return, of joints at either side of ranges that are not centred.
 
 use super::*;
-use crate::tests::{safety_limits, supervised};
+use crate::tests::{controlled, safety_limits};
 
 const LOWER: [f64; 3] = [-1.0, 0.5, -1.0];
 const UPPER: [f64; 3] = [0.5, 2.0, 1.0];
@@ -13,14 +13,8 @@ type Arm = MotionController<f64, 3, CurrentTick>;
 
 fn arm(q: [f64; 3]) -> Arm {
     let limits = safety_limits([LIMIT; 3], [LIMIT; 3], [3.0; 3], LOWER, UPPER);
-    let supervisor = supervised(limits, TICK, [2, 100, 50]);
-    let mut arm = Arm::new(MotionControllerConfig {
-        supervisor,
-        observer_bandwidth: 250.0,
-        decay_rate: 25.0,
-        restart_distance: 0.1,
-    })
-    .on_brake();
+    let numbers = [250.0, 25.0, 0.1];
+    let mut arm = Arm::new(controlled(limits, TICK, [2, 100, 50], numbers)).on_brake();
     arm.tick(Ok(&q), &State::at(q), |_, _| [0.0; 3]);
     arm
 }
@@ -113,42 +107,37 @@ fn limited(at: [f64; 3], speeds: [f64; 3], mut tau: [f64; 3]) -> [f64; 3] {
 
 #[test]
 fn an_outward_torque_brakes_no_more_than_the_speed_needs() {
-    let near = |got: [f64; 3], expected: [f64; 3]| {
-        let gap = |joint: usize| (got[joint] - expected[joint]).abs();
-        assert!(
-            (0..3).all(|joint| gap(joint) < 1e-6),
-            "{got:?} {expected:?}"
-        );
-    };
-    // Half of the greatest speed inwards, and outwards.
-    let inwards = [-0.25, 0.25, 0.0];
-    near(
-        limited(FROM, inwards, [30.0, -30.0, 30.0]),
-        [20.0, -20.0, 30.0],
-    );
-    near(
-        limited(FROM, inwards, [10.0, -10.0, 30.0]),
-        [10.0, -10.0, 30.0],
-    );
-    near(
-        limited(FROM, [0.25, -0.25, 0.0], [30.0, -30.0, 0.0]),
-        [0.0; 3],
-    );
-    near(
-        limited(FROM, [-9.0, 9.0, 0.0], [99.0, -99.0, 0.0]),
-        [40.0, -40.0, 0.0],
-    );
-    // Torques that point inwards are as they were, and so are all of a joint that is back.
-    near(
-        limited(FROM, [0.0; 3], [-30.0, 30.0, 0.0]),
-        [-30.0, 30.0, 0.0],
-    );
-    near(
-        limited([0.25, 0.75, 2.0], [0.0; 3], [30.0, -30.0, 30.0]),
-        [30.0, -30.0, 30.0],
-    );
-    let at_bound = limited([0.5, 0.5, 1.0], [0.0; 3], [30.0, -30.0, 0.0]);
-    assert_eq!(at_bound, [30.0, -30.0, 0.0]);
+    let (inwards, rest) = ([-0.25, 0.25, 0.0], [0.0; 3]);
+    for (at, speeds, tau, expected) in [
+        // Half of the greatest speed inwards, and outwards.
+        (FROM, inwards, [30.0, -30.0, 30.0], [20.0, -20.0, 30.0]),
+        (FROM, inwards, [10.0, -10.0, 30.0], [10.0, -10.0, 30.0]),
+        (FROM, [0.25, -0.25, 0.0], [30.0, -30.0, 0.0], rest),
+        (
+            FROM,
+            [-9.0, 9.0, 0.0],
+            [99.0, -99.0, 0.0],
+            [40.0, -40.0, 0.0],
+        ),
+        // Torques that point inwards are as they were, and so are all of a joint that is back.
+        (FROM, rest, [-30.0, 30.0, 0.0], [-30.0, 30.0, 0.0]),
+        (
+            [0.25, 0.75, 2.0],
+            rest,
+            [30.0, -30.0, 30.0],
+            [30.0, -30.0, 30.0],
+        ),
+        (
+            [0.5, 0.5, 1.0],
+            rest,
+            [30.0, -30.0, 0.0],
+            [30.0, -30.0, 0.0],
+        ),
+    ] {
+        let got = limited(at, speeds, tau);
+        let near = (0..3).all(|joint| (got[joint] - expected[joint]).abs() < 1e-6);
+        assert!(near, "{got:?} {expected:?}");
+    }
 }
 
 /// Leads an arm that follows exactly back; the ticks of its path, those with the brake open, and

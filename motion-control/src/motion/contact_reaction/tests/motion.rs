@@ -6,16 +6,14 @@ use super::*;
 // This holds whatever the ticks of a return are.
 #[test]
 fn a_retraction_keeps_its_limits() {
-    let response = ContactResponse::Retract {
-        distance: 0.1,
-        limits: SLOW,
-    };
+    let (distance, limits) = (0.1, SLOW);
+    let response = ContactResponse::Retract { distance, limits };
     for (reentry_ticks, contact) in [(10, 400), (10, 500), (10, 503), (400, 500)] {
         let mut joint = Joint::with_ticks(response, 30, reentry_ticks);
         joint.run(contact, Ok(None));
         let mut path = Vec::new();
         joint.run(1, CONTACT);
-        while joint.reaction.phase() == ContactPhase::Retracting {
+        while joint.phase() == ContactPhase::Retracting {
             path.push(joint.controller.reference().q[0]);
             joint.run(1, Ok(None));
         }
@@ -27,11 +25,8 @@ fn a_retraction_keeps_its_limits() {
         let speeds = rates(&path);
         let (speed, acceleration) = (peak(&speeds), peak(&rates(&speeds)));
         let limits = (speed / SLOW.velocity, acceleration / SLOW.acceleration);
-        assert!(
-            limits.0 <= 1.0 && limits.1 <= 1.0,
-            "{reentry_ticks}: {limits:?}"
-        );
-        assert!(limits.0.max(limits.1) > 0.6, "{limits:?}");
+        let most = f64::max(limits.0, limits.1);
+        assert!((0.6..=1.0).contains(&most), "{reentry_ticks}: {limits:?}");
         let went = path[0] - path[path.len() - 1];
         assert!((0.095..0.11).contains(&went), "{went}");
     }
@@ -56,14 +51,13 @@ fn an_arm_does_not_retract_to_where_it_was_stopped() {
     assert_eq!(joint.controller.reset(&joint.motion), Ok(()));
     joint.run(5, Ok(None));
     joint.run(2, CONTACT);
-    assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+    assert_eq!(joint.phase(), ContactPhase::Held);
 }
 
 #[test]
 fn the_motion_clock_stands_still_during_a_reaction() {
     for response in [config().response, FLOAT] {
-        let mut joint = Joint::new(response);
-        joint.run(500, Ok(None));
+        let mut joint = Joint::halfway(response);
         let left = joint.controller.trajectory_tick();
         for tick in 0..100 {
             joint.run(1, CONTACT);
@@ -73,7 +67,7 @@ fn the_motion_clock_stands_still_during_a_reaction() {
             joint.controller.missed(1, &joint.motion);
             assert_eq!(joint.controller.trajectory_tick(), left);
             assert_eq!(*joint.controller.reference(), before);
-            assert_ne!(joint.reaction.phase(), ContactPhase::Watching);
+            assert_ne!(joint.phase(), ContactPhase::Watching);
         }
     }
 }
@@ -81,26 +75,23 @@ fn the_motion_clock_stands_still_during_a_reaction() {
 #[test]
 fn pushes_do_not_move_the_clock_of_the_motion() {
     for response in [config().response, FLOAT] {
-        let mut joint = Joint::new(response);
-        joint.run(500, Ok(None));
+        let mut joint = Joint::halfway(response);
         let left = joint.controller.trajectory_tick();
         for _ in 0..5 {
             joint.run(1, CONTACT);
             joint.run(1500, Ok(None));
-            assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+            assert_eq!(joint.phase(), ContactPhase::Held);
             assert_eq!(joint.controller.trajectory_tick(), left, "{response:?}");
         }
         // Nor does a fault that ends the reaction.
-        let mut joint = Joint::new(response);
-        joint.run(500, Ok(None));
+        let mut joint = Joint::halfway(response);
         joint.run(1, CONTACT);
         joint.run(10, Err(Fault::Stale));
-        assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+        assert_eq!(joint.phase(), ContactPhase::Held);
         assert_eq!(joint.controller.trajectory_tick(), left, "{response:?}");
     }
     // A stop leads its motion by 1/λ.
-    let mut joint = Joint::new(ContactResponse::Stop);
-    joint.run(500, Ok(None));
+    let mut joint = Joint::halfway(ContactResponse::Stop);
     let left = joint.controller.trajectory_tick();
     joint.run(100, CONTACT);
     assert_eq!(joint.controller.trajectory_tick(), left + 40);

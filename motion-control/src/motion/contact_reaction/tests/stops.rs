@@ -4,24 +4,19 @@ use super::*;
 
 /// An arm that floats, or that has floated and is held.
 fn floated(held: bool) -> Joint {
-    let mut joint = Joint::new(FLOAT);
-    joint.run(500, Ok(None));
+    let mut joint = Joint::halfway(FLOAT);
     joint.run(1, CONTACT);
     if held {
         joint.run(1000, Ok(None));
-        assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+        assert_eq!(joint.phase(), ContactPhase::Held);
     }
     joint
 }
 
 #[test]
 fn a_push_does_not_release_an_operators_stop() {
-    let categories = [
-        StopCategory::ControlledHold,
-        StopCategory::ControlledOff,
-        StopCategory::TorqueOff,
-    ];
-    for category in categories {
+    use StopCategory::{ControlledHold, ControlledOff, TorqueOff};
+    for category in [ControlledHold, ControlledOff, TorqueOff] {
         for held in [false, true] {
             let mut joint = floated(held);
             joint.controller.stop_by(Fault::External, category);
@@ -29,7 +24,7 @@ fn a_push_does_not_release_an_operators_stop() {
                 joint.run(100, Ok(None));
                 joint.run(100, CONTACT);
                 assert_ne!(joint.controller.mode(), Mode::Full, "{category:?} {held}");
-                assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+                assert_eq!(joint.phase(), ContactPhase::Held);
             }
         }
     }
@@ -39,7 +34,7 @@ fn a_push_does_not_release_an_operators_stop() {
         joint.run(1000, Ok(None));
         joint.run(2, CONTACT);
         assert_eq!(joint.controller.mode(), Mode::Full);
-        assert_eq!(joint.reaction.phase(), ContactPhase::Floating);
+        assert_eq!(joint.phase(), ContactPhase::Floating);
     }
 }
 
@@ -52,11 +47,11 @@ fn a_stop_during_a_push_survives_the_next_push() {
         tick.stop_by(Fault::External, StopCategory::ControlledHold);
         assert_eq!(tick.mode(), Mode::Hold);
         tick.command(&[0.0]);
-        assert_eq!(joint.reaction.phase(), ContactPhase::Floating);
+        assert_eq!(joint.phase(), ContactPhase::Floating);
         joint.run(100, Ok(None));
         joint.run(100, CONTACT);
         assert_eq!(joint.controller.mode(), Mode::Hold, "{held}");
-        assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+        assert_eq!(joint.phase(), ContactPhase::Held);
     }
 }
 
@@ -67,14 +62,13 @@ fn an_arm_floats_again_after_stop_and_reset() {
         let hold = StopCategory::ControlledHold;
         joint.controller.stop_by(Fault::External, hold);
         joint.run(100, Ok(None));
-        let reset = joint.reaction.reset(&mut joint.controller, &joint.motion);
-        assert_eq!(reset, Ok(()));
+        assert_eq!(joint.reset(), Ok(()));
         joint.run(500, Ok(None));
         joint.run(1, CONTACT);
         joint.run(1000, Ok(None));
-        assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+        assert_eq!(joint.phase(), ContactPhase::Held);
         joint.run(2, CONTACT);
-        assert_eq!(joint.reaction.phase(), ContactPhase::Floating);
+        assert_eq!(joint.phase(), ContactPhase::Floating);
     }
 }
 
@@ -85,7 +79,7 @@ fn the_next_stop_decelerates_a_floating_arm() {
     joint.run(500, Ok(None));
     joint.run(1, CONTACT);
     joint.run(1500, Ok(None));
-    assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+    assert_eq!(joint.phase(), ContactPhase::Held);
     assert_eq!(joint.controller.reference().qd, [0.0]);
     for _ in 0..50 {
         joint.run(1, CONTACT);

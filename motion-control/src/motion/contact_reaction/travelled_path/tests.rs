@@ -59,10 +59,7 @@ fn the_retraction_follows_the_path_from_rest_to_rest() {
     // The joint that moves most is another one at each end of the path.
     let steps = (1..=path.ticks()).map(|tick| [path.at(tick - 1).q, path.at(tick).q]);
     let went: f64 = steps.map(|[a, b]| most((0..2).map(|j| b[j] - a[j]))).sum();
-    assert!(
-        (0.995 * DISTANCE..1.005 * DISTANCE).contains(&went),
-        "{went}"
-    );
+    assert!((went / DISTANCE - 1.0).abs() < 5e-3, "{went}");
     // Fewer points cut the bend.
     let [few, many] = [off(&travelled::<4>()), off(&path)];
     assert!(many < 3e-4 && few > 10.0 * many, "{many} {few}");
@@ -76,12 +73,8 @@ fn the_retraction_is_as_fast_as_its_limits_allow() {
         let from = path.point(0);
         assert!(path.plan(&from, TICK, &limits));
         let [speed, change] = peaks(&path);
-        assert!(
-            speed <= velocity && change <= acceleration,
-            "{speed} {change}"
-        );
         let share = (speed / velocity).max(change / acceleration);
-        assert!(share > 0.6, "{share}");
+        assert!((0.6..=1.0).contains(&share), "{share}");
     }
 }
 
@@ -123,16 +116,8 @@ fn positions_velocities_and_accelerations_agree() {
         for j in 0..2 {
             let slope = (c.q[j] - a.q[j]) / (2.0 * TICK);
             let bend = (c.qd[j] - a.qd[j]) / (2.0 * TICK);
-            assert!(
-                (slope - b.qd[j]).abs() < 1e-4,
-                "{tick}: {slope} {}",
-                b.qd[j]
-            );
-            assert!(
-                (bend - b.qdd[j]).abs() < 0.05,
-                "{tick}: {bend} {}",
-                b.qdd[j]
-            );
+            assert!((slope - b.qd[j]).abs() < 1e-4, "{tick}: {slope}");
+            assert!((bend - b.qdd[j]).abs() < 0.05, "{tick}: {bend}");
         }
     }
 }

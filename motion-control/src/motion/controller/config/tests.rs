@@ -1,5 +1,5 @@
-use std::string::{String, ToString};
 use crate::tests::{controlled, safety_limits};
+use std::string::{String, ToString};
 use std::vec::Vec;
 
 use crate::MotionControllerConfig;

@@ -2,6 +2,7 @@
 //! no measurement.
 
 use super::*;
+use crate::tests::Motion;
 
 /// The ticks of a return onto the trajectory.
 const RETURN: u32 = 200;
@@ -85,22 +86,14 @@ fn excess_speed_is_a_fault_of_its_tick() {
 
 #[test]
 fn a_predicted_excess_speed_is_a_fault() {
-    /// A reference that accelerates by 2 rad/s in a tick.
-    struct Steep;
-    impl Reference<f64, 1> for Steep {
-        fn at(&self, _: u32) -> State<f64, 1, 1> {
-            State {
-                qdd: [2.0 / TICK],
-                ..State::at([0.0])
-            }
-        }
-        fn ticks(&self) -> u32 {
-            u32::MAX
-        }
-    }
+    // A reference that accelerates by 2 rad/s in a tick.
+    let steep = Motion(|_| State {
+        qdd: [2.0 / TICK],
+        ..State::at([0.0])
+    });
     let mut controller = controller::<CurrentTick>();
-    controller.tick(Ok(&[0.0]), &Steep, |_, _| [1.0]);
-    let mut lost = || controller.tick(LOST, &Steep, |_, _| [1.0]).status;
+    controller.tick(Ok(&[0.0]), &steep, |_, _| [1.0]);
+    let mut lost = || controller.tick(LOST, &steep, |_, _| [1.0]).status;
     assert_eq!(lost().fault, LOST.err());
     let status = lost();
     let speed = Some(Fault::Speed { joint: 0 });

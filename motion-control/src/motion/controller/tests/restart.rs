@@ -35,6 +35,19 @@ fn stopped(category: StopCategory<f64, 1>) -> (Controller, f64) {
     (controller, q)
 }
 
+/// One that is held and one that sinks, in their first tick.
+fn decelerating() -> [Controller; 2] {
+    let (mut held, damping) = (slow(0), [1.0]);
+    held.stop_by(Fault::External, HOLDS);
+    let mut sinking = slow(HOLD).with_stop(StopCategory::DampedLowering { damping });
+    sinking.stop(Fault::External);
+    let mut both = [held, sinking];
+    for one in &mut both {
+        tick(one, Cruise.at(100).q[0]);
+    }
+    both
+}
+
 #[test]
 fn a_held_arm_is_reset_under_its_torque() {
     let (mut controller, q) = stopped(HOLDS);
@@ -85,27 +98,10 @@ fn a_reset_arm_follows_its_approach_from_the_begin() {
     }
 }
 
-#[test]
-fn an_arm_that_moves_gets_no_approach() {
-    let bounds = CONFIG.supervisor.limits;
-    let mut controller = slow(HOLD);
-    let refused = controller.approach(&Cruise, &WAY, &bounds);
-    let refused = refused.map(|way| way.path_ticks()).unwrap_err();
-    assert_eq!(refused, ApproachError::Reset(ResetError::NotStopped));
-    assert_eq!(controller.trajectory_tick(), 100);
-}
-
 // The acceleration of a hold does not act on an arm that is released from it.
 #[test]
 fn a_reset_ends_the_deceleration() {
-    let mut held = slow(0);
-    held.stop_by(Fault::External, HOLDS);
-    tick(&mut held, Cruise.at(100).q[0]);
-    let lowering = StopCategory::DampedLowering { damping: [1.0] };
-    let mut sinking = slow(HOLD).with_stop(lowering);
-    sinking.stop(Fault::External);
-    tick(&mut sinking, Cruise.at(100).q[0]);
-    for mut controller in [held, sinking] {
+    for mut controller in decelerating() {
         assert!(controller.reference().qdd[0] < -1.0);
         assert_eq!(controller.reset(&Cruise), Ok(()));
         assert_eq!(controller.reference().qdd, [0.0]);
@@ -114,13 +110,7 @@ fn a_reset_ends_the_deceleration() {
 
 #[test]
 fn a_reset_after_missed_ticks_begins_where_the_arm_is() {
-    let mut held = slow(0);
-    held.stop_by(Fault::External, HOLDS);
-    let lowering = StopCategory::DampedLowering { damping: [1.0] };
-    let mut sinking = slow(HOLD).with_stop(lowering);
-    sinking.stop(Fault::External);
-    for mut controller in [held, sinking] {
-        tick(&mut controller, Cruise.at(100).q[0]);
+    for mut controller in decelerating() {
         let before = controller.estimate().q;
         controller.missed(2, &Cruise);
         let estimate = *controller.estimate();

@@ -1,6 +1,7 @@
 //! Stop categories on a joint that moves: an inertia of 2 kg·m² under a torque of gravity.
 
 use super::*;
+use crate::tests::Motion;
 
 const INERTIA: f64 = 2.0;
 const GRAVITY: f64 = -4.0;
@@ -18,20 +19,16 @@ impl Joint {
 /// The law of a model whose gravity is `share` of the joint's.
 fn law(share: f64) -> impl Fn(&State<f64, 1, 1>, &Estimate<f64, 1>) -> [f64; 1] {
     move |reference, estimate| {
-        let (e, ed) = (
-            reference.q[0] - estimate.q[0],
-            reference.qd[0] - estimate.qd[0],
-        );
+        let e = reference.q[0] - estimate.q[0];
+        let ed = reference.qd[0] - estimate.qd[0];
         [INERTIA * reference.qdd[0] - share * GRAVITY + 1250.0 * e + 100.0 * ed]
     }
 }
 
 fn config() -> MotionControllerConfig<f64, 1> {
     let mut config = CONFIG;
-    (
-        config.supervisor.hold_ticks,
-        config.supervisor.reentry_ticks,
-    ) = (150, 200);
+    config.supervisor.hold_ticks = 150;
+    config.supervisor.reentry_ticks = 200;
     config
 }
 
@@ -112,19 +109,13 @@ fn a_reference_that_jumps_is_replaced_in_its_tick() {
     let (mut controller, joint) = cruising(StopCategory::ControlledOff);
     let mut steps = ReferenceStep::new([3.0 * TICK]);
     assert_eq!(steps.check(controller.reference()), Ok(()));
-    /// Another motion, a radian away.
-    struct Away;
-    impl Reference<f64, 1> for Away {
-        fn at(&self, tick: u32) -> State<f64, 1, 1> {
-            let mut state = Cruise.at(tick);
-            state.q[0] += 1.0;
-            state
-        }
-        fn ticks(&self) -> u32 {
-            u32::MAX
-        }
-    }
-    let mut step = controller.observe(Ok(&[joint.0])).reference(&Away);
+    // Another motion, a radian away.
+    let away = Motion(|tick| {
+        let mut state = Cruise.at(tick);
+        state.q[0] += 1.0;
+        state
+    });
+    let mut step = controller.observe(Ok(&[joint.0])).reference(&away);
     let fault = steps.check(step.reference()).unwrap_err();
     step.stop_by(fault, StopCategory::ControlledOff);
     let (reference, estimate) = (*step.reference(), *step.estimate());
@@ -141,24 +132,20 @@ fn too_many_missed_ticks_stop_the_arm() {
         controller.missed(ticks, &Cruise);
         let q = controller.estimate().q;
         let command = controller.tick(Ok(&q), &Cruise, law(1.0));
-        assert_eq!(
-            (command.status.fault, command.brake),
-            (fault, fault.is_some())
-        );
+        assert_eq!(command.status.fault, fault);
+        assert_eq!(command.brake, fault.is_some());
     }
 }
 
 #[test]
 fn a_reported_fault_is_ridden_through_and_forgotten() {
     let (mut controller, mut joint) = cruising(StopCategory::ControlledOff);
+    let fault = Fault::NotReady { joint: 0 };
     for mode in [Mode::Full, Mode::Full, Mode::Hold] {
-        controller.report(Fault::NotReady { joint: 0 });
+        controller.report(fault);
         controller.report(Fault::Overrun);
         let status = tick(&mut controller, &mut joint, 1.0).status;
-        assert_eq!(
-            (status.mode, status.fault),
-            (mode, Some(Fault::NotReady { joint: 0 }))
-        );
+        assert_eq!((status.mode, status.fault), (mode, Some(fault)));
     }
     let status = tick(&mut controller, &mut joint, 1.0).status;
     assert_eq!((status.mode, status.fault), (Mode::Full, None));

@@ -105,11 +105,7 @@ fn friction_helps_only_as_far_as_it_is_certain() {
     };
     let timed = |certain, velocity| {
         let limits = PathLimits {
-            friction: [JointFriction {
-                coulomb,
-                viscous,
-                certain,
-            }],
+            friction: [friction(coulomb, viscous, certain)],
             motion: [MotionLimits { velocity, ..ANY }],
             ..torques([tau])
         };

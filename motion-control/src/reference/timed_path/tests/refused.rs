@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::limits::LimitKind;
+use crate::tests::motion_limits;
 
 fn refused<const V: usize>(
     path: &impl GeometricPath<f64, V>,
@@ -87,52 +88,30 @@ fn numbers_that_are_not_finite_are_named() {
 #[test]
 fn limits_that_allow_nothing_are_named() {
     let (path, good) = (line(1.0), torques([5.0]));
+    let same = |value: f64, bad: f64| value == bad || value.is_nan() && bad.is_nan();
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let error = refused(
-            &path,
-            &PathLimits {
-                torque: [bad],
-                ..good
-            },
-            inertia,
-        );
+        let error = refused(&path, &torques([bad]), inertia);
         let TimedPathError::TorqueLimit { joint: 0, value } = error else {
             panic!("{error}");
         };
-        assert!(value == bad || value.is_nan() && bad.is_nan());
+        assert!(same(value, bad));
         let tick = TimedPath::<_, _, 11>::new(&path, bad, &good, inertia);
         assert_eq!(tick.err(), Some(TimedPathError::Tick));
     }
+    let unlimited = f64::INFINITY;
     for bad in [0.0, -1.0, f64::NAN] {
-        for motion in [
-            MotionLimits {
-                velocity: bad,
-                ..ANY
-            },
-            MotionLimits {
-                acceleration: bad,
-                ..ANY
-            },
+        for (limit, kind) in [
+            (motion_limits(bad, unlimited), LimitKind::Speed),
+            (motion_limits(unlimited, bad), LimitKind::Acceleration),
         ] {
-            let error = refused(
-                &path,
-                &PathLimits {
-                    motion: [motion],
-                    ..good
-                },
-                inertia,
-            );
-            let TimedPathError::MotionLimit {
-                joint: 0,
-                of,
-                value,
-            } = error
-            else {
-                panic!("{error}");
-            };
-            let acceleration = motion.velocity == ANY.velocity;
-            assert_eq!(of == LimitKind::Acceleration, acceleration);
-            assert!(value == bad || value.is_nan() && bad.is_nan());
+            let motion = [limit];
+            let error = refused(&path, &PathLimits { motion, ..good }, inertia);
+            match error {
+                TimedPathError::MotionLimit { joint, of, value } => {
+                    assert!(same(value, bad) && (joint, of) == (0, kind), "{error}");
+                }
+                _ => panic!("{error}"),
+            }
         }
     }
     for [coulomb, viscous, certain] in [
@@ -141,11 +120,7 @@ fn limits_that_allow_nothing_are_named() {
         [0.0, f64::INFINITY, 0.0],
         [0.0, 0.0, 1.1],
     ] {
-        let friction = [JointFriction {
-            coulomb,
-            viscous,
-            certain,
-        }];
+        let friction = [self::friction(coulomb, viscous, certain)];
         let error = refused(&path, &PathLimits { friction, ..good }, inertia);
         assert_eq!(error, TimedPathError::Friction { joint: 0 });
     }
@@ -154,14 +129,9 @@ fn limits_that_allow_nothing_are_named() {
 #[test]
 fn a_motion_of_too_many_ticks_is_refused() {
     let slow = PathLimits {
-        motion: [MotionLimits {
-            velocity: 1e-9,
-            ..ANY
-        }],
+        motion: [motion_limits(1e-9, f64::INFINITY)],
         ..torques([5.0])
     };
-    assert_eq!(
-        refused(&line(10.0), &slow, inertia),
-        TimedPathError::TooLong
-    );
+    let error = refused(&line(10.0), &slow, inertia);
+    assert_eq!(error, TimedPathError::TooLong);
 }

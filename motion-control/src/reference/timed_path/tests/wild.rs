@@ -46,19 +46,12 @@ fn random_motions_are_finite_and_within_the_torques() {
                 m * (off * x + y) - m * v * v + weight,
             ]
         };
-        let viscous = if random.next() > 0.0 {
-            0.1 * random.size(1.0)
-        } else {
-            0.0
-        };
+        let has = f32::from(u8::from(random.next() > 0.0));
+        let viscous = has * 0.1 * random.size(1.0);
         let limits = PathLimits {
             torque: [g * random.size(0.4), g],
             motion: [motion_limits(random.size(2.0), random.size(3.0)); 2],
-            friction: [JointFriction {
-                coulomb: 0.1 * g,
-                viscous,
-                certain: 0.0,
-            }; 2],
+            friction: [friction(0.1 * g, viscous, 0.0); 2],
         };
         let motion = match TimedPath::<_, _, 33>::new(&path, 1e-3, &limits, id) {
             Ok(motion) => motion,
@@ -78,23 +71,17 @@ fn random_motions_are_finite_and_within_the_torques() {
             let (from, to) = (motion.square_rate(k), motion.square_rate(k + 1));
             let u = (to - from) / (2.0 * (motion.grid_point(k + 1) - motion.grid_point(k)));
             for (at, x) in [(k, from), (k + 1, to)] {
-                let PathPoint {
-                    q,
-                    slope,
-                    curvature,
-                } = path.point(motion.grid_point(at));
+                let point = path.point(motion.grid_point(at));
+                let (slope, curvature) = (point.slope, point.curvature);
                 let state = State {
-                    q,
+                    q: point.q,
                     qd: slope.map(|slope| slope * x.sqrt()),
                     qdd: core::array::from_fn(|j| slope[j] * u + curvature[j] * x),
                 };
                 for (j, (tau, limit)) in id(&state).iter().zip(limits.torque).enumerate() {
                     let friction = limits.friction[j];
-                    let sign = if slope[j] == 0.0 {
-                        0.0
-                    } else {
-                        slope[j].signum()
-                    };
+                    let moves = f32::from(u8::from(slope[j] != 0.0));
+                    let sign = moves * slope[j].signum();
                     let moving = tau + sign * friction.coulomb + friction.viscous * state.qd[j];
                     excess = excess
                         .max(tau.abs() / limit - 1.0)
@@ -104,9 +91,6 @@ fn random_motions_are_finite_and_within_the_torques() {
         }
     }
     std::println!("{timed_paths} {refusals} {excess:e}");
-    assert!(
-        timed_paths > 1000 && refusals > 50,
-        "{timed_paths} {refusals}"
-    );
+    assert!(timed_paths > 1000 && refusals > 50, "{refusals}");
     assert!(excess < 2e-5, "{excess:e}");
 }

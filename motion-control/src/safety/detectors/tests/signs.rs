@@ -99,11 +99,7 @@ fn rates_that_are_not_finite_are_named_and_large_ones_are_none() {
 
 #[test]
 fn missed_ticks_forget_the_reference_alone() {
-    let mut detectors = Detectors {
-        frozen: FrozenEncoder::new([0.01_f64], 1),
-        steps: ReferenceStep::new([0.1]),
-        saturation: Saturation::new([10.0], 1),
-    };
+    let mut detectors = detectors(1);
     assert_eq!(detectors.measured(&[0.5], &[0.5]), Ok(()));
     assert_eq!(detectors.measured(&[0.5], &[0.5]), Ok(()));
     let at = |q| State::at([q]);
@@ -115,10 +111,8 @@ fn missed_ticks_forget_the_reference_alone() {
     assert_eq!(detectors.referenced(&at(5.0), Mode::Full), Ok(()));
     let fault = Err(Fault::Reference { joint: 0 });
     assert_eq!(detectors.referenced(&at(0.5), Mode::Full), fault);
-    assert_eq!(
-        detectors.measured(&[0.5], &[0.52]),
-        Err(Fault::Frozen { joint: 0 })
-    );
+    let frozen = Err(Fault::Frozen { joint: 0 });
+    assert_eq!(detectors.measured(&[0.5], &[0.52]), frozen);
 }
 
 #[test]

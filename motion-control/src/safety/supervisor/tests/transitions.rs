@@ -7,8 +7,8 @@ use std::mem::{Discriminant, discriminant};
 use std::sync::LazyLock;
 
 use super::*;
-use crate::tests::{safety_limits, supervised};
 use crate::safety::StopCategory;
+use crate::tests::{safety_limits, supervised};
 use expected::Expected;
 
 mod expected;

@@ -20,6 +20,8 @@ use motion_control::{
 
 mod completion;
 
+use super::Motion;
+
 const RIDE: u32 = 3;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,18 +95,22 @@ impl JointDrive for Drive<'_> {
 
 struct Brake<'a>(&'a Wire);
 
+impl digital::Error for Broken {
+    fn kind(&self) -> digital::ErrorKind {
+        digital::ErrorKind::Other
+    }
+}
+
 impl digital::ErrorType for Brake<'_> {
-    type Error = Infallible;
+    type Error = Broken;
 }
 
 impl OutputPin for Brake<'_> {
-    fn set_low(&mut self) -> Result<(), Infallible> {
-        self.0.torque.set(0.0);
-        Ok(())
+    fn set_low(&mut self) -> Result<(), Broken> {
+        Drive(self.0).set(0.0)
     }
-    fn set_high(&mut self) -> Result<(), Infallible> {
-        self.0.torque.set(1.0);
-        Ok(())
+    fn set_high(&mut self) -> Result<(), Broken> {
+        Drive(self.0).set(1.0)
     }
 }
 
@@ -288,8 +294,11 @@ fn a_probe_sees_each_phase_once_and_in_order() {
     assert_eq!((seen.0, seen.1), (whole.concat(), Some(telemetry)));
 }
 
-/// One exchange for all joints, as on a bus.
-struct Bus(u32);
+/// One exchange for all joints, as on a bus; in each reading they have moved by a step.
+struct Bus {
+    q: f32,
+    step: f32,
+}
 
 impl EncoderType for Bus {
     type Error = Infallible;
@@ -297,12 +306,10 @@ impl EncoderType for Bus {
 }
 
 impl JointEncoders<2> for Bus {
-    fn start(&mut self) {
-        self.0 = 0;
-    }
+    fn start(&mut self) {}
     fn read(&mut self) -> Result<[f32; 2], JointError<Infallible>> {
-        self.0 += 1;
-        Ok([0.25; 2])
+        self.q += self.step;
+        Ok([self.q; 2])
     }
 }
 
@@ -315,7 +322,9 @@ impl JointDrives<2> for Bus {
 
 #[test]
 fn devices_of_all_joints_at_once_are_encoders_and_drives() {
-    let mut arm = ControlLoop::new(Bus(9), Bus(9), NoBrake, GAINS, controller(), ());
+    let buses = [0.25; 2].map(|q| Bus { q, step: 0.0 });
+    let [encoders, drives] = buses;
+    let mut arm = ControlLoop::new(encoders, drives, NoBrake, GAINS, controller(), ());
     let telemetry = arm.tick::<One, _, ()>(&at_rest(), &());
     assert_eq!(telemetry.status.fault, None);
     assert_eq!(telemetry.torque, [1.0, 2.0]);
@@ -341,23 +350,17 @@ impl JointEncoder for Endless<'_> {
 #[test]
 fn a_loop_on_circles_turns_without_end() {
     const BOTH: u128 = Circles::NONE.with(0).with(1).bits();
-    /// Both joints cruise at 2.5 rad/s.
-    struct Cruise;
-    impl Reference<f32, 2> for Cruise {
-        fn at(&self, tick: u32) -> State<f32, 2, 2> {
-            // The angle of a whole number of ticks, of which 2513 are a turn.
-            let q = TAU / 2513.0 * (tick % 2513) as f32;
-            let qd = TAU / 2.513;
-            State {
-                q: [q, -q],
-                qd: [qd, -qd],
-                qdd: [0.0; 2],
-            }
+    // Both joints cruise at 2.5 rad/s.
+    let cruise = Motion(|tick| {
+        // The angle of a whole number of ticks, of which 2513 are a turn.
+        let q = TAU / 2513.0 * (tick % 2513) as f32;
+        let qd = TAU / 2.513;
+        State {
+            q: [q, -q],
+            qd: [qd, -qd],
+            qdd: [0.0; 2],
         }
-        fn ticks(&self) -> u32 {
-            u32::MAX
-        }
-    }
+    });
     let mut config = config();
     let limits = &mut config.supervisor.limits;
     (limits.lower, limits.upper) = ([f32::NEG_INFINITY; 2], [f32::INFINITY; 2]);
@@ -374,12 +377,12 @@ fn a_loop_on_circles_turns_without_end() {
     let detectors = detectors.on_circles::<BOTH>();
     let mut arm = ControlLoop::on_circles(encoders, drives, NoBrake, GAINS, controller, detectors);
     for tick in 0..10_000 {
-        let telemetry = arm.tick::<One, _, ()>(&Cruise, &());
+        let telemetry = arm.tick::<One, _, ()>(&cruise, &());
         assert_eq!(telemetry.status.fault, None, "{tick}");
         let [off, _] = core::array::from_fn(|i| telemetry.reference[i] - telemetry.estimate[i]);
         assert!(off.abs() < 0.01, "{tick}: {off}");
         // A joint that follows.
-        for (q, aim) in q.iter().zip(Cruise.at(tick + 1).q) {
+        for (q, aim) in q.iter().zip(cruise.at(tick + 1).q) {
             q.set(aim);
         }
     }

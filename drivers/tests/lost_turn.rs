@@ -10,9 +10,11 @@ use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
 use joint_drivers::as5047p::{As5047p, FrameError, encode};
 use joint_drivers::{ControlLoop, Direction, JointDrive, JointMapping, JointRange, Law, NoBrake};
 use motion_control::{
-    Fault, Gains, Mode, MotionController, MotionControllerConfig, Reference, ResetError,
-    SafetyLimits, StopCategory, SupervisorConfig,
+    Fault, Gains, Mode, MotionController, MotionControllerConfig, ResetError, SafetyLimits,
+    StopCategory, SupervisorConfig,
 };
+
+use super::Motion;
 
 const RATIO: f32 = 100.0;
 const TICK: f32 = 1e-3;
@@ -40,18 +42,10 @@ const CONFIG: MotionControllerConfig<f32, 1> = MotionControllerConfig {
 };
 
 /// 2 rad/s to the end.
-struct Ramp;
-
-impl Reference<f32, 1> for Ramp {
-    fn at(&self, tick: u32) -> State<f32, 1, 1> {
-        let mut state = State::at([2e-3 * tick.min(900) as f32]);
-        state.qd = [if tick < 900 { 2.0 } else { 0.0 }];
-        state
-    }
-    fn ticks(&self) -> u32 {
-        900
-    }
-}
+const RAMP: Motion<fn(u32) -> State<f32, 1, 1>> = Motion(|tick| State {
+    qd: [if tick < 900 { 2.0 } else { 0.0 }],
+    ..State::at([2e-3 * tick.min(900) as f32])
+});
 
 /// A joint of 1 kg·m².
 struct Unit;
@@ -160,7 +154,7 @@ fn no_ride_through_ends_a_lost_turn_which_its_place_clears() {
             let mut last = None;
             for tick in ticks {
                 joint.is_broken.set((300..300 + lost).contains(&tick));
-                let status = control.tick::<Unit, _, _>(&Ramp, &()).status;
+                let status = control.tick::<Unit, _, _>(&RAMP, &()).status;
                 joint.advance(status.mode == Mode::Stopped);
                 full += u32::from(status.mode == Mode::Full);
                 first = first.or(status.fault);
@@ -181,13 +175,13 @@ fn no_ride_through_ends_a_lost_turn_which_its_place_clears() {
         assert!(full <= 305, "{lost}: {full}");
         let error = control.encoder_error().map(|error| *error.error);
         assert_eq!(error, Some(FrameError::LostTurn));
-        let refused = control.reset(&Ramp);
+        let refused = control.reset(&RAMP);
         assert!(matches!(refused, Err(ResetError::NoMeasurement)), "{lost}");
         // Another sensor, or a hand that moved the joint, says where it is.
         let place = joint.q.get() as f32 + 0.02;
         control.encoders()[0].place_near(place).unwrap();
         run(&mut control, 2000..2001);
-        control.reset(&Ramp).unwrap();
+        control.reset(&RAMP).unwrap();
         let (status, ..) = run(&mut control, 2001..4000);
         assert_eq!((status.mode, status.fault), (Mode::Full, None));
         near_end();
@@ -201,7 +195,7 @@ fn ticks_that_a_timer_missed_are_missing_readings() {
         let mut control = control(&joint, StopCategory::ControlledOff);
         let mut fault = None;
         for tick in (0..100).chain(100 + missed..200) {
-            let (telemetry, _) = control.tick_at::<Unit, _, _>(&Ramp, &(), || tick);
+            let (telemetry, _) = control.tick_at::<Unit, _, _>(&RAMP, &(), || tick);
             fault = telemetry.status.fault.or(fault);
             joint.q.set(2e-3 * f64::from(tick + 1));
         }

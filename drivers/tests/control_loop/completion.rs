@@ -40,33 +40,11 @@ impl Detect<f32, 2> for &Watched {
     }
 }
 
-/// A brake whose pin fails, if its wire is broken.
-struct WeakBrake<'a>(&'a Wire);
-
-impl digital::Error for Broken {
-    fn kind(&self) -> digital::ErrorKind {
-        digital::ErrorKind::Other
-    }
-}
-
-impl digital::ErrorType for WeakBrake<'_> {
-    type Error = Broken;
-}
-
-impl OutputPin for WeakBrake<'_> {
-    fn set_low(&mut self) -> Result<(), Broken> {
-        self.0.access()
-    }
-    fn set_high(&mut self) -> Result<(), Broken> {
-        self.0.access()
-    }
-}
-
-type Watching<'a> = ControlLoop<[Encoder<'a>; 2], [Drive<'a>; 2], WeakBrake<'a>, 2, &'a Watched>;
+type Watching<'a> = ControlLoop<[Encoder<'a>; 2], [Drive<'a>; 2], Brake<'a>, 2, &'a Watched>;
 
 fn arm<'a>(wires: &'a Wires, watched: &'a Watched) -> Watching<'a> {
     let (encoders, drives) = (wires.encoders(), wires.drives());
-    let brake = WeakBrake(&wires.brake);
+    let brake = Brake(&wires.brake);
     ControlLoop::new(encoders, drives, brake, GAINS, controller(), watched)
 }
 
@@ -75,19 +53,10 @@ fn status(arm: &mut Watching<'_>) -> Status {
 }
 
 /// A motion of 1 mrad in each tick of 1 ms, through where the encoders are.
-struct Moving;
-
-impl Reference<f32, 2> for Moving {
-    fn at(&self, tick: u32) -> State<f32, 2, 2> {
-        State {
-            qd: [1.0, -1.0],
-            ..State::at([0.25 + 1e-3 * tick as f32; 2])
-        }
-    }
-    fn ticks(&self) -> u32 {
-        u32::MAX
-    }
-}
+const MOVING: Motion<fn(u32) -> State<f32, 2, 2>> = Motion(|tick| State {
+    qd: [1.0, -1.0],
+    ..State::at([0.25 + 1e-3 * tick as f32; 2])
+});
 
 #[test]
 fn a_brake_that_fails_stops_the_arm_in_the_next_tick() {
@@ -149,17 +118,17 @@ fn a_detected_measurement_is_a_fault_of_its_tick() {
 fn a_detected_reference_holds_the_arm_in_its_tick() {
     let (wires, watched): (Wires, Watched) = Default::default();
     let mut arm = arm(&wires, &watched);
-    arm.tick::<One, _, ()>(&Moving, &());
+    arm.tick::<One, _, ()>(&MOVING, &());
     let fault = Some(Fault::Reference { joint: 1 });
     watched.faults[1].set(fault);
-    let telemetry = arm.tick::<One, _, ()>(&Moving, &());
+    let telemetry = arm.tick::<One, _, ()>(&MOVING, &());
     let status = telemetry.status;
     assert_eq!((status.mode, status.fault), (Mode::Hold, fault));
     // The law is that of the hold: where the arm is, not where the reference went.
     assert_eq!(telemetry.reference, [0.25; 2]);
     // Category 1: after `hold_ticks` the arm is stopped.
     watched.faults[1].set(None);
-    let after = [(); 3].map(|()| arm.tick::<One, _, ()>(&Moving, &()).status.mode);
+    let after = [(); 3].map(|()| arm.tick::<One, _, ()>(&MOVING, &()).status.mode);
     assert_eq!(after, [Mode::Hold, Mode::Hold, Mode::Stopped]);
 }
 
@@ -167,11 +136,11 @@ fn a_detected_reference_holds_the_arm_in_its_tick() {
 fn detectors_see_what_acted_and_what_was_commanded() {
     let (wires, watched): (Wires, Watched) = Default::default();
     let mut arm = arm(&wires, &watched);
-    let ticks = [(); 2].map(|()| arm.tick::<One, _, ()>(&Moving, &()));
+    let ticks = [(); 2].map(|()| arm.tick::<One, _, ()>(&MOVING, &()));
     // The reference of the tick before acted until this measurement.
-    let measured = [[0.0; 2], Moving.at(0).q].map(|acted| ([0.25; 2], acted));
+    let measured = [[0.0; 2], MOVING.at(0).q].map(|acted| ([0.25; 2], acted));
     assert_eq!(*watched.measured.borrow(), measured);
-    let referenced = [0, 1].map(|tick| (Moving.at(tick), Mode::Full));
+    let referenced = [0, 1].map(|tick| (MOVING.at(tick), Mode::Full));
     assert_eq!(*watched.referenced.borrow(), referenced);
     for (command, tick) in watched.commanded.borrow().iter().zip(ticks) {
         assert_eq!((command.torque, command.status), (tick.torque, tick.status));
@@ -179,7 +148,7 @@ fn detectors_see_what_acted_and_what_was_commanded() {
     assert_eq!(watched.commanded.borrow().len(), 2);
     // What no encoder measured is not examined; the torque is that of every mode.
     wires.encoders[1].error.set(Some(Broken::Wire));
-    arm.tick::<One, _, ()>(&Moving, &());
+    arm.tick::<One, _, ()>(&MOVING, &());
     assert_eq!(watched.measured.borrow().len(), 2);
     assert_eq!(watched.commanded.borrow().len(), 3);
 }
@@ -192,23 +161,23 @@ fn detectors_restart_after_missed_ticks_and_a_reset_alone() {
     let mut missed_before = |now: u32| {
         count.set(now);
         let restarts = watched.restarts.get();
-        let (telemetry, completed) = arm.tick_at::<One, _, ()>(&Moving, &(), || count.get());
+        let (telemetry, completed) = arm.tick_at::<One, _, ()>(&MOVING, &(), || count.get());
         assert!(completed.is_some(), "it ended in time");
         (telemetry.tick, watched.restarts.get() - restarts)
     };
     // The trajectory goes on in the ticks that were missed.
     let restarts = [7, 8, 10, 11, 14].map(&mut missed_before);
     assert_eq!(restarts, [(0, 0), (1, 0), (3, 1), (4, 0), (7, 1)]);
-    assert_eq!(arm.tick::<One, _, ()>(&Moving, &()).status.fault, None);
+    assert_eq!(arm.tick::<One, _, ()>(&MOVING, &()).status.fault, None);
     arm.stop_by(Fault::External, StopCategory::TorqueOff);
-    let stopped = arm.tick::<One, _, ()>(&Moving, &()).status;
+    let stopped = arm.tick::<One, _, ()>(&MOVING, &()).status;
     assert_eq!((stopped.mode, watched.restarts.get()), (Mode::Stopped, 2));
     assert_eq!(stopped.fault, Some(Fault::External));
-    arm.reset(&Moving).unwrap();
+    arm.reset(&MOVING).unwrap();
     assert_eq!(watched.restarts.get(), 3);
-    assert_eq!(arm.tick::<One, _, ()>(&Moving, &()).status.mode, Mode::Full);
+    assert_eq!(arm.tick::<One, _, ()>(&MOVING, &()).status.mode, Mode::Full);
     // A reset of an arm that is not stopped is refused.
-    assert!(arm.reset(&Moving).is_err());
+    assert!(arm.reset(&MOVING).is_err());
 }
 
 #[test]
@@ -235,28 +204,13 @@ impl<const INERTIA: bool> Law<2> for OfVelocity<INERTIA> {
     }
 }
 
-/// Encoders that move by 1 mrad in each reading.
-struct Turning(f32);
-
-impl EncoderType for Turning {
-    type Error = Infallible;
-    type Age = CurrentTick;
-}
-
-impl JointEncoders<2> for Turning {
-    fn start(&mut self) {}
-    fn read(&mut self) -> Result<[f32; 2], JointError<Infallible>> {
-        self.0 += 1e-3;
-        Ok([self.0; 2])
-    }
-}
-
 /// The torque of a law in the full mode, and in a hold of an arm that still moves.
 fn full_and_held<L: Law<2>>() -> [[f32; 2]; 2] {
-    let mut arm = ControlLoop::new(Turning(0.0), Bus(0), NoBrake, GAINS, controller(), ());
-    let full = [(); 20].map(|()| arm.tick::<L, _, ()>(&Moving, &()).torque);
+    let [encoders, drives] = [1e-3, 0.0].map(|step| Bus { q: 0.0, step });
+    let mut arm = ControlLoop::new(encoders, drives, NoBrake, GAINS, controller(), ());
+    let full = [(); 20].map(|()| arm.tick::<L, _, ()>(&MOVING, &()).torque);
     arm.stop_by(Fault::External, StopCategory::ControlledHold);
-    [full[19], arm.tick::<L, _, ()>(&Moving, &()).torque]
+    [full[19], arm.tick::<L, _, ()>(&MOVING, &()).torque]
 }
 
 #[test]

@@ -123,12 +123,8 @@ mod tests {
 
     #[test]
     fn a_tick_that_outlasts_its_period_feeds_no_watchdog() {
-        let status = Status {
-            mode: crate::Mode::Full,
-            fault: None,
-            limited: false,
-        };
-        let end = |begin, end| TickCounter::new().begin(begin).end(end, &status);
+        let command = crate::tests::full_command([0.0], false);
+        let end = |begin, end| TickCounter::new().begin(begin).end(end, &command.status);
         assert_eq!(end(7, 7), Ok(CompletedTick(())));
         assert_eq!(end(7, 8), Err(Fault::Overrun));
     }

@@ -85,10 +85,8 @@ impl Whole {
 #[track_caller]
 fn near<const N: usize>(got: &[f64; N], expected: &[f64; N]) {
     for (a, b) in got.iter().zip(expected) {
-        assert!(
-            (a - b).abs() < 1e-9 * (1.0 + b.abs()),
-            "{got:?} {expected:?}"
-        );
+        let off = (a - b) / (1.0 + b.abs());
+        assert!(off.abs() < 1e-9, "{got:?} {expected:?}");
     }
 }
 

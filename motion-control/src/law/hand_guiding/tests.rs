@@ -7,12 +7,20 @@ mod numbers;
 
 const BAD: [f64; 4] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX];
 
+fn spring<R, const V: usize>(
+    stiffness: [R; V],
+    damping: [R; V],
+    torque: [R; V],
+) -> LimitedSpring<R, V> {
+    LimitedSpring {
+        stiffness,
+        damping,
+        torque,
+    }
+}
+
 fn config() -> HandGuidingConfig<f64, 1> {
-    let spring = LimitedSpring {
-        stiffness: [200.0],
-        damping: [20.0],
-        torque: [10.0],
-    };
+    let spring = spring([200.0], [20.0], [10.0]);
     HandGuidingConfig {
         error: 0.1,
         share: 1.0 / 1.1,

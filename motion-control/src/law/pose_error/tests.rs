@@ -21,10 +21,8 @@ fn attitude() -> DMat3 {
 }
 
 fn near(got: DVec3, want: DVec3) {
-    assert!(
-        (got - want).abs().max_element() < 1e-13,
-        "{got}, not {want}"
-    );
+    let off = (got - want).abs().max_element();
+    assert!(off < 1e-13, "{got}, not {want}");
 }
 
 #[test]

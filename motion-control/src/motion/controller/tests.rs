@@ -1,5 +1,5 @@
 use super::*;
-use crate::tests::{controlled, safety_limits};
+use crate::tests::{Motion, controlled, safety_limits};
 use crate::*;
 
 mod clock;
@@ -19,23 +19,13 @@ const CONFIG: MotionControllerConfig<f64, 1> = controlled(
 
 const LOST: Result<&[f64; 1], Fault> = Err(Fault::Encoder { joint: 0 });
 
-/// One joint at constant speed.
-struct Cruise;
-
 const SPEED: f64 = 0.5;
-
-impl Reference<f64, 1> for Cruise {
-    fn at(&self, tick: u32) -> State<f64, 1, 1> {
-        State {
-            q: [SPEED * TICK * f64::from(tick)],
-            qd: [SPEED],
-            qdd: [0.0],
-        }
-    }
-    fn ticks(&self) -> u32 {
-        u32::MAX
-    }
-}
+/// One joint at constant speed.
+const CRUISE: Motion<fn(u32) -> State<f64, 1, 1>> = Motion(|tick| State {
+    q: [SPEED * TICK * f64::from(tick)],
+    qd: [SPEED],
+    qdd: [0.0],
+});
 
 fn controller<A: MeasurementAge>() -> MotionController<f64, 1, A> {
     MotionController::try_new(CONFIG).expect("every number is in its range")
@@ -45,8 +35,8 @@ fn controller<A: MeasurementAge>() -> MotionController<f64, 1, A> {
 fn following<A: MeasurementAge>(ticks: u32, late: u32) -> MotionController<f64, 1, A> {
     let mut controller = controller();
     for tick in 0..ticks {
-        let q = Cruise.at(tick.saturating_sub(late)).q;
-        let command = controller.tick(Ok(&q), &Cruise, |_, _| [1.0]);
+        let q = CRUISE.at(tick.saturating_sub(late)).q;
+        let command = controller.tick(Ok(&q), &CRUISE, |_, _| [1.0]);
         assert_eq!(command.status.fault, None);
     }
     controller
@@ -54,7 +44,7 @@ fn following<A: MeasurementAge>(ticks: u32, late: u32) -> MotionController<f64, 
 
 #[test]
 fn measurements_of_either_age_give_the_estimate_of_now() {
-    let now = Cruise.at(399).q[0];
+    let now = CRUISE.at(399).q[0];
     for estimate in [
         *following::<PreviousTick>(400, 1).estimate(),
         *following::<CurrentTick>(400, 0).estimate(),
@@ -70,11 +60,11 @@ fn after_a_hold_the_position_is_current() {
     fn error<A: MeasurementAge>(late: u32) -> f64 {
         let mut controller = following::<A>(400, late);
         for _ in 0..=RIDE {
-            controller.tick(LOST, &Cruise, |_, _| [1.0]);
+            controller.tick(LOST, &CRUISE, |_, _| [1.0]);
         }
-        let q = Cruise.at(400 + RIDE + 1 - late).q;
-        controller.tick(Ok(&q), &Cruise, |_, _| [1.0]);
-        controller.estimate().q[0] - Cruise.at(400 + RIDE + 1).q[0]
+        let q = CRUISE.at(400 + RIDE + 1 - late).q;
+        controller.tick(Ok(&q), &CRUISE, |_, _| [1.0]);
+        controller.estimate().q[0] - CRUISE.at(400 + RIDE + 1).q[0]
     }
     // A tick at what its speed decays by meanwhile.
     let slower = SPEED * TICK * 25.0 * TICK * 2.0;
@@ -89,10 +79,10 @@ fn the_steps_of_a_tick_are_those_of_the_closure() {
         [reference.q[0] - estimate.q[0] + 3.0]
     };
     for tick in 50..100 {
-        let q = Cruise.at(tick - 1).q;
+        let q = CRUISE.at(tick - 1).q;
         let measured = if tick % 20 < 4 { LOST } else { Ok(&q) };
-        let command = whole.tick(measured, &Cruise, law);
-        let step = steps.observe(measured).reference(&Cruise);
+        let command = whole.tick(measured, &CRUISE, law);
+        let step = steps.observe(measured).reference(&CRUISE);
         let tau = law(step.reference(), step.estimate());
         assert_eq!(step.command(&tau), command);
         assert_eq!(steps, whole);
@@ -102,19 +92,20 @@ fn the_steps_of_a_tick_are_those_of_the_closure() {
 #[test]
 fn missed_ticks_move_the_estimate_and_the_trajectory_on() {
     let mut controller = following::<PreviousTick>(100, 1);
-    controller.missed(4, &Cruise);
+    controller.missed(4, &CRUISE);
+    assert_eq!(controller.reference(), &CRUISE.at(103));
     assert_eq!(controller.trajectory_tick(), 104);
     let mut followed = [0.0];
-    let q = Cruise.at(103).q;
-    let command = controller.tick(Ok(&q), &Cruise, |reference, _| {
+    let q = CRUISE.at(103).q;
+    let command = controller.tick(Ok(&q), &CRUISE, |reference, _| {
         followed = reference.q;
         [1.0]
     });
     assert_eq!(command.status.fault, None);
-    assert_eq!(followed, Cruise.at(104).q);
+    assert_eq!(followed, CRUISE.at(104).q);
     assert!((controller.estimate().q[0] - followed[0]).abs() < 1e-9);
     // The work is bounded, whatever a timer says.
-    controller.missed(u32::MAX, &Cruise);
+    controller.missed(u32::MAX, &CRUISE);
     assert_eq!(controller.trajectory_tick(), 105 + RIDE + HOLD);
 }
 
@@ -122,9 +113,9 @@ fn missed_ticks_move_the_estimate_and_the_trajectory_on() {
 fn a_held_arm_slows_down_and_its_trajectory_waits() {
     let mut controller = following::<PreviousTick>(100, 1);
     for _ in 0..RIDE {
-        controller.tick(LOST, &Cruise, |_, _| [1.0]);
+        controller.tick(LOST, &CRUISE, |_, _| [1.0]);
     }
-    let step = controller.observe(LOST).reference(&Cruise);
+    let step = controller.observe(LOST).reference(&CRUISE);
     let (estimate, reference) = (*step.estimate(), *step.reference());
     assert_eq!(step.mode(), Mode::Hold);
     assert_eq!((reference.q, reference.qd), (estimate.q, estimate.qd));
@@ -141,9 +132,9 @@ fn a_held_arm_slows_down_and_its_trajectory_waits() {
 #[test]
 fn a_stop_within_a_tick_acts_in_it() {
     let mut controller = following::<PreviousTick>(50, 1);
-    assert_eq!(controller.reset(&Cruise), Err(ResetError::NotStopped));
-    let q = Cruise.at(49).q;
-    let mut step = controller.observe(Ok(&q)).reference(&Cruise);
+    assert_eq!(controller.reset(&CRUISE), Err(ResetError::NotStopped));
+    let q = CRUISE.at(49).q;
+    let mut step = controller.observe(Ok(&q)).reference(&CRUISE);
     step.stop(Fault::External);
     let command = step.command(&[1.0]);
     assert_eq!((command.torque, command.brake), ([0.0], true));
@@ -188,31 +179,31 @@ fn numbers_outside_their_range_are_refused_by_name() {
 #[test]
 fn a_braked_arm_starts_only_by_a_near_reset() {
     let mut controller = controller::<PreviousTick>().on_brake();
-    assert_eq!(controller.reset(&Cruise), Err(ResetError::NoMeasurement));
+    assert_eq!(controller.reset(&CRUISE), Err(ResetError::NoMeasurement));
     for q in [[0.2], [0.2]] {
-        let command = controller.tick(Ok(&q), &Cruise, |_, _| [1.0]);
+        let command = controller.tick(Ok(&q), &CRUISE, |_, _| [1.0]);
         assert_eq!((command.torque, command.brake), ([0.0], true));
         let status = command.status;
         assert_eq!((status.mode, status.fault), (Mode::Stopped, None));
     }
     let far = ResetError::TooFar { joint: 0 };
-    assert_eq!(controller.reset(&Cruise), Err(far));
+    assert_eq!(controller.reset(&CRUISE), Err(far));
 
     let mut config = CONFIG;
     config.supervisor.reentry_ticks = 200;
     let controller = MotionController::<f64, 1>::try_new(config);
     let mut controller = controller.expect("every number is in its range").on_brake();
-    controller.tick(Ok(&[0.05]), &Cruise, |_, _| [1.0]);
-    assert_eq!(controller.reset(&Cruise), Ok(()));
+    controller.tick(Ok(&[0.05]), &CRUISE, |_, _| [1.0]);
+    assert_eq!(controller.reset(&CRUISE), Ok(()));
     let (mut brakes, mut q) = (0, [0.05]);
     for _ in 0..2000 {
-        let command = controller.tick(Ok(&q), &Cruise, |_, _| [1.0]);
+        let command = controller.tick(Ok(&q), &CRUISE, |_, _| [1.0]);
         q = controller.reference().q;
         assert_eq!(command.status.fault, None);
         brakes += u32::from(command.brake);
     }
     assert!(brakes < 5, "{brakes}");
     let reference = controller.reference().q[0];
-    let on = Cruise.at(controller.clock - 1).q[0];
+    let on = CRUISE.at(controller.clock - 1).q[0];
     assert!((reference - on).abs() < 1e-9, "{reference} {on}");
 }

@@ -53,10 +53,8 @@ fn a_way_that_is_left_early_keeps_the_trajectorys_progress() {
 fn the_trajectory_waits_where_a_decaying_speed_ends() {
     // 1/λ = 32 ticks.
     let resume = ResumeTrajectory::<f64, 1>::new(1.0 / 1024.0, 32.0, 200);
-    assert_eq!(
-        (resume.resume_tick(100), resume.resume_tick(u32::MAX)),
-        (132, u32::MAX)
-    );
+    let ends = [100, u32::MAX].map(|tick| resume.resume_tick(tick));
+    assert_eq!(ends, [132, u32::MAX]);
 }
 
 #[test]

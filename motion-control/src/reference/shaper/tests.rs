@@ -139,10 +139,7 @@ fn a_shaped_state_is_the_sum_of_its_delayed_states() {
 #[test]
 fn without_a_vibration_the_reference_is_as_it_was() {
     let shaper = Shaper::<f64, 1>::zv(&[], TICK).expect("a shaper");
-    assert_eq!(
-        (impulses(&shaper), shaper.delay()),
-        (List::from([(0, 1.0)]), 0)
-    );
+    assert_eq!((impulses(&shaper), shaper.delay()), (vec![(0, 1.0)], 0));
     let shaped = Shaped {
         reference: Ramp,
         shaper,

@@ -16,10 +16,8 @@ fn way_points_are_at_least_the_spacing_apart() {
     }
     let points: [f64; 3] = core::array::from_fn(|k| taught.points()[k][0]);
     assert_eq!(taught.points().len(), 3);
-    assert!(
-        (points[1] - 0.1).abs() < 1.1e-4 && (points[2] - 0.2).abs() < 2.1e-4,
-        "{points:?}"
-    );
+    let off = [points[1] - 0.1, points[2] - 0.2].map(f64::abs);
+    assert!(off[0] < 1.1e-4 && off[1] < 2.1e-4, "{points:?}");
     // Joints count by their spacings.
     taught.clear();
     for (q, recorded) in [
@@ -39,10 +37,8 @@ fn the_path_ends_where_the_arm_is() {
         taught.record(&[0.0, 0.0]);
         taught.record(&[0.1, 0.0]);
         assert_eq!(taught.end(&[end, 0.0]), Recorded::Stored);
-        assert_eq!(
-            (taught.points().len(), taught.points()[count - 1][0]),
-            (count, end)
-        );
+        assert_eq!(taught.points().len(), count);
+        assert_eq!(taught.points()[count - 1][0], end);
     }
     // An arm that has not moved has no path.
     let mut taught = taught();
@@ -61,10 +57,8 @@ fn a_full_path_keeps_its_points_and_is_playable() {
     assert_eq!(taught.record(&[5.0, 0.0]), Recorded::Full);
     assert_eq!(taught.end(&[5.0, 0.0]), Recorded::Full);
     assert_eq!(taught, before);
-    assert_eq!(
-        taught.spline(&[0.0; 2]).expect("good").point(1.0).q,
-        [3.0, 0.0]
-    );
+    let path = taught.spline(&[0.0; 2]).expect("good");
+    assert_eq!(path.point(1.0).q, [3.0, 0.0]);
 }
 
 #[test]

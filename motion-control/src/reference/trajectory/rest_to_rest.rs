@@ -154,20 +154,13 @@ fn check<R: Real, const V: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tests::{motion_limits, stop};
 
     const TICK: f64 = 1e-3;
 
     fn swing() -> RestToRest<f64, 1, 2> {
-        let stop = |q, ticks| WayPoint {
-            q: [q],
-            qd: [0.0],
-            ticks,
-        };
-        let quick = MotionLimits {
-            velocity: 10.0,
-            acceleration: 100.0,
-        };
-        RestToRest::new(&[stop(-0.4, 0), stop(1.3, 800)], TICK, &[quick]).unwrap()
+        let points = [stop([-0.4], 0), stop([1.3], 800)];
+        RestToRest::new(&points, TICK, &[motion_limits(10.0, 100.0)]).unwrap()
     }
 
     /// Central differences of one derivative are the next one, up to h²/6 of the third from there:
@@ -201,27 +194,16 @@ mod tests {
         let speed = peak(|c| c.state.qd[0]) / (SPEED * step / t);
         let acceleration = peak(|c| c.state.qdd[0]) / (ACCELERATION * step / (t * t));
         assert!((0.99999..=1.0 + 1e-14).contains(&speed), "{speed}");
-        assert!(
-            (0.9999..=1.0 + 1e-14).contains(&acceleration),
-            "{acceleration}"
-        );
+        let used = (0.9999..=1.0 + 1e-14).contains(&acceleration);
+        assert!(used, "{acceleration}");
     }
 
     #[test]
     fn a_way_point_passed_at_speed_is_refused() {
-        let point = |qd, ticks| WayPoint {
-            q: [0.0_f32],
-            qd: [qd],
-            ticks,
-        };
-        let points = [point(0.0, 0), point(0.1, 100), point(0.0, 100)];
-        let quick = MotionLimits {
-            velocity: 10.0,
-            acceleration: 100.0,
-        };
-        assert_eq!(
-            RestToRest::new(&points, 1e-3, &[quick]),
-            Err(TrajectoryError::NotAtRest { point: 1, joint: 0 })
-        );
+        let [first, mut passed, last] = [0, 100, 100].map(|ticks| stop([0.0_f32], ticks));
+        passed.qd = [0.1];
+        let refused = RestToRest::new(&[first, passed, last], 1e-3, &[motion_limits(10.0, 100.0)]);
+        let at_speed = TrajectoryError::NotAtRest { point: 1, joint: 0 };
+        assert_eq!(refused, Err(at_speed));
     }
 }

@@ -9,13 +9,8 @@ mod states;
 mod stops;
 mod transitions;
 
-const LIMITS: SafetyLimits<f32, 2> = safety_limits(
-    [10.0, 5.0],
-    [4.0, 4.0],
-    [2.0, 2.0],
-    [-1.0, -1.0],
-    [1.0, 1.0],
-);
+const LIMITS: SafetyLimits<f32, 2> =
+    safety_limits([10.0, 5.0], [4.0; 2], [2.0; 2], [-1.0; 2], [1.0; 2]);
 const TICK: f32 = 0.01;
 const HOLD: u32 = 3;
 const REENTRY: u32 = 4;

@@ -43,10 +43,8 @@ fn the_first_impossible_body_or_parameter_is_named() {
     }
     for (place, parameter) in [(20, 0), (21, 1)] {
         for value in [-1e-9, f64::NAN, f64::INFINITY] {
-            assert_eq!(
-                refused(place, value),
-                ImpossibleParameters::Joint { parameter }
-            );
+            let joint = ImpossibleParameters::Joint { parameter };
+            assert_eq!(refused(place, value), joint);
         }
     }
 }

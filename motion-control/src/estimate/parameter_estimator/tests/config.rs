@@ -37,13 +37,6 @@ fn each_number_has_its_range() {
 }
 
 #[test]
-fn the_parameters_of_each_joint_follow_those_of_all() {
-    let [first, second] = config(0.0).places();
-    assert_eq!((first.common, first.start, first.end), (5, 5, 10));
-    assert_eq!((second.common, second.start, second.end), (5, 10, 11));
-}
-
-#[test]
 fn an_unusable_row_is_named_and_changes_no_estimate() {
     let mut estimator = Estimator::try_new(config(0.0)).expect("a good configuration");
     compared(&mut estimator, &mut Whole::new(&config(0.0), [0.0; P]), 10);

@@ -30,18 +30,14 @@ fn update(pair: &mut Pair, joint: usize, residual: f64) -> Result<(), RejectedRo
 fn frozen() -> (Pair, f64) {
     let mut pair = pair();
     let joint = 1;
+    let outlier = Err(RejectedRow::Outlier { joint });
     let until = ticks(1.0, MOST, |level| level > 0.25 * MOST);
     for _ in 1..until {
-        assert_eq!(
-            update(&mut pair, joint, 99.0),
-            Err(RejectedRow::Outlier { joint })
-        );
+        assert_eq!(update(&mut pair, joint, 99.0), outlier);
         assert_eq!(pair.frozen(), None);
     }
-    assert_eq!(
-        update(&mut pair, joint, 99.0),
-        Err(RejectedRow::Frozen { joint })
-    );
+    let refused = Err(RejectedRow::Frozen { joint });
+    assert_eq!(update(&mut pair, joint, 99.0), refused);
     assert_eq!(pair.frozen(), Some(joint));
     assert_eq!(pair.rejected(), &[0, until]);
     let level = pair.consistency()[joint];
@@ -68,10 +64,8 @@ fn a_row_at_the_limit_is_no_outlier() {
     // Without a direction, exactly.
     let joint = 0;
     assert_eq!(pair().update(joint, &[0.0; 2], 4.0), Ok(()));
-    assert_eq!(
-        update(&mut pair(), joint, 4.01),
-        Err(RejectedRow::Outlier { joint })
-    );
+    let outlier = Err(RejectedRow::Outlier { joint });
+    assert_eq!(update(&mut pair(), joint, 4.01), outlier);
     // With an uncertain parameter the error may be larger.
     let config = ParameterEstimatorConfig {
         prior: [3.0_f64.sqrt(); 2],
@@ -87,12 +81,10 @@ fn a_row_at_the_limit_is_no_outlier() {
 fn consistent_rows_of_its_joint_thaw_the_estimate() {
     let (mut pair, level) = frozen();
     let joint = 1;
+    let refused = Err(RejectedRow::Frozen { joint });
     let until = ticks(level, 0.0, |level| level <= 0.16 * MOST);
     for _ in 1..until {
-        assert_eq!(
-            update(&mut pair, joint, 0.0),
-            Err(RejectedRow::Frozen { joint })
-        );
+        assert_eq!(update(&mut pair, joint, 0.0), refused);
     }
     assert_eq!(update(&mut pair, joint, 0.0), Ok(()));
     assert_eq!(pair.frozen(), None);

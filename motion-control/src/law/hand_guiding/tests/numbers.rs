@@ -4,11 +4,7 @@ use super::*;
 
 /// Joints of which each number is another one.
 fn two() -> HandGuidingConfig<f64, 2> {
-    let spring = LimitedSpring {
-        stiffness: [100.0, 300.0],
-        damping: [10.0, 30.0],
-        torque: [5.0, 15.0],
-    };
+    let spring = spring([100.0, 300.0], [10.0, 30.0], [5.0, 15.0]);
     HandGuidingConfig {
         error: 0.25,
         share: 0.75,
@@ -75,10 +71,8 @@ fn each_joint_has_its_own_walls_and_its_own_lock() {
     near(at(&guiding, [-9.0, 9.0], none), [5.0, -15.0]);
     guiding.lock(&[false, true], &[0.0, 1.0]).expect("finite");
     near(at(&guiding, [0.5, 0.98], [0.0, 0.1]), [0.0, 3.0]);
-    assert_eq!(
-        guiding.lock(&[true, true], &[f64::NAN, 7.0]),
-        Err(Fault::NotFinite { joint: 0 })
-    );
+    let refused = guiding.lock(&[true, true], &[f64::NAN, 7.0]);
+    assert_eq!(refused, Err(Fault::NotFinite { joint: 0 }));
     guiding.lock(&[true, true], &[0.5, 7.0]).expect("finite");
     // The one that was locked stays where it was.
     near(at(&guiding, [0.48, 0.98], none), [2.0, 6.0]);
@@ -135,11 +129,7 @@ fn every_number_of_a_configuration_is_checked() {
 
 #[test]
 fn a_share_that_is_rounded_to_the_error_is_a_configuration() {
-    let zero = LimitedSpring {
-        stiffness: [0.0],
-        damping: [0.0],
-        torque: [0.0],
-    };
+    let zero = spring([0.0], [0.0], [0.0]);
     for k in 0..1000 {
         let error = 1e-3 * k as f32;
         let config = HandGuidingConfig::<f32, 1> {

@@ -123,25 +123,6 @@ fn positions_velocities_and_accelerations_agree() {
 }
 
 #[test]
-fn the_retraction_in_f32_is_that_in_f64() {
-    let double = travelled::<16>();
-    let mut single: TravelledPath<f32, 2, 16> = TravelledPath::new(0.99 * DISTANCE as f32);
-    for k in (0..16).rev() {
-        single.record(&double.point(k).map(|q| q as f32));
-    }
-    single.distance = DISTANCE as f32;
-    assert!(single.plan(&single.point(0), 1e-3, &motion_limits(0.5, 2.0)));
-    assert!(single.ticks().abs_diff(double.ticks()) <= 1);
-    for tick in 0..=double.ticks() {
-        let (a, b) = (single.at(tick), double.at(tick));
-        for j in 0..2 {
-            assert!((f64::from(a.q[j]) - b.q[j]).abs() < 1e-3, "{tick}");
-            assert!((f64::from(a.qd[j]) - b.qd[j]).abs() < 1e-3, "{tick}");
-        }
-    }
-}
-
-#[test]
 fn without_a_path_there_is_no_retraction() {
     let mut path: TravelledPath<f64, 2, 16> = TravelledPath::new(DISTANCE);
     let from = [1.0, 2.0];

@@ -66,23 +66,15 @@ fn the_farther_end_of_a_range_is_the_one_in_degrees() {
 }
 
 #[test]
-fn the_advice_on_a_configuration_says_number_reason_and_remedy() {
+fn advice_names_its_number_and_its_joint() {
     let mut wrong = config();
     wrong.supervisor.tick = 1.0;
-    wrong.restart_distance = 15.0;
     wrong.supervisor.limits.rate[1] = 0.0;
-    let words: Vec<String> = wrong
-        .advice()
-        .map(|advice| advice.named(&["shoulder", "elbow"]).to_string())
-        .collect();
-    assert_eq!(
-        words[..2],
-        [
-            "a tick of 1 s means 1 ticks a second, where control loops have 50 to 10000: the tick is in s, 1 ms is 0.001",
-            "a restart distance of 15 rad or m allows a start 859° from the trajectory: it is in rad, and looks like \
-             degrees; 0.15 is usual",
-        ]
-    );
+    let advice = wrong.advice();
+    let words = advice.map(|advice| advice.named(&["shoulder", "elbow"]).to_string());
+    let words: Vec<String> = words.collect();
+    let tick = "a tick of 1 s means 1 ticks a second";
+    assert!(words[0].starts_with(tick), "{words:?}");
     let rate = "joint 1 (`elbow`): a rate of zero";
     assert!(words.iter().any(|text| text.starts_with(rate)), "{words:?}");
     let feedback = config().advice_on_feedback(5000.0, 300.0);

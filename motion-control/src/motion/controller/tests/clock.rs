@@ -10,7 +10,7 @@ const RETURN: u32 = 200;
 type Controller = MotionController<f64, 1, CurrentTick>;
 
 fn tick(controller: &mut Controller, q: f64) -> Command<f64, 1> {
-    controller.tick(Ok(&[q]), &Cruise, |_, _| [1.0])
+    controller.tick(Ok(&[q]), &CRUISE, |_, _| [1.0])
 }
 
 /// A controller in its return after a fault, of which so many ticks have passed, on a joint that
@@ -20,7 +20,7 @@ fn returning(ticks: u32) -> Controller {
     config.supervisor.reentry_ticks = RETURN;
     let mut controller = Controller::new(config).on_brake();
     tick(&mut controller, 0.05);
-    assert_eq!(controller.reset(&Cruise), Ok(()));
+    assert_eq!(controller.reset(&CRUISE), Ok(()));
     let mut q = 0.05;
     for _ in 0..ticks {
         assert_eq!(tick(&mut controller, q).status.fault, None);
@@ -39,18 +39,11 @@ fn an_arm_on_its_brake_begins_at_the_first_point() {
 }
 
 #[test]
-fn missed_ticks_end_with_the_reference_of_the_last() {
-    let mut controller = following::<PreviousTick>(100, 1);
-    controller.missed(4, &Cruise);
-    assert_eq!(controller.reference(), &Cruise.at(103));
-}
-
-#[test]
 fn without_measurements_the_estimate_moves_on() {
     let mut controller = following::<CurrentTick>(400, 0);
     for tick in 400..400 + RIDE {
-        controller.tick(LOST, &Cruise, |_, _| [1.0]);
-        let gap = controller.estimate().q[0] - Cruise.at(tick).q[0];
+        controller.tick(LOST, &CRUISE, |_, _| [1.0]);
+        let gap = controller.estimate().q[0] - CRUISE.at(tick).q[0];
         assert!(gap.abs() < 1e-9, "{tick}: {gap}");
     }
 }
@@ -78,7 +71,7 @@ fn excess_speed_is_a_fault_of_its_tick() {
     // Less than a jump, which is twice the greatest speed.
     let q = |tick: u32| [1.5 * 3.0 * TICK * f64::from(tick)];
     let found = (0..50).find_map(|tick| {
-        let command = controller.tick(Ok(&q(tick)), &Cruise, |_, _| [1.0]);
+        let command = controller.tick(Ok(&q(tick)), &CRUISE, |_, _| [1.0]);
         command.status.fault
     });
     assert_eq!(found, Some(Fault::Speed { joint: 0 }));
@@ -109,7 +102,7 @@ fn a_reaction_from_outside_begins_in_the_next_tick() {
     ] {
         let mut controller = following::<CurrentTick>(50, 0);
         controller.react(fault);
-        let status = tick(&mut controller, Cruise.at(50).q[0]).status;
+        let status = tick(&mut controller, CRUISE.at(50).q[0]).status;
         assert_eq!((status.mode, status.fault), (mode, Some(fault)));
     }
 }

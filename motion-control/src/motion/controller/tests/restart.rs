@@ -15,20 +15,20 @@ fn slow(hold_ticks: u32) -> Controller {
     config.supervisor.hold_ticks = hold_ticks;
     let mut controller = Controller::new(config);
     for k in 0..100 {
-        tick(&mut controller, Cruise.at(k).q[0]);
+        tick(&mut controller, CRUISE.at(k).q[0]);
     }
     controller
 }
 
 fn tick(controller: &mut Controller, q: f64) -> Command<f64, 1> {
-    controller.tick(Ok(&[q]), &Cruise, |_, _| [4.0])
+    controller.tick(Ok(&[q]), &CRUISE, |_, _| [4.0])
 }
 
 /// The same, stopped and at rest for many ticks.
 fn stopped(category: StopCategory<f64, 1>) -> (Controller, f64) {
     let mut controller = slow(HOLD);
     controller.stop_by(Fault::External, category);
-    let q = Cruise.at(100).q[0];
+    let q = CRUISE.at(100).q[0];
     for _ in 0..500 {
         tick(&mut controller, q);
     }
@@ -43,7 +43,7 @@ fn decelerating() -> [Controller; 2] {
     sinking.stop(Fault::External);
     let mut both = [held, sinking];
     for one in &mut both {
-        tick(one, Cruise.at(100).q[0]);
+        tick(one, CRUISE.at(100).q[0]);
     }
     both
 }
@@ -51,7 +51,7 @@ fn decelerating() -> [Controller; 2] {
 #[test]
 fn a_held_arm_is_reset_under_its_torque() {
     let (mut controller, q) = stopped(HOLDS);
-    assert_eq!(controller.reset(&Cruise), Ok(()));
+    assert_eq!(controller.reset(&CRUISE), Ok(()));
     let command = tick(&mut controller, q);
     assert_eq!((command.torque, command.brake), ([4.0], false));
     assert_eq!(command.status.fault, None);
@@ -60,7 +60,7 @@ fn a_held_arm_is_reset_under_its_torque() {
 #[test]
 fn a_stopped_arm_is_reset_under_its_brake() {
     let (mut controller, q) = stopped(StopCategory::TorqueOff);
-    assert_eq!(controller.reset(&Cruise), Ok(()));
+    assert_eq!(controller.reset(&CRUISE), Ok(()));
     for k in 1..=8 {
         let command = tick(&mut controller, q);
         assert_eq!(command.torque, [0.5 * f64::from(k)]);
@@ -103,7 +103,7 @@ fn a_reset_arm_follows_its_approach_from_the_begin() {
 fn a_reset_ends_the_deceleration() {
     for mut controller in decelerating() {
         assert!(controller.reference().qdd[0] < -1.0);
-        assert_eq!(controller.reset(&Cruise), Ok(()));
+        assert_eq!(controller.reset(&CRUISE), Ok(()));
         assert_eq!(controller.reference().qdd, [0.0]);
     }
 }
@@ -112,11 +112,11 @@ fn a_reset_ends_the_deceleration() {
 fn a_reset_after_missed_ticks_begins_where_the_arm_is() {
     for mut controller in decelerating() {
         let before = controller.estimate().q;
-        controller.missed(2, &Cruise);
+        controller.missed(2, &CRUISE);
         let estimate = *controller.estimate();
         assert!(estimate.q[0] > before[0]);
-        assert_eq!(controller.reset(&Cruise), Ok(()));
-        let begin = controller.resume.at(&Cruise, 0.0);
+        assert_eq!(controller.reset(&CRUISE), Ok(()));
+        let begin = controller.resume.at(&CRUISE, 0.0);
         assert_eq!((begin.q, begin.qd), (estimate.q, estimate.qd));
     }
 }
@@ -125,7 +125,7 @@ fn a_reset_after_missed_ticks_begins_where_the_arm_is() {
 fn the_first_stop_of_category_2_decelerates() {
     let mut controller = slow(0);
     controller.stop_by(Fault::External, HOLDS);
-    tick(&mut controller, Cruise.at(100).q[0]);
+    tick(&mut controller, CRUISE.at(100).q[0]);
     let (reference, estimate) = (controller.reference(), controller.estimate());
     assert!(estimate.qd[0] > 0.4, "{estimate:?}");
     assert_eq!(reference.qd, estimate.qd);
@@ -134,11 +134,11 @@ fn the_first_stop_of_category_2_decelerates() {
 #[test]
 fn a_second_reset_needs_another_measurement() {
     let (mut controller, q) = stopped(StopCategory::TorqueOff);
-    assert_eq!(controller.reset(&Cruise), Ok(()));
+    assert_eq!(controller.reset(&CRUISE), Ok(()));
     controller.stop(Fault::External);
-    assert_eq!(controller.reset(&Cruise), Err(ResetError::NoMeasurement));
+    assert_eq!(controller.reset(&CRUISE), Err(ResetError::NoMeasurement));
     tick(&mut controller, q);
-    assert_eq!(controller.reset(&Cruise), Ok(()));
+    assert_eq!(controller.reset(&CRUISE), Ok(()));
 }
 
 #[test]

@@ -34,7 +34,7 @@ fn config() -> MotionControllerConfig<f64, 1> {
 
 type Controller = MotionController<f64, 1, CurrentTick>;
 
-/// A controller whose joint follows [`Cruise`] for 300 ticks.
+/// A controller whose joint follows [`CRUISE`] for 300 ticks.
 fn cruising(category: StopCategory<f64, 1>) -> (Controller, Joint) {
     let controller = MotionController::try_new(config()).expect("every number is in its range");
     let (mut controller, mut joint) = (controller.with_stop(category), Joint(0.0, SPEED));
@@ -43,7 +43,7 @@ fn cruising(category: StopCategory<f64, 1>) -> (Controller, Joint) {
 }
 
 fn tick(controller: &mut Controller, joint: &mut Joint, share: f64) -> Command<f64, 1> {
-    let command = controller.tick(Ok(&[joint.0]), &Cruise, law(share));
+    let command = controller.tick(Ok(&[joint.0]), &CRUISE, law(share));
     joint.step(command.torque[0]);
     command
 }
@@ -61,7 +61,7 @@ fn category_2_stays_at_rest_despite_model_errors() {
     }
     // 0.4 N·m of gravity at 1250 N·m/rad are 0.3 mrad.
     assert!((joint.0 - rest).abs() < 4e-4, "{} {rest}", joint.0);
-    assert_eq!(controller.reset(&Cruise), Ok(()));
+    assert_eq!(controller.reset(&CRUISE), Ok(()));
     for _ in 0..1000 {
         let command = tick(&mut controller, &mut joint, 0.9);
         assert_eq!((command.status.fault, command.brake), (None, false));
@@ -94,9 +94,9 @@ fn a_sinking_joint_is_damped_beyond_its_bounds() {
     (0..2000).for_each(|_| _ = tick(&mut controller, &mut joint, 1.0));
     assert!((joint.1 - GRAVITY / 20.0).abs() < 1e-6, "{}", joint.1);
     for wrong in [Ok(&[f64::NAN]), Ok(&[7.0]), Err(Fault::Stale)] {
-        let command = controller.tick(wrong, &Cruise, law(1.0));
+        let command = controller.tick(wrong, &CRUISE, law(1.0));
         assert_eq!(command.torque, [0.0]);
-        let command = controller.tick(Ok(&[joint.0]), &Cruise, law(1.0));
+        let command = controller.tick(Ok(&[joint.0]), &CRUISE, law(1.0));
         // The estimate of the velocity rises again from zero.
         let rising = (-1e-9..0.5 * -GRAVITY).contains(&command.torque[0]);
         assert!(rising, "{command:?}");
@@ -111,7 +111,7 @@ fn a_reference_that_jumps_is_replaced_in_its_tick() {
     assert_eq!(steps.check(controller.reference()), Ok(()));
     // Another motion, a radian away.
     let away = Motion(|tick| {
-        let mut state = Cruise.at(tick);
+        let mut state = CRUISE.at(tick);
         state.q[0] += 1.0;
         state
     });
@@ -129,9 +129,9 @@ fn a_reference_that_jumps_is_replaced_in_its_tick() {
 fn too_many_missed_ticks_stop_the_arm() {
     for (ticks, fault) in [(2 + 150, None), (2 + 151, Some(Fault::Missed))] {
         let (mut controller, _) = cruising(StopCategory::ControlledOff);
-        controller.missed(ticks, &Cruise);
+        controller.missed(ticks, &CRUISE);
         let q = controller.estimate().q;
-        let command = controller.tick(Ok(&q), &Cruise, law(1.0));
+        let command = controller.tick(Ok(&q), &CRUISE, law(1.0));
         assert_eq!(command.status.fault, fault);
         assert_eq!(command.brake, fault.is_some());
     }
@@ -158,7 +158,7 @@ fn a_sinking_arm_is_known_from_its_first_measurement_on() {
     let mut controller = Controller::new(config()).with_stop(category);
     controller.stop(Fault::Restarted);
     for tick in 0..3 {
-        controller.tick(Ok(&[1e-3 * f64::from(tick)]), &Cruise, law(1.0));
+        controller.tick(Ok(&[1e-3 * f64::from(tick)]), &CRUISE, law(1.0));
     }
-    assert_eq!(controller.reset(&Cruise), Ok(()));
+    assert_eq!(controller.reset(&CRUISE), Ok(()));
 }

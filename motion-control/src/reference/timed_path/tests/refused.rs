@@ -37,10 +37,8 @@ fn gravity_beyond_a_limit_names_joint_and_point() {
     assert!(TimedPath::<_, _, 11>::new(&path, 1e-3, &limits, lift).is_ok());
     limits.friction[1].coulomb = 0.6;
     let error = refused(&path, &limits, lift);
-    assert!(
-        matches!(error, TimedPathError::Torque { joint: 1, .. }),
-        "{error}"
-    );
+    let lifted = matches!(error, TimedPathError::Torque { joint: 1, .. });
+    assert!(lifted, "{error}");
 }
 
 #[test]
@@ -49,13 +47,8 @@ fn friction_in_the_inverse_dynamics_is_found() {
     for friction in [|qd: f64| 0.01 * qd, |qd: f64| 0.01 * qd.signum()] {
         let id = |state: &State<f64, 1, 1>| [2.0 * state.qdd[0] + friction(state.qd[0])];
         let error = refused(&path, &torques([5.0]), id);
-        assert_eq!(
-            error,
-            TimedPathError::SignOfVelocity {
-                point: 10,
-                joint: 0
-            }
-        );
+        let (point, joint) = (10, 0);
+        assert_eq!(error, TimedPathError::SignOfVelocity { point, joint });
     }
 }
 
@@ -69,13 +62,8 @@ fn numbers_that_are_not_finite_are_named() {
         ]
     });
     let error = refused(&path, &torques([5.0; 2]), |state| state.qdd);
-    assert_eq!(
-        error,
-        TimedPathError::NotFinite {
-            point: 10,
-            joint: 1
-        }
-    );
+    let (point, joint) = (10, 1);
+    assert_eq!(error, TimedPathError::NotFinite { point, joint });
     let path = Curve(|s: f64| [[s, s], [1.0; 2], [0.0; 2]]);
     let id = |state: &State<f64, 2, 2>| {
         let bad = (0.35..0.45).contains(&state.q[0]);

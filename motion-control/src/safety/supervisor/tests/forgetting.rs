@@ -9,19 +9,15 @@ fn good_ticks(supervisor: &mut Supervisor<f32, 2>, ticks: u32) {
     }
 }
 
-fn bad_ticks(supervisor: &mut Supervisor<f32, 2>, ticks: u32) {
-    for _ in 0..ticks {
-        bad(supervisor, [3.0; 2]);
-    }
-}
-
 type Use = fn(&mut Supervisor<f32, 2>);
 
 /// What an arm may have done before, with a good measurement first.
 const USES: [(&str, Use); 8] = [
     ("good ticks", |one| good_ticks(one, 1)),
-    ("a fault", |one| bad_ticks(one, 1)),
-    ("a lasting fault", |one| bad_ticks(one, 20)),
+    ("a fault", |one| _ = bad(one, [3.0; 2])),
+    ("a lasting fault", |one| {
+        (0..20).for_each(|_| _ = bad(one, [3.0; 2]));
+    }),
     ("a stop", |one| one.stop(Fault::Brake)),
     ("a controlled stop", |one| {
         one.stop_by(Fault::External, StopCategory::ControlledOff);

@@ -11,27 +11,6 @@ fn fault_at(supervisor: &mut Supervisor<f32, 2>, q: [f32; 2]) -> Option<Fault> {
     fault
 }
 
-// Before the first position no step is too long.
-#[test]
-fn a_first_position_beyond_either_end_is_refused() {
-    for (q, joint) in [
-        ([1.01, 0.0], 0),
-        ([-1.01, 0.0], 0),
-        ([0.0, 1.01], 1),
-        ([0.0, -1.01], 1),
-    ] {
-        let fault = Some(Fault::Position { joint });
-        assert_eq!(fault_at(&mut supervisor(), q), fault, "{q:?}");
-    }
-    for none in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-        let fault = Some(Fault::NotFinite { joint: 1 });
-        assert_eq!(fault_at(&mut supervisor(), [0.0, none]), fault, "{none}");
-    }
-    for q in [[0.99, -0.99], [-0.99, 0.99], [1.0, -1.0]] {
-        assert_eq!(fault_at(&mut supervisor(), q), None, "{q:?}");
-    }
-}
-
 #[test]
 fn a_position_jumps_in_either_direction() {
     // Twice 2 rad/s for a tick are 0.04 rad.

@@ -38,11 +38,8 @@ fn damping_is_limited_and_never_drives() {
     }
     // The power that it adds is never positive once the rate allows it.
     supervisor.stop_by(Fault::External, StopCategory::TorqueOff);
-    assert_eq!(
-        sinks(&mut supervisor, [-1.0, 1.0]),
-        [2.0, 0.0],
-        "the arm is stopped already"
-    );
+    // The arm is stopped already.
+    assert_eq!(sinks(&mut supervisor, [-1.0, 1.0]), [2.0, 0.0]);
 }
 
 #[test]

@@ -61,26 +61,3 @@ fn a_joint_that_stops_on_the_seam_is_not_frozen() {
     assert_eq!(run(frozen, -3.1413), fault);
     assert_eq!(run(frozen.on_circles::<WHEEL>(), -3.12), fault);
 }
-
-#[test]
-fn all_detectors_are_silent_along_a_motion_over_the_seam() {
-    for way in [1.0, -1.0] {
-        let start = [PI - 0.5 * way, 0.0];
-        let (motion, mut bench) = (line(start, way, 2000), Bench::at(start));
-        let mut detectors = Detectors {
-            frozen: FrozenEncoder::new([0.01; 2], 4),
-            steps: ReferenceStep::new([2e-3; 2]),
-            saturation: Saturation::new([40.0; 2], 20),
-        }
-        .on_circles::<WHEEL>();
-        for _ in 0..2500 {
-            let (q, acted) = (bench.measured(), bench.controller.reference().q);
-            assert_eq!(detectors.measured(&q, &acted), Ok(()));
-            bench.tick(&motion);
-            let mode = bench.controller.mode();
-            let reference = bench.controller.reference();
-            assert_eq!(detectors.referenced(reference, mode), Ok(()));
-            assert_eq!(detectors.commanded(&bench.command), Ok(()));
-        }
-    }
-}

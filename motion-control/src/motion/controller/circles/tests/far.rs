@@ -1,14 +1,7 @@
 //! After ten thousand turns a controller computes what it computes after none.
 
 use super::*;
-use crate::tests::{controlled, safety_limits};
-
-/// Cruises at a constant speed, its angle in integer counts and within a turn.
-struct Cruise {
-    /// Counts of the encoder per tick, and per turn.
-    step: i64,
-    begin: i64,
-}
+use crate::tests::{Motion, controlled, safety_limits};
 
 const COUNTS: i64 = 16_384;
 
@@ -18,31 +11,22 @@ fn angle(counts: i64) -> f32 {
     within as f32 * (TAU / COUNTS as f32)
 }
 
-impl Reference<f32, 2> for Cruise {
-    fn at(&self, tick: u32) -> State<f32, 2, 2> {
-        State {
-            q: [angle(self.begin + self.step * i64::from(tick)), 0.0],
-            qd: [self.step as f32 * (TAU / COUNTS as f32) / TICK, 0.0],
-            qdd: [0.0; 2],
-        }
-    }
-    fn ticks(&self) -> u32 {
-        u32::MAX
-    }
-}
-
 /// The largest error of the estimated speed, and of the tracking error, in three turns of a joint
 /// that lags by `lag` counts.
 fn errors(turns: i64, step: i64, lag: i64) -> [f32; 2] {
-    let cruise = Cruise {
-        step,
-        begin: turns * COUNTS,
-    };
+    let begin = turns * COUNTS;
+    let qd = step as f32 * (TAU / COUNTS as f32) / TICK;
+    // At a constant speed, the angle within a turn.
+    let cruise = Motion(|tick| State {
+        q: [angle(begin + step * i64::from(tick)), 0.0],
+        qd: [qd, 0.0],
+        qdd: [0.0; 2],
+    });
     let mut controller = Controller::new(config(FREE[0], FREE[1]));
     let [mut speed, mut tracking] = [0.0_f32; 2];
     let ticks = 600 + 3 * COUNTS / step.abs();
     for tick in 0..ticks {
-        let counts = cruise.begin + step * tick - lag;
+        let counts = begin + step * tick - lag;
         let mut off = 0.0;
         let command = controller.tick(Ok(&[angle(counts), 0.0]), &cruise, |reference, estimate| {
             off = reference.q[0] - estimate.q[0];
@@ -50,7 +34,6 @@ fn errors(turns: i64, step: i64, lag: i64) -> [f32; 2] {
         });
         assert_eq!(command.status.fault, None, "{turns} {tick}");
         if tick >= 600 {
-            let qd = cruise.at(0).qd[0];
             speed = speed.max((controller.estimate().qd[0] / qd - 1.0).abs());
             let lag = lag as f32 * (TAU / COUNTS as f32);
             tracking = tracking.max((off / lag - 1.0).abs());
@@ -72,37 +55,10 @@ fn speed_and_tracking_errors_are_the_same_after_ten_thousand_turns() {
 }
 
 #[test]
-fn an_observer_alone_estimates_the_same_after_ten_thousand_turns() {
-    let circle = Circles::NONE.with(0);
-    let estimate = |turns: i64| {
-        let config = ObserverConfig {
-            bandwidth: 250.0,
-            tick: TICK,
-        };
-        let mut observer = Observer::<f32, 1>::new(config);
-        for tick in 0..5000 {
-            let q = [angle(turns * COUNTS + 7 * tick)];
-            observer.turn_to(circle, &q);
-            observer.update(&q, &[0.0]);
-        }
-        *observer.estimate()
-    };
-    assert_eq!(estimate(10_000), estimate(0));
-    let speed = 7.0 * (TAU / COUNTS as f32) / TICK;
-    assert!((estimate(0).qd[0] / speed - 1.0).abs() < 1e-3);
-}
-
-#[test]
 fn a_count_of_turns_in_f64_is_a_place_after_ten_thousand_of_them() {
     type Double = MotionController<f64, 1, OnCircles<1, CurrentTick>>;
     let limits = safety_limits([40.0], [40.0], [3.0], [f64::NEG_INFINITY], [f64::INFINITY]);
-    let single = config(FREE[0], FREE[1]);
-    let config = controlled(
-        limits,
-        1e-3,
-        [2, 100, 50],
-        [f64::from(single.observer_bandwidth), 25.0, 0.1],
-    );
+    let config = controlled(limits, 1e-3, [2, 100, 50], [250.0, 25.0, 0.1]);
     let mut controller = Double::try_new(config).expect("a circle");
     for tick in 0..3000 {
         let q = 62_831.0 + 2e-3 * f64::from(tick);

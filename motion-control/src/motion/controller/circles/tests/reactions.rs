@@ -63,25 +63,6 @@ fn a_circle_stands_on_the_seam_while_another_joint_backs_off() {
 }
 
 #[test]
-fn an_arm_is_held_on_the_seam() {
-    let start = [PI - 0.05, 0.0];
-    let (motion, mut bench) = (line(start, 0.4, 1000), Bench::at(start));
-    for tick in 0..3000 {
-        if tick == 280 {
-            let hold = StopCategory::ControlledHold;
-            bench.controller.stop_by(Fault::External, hold);
-        }
-        if tick == 1000 {
-            bench.controller.reset(&motion).expect("held near it");
-        }
-        bench.tick(&motion);
-        assert!(bench.command.torque[0].abs() < 30.0, "{tick}");
-        assert!((bench.q[0] - f64::from(PI)).abs() < 0.4);
-    }
-    assert!((bench.q[0] - f64::from(start[0] + 0.4)).abs() < 2e-3);
-}
-
-#[test]
 fn a_retraction_leads_back_over_the_seam() {
     for way in [0.5_f32, -0.5] {
         let start = [PI - 0.4 * way, 0.0];

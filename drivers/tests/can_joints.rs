@@ -100,9 +100,10 @@ fn a_bus_that_fails_or_is_full_is_an_error() {
         (nb::Error::Other(overrun), CanError::Bus(overrun)),
         (nb::Error::WouldBlock, CanError::Full),
     ] {
-        let mut bus = Bus::default();
-        bus.error = Some(error);
-        let joints = joints(bus);
+        let joints = joints(Bus {
+            error: Some(error),
+            ..Bus::default()
+        });
         assert_eq!((&joints).set_torques(&[0.0; 2]), Err(at(0, expected)));
     }
 }

@@ -306,29 +306,19 @@ fn each_failure_of_the_bus_is_a_typed_error() {
     let answer = |bytes: &[u8], then: Option<Step>| -> Vec<_> {
         [received(bytes)].into_iter().chain(then).collect()
     };
+    let whole = |id, status, bytes: &[u8]| answer(&reply(id, status, bytes), None);
+    use FeetechError::{Checksum, NoReply, Noise, Port, Servo, Unexpected};
     let (silent, broken) = (vec![Step::Timeout], vec![Step::Broken]);
     let late = Some(Step::Timeout);
     let cases = [
-        (silent, FeetechError::NoReply { id }),
-        (
-            answer(&READ_ONE[..3], late.clone()),
-            FeetechError::NoReply { id },
-        ),
-        (answer(&wrong, late), FeetechError::Checksum { id }),
-        (answer(&noise, None), FeetechError::Noise),
-        (broken, FeetechError::Port(ErrorKind::InvalidData)),
-        (
-            answer(&reply(2, 0, &[0, 0]), None),
-            FeetechError::Unexpected { id, found: 2 },
-        ),
-        (
-            answer(&reply(1, 0, &[0]), None),
-            FeetechError::Unexpected { id, found: 1 },
-        ),
-        (
-            answer(&reply(1, 0x24, &[0, 0]), None),
-            FeetechError::Servo { id, status: 0x24 },
-        ),
+        (silent, NoReply { id }),
+        (answer(&READ_ONE[..3], late.clone()), NoReply { id }),
+        (answer(&wrong, late), Checksum { id }),
+        (answer(&noise, None), Noise),
+        (broken, Port(ErrorKind::InvalidData)),
+        (whole(2, 0, &[0, 0]), Unexpected { id, found: 2 }),
+        (whole(1, 0, &[0]), Unexpected { id, found: 1 }),
+        (whole(1, 0x24, &[0, 0]), Servo { id, status: 0x24 }),
     ];
     for (answer, error) in cases {
         let mut servos = servos::<1>(&[vec![sent(&READ_ONE)], answer].concat());

@@ -40,13 +40,12 @@ fn positions_at_their_bounds_are_within_them() {
         let fault = Some(Fault::NotFinite { joint: 1 });
         assert_eq!(fault_at(supervisor, [0.0, none]), fault, "{none}");
     }
-    for [a, b, joint] in [
-        [0.51, 0.7, 0.0],
-        [-1.01, 0.7, 0.0],
-        [0.0, 0.49, 1.0],
-        [0.0, 1.01, 1.0],
+    for (q, joint) in [
+        ([0.51, 0.7], 0),
+        ([-1.01, 0.7], 0),
+        ([0.0, 0.49], 1),
+        ([0.0, 1.01], 1),
     ] {
-        let (q, joint) = ([a, b], joint as usize);
         assert_eq!(supervisor.outside(&q), Some(joint), "{q:?}");
         assert_eq!(fault_at(supervisor, q), Some(Fault::Position { joint }));
         assert_eq!(fault_at(at([0.0, 0.7]), q), Some(Fault::Position { joint }));

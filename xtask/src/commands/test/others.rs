@@ -34,16 +34,14 @@ const PICO_2: &str = "thumbv8m.main-none-eabihf";
 
 /// The guide's programs, and the servo bus on a serial port of Embassy where the target of its chip
 /// can be had.
-pub fn guide(context: &Context) -> Result<String> {
+pub fn guide(context: &Context) -> Result<()> {
     context.cargo(&["check --package guide-firmware --target thumbv7em-none-eabihf"])?;
     if !toolchain::native_has(PICO_2) {
         setup::for_cores(context.options, &[PICO_2], &[])
             .or_else(|_| skip(format!("no {PICO_2}")))?;
     }
-    context.cargo(&[format!(
-        "check --package pico2-embassy --bins --target {PICO_2}"
-    )])?;
-    Ok(String::new())
+    let bins = format!("check --package pico2-embassy --bins --target {PICO_2}");
+    context.cargo(&[bins]).map(drop)
 }
 
 /// The projects that `robot-import new` writes, of a pendulum and of an arm, two libraries for C in

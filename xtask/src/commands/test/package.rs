@@ -7,7 +7,7 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
-use super::Context;
+use super::{Context, others};
 use crate::kit::error::{Error, Result, refuse_if};
 use crate::kit::host_bin::SHARED;
 use crate::kit::shell;
@@ -111,7 +111,10 @@ pub fn features(context: &Context) -> Result<String> {
         plain != with_features,
         "the features `{FEATURES}` change the numbers of `{COMPARED}`:\n{plain}\n{with_features}"
     );
-    Ok(FEATURES.to_owned())
+    match others::msrv(context) {
+        Err(Error::Skipped(why)) => Ok(format!("{FEATURES}; the oldest compiler: {why}")),
+        rustc => Ok(format!("{FEATURES}; {}", rustc?)),
+    }
 }
 
 pub fn examples(context: &Context) -> Result<String> {

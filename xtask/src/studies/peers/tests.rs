@@ -110,7 +110,6 @@ fn check(page: &str, promised: &Bars) -> Result<(), String> {
         builds: Vec::new(),
         compared: of_rows,
         versions: Vec::new(),
-        code: String::new(),
         date: String::new(),
     };
     let text = report.markdown();

@@ -1,6 +1,6 @@
 //! Running other programs.
 
-use std::io::{BufRead, BufReader, IsTerminal};
+use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::process::{Child, Command, ExitStatus, Stdio};
 
@@ -81,18 +81,6 @@ fn output_of(command: &mut Command) -> Result<(String, String)> {
     let output = format!("\n{stdout}{stderr}");
     let output = output.trim_end().to_owned();
     Err(Error::failed(command, out.status, output))
-}
-
-/// Runs a command and hands over its stdout line by line; its stderr is the user's.
-pub fn each_line(command: &mut Command, mut on_line: impl FnMut(&str) -> Result<()>) -> Result<()> {
-    command.stdin(Stdio::null()).stdout(Stdio::piped());
-    let (mut child, _group) = spawn(command)?;
-    let stdout = child.stdout.take().into_iter();
-    for line in stdout.flat_map(|out| BufReader::new(out).lines()) {
-        on_line(&line.map_err(|e| Error::spawn(command, e))?)?;
-    }
-    let status = child.wait().map_err(|e| Error::spawn(command, e))?;
-    succeeded(command, status)
 }
 
 /// Whether the command can be started and succeeds, with nothing shown.

@@ -60,7 +60,10 @@ fn animate(attribute: &str, seconds: f64, values: &[String]) -> String {
     )
 }
 
-fn text(class: &str, size: u32, anchor: &str, [x, y]: [f64; 2], words: &str) -> String {
+/// A text whose style is its classes, its size and its anchor.
+fn text(style: &str, [x, y]: [f64; 2], words: &str) -> String {
+    let mut parts = style.rsplitn(3, ' ');
+    let [anchor, size, class] = [(); 3].map(|()| parts.next().unwrap_or_default());
     format!(
         "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\">{words}</text>\n"
     )
@@ -166,47 +169,25 @@ fn arm(
 fn words(motion: &Motion) -> String {
     let speed = motion.ticks.len() as f64 / 1000.0 / SECONDS;
     let how = format!("simulated, at {speed:.1} times its speed");
-    let mut shapes = text(
-        "ink bold",
-        20,
-        "start",
-        [20.0, 32.0],
-        "UR5e, pick and place",
-    );
-    shapes += &text("muted", 15, "start", [20.0, 54.0], &how);
+    let mut shapes = text("ink bold 20 start", [20.0, 32.0], "UR5e, pick and place");
+    shapes += &text("muted 15 start", [20.0, 54.0], &how);
     for (class, words, x) in [("arm", "arm", 20.0), ("wanted", "reference", 84.0)] {
         shapes += &format!(
             "<rect class=\"{class}\" x=\"{x}\" y=\"70\" width=\"14\" height=\"14\" rx=\"3\"/>"
         );
-        shapes += &text("ink", 16, "start", [x + 20.0, 83.0], words);
+        shapes += &text("ink 16 start", [x + 20.0, 83.0], words);
     }
     for is_on in [true, false] {
         let shown = PARTS.map(|on| u8::from(on == is_on).to_string());
         let animation = animate("opacity", SECONDS, &shown)
             .replace("<animate", "<animate calcMode=\"discrete\"");
-        let name = if is_on {
-            "feed-forward on"
-        } else {
-            "feed-forward off"
-        };
-        let class = if is_on {
-            "arm bold moves"
-        } else {
-            "wanted bold moves"
-        };
-        shapes += &text(
-            class,
-            20,
-            "end",
-            [620.0, 32.0],
-            &format!("{name}{animation}"),
-        );
+        let (class, state) = [("wanted", "off"), ("arm", "on")][usize::from(is_on)];
+        let (style, name) = (format!("{class} bold moves 20 end"), "feed-forward");
+        shapes += &text(&style, [620.0, 32.0], &format!("{name} {state}{animation}"));
     }
     shapes
         + &text(
-            "wanted bold still",
-            20,
-            "end",
+            "wanted bold still 20 end",
             [620.0, 32.0],
             "feed-forward off",
         )
@@ -224,17 +205,11 @@ fn plotted(share: f64, error: f64) -> DVec2 {
 fn plot(errors: &[f64], still: usize, labels: &[String; PARTS.len()]) -> String {
     let [left, top, right, bottom] = PLOT;
     let title = "distance of the tip from its reference, mm";
-    let mut shapes = text("muted", 16, "start", [20.0, 396.0], title);
+    let mut shapes = text("muted 16 start", [20.0, 396.0], title);
     for error in [0.0, 20.0, 40.0] {
         let y = plotted(0.0, error).y;
         shapes += &format!("<path class=\"faint-line\" d=\"M{left},{y}H{right}\"/>");
-        shapes += &text(
-            "muted",
-            15,
-            "end",
-            [left - 8.0, y + 5.0],
-            &format!("{error}"),
-        );
+        shapes += &text("muted 15 end", [left - 8.0, y + 5.0], &error.to_string());
     }
     for (k, label) in labels.iter().enumerate() {
         let share = |k: f64| k / PARTS.len() as f64;
@@ -243,13 +218,8 @@ fn plot(errors: &[f64], still: usize, labels: &[String; PARTS.len()]) -> String 
             shapes += &format!("<path class=\"muted-line dashed\" d=\"M{x:.1},{top}V{bottom}\"/>");
         }
         let middle = plotted(share(k as f64 + 0.5), MOST);
-        shapes += &text(
-            "ink",
-            16,
-            "middle",
-            [middle.x.round(), middle.y + 20.0],
-            label,
-        );
+        let at = [middle.x.round(), middle.y + 20.0];
+        shapes += &text("ink 16 middle", at, label);
     }
     let whole = (errors.len() - 1) as f64;
     let curve = errors.iter().enumerate();

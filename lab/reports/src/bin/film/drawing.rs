@@ -105,13 +105,8 @@ fn style() -> String {
         let of = |colour| {
             format!(".{class}{{fill:{colour}}}.{class}-line{{fill:none;stroke:{colour}}}\n")
         };
-        write!(
-            style,
-            "{}@media (prefers-color-scheme: dark){{{}}}\n",
-            of(light),
-            of(dark)
-        )
-        .expect("a string");
+        style += &of(light);
+        style += &format!("@media (prefers-color-scheme: dark){{{}}}\n", of(dark));
     }
     style
         + ".bold{font-weight:600}.dashed{stroke-dasharray:2 4}polyline{stroke-linejoin:round;stroke-linecap:round}.still{display:none}\n\
@@ -124,14 +119,8 @@ fn floor() -> String {
         let at = 0.2 * f64::from(k);
         let half = (FLOOR * FLOOR - at * at).sqrt();
         for [x, y] in [[half, at], [at, half]] {
-            let (from, to) = (
-                DVec3::new(x, y, 0.0),
-                match x == half {
-                    true => DVec3::new(-x, y, 0.0),
-                    false => DVec3::new(x, -y, 0.0),
-                },
-            );
-            let [from, to] = [from, to].map(|end| points([place(end)]));
+            let to = if x == half { [-x, y] } else { [x, -y] };
+            let [from, to] = [[x, y], to].map(|[x, y]| points([place(DVec3::new(x, y, 0.0))]));
             write!(lines, "M{from}L{to}").expect("a string");
         }
     }
@@ -150,11 +139,8 @@ fn arm(
     let mut shapes = String::new();
     for ([from, to], width) in STROKES {
         let at = |tick: &Tick| points(of(tick)[from..=to].iter().map(|point| place(*point)));
-        let moves = animate(
-            "points",
-            seconds,
-            &samples.iter().map(at).collect::<Vec<_>>(),
-        );
+        let places: Vec<String> = samples.iter().map(at).collect();
+        let moves = animate("points", seconds, &places);
         let line = format!("polyline class=\"{class}-line");
         let still = at(&samples[still]);
         writeln!(

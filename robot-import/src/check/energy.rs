@@ -192,13 +192,13 @@ fn work<T: Number>(pose: &Rows<Dual2<T, f64>>, (moments, first, mass): &Moments)
     for (b, row) in pose.iter().enumerate() {
         let mut second = row.map(|entry| entry.v2);
         if b == 2 {
-            second[3] = second[3] + T::from(G);
+            second[3] += T::from(G);
         }
         // J (Ä − G)ᵀ, column b.
         let mut column = [T::from(0.0); 4];
         for (i, entry) in column.iter_mut().enumerate() {
             for (k, &x) in second.iter().enumerate() {
-                *entry = *entry + x * of_link(i, k);
+                *entry += x * of_link(i, k);
             }
         }
         for (a, row) in pose.iter().enumerate() {
@@ -214,7 +214,7 @@ fn work<T: Number>(pose: &Rows<Dual2<T, f64>>, (moments, first, mass): &Moments)
 fn add<T: Number>(sum: &mut [[T; 3]; 4], other: &[[T; 3]; 4]) {
     for (row, other) in sum.iter_mut().zip(other) {
         for (entry, &other) in row.iter_mut().zip(other) {
-            *entry = *entry + other;
+            *entry += other;
         }
     }
 }
@@ -238,10 +238,10 @@ fn forces<T: Number>(
             let mut rest = slope[3];
             for a in 0..3 {
                 let q = slope[0] * pose[a][0] + slope[1] * pose[a][1] + slope[2] * pose[a][2];
-                force = force + q * sum[a][b];
-                rest = rest - q * pose[a][3];
+                force += q * sum[a][b];
+                rest -= q * pose[a][3];
             }
-            force = force + rest * sum[3][b];
+            force += rest * sum[3][b];
         }
         *torque = force;
     }
@@ -376,13 +376,13 @@ mod tests {
                             (3, i) | (i, 3) => first[i],
                             (i, k) => moments[i][k],
                         };
-                        sum = sum + x * y * (0.5 * weight);
+                        sum += x * y * (0.5 * weight);
                     }
                 }
             }
             let [_, _, z] = pose;
             for (entry, &h) in z.iter().zip(first.iter().chain([mass])) {
-                sum = sum - entry.re * (G * h);
+                sum -= entry.re * (G * h);
             }
         }
         sum

@@ -23,7 +23,7 @@ pub struct Recorder {
 
 enum Form {
     /// Whether the titles are written.
-    Csv(csv::Writer<File>, bool),
+    Csv(Box<csv::Writer<File>>, bool),
     Mcap(Box<mcap::Writer<BufWriter<File>>>, u16),
 }
 
@@ -66,7 +66,7 @@ impl Recorder {
             })
         };
         let form = match ending {
-            Some("csv") => Form::Csv(csv::Writer::from_writer(open()?), false),
+            Some("csv") => Form::Csv(Box::new(csv::Writer::from_writer(open()?)), false),
             Some("mcap") => {
                 let failed = |source| mcap_error(path, source);
                 let mut writer = mcap::Writer::new(BufWriter::new(open()?)).map_err(failed)?;

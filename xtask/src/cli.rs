@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
-use clap::error::ErrorKind;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands::{demo, endurance, identify, import, meter, play, test, watch};
@@ -121,7 +120,7 @@ pub fn parse() -> std::result::Result<(Cli, ArgMatches), clap::Error> {
     Ok((Cli::from_arg_matches(&matches)?, matches))
 }
 
-/// Prints help or what is wrong with the command line, with the words that could have stood there.
+/// Prints help or what is wrong with the command line.
 pub fn explain(error: &clap::Error) -> i32 {
     if let Err(error) = error.print() {
         // A reader such as `head` may close the pipe early.
@@ -130,37 +129,7 @@ pub fn explain(error: &clap::Error) -> i32 {
         }
         return 1;
     }
-    // Clap lists the values that it would take, but not the commands and options.
-    if let Some(valid) = valid_words(error.kind()) {
-        output::note(&format!("\n{valid}"));
-    }
     error.exit_code()
-}
-
-/// The valid words in place of one that is unknown.
-fn valid_words(kind: ErrorKind) -> Option<String> {
-    let mut root = command();
-    root.build();
-    let (what, words): (_, Vec<String>) = match kind {
-        ErrorKind::InvalidSubcommand => {
-            let names = in_order(&root).map(|command| command.get_name().to_owned());
-            ("commands".to_owned(), names.collect())
-        }
-        ErrorKind::UnknownArgument => {
-            let typed = std::env::args().find_map(|word| root.find_subcommand(&word));
-            let command = typed.unwrap_or(&root);
-            let shown = command
-                .get_arguments()
-                .filter(|argument| !argument.is_hide_set());
-            let options = shown.filter_map(|argument| Some(format!("--{}", argument.get_long()?)));
-            (
-                format!("options of {}", command.get_name()),
-                options.collect(),
-            )
-        }
-        _ => return None,
-    };
-    Some(format!("valid {what}: {}", words.join(", ")))
 }
 
 pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {

@@ -12,7 +12,6 @@ use std::process::ExitCode;
 use kit::output;
 
 fn main() -> ExitCode {
-    kit::apt::extend_path();
     let outcome = match cli::parse() {
         Ok(cli) => cli::run(cli),
         Err(error) => std::process::exit(cli::explain(&error)),

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use serde::Serialize;
 
 use crate::check::Checked;
-use crate::description::{Description, Format, Joint, Kind};
+use crate::description::{Description, Format, Joint, Kind, Mimic};
 use crate::inertia::MassProperties;
 pub use crate::physical::TOLERANCE;
 use crate::physical::{impossible, sentence};
@@ -96,11 +96,7 @@ pub fn needless_torque(tree: &Tree, checked: &Checked) -> Option<Advice> {
         }
     }
     let (ratio, body, limit, needed) = nearest.filter(|(ratio, ..)| *ratio > MOST_LIMIT)?;
-    let unit = if body.kind == Kind::Prismatic {
-        "N"
-    } else {
-        "N·m"
-    };
+    let unit = ["N·m", "N"][usize::from(body.kind == Kind::Prismatic)];
     Some(Advice {
         topic: Topic::Limits,
         line: body.line,
@@ -256,11 +252,7 @@ fn joint(robot: &Description, joint: &Joint, selected: &Selected, all: &mut Vec<
     if let Some(speed) = limits.velocity.filter(|speed| *speed > 0.0)
         && range / speed > SLOWEST
     {
-        let unit = if joint.kind == Kind::Prismatic {
-            "m"
-        } else {
-            "rad"
-        };
+        let unit = ["rad", "m"][usize::from(joint.kind == Kind::Prismatic)];
         add(
             Topic::Limits,
             format!(
@@ -271,10 +263,7 @@ fn joint(robot: &Description, joint: &Joint, selected: &Selected, all: &mut Vec<
         );
     }
     // A follower has no motor of its own, nor has a joint without one where the file has some.
-    let leader = (joint.mimic.as_ref()).and_then(|mimic| {
-        let mut others = robot.joints.iter();
-        others.position(|other| other.name == mimic.joint)
-    });
+    let leader = joint.mimic.as_ref().and_then(|mimic| leader(robot, mimic));
     let is_passive = leader.is_some_and(|leader| selected.order.contains(&leader))
         || robot.format == Format::Mjcf
             && !joint.driven
@@ -337,11 +326,7 @@ fn locked(
     let Some(mimic) = &joint.mimic else {
         return;
     };
-    let leader = robot
-        .joints
-        .iter()
-        .position(|other| other.name == mimic.joint);
-    let Some(leader) = leader else {
+    let Some(leader) = leader(robot, mimic) else {
         return;
     };
     let name = &mimic.joint;
@@ -370,6 +355,12 @@ fn locked(
     }
 }
 
+/// The joint that another follows.
+fn leader(robot: &Description, mimic: &Mimic) -> Option<usize> {
+    let mut joints = robot.joints.iter();
+    joints.position(|other| other.name == mimic.joint)
+}
+
 fn mimic(
     robot: &Description,
     joint: &Joint,
@@ -379,11 +370,7 @@ fn mimic(
     let Some(mimic) = &joint.mimic else {
         return;
     };
-    let leader = robot
-        .joints
-        .iter()
-        .position(|other| other.name == mimic.joint);
-    let Some(leader) = leader else {
+    let Some(leader) = leader(robot, mimic) else {
         let text = format!(
             "It follows `{}`, which does not exist: it moves by itself.",
             mimic.joint

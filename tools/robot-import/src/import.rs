@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::advice::{Advice, advice, needless_torque};
+use crate::advice::{Advice, Topic, advice, needless_torque};
 use crate::check::{self, NoPeer, Python, STATES};
 use crate::description::{Description, Format, shortened};
 use crate::dropped::dropped;
@@ -292,30 +292,23 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
     let kept = args.kept_type();
     let type_name =
         (args.type_name.clone().or(kept.clone())).unwrap_or_else(|| write::type_name(&name));
+    let of_file = |topic, text| Advice {
+        topic,
+        line: 0,
+        name: name.clone(),
+        text,
+    };
     let mut own = advice(&robot, &selected, &tree);
     // The motors of a machine with loops share what its joints need.
     own.extend(needless_torque(&tree, &checked).filter(|_| closed.is_empty()));
     if let Some(NoPeer::Failed(reason)) = &no_peer {
-        own.push(Advice {
-            topic: crate::advice::Topic::Peer,
-            line: 0,
-            name: name.clone(),
-            text: format!("The import was compared with no peer: {reason}."),
-        });
+        let text = format!("The import was compared with no peer: {reason}.");
+        own.push(of_file(Topic::Peer, text));
     }
-    own.extend(complaint.map(|text| Advice {
-        topic: crate::advice::Topic::Peer,
-        line: 0,
-        name: name.clone(),
-        text,
-    }));
+    own.extend(complaint.map(|text| of_file(Topic::Peer, text)));
     own.extend(plausible(&tree, &name));
-    own.extend(notes.iter().map(|note| Advice {
-        topic: crate::advice::Topic::LeftOut,
-        line: 0,
-        name: name.clone(),
-        text: note.clone(),
-    }));
+    let left_out = notes.iter().cloned();
+    own.extend(left_out.map(|note| of_file(Topic::LeftOut, note)));
     let renamed = match (&args.type_name, kept) {
         (Some(_), _) => None,
         (None, Some(kept)) => (kept != write::type_name(&name)).then(|| {
@@ -323,12 +316,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         }),
         (None, None) => write::renamed(&name),
     };
-    own.extend(renamed.map(|text| Advice {
-        topic: crate::advice::Topic::Renamed,
-        line: 0,
-        name: name.clone(),
-        text,
-    }));
+    own.extend(renamed.map(|text| of_file(Topic::Renamed, text)));
     let origin = write::Origin {
         file: file_name(&args.file),
         licence: robot.licence.clone(),

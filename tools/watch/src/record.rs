@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use mcap::records::MessageHeader;
@@ -23,7 +23,7 @@ pub struct Recorder {
 
 enum Form {
     /// Whether the titles are written.
-    Csv(BufWriter<File>, bool),
+    Csv(Box<csv::Writer<File>>, bool),
     Mcap(Box<mcap::Writer<BufWriter<File>>>, u16),
 }
 
@@ -59,18 +59,17 @@ impl Recorder {
     /// It cannot be created, or its ending is neither `.csv` nor `.mcap`.
     pub fn create(path: &Path) -> Result<Self> {
         let ending = path.extension().and_then(|ending| ending.to_str());
-        let open = || -> Result<BufWriter<File>> {
-            let file = File::create(path).map_err(|source| Error::Record {
+        let open = || {
+            File::create(path).map_err(|source| Error::Record {
                 path: path.to_owned(),
                 source,
-            })?;
-            Ok(BufWriter::new(file))
+            })
         };
         let form = match ending {
-            Some("csv") => Form::Csv(open()?, false),
+            Some("csv") => Form::Csv(Box::new(csv::Writer::from_writer(open()?)), false),
             Some("mcap") => {
                 let failed = |source| mcap_error(path, source);
-                let mut writer = mcap::Writer::new(open()?).map_err(failed)?;
+                let mut writer = mcap::Writer::new(BufWriter::new(open()?)).map_err(failed)?;
                 let schema = writer
                     .add_schema("tick", "jsonschema", SCHEMA)
                     .map_err(failed)?;
@@ -102,18 +101,15 @@ impl Recorder {
     pub fn write(&mut self, tick: &Tick) -> Result<()> {
         match &mut self.form {
             Form::Csv(file, titled) => {
-                let is_first = !std::mem::replace(titled, true);
-                let titles = if is_first {
-                    titles(tick.joints.len())
-                } else {
-                    String::new()
+                let failed = |error: csv::Error| Error::Record {
+                    path: self.path.clone(),
+                    source: error.into(),
                 };
-                let line = titles + &line(tick, self.period);
-                file.write_all(line.as_bytes())
-                    .map_err(|source| Error::Record {
-                        path: self.path.clone(),
-                        source,
-                    })
+                if !std::mem::replace(titled, true) {
+                    file.write_record(titles(tick.joints.len()))
+                        .map_err(failed)?;
+                }
+                file.write_record(fields(tick, self.period)).map_err(failed)
             }
             Form::Mcap(writer, channel) => {
                 let time = u64::from(tick.number) * u64::from(self.period.unwrap_or(1000)) * 1000;
@@ -171,41 +167,36 @@ fn json(tick: &Tick) -> Json<'_> {
     }
 }
 
-fn titles(joints: usize) -> String {
-    let mut titles = String::from("number,tick,mode,fault,limited,dropped,time_s");
-    for joint in 0..joints {
-        titles += &format!(",reference_{joint},estimate_{joint},torque_{joint}");
-    }
-    for phase in PHASES {
-        titles += &format!(",{phase}_counts");
-    }
-    titles + "\n"
+fn titles(joints: usize) -> Vec<String> {
+    let first = "number,tick,mode,fault,limited,dropped,time_s".split(',');
+    let of_joint = |j| ["reference", "estimate", "torque"].map(|what| format!("{what}_{j}"));
+    let costs = PHASES.map(|phase| format!("{phase}_counts"));
+    let titles = first
+        .map(str::to_owned)
+        .chain((0..joints).flat_map(of_joint));
+    titles.chain(costs).collect()
 }
 
 /// The time is that of the tick's number; it is empty until the machine has said how long a tick
 /// is.
-fn line(tick: &Tick, period: Option<u32>) -> String {
+fn fields(tick: &Tick, period: Option<u32>) -> Vec<String> {
     let status = tick.status;
-    let fault = status
-        .fault
-        .map_or(String::new(), |fault| fault.to_string());
     let seconds = |period: u32| 1e-6 * f64::from(period) * f64::from(tick.number);
-    let time = period.map_or(String::new(), |period| format!("{:.6}", seconds(period)));
-    let mut line = format!(
-        "{},{},{},{fault},{},{},{time}",
-        tick.number,
-        tick.tick,
-        mode(status.mode),
-        status.limited,
-        tick.dropped
-    );
-    for joint in &tick.joints {
-        line += &format!(",{},{},{}", joint.reference, joint.estimate, joint.torque);
-    }
-    for cost in tick.cost {
-        line += &format!(",{cost}");
-    }
-    line + "\n"
+    let first = [
+        tick.number.to_string(),
+        tick.tick.to_string(),
+        mode(status.mode).to_owned(),
+        status
+            .fault
+            .map_or(String::new(), |fault| fault.to_string()),
+        status.limited.to_string(),
+        tick.dropped.to_string(),
+        period.map_or(String::new(), |period| format!("{:.6}", seconds(period))),
+    ];
+    let joints = tick.joints.iter();
+    let joints = joints.flat_map(|j| [j.reference, j.estimate, j.torque].map(|x| x.to_string()));
+    let costs = tick.cost.map(|cost| cost.to_string());
+    first.into_iter().chain(joints).chain(costs).collect()
 }
 
 /// The schema by which viewers of MCAP plot.

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use cycle_meter::Sample;
 
-use crate::kit::bracket::{Bracket, READINGS};
+use crate::kit::bracket::{READINGS, bracket};
 use crate::kit::elf::Image;
 use crate::kit::error::{Error, Result, check, refuse_if};
 use crate::kit::progress::Spinner;
@@ -214,7 +214,7 @@ pub fn brackets(
     tools: &Tools,
     plugin: &Path,
     measured: &Measured,
-) -> Result<Vec<Bracket>> {
+) -> Result<Vec<[u64; 2]>> {
     let name = &*measured.report.scene;
     let spinner = Spinner::start(&format!(
         "running scene {name} by two more readings of the manual"
@@ -239,7 +239,7 @@ pub fn brackets(
     drop(spinner);
     let chosen = measured.report.tick.values().map(|cost| cost.cycles.max);
     let all = least?.into_iter().zip(chosen).zip(most?);
-    all.map(|((least, chosen), most)| Bracket::of(least, chosen, most))
+    all.map(|((least, chosen), most)| bracket([least, chosen, most]))
         .collect()
 }
 

@@ -8,12 +8,11 @@ use crate::kit::error::{Error, Result};
 use crate::kit::importer::passed::{IMPORT, NEW, Passed};
 use crate::kit::importer::{ALL, Robot, command, measure, report};
 use crate::kit::meter::MODEL;
-use crate::kit::qemu::PROGRAM;
 use crate::kit::rows::Row;
 use crate::kit::setup::{self, Options};
 use crate::kit::table::{Table, thousands};
 use crate::kit::workspace::{self, Workspace};
-use crate::kit::{apt, docs, output};
+use crate::kit::{docs, output};
 
 /// A file, and the options of `robot-import import`.
 #[derive(clap::Args)]
@@ -30,34 +29,8 @@ pub type New = Passed<NEW>;
 
 /// Writes a project.
 pub fn new(args: &New) -> Result<ExitCode> {
-    let text = command(&Workspace::find()?, "new", &args.0)?;
-    let folder = apt::unpacked(PROGRAM);
-    output::print(&with_path(&text, folder.as_deref()))?;
+    output::print(&command(&Workspace::find()?, "new", &args.0)?)?;
     Ok(ExitCode::SUCCESS)
-}
-
-/// The commands of QEMU that a project's text recommends, with the folder of an unpacked QEMU on
-/// the PATH.
-fn with_path(text: &str, folder: Option<&Path>) -> String {
-    let Some(folder) = folder else {
-        return text.to_owned();
-    };
-    let quoted = folder.display().to_string().replace('\'', r"'\''");
-    let path = format!(r#"PATH="$PATH":'{quoted}'"#);
-    let mut with_path = text.to_owned();
-    for command in ["cargo qemu", "make run"] {
-        with_path = with_path.replace(
-            &format!("&& {command}\n"),
-            &format!("&& {path} {command}\n"),
-        );
-    }
-    match with_path == text {
-        true => with_path,
-        false => {
-            with_path
-                + &format!("note: {PROGRAM} is not on your PATH: `export {path}` puts it there\n")
-        }
-    }
 }
 
 pub fn run(options: Options, args: Args) -> Result<ExitCode> {
@@ -140,59 +113,12 @@ pub fn table(rows: &[Row]) -> Table {
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
-
-    use super::{with_path, without_estimate};
+    use super::without_estimate;
 
     #[test]
     fn no_estimate_stands_beside_a_measurement() {
         let report = "Advice:\n  none\n\nInverse dynamics by the engine: about 740 cycles on a Cortex-M4F and 2664 B of code (estimated).\n";
         assert_eq!(without_estimate(report), "Advice:\n  none\n");
         assert_eq!(without_estimate("Advice:\n  none\n"), "Advice:\n  none\n");
-    }
-
-    #[test]
-    fn a_recommended_command_finds_an_unpacked_qemu() {
-        for command in ["cargo qemu", "make run"] {
-            let text = format!("written\n\nnext: cd my-arm && {command}\n");
-            assert_eq!(with_path(&text, None), text);
-            let said = with_path(&text, Some(Path::new("/it's/usr/bin")));
-            let path = r#"PATH="$PATH":'/it'\''s/usr/bin'"#;
-            assert!(
-                said.contains(&format!("next: cd my-arm && {path} {command}\n")),
-                "{said}"
-            );
-            assert!(
-                said.ends_with(&format!("`export {path}` puts it there\n")),
-                "{said}"
-            );
-        }
-        let board = "next: cd my-arm && cargo build --release; README.md says what to connect\n";
-        assert_eq!(with_path(board, Some(Path::new("/usr/bin"))), board);
-    }
-
-    /// A shell finds the program by the command that is recommended.
-    #[test]
-    #[cfg(unix)]
-    fn a_shell_takes_the_recommended_path() {
-        use std::os::unix::fs::PermissionsExt;
-        let folder = tempfile::tempdir().expect("a folder");
-        let place = folder.path().join("it's here");
-        std::fs::create_dir_all(&place).expect("a folder");
-        let program = place.join("make");
-        std::fs::write(&program, "#!/bin/sh\necho found $1\n").expect("written");
-        let rights = std::fs::Permissions::from_mode(0o755);
-        std::fs::set_permissions(&program, rights).expect("set");
-        let said = with_path("next: true && make run\n", Some(&place));
-        let line = said
-            .lines()
-            .next()
-            .and_then(|line| line.strip_prefix("next: "));
-        let mut shell = std::process::Command::new("/bin/sh");
-        let output = shell
-            .args(["-c", line.expect("a command")])
-            .env("PATH", "/nowhere")
-            .output();
-        assert_eq!(output.expect("a shell").stdout, b"found run\n");
     }
 }

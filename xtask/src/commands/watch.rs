@@ -123,13 +123,13 @@ fn project(workspace: &Workspace, tools: &Tools, folder: &Path) -> Result<PathBu
     let target = std::path::absolute(folder.join("target")).map_err(Error::file("find", folder))?;
     let mut cargo = tools.toolchain.cargo(workspace, "build");
     let words = "--release --features telemetry --bin watch --target-dir".split(' ');
-    shell::cargo(cargo.args(words).arg(&target).current_dir(folder))?;
+    shell::capture(cargo.args(words).arg(&target).current_dir(folder))?;
     Ok(target.join(TARGET).join(RELEASE).join("watch"))
 }
 
 /// A host program of the package of its name, built.
 pub fn program(workspace: &Workspace, package: &str) -> Result<Command> {
-    shell::cargo(workspace.cargo("build").args(["--package", package]))?;
+    shell::capture(workspace.cargo("build").args(["--package", package]))?;
     let program = format!("debug/{package}{}", std::env::consts::EXE_SUFFIX);
     Ok(Command::new(workspace.target.join(program)))
 }
@@ -145,7 +145,7 @@ pub fn firmware(workspace: &Workspace, tools: &Tools, bin: &str) -> Result<PathB
 /// empties; if a full queue costs more than one with room; if a frame is lost on the line; or if
 /// interrupts are masked for longer than stated.
 pub fn check(workspace: &Workspace, tools: &Tools, plugin: &Path) -> Result<String> {
-    shell::cargo(workspace.cargo("test").args(["--package", LISTENER]))?;
+    shell::capture(workspace.cargo("test").args(["--package", LISTENER]))?;
     let name = format!("watch_{}", SCENES[0]);
     let elf = firmware(workspace, tools, &name)?;
     let ticks = format!("ticks={TICKS}");

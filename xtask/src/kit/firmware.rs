@@ -7,8 +7,8 @@ use crate::kit::shell;
 use crate::kit::toolchain::{RELEASE, Toolchain};
 use crate::kit::workspace::Workspace;
 
-/// Builds a bin of the firmware and returns its ELF. Here and below, of what cargo says
-/// its warnings are shown, and the rest only if it fails.
+/// Builds a bin of the firmware and returns its ELF. Here and below, what cargo says is shown only
+/// if it fails.
 pub fn build(workspace: &Workspace, toolchain: Toolchain, bin: &str) -> Result<PathBuf> {
     build_bins(workspace, toolchain, RELEASE, &[bin]).map(|mut elves| elves.remove(0))
 }
@@ -37,7 +37,7 @@ pub fn build_with(
     command.args(["--profile", profile, "--features", features]);
     command.args(bins.iter().flat_map(|bin| ["--bin", bin]));
     command.envs(included);
-    shell::cargo(&mut command)?;
+    shell::capture(&mut command)?;
     bins.iter()
         .map(|bin| existing(toolchain.elf(workspace, profile, bin)))
         .collect()
@@ -67,14 +67,14 @@ pub fn build_own(
 /// Builds every bin of the firmware.
 pub fn build_all(workspace: &Workspace, toolchain: Toolchain) -> Result<()> {
     let mut command = toolchain.firmware(workspace, "build");
-    shell::cargo(command.args(["--release", "--bins"]))?;
+    shell::capture(command.args(["--release", "--bins"]))?;
     Ok(())
 }
 
 /// Builds the cycle meter and returns the shared library.
 pub fn build_meter(workspace: &Workspace) -> Result<PathBuf> {
     let mut command = workspace.cargo("build");
-    shell::cargo(command.args(["--release", "--package", "cycle-meter"]))?;
+    shell::capture(command.args(["--release", "--package", "cycle-meter"]))?;
     use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
     let library = format!("release/{DLL_PREFIX}cycle_meter{DLL_SUFFIX}");
     existing(workspace.target.join(library))

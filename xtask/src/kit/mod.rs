@@ -11,7 +11,6 @@ pub mod docs;
 pub mod elf;
 pub mod error;
 pub mod firmware;
-pub mod flags;
 pub mod host_bin;
 pub mod importer;
 pub mod meter;

@@ -1,9 +1,7 @@
 //! What the user reads. `println!` panics where a pipe is closed or a disk is full; here the first
 //! is the end of a run, the second an error, and notes on stderr that nobody can read are lost.
 
-use std::collections::BTreeSet;
 use std::io::Write;
-use std::sync::{Mutex, PoisonError};
 
 use crate::kit::error::{Error, Result};
 use crate::kit::screen;
@@ -35,13 +33,4 @@ pub fn note(text: &str) {
         // There is nowhere to say that it failed.
         let _ = writeln!(std::io::stderr().lock(), "{text}");
     });
-}
-
-/// Writes a line to stderr if it has not been written there before.
-pub fn note_once(text: &str) {
-    static WRITTEN: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
-    let mut written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
-    if written.insert(text.to_owned()) {
-        note(text);
-    }
 }

@@ -1,13 +1,12 @@
 //! Running other programs.
 
-use std::io::{BufRead, BufReader, IsTerminal};
+use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::process::{Child, Command, ExitStatus, Stdio};
 
 pub use crate::kit::display::display;
 use crate::kit::error::{Error, Result};
 use crate::kit::processes::Group;
-use crate::kit::{flags, output};
 
 /// Starts a command whose processes end on a signal that ends xtask.
 pub fn spawn(command: &mut Command) -> Result<(Child, Group)> {
@@ -52,47 +51,17 @@ fn succeeded(command: &Command, status: ExitStatus) -> Result<()> {
 
 /// Runs a command and returns its stdout; what it printed is shown only if it fails.
 pub fn capture(command: &mut Command) -> Result<String> {
-    Ok(output_of(command)?.0)
-}
-
-/// Runs cargo and returns its stdout. Its warnings are shown, except rustc's about target features
-/// that it forwards to LLVM, of which one sentence says that there are some.
-pub fn cargo(command: &mut Command) -> Result<String> {
-    let (stdout, stderr) = output_of(command)?;
-    let warnings = flags::sifted(&stderr);
-    if let Some(sentence) = warnings.sentence() {
-        output::note_once(&sentence);
-    }
-    for warning in &warnings.others {
-        output::note(warning);
-    }
-    Ok(stdout)
-}
-
-fn output_of(command: &mut Command) -> Result<(String, String)> {
     let (child, _group) = spawn(heard_by(command, Stdio::piped))?;
     let out = child.wait_with_output();
     let out = out.map_err(|e| Error::spawn(command, e))?;
     let [stdout, stderr] =
         [out.stdout, out.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
     if out.status.success() {
-        return Ok((stdout, stderr));
+        return Ok(stdout);
     }
     let output = format!("\n{stdout}{stderr}");
     let output = output.trim_end().to_owned();
     Err(Error::failed(command, out.status, output))
-}
-
-/// Runs a command and hands over its stdout line by line; its stderr is the user's.
-pub fn each_line(command: &mut Command, mut on_line: impl FnMut(&str) -> Result<()>) -> Result<()> {
-    command.stdin(Stdio::null()).stdout(Stdio::piped());
-    let (mut child, _group) = spawn(command)?;
-    let stdout = child.stdout.take().into_iter();
-    for line in stdout.flat_map(|out| BufReader::new(out).lines()) {
-        on_line(&line.map_err(|e| Error::spawn(command, e))?)?;
-    }
-    let status = child.wait().map_err(|e| Error::spawn(command, e))?;
-    succeeded(command, status)
 }
 
 /// Whether the command can be started and succeeds, with nothing shown.

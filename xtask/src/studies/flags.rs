@@ -53,7 +53,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
             command
                 .envs(flags.iter().map(|flags| ("RUSTFLAGS", flags)))
                 .envs(debug);
-            shell::cargo(&mut command)?;
+            shell::capture(&mut command)?;
             let elves = bins
                 .iter()
                 .map(|bin| tools.toolchain.elf(workspace, RELEASE, bin));

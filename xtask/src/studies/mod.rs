@@ -65,7 +65,7 @@ pub const STUDIES: &[Study] = &[
         form: Demo(|bench| {
             setup::provers(bench.options.without_questions())?;
             for check in ["--hashes", "--sampled"] {
-                shell::cargo(SIMULATED.program(bench.workspace, "certify")?.arg(check))?;
+                shell::capture(SIMULATED.program(bench.workspace, "certify")?.arg(check))?;
             }
             Ok(String::new())
         }),

@@ -1,6 +1,5 @@
 //! `cargo xtask peers`: the same dynamics by other libraries and by ours, side by side in one run.
 
-mod age;
 mod bars;
 mod build;
 mod host;
@@ -46,9 +45,6 @@ fn outputs(algorithm: &str, velocities: usize) -> usize {
 
 #[derive(clap::Args)]
 pub struct Args {
-    /// Measure nothing: fail if docs/peers.md is of other code than this
-    #[arg(long)]
-    check: bool,
     /// The measurements as JSON on stdout; progress stays on stderr
     #[arg(long)]
     json: bool,
@@ -60,13 +56,8 @@ pub struct Args {
 /// Among others, a bar is missed that `budgets.toml` does not record as missed.
 pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let workspace = Workspace::for_reports()?;
-    if args.check {
-        return age::check(&workspace);
-    }
     let (tools, peers) = tools::set_up(&workspace, options)?;
     let shop = Workshop::new(&workspace, &peers)?;
-    // Now, so that the page is old if somebody edits it meanwhile.
-    let code = age::of_code(&workspace.root)?.markdown();
     let robots = robots::export(&workspace)?;
     // Nothing but the times waits for Pinocchio.
     let (others, pinocchio) = thread::scope(|scope| {
@@ -95,7 +86,6 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         builds,
         compared,
         versions,
-        code,
         date: docs::today_and_commit(&workspace),
     };
     let page = report.markdown();

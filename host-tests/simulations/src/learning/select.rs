@@ -129,8 +129,8 @@ pub fn source() -> String {
     format!(
         "//! What the firmware knows before the arm moves: written by host-tests/simulations/tests/learning.rs with TABLES_WRITE=1.\n\n\
          use motion_control::SelectedParameters;\n\nuse super::parameters::Known;\n\n\
-         /// A nominal model whose parameters are off by 30 %, and the base parameters of the motion
-         /// by it.\n\
+         /// A nominal model whose parameters are off by 30 %, and the base parameters of the motion \
+         by it.\n\
          pub const KNOWN: Known = Known {{\n    nominal: [\n{}    ],\n    base: SelectedParameters {{\n\
          \x20       columns: {:?},\n        prior: [{}],\n        spread: [\n{spread}        ],\n    }},\n}};\n",
         lines(&nominal),

@@ -1,15 +1,17 @@
 //! The ticks of a CSV that `cargo xtask watch` has recorded. Nothing in the file is believed.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
+use std::io::Read;
 use std::path::Path;
+
+use csv::{ErrorKind, ReaderBuilder, StringRecord};
 
 use crate::TickRecording;
 
 use super::MOST_JOINTS;
 use super::error::{Error, Problem, Result};
 
-/// The longest line, bytes.
+/// The longest line that is read in any case, bytes; one of twice as many is refused.
 const LONGEST: usize = 16 * 1024;
 /// The most ticks: an hour at 1 kHz.
 const MOST_TICKS: usize = 3_600_000;
@@ -67,23 +69,43 @@ impl Recorded {
             path: path.to_owned(),
             source,
         };
-        let file = BufReader::new(File::open(path).map_err(read)?);
-        Self::from(path, file)
+        Self::from(path, File::open(path).map_err(read)?)
     }
 
     /// Reads a text that is called `path`.
     ///
     /// # Errors
     /// As [`Recorded::read`].
-    pub fn from(path: &Path, mut text: impl BufRead) -> Result<Self> {
+    pub fn from(path: &Path, text: impl Read) -> Result<Self> {
         let whole = |problem| Error::Recording {
             path: path.to_owned(),
             problem,
         };
-        let mut at = 0;
+        let mut rows = ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .from_reader(text.take(0));
+        let mut line = 0;
         let mut next = || {
-            at += 1;
-            line(path, &mut text, at)
+            line += 1;
+            rows.get_mut().set_limit(2 * LONGEST as u64);
+            let mut fields = StringRecord::new();
+            let read = rows.read_record(&mut fields);
+            let problem = match read.map_err(csv::Error::into_kind) {
+                _ if rows.get_ref().limit() == 0 => Problem::LongLine(LONGEST),
+                Ok(is_row) => return Ok(is_row.then_some(fields)),
+                Err(ErrorKind::Io(source)) => {
+                    let path = path.to_owned();
+                    return Err(Error::Read { path, source });
+                }
+                Err(_) => Problem::NoText,
+            };
+            let path = path.to_owned();
+            Err(Error::Line {
+                path,
+                line,
+                problem,
+            })
         };
         let titles = next()?.ok_or_else(|| whole(Problem::Empty))?;
         let columns = Columns::of(&titles).map_err(whole)?;
@@ -96,14 +118,14 @@ impl Recorded {
         };
         let (mut before, mut timed): (Option<Line>, Option<(u32, f64)>) = (None, None);
         let (mut ticks, mut number) = (0, 1);
-        while let Some(text) = next()? {
+        while let Some(fields) = next()? {
             number += 1;
             let wrong = |problem| Error::Line {
                 path: path.to_owned(),
                 line: number,
                 problem,
             };
-            let line = columns.line(&text).map_err(wrong)?;
+            let line = columns.line(&fields).map_err(wrong)?;
             ticks += 1;
             if ticks > MOST_TICKS {
                 return Err(wrong(Problem::TooLong(MOST_TICKS)));
@@ -188,34 +210,9 @@ impl Recorded {
     }
 }
 
-/// The next line without its end; `None` after the last.
-fn line(path: &Path, text: &mut impl BufRead, at: usize) -> Result<Option<String>> {
-    let wrong = |problem| Error::Line {
-        path: path.to_owned(),
-        line: at,
-        problem,
-    };
-    let mut bytes = Vec::new();
-    let mut limited = text.by_ref().take(LONGEST as u64 + 1);
-    let read = limited.read_until(b'\n', &mut bytes);
-    read.map_err(|source| Error::Read {
-        path: path.to_owned(),
-        source,
-    })?;
-    if bytes.len() > LONGEST {
-        return Err(wrong(Problem::LongLine(LONGEST)));
-    }
-    if bytes.is_empty() {
-        return Ok(None);
-    }
-    let mut line = String::from_utf8(bytes).map_err(|_| wrong(Problem::NoText))?;
-    line.truncate(line.trim_end_matches(['\n', '\r']).len());
-    Ok(Some(line))
-}
-
 impl Columns {
-    fn of(titles: &str) -> std::result::Result<Self, Problem> {
-        let names: Vec<String> = titles.split(',').map(str::to_owned).collect();
+    fn of(titles: &StringRecord) -> std::result::Result<Self, Problem> {
+        let names: Vec<String> = titles.iter().map(str::to_owned).collect();
         let find = |name: &str| -> std::result::Result<usize, Problem> {
             let mut places = (0..names.len()).filter(|&at| names[at] == name);
             match (places.next(), places.next()) {
@@ -246,15 +243,14 @@ impl Columns {
         })
     }
 
-    fn line(&self, text: &str) -> std::result::Result<Line, Problem> {
-        let fields: Vec<&str> = text.split(',').collect();
+    fn line(&self, fields: &StringRecord) -> std::result::Result<Line, Problem> {
         let (found, expected) = (fields.len(), self.names.len());
         if found != expected {
             return Err(Problem::Columns { found, expected });
         }
         let wrong = |at: usize, expected| Problem::Value {
             column: self.names[at].clone(),
-            text: shortened(fields[at]),
+            text: shortened(&fields[at]),
             expected,
         };
         let whole = |at: usize| {
@@ -269,12 +265,12 @@ impl Columns {
         let reals = |places: &[usize]| -> std::result::Result<Vec<f64>, Problem> {
             places.iter().map(|&at| real(at)).collect()
         };
-        let full = match fields[self.mode] {
+        let full = match &fields[self.mode] {
             "full" => true,
             "hold" | "stopped" => false,
             _ => return Err(wrong(self.mode, "`full`, `hold` or `stopped`")),
         };
-        let time = match fields[self.time] {
+        let time = match &fields[self.time] {
             "" => None,
             _ => Some(real(self.time)?),
         };

@@ -2,8 +2,8 @@
 //! one-coordinate chains.
 
 use dynamics_core::glam::{DMat3, DQuat, DVec3};
+use num_dual::Dual2_64;
 
-use super::dual::Dual;
 use super::energy::{axes, identity, moved};
 use crate::description::Kind;
 
@@ -55,18 +55,14 @@ type Matrices = (DMat3, DVec3);
 
 /// The pose of a chain with its first and second derivative in time.
 fn derivatives(kind: Kind, u: &[f64], ud: &[f64], udd: &[f64]) -> [Matrices; 3] {
-    let in_time = |k: usize| Dual::new(Dual::new(u[k], ud[k]), Dual::new(ud[k], udd[k]));
+    let in_time = |k: usize| Dual2_64::new(u[k], ud[k], udd[k]);
     let u: Vec<_> = (0..u.len()).map(in_time).collect();
     let pose = moved(identity(), axes(kind), &u);
-    let part = |of: fn(&Dual<Dual<f64>>) -> f64| {
+    let part = |of: fn(&Dual2_64) -> f64| {
         let column = |k: usize| DVec3::from_array([0, 1, 2].map(|i| of(&pose[i][k])));
         (DMat3::from_cols(column(0), column(1), column(2)), column(3))
     };
-    [
-        part(|x| x.value.value),
-        part(|x| x.value.rate),
-        part(|x| x.rate.rate),
-    ]
+    [part(|x| x.re), part(|x| x.v1), part(|x| x.v2)]
 }
 
 /// Angular and linear velocity in the body's frame.

@@ -1,7 +1,6 @@
 //! Proof of an import: torques of the tree against paths that do not share its code.
 
 pub mod coordinates;
-pub mod dual;
 pub mod energy;
 mod loops;
 mod peer;

@@ -1,4 +1,4 @@
-//! Six branches of five joints, of which every third slides: as many joints as a humanoid has.
+//! Six branches of five joints, in every third of which one slides: as many joints as a humanoid has.
 
 use dynamics_core::effects::{Armature, Coulomb, Viscous, Width};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
@@ -31,197 +31,49 @@ const fn limits(lower: f64, upper: f64, torque: f64) -> JointLimits<f64> {
     }
 }
 
+/// The masses of a branch, from its root to its tip, kg.
+const MASSES: [f64; 5] = [2.0, 1.7, 1.4, 1.1, 0.8];
+
+const fn body(i: usize) -> Body {
+    let (branch, k) = (i / 5, i % 5);
+    let joint = match k {
+        0 => Joint::revolute([0.0, 0.0, 1.0]),
+        2 if branch % 3 == 0 => Joint::prismatic([1.0, 0.0, 0.0]),
+        2 => Joint::revolute([1.0, 0.0, 0.0]),
+        4 => Joint::revolute([0.0, 0.6, 0.8]),
+        _ => Joint::revolute([0.0, 1.0, 0.0]),
+    };
+    let (parent, x) = match k {
+        0 => (BASE, 0.3 * branch as f64),
+        _ => (i - 1, 0.0),
+    };
+    let across = 0.01 * MASSES[k];
+    Body::new(BODIES[i], parent, joint)
+        .xyz([x, 0.05 * k as f64, -0.2])
+        .mass(MASSES[k])
+        .com([0.02, 0.01, -0.1])
+        .inertia([across, 0.0001, 0.0, 1.1 * across, 0.0, 0.002])
+        .limits(match i {
+            3 | 10 | 24 => JointLimits::NONE,
+            2 => limits(-0.6, 0.4, 60.0),
+            17 => JointLimits {
+                velocity: 0.05,
+                ..limits(0.0, 0.04, 60.0)
+            },
+            _ if k == 0 => limits(0.5, 2.5, 60.0),
+            _ => limits(-1.5, 2.0, 60.0),
+        })
+}
+
 impl Robot<30, 30, 30> for Chain {
-    const MODEL: ArmModel<f64, 30> = Model::new(
-        "chain",
-        [
-            Body::new("b0", BASE, Joint::revolute([0.0, 0.0, 1.0]))
-                .xyz([0.00, 0.00, -0.2])
-                .mass(2.0)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0200, 0.0001, 0.0, 0.0220, 0.0, 0.002])
-                .limits(limits(0.5, 2.5, 60.0)),
-            Body::new("b1", 0, Joint::revolute([0.0, 1.0, 0.0]))
-                .xyz([0.00, 0.05, -0.2])
-                .mass(1.7)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0170, 0.0001, 0.0, 0.0187, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b2", 1, Joint::prismatic([1.0, 0.0, 0.0]))
-                .xyz([0.00, 0.10, -0.2])
-                .mass(1.4)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0140, 0.0001, 0.0, 0.0154, 0.0, 0.002])
-                .limits(limits(-0.6, 0.4, 60.0)),
-            Body::new("b3", 2, Joint::revolute([0.0, 1.0, 0.0]))
-                .xyz([0.00, 0.15, -0.2])
-                .mass(1.1)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0110, 0.0001, 0.0, 0.0121, 0.0, 0.002])
-                .limits(JointLimits::NONE),
-            Body::new("b4", 3, Joint::revolute([0.0, 0.6, 0.8]))
-                .xyz([0.00, 0.20, -0.2])
-                .mass(0.8)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0080, 0.0001, 0.0, 0.0088, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b5", BASE, Joint::revolute([0.0, 0.0, 1.0]))
-                .xyz([0.30, 0.00, -0.2])
-                .mass(2.0)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0200, 0.0001, 0.0, 0.0220, 0.0, 0.002])
-                .limits(limits(0.5, 2.5, 60.0)),
-            Body::new("b6", 5, Joint::revolute([0.0, 1.0, 0.0]))
-                .xyz([0.00, 0.05, -0.2])
-                .mass(1.7)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0170, 0.0001, 0.0, 0.0187, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b7", 6, Joint::revolute([1.0, 0.0, 0.0]))
-                .xyz([0.00, 0.10, -0.2])
-                .mass(1.4)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0140, 0.0001, 0.0, 0.0154, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b8", 7, Joint::revolute([0.0, 1.0, 0.0]))
-                .xyz([0.00, 0.15, -0.2])
-                .mass(1.1)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0110, 0.0001, 0.0, 0.0121, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b9", 8, Joint::revolute([0.0, 0.6, 0.8]))
-                .xyz([0.00, 0.20, -0.2])
-                .mass(0.8)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0080, 0.0001, 0.0, 0.0088, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b10", BASE, Joint::revolute([0.0, 0.0, 1.0]))
-                .xyz([0.60, 0.00, -0.2])
-                .mass(2.0)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0200, 0.0001, 0.0, 0.0220, 0.0, 0.002])
-                .limits(JointLimits::NONE),
-            Body::new("b11", 10, Joint::revolute([0.0, 1.0, 0.0]))
-                .xyz([0.00, 0.05, -0.2])
-                .mass(1.7)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0170, 0.0001, 0.0, 0.0187, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b12", 11, Joint::revolute([1.0, 0.0, 0.0]))
-                .xyz([0.00, 0.10, -0.2])
-                .mass(1.4)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0140, 0.0001, 0.0, 0.0154, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b13", 12, Joint::revolute([0.0, 1.0, 0.0]))
-                .xyz([0.00, 0.15, -0.2])
-                .mass(1.1)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0110, 0.0001, 0.0, 0.0121, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b14", 13, Joint::revolute([0.0, 0.6, 0.8]))
-                .xyz([0.00, 0.20, -0.2])
-                .mass(0.8)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0080, 0.0001, 0.0, 0.0088, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b15", BASE, Joint::revolute([0.0, 0.0, 1.0]))
-                .xyz([0.90, 0.00, -0.2])
-                .mass(2.0)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0200, 0.0001, 0.0, 0.0220, 0.0, 0.002])
-                .limits(limits(0.5, 2.5, 60.0)),
-            Body::new("b16", 15, Joint::revolute([0.0, 1.0, 0.0]))
-                .xyz([0.00, 0.05, -0.2])
-                .mass(1.7)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0170, 0.0001, 0.0, 0.0187, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b17", 16, Joint::prismatic([1.0, 0.0, 0.0]))
-                .xyz([0.00, 0.10, -0.2])
-                .mass(1.4)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0140, 0.0001, 0.0, 0.0154, 0.0, 0.002])
-                .limits(JointLimits {
-                    lower: 0.0,
-                    upper: 0.04,
-                    velocity: 0.05,
-                    torque: 60.0,
-                }),
-            Body::new("b18", 17, Joint::revolute([0.0, 1.0, 0.0]))
-                .xyz([0.00, 0.15, -0.2])
-                .mass(1.1)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0110, 0.0001, 0.0, 0.0121, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b19", 18, Joint::revolute([0.0, 0.6, 0.8]))
-                .xyz([0.00, 0.20, -0.2])
-                .mass(0.8)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0080, 0.0001, 0.0, 0.0088, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b20", BASE, Joint::revolute([0.0, 0.0, 1.0]))
-                .xyz([1.20, 0.00, -0.2])
-                .mass(2.0)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0200, 0.0001, 0.0, 0.0220, 0.0, 0.002])
-                .limits(limits(0.5, 2.5, 60.0)),
-            Body::new("b21", 20, Joint::revolute([0.0, 1.0, 0.0]))
-                .xyz([0.00, 0.05, -0.2])
-                .mass(1.7)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0170, 0.0001, 0.0, 0.0187, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b22", 21, Joint::revolute([1.0, 0.0, 0.0]))
-                .xyz([0.00, 0.10, -0.2])
-                .mass(1.4)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0140, 0.0001, 0.0, 0.0154, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b23", 22, Joint::revolute([0.0, 1.0, 0.0]))
-                .xyz([0.00, 0.15, -0.2])
-                .mass(1.1)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0110, 0.0001, 0.0, 0.0121, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b24", 23, Joint::revolute([0.0, 0.6, 0.8]))
-                .xyz([0.00, 0.20, -0.2])
-                .mass(0.8)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0080, 0.0001, 0.0, 0.0088, 0.0, 0.002])
-                .limits(JointLimits::NONE),
-            Body::new("b25", BASE, Joint::revolute([0.0, 0.0, 1.0]))
-                .xyz([1.50, 0.00, -0.2])
-                .mass(2.0)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0200, 0.0001, 0.0, 0.0220, 0.0, 0.002])
-                .limits(limits(0.5, 2.5, 60.0)),
-            Body::new("b26", 25, Joint::revolute([0.0, 1.0, 0.0]))
-                .xyz([0.00, 0.05, -0.2])
-                .mass(1.7)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0170, 0.0001, 0.0, 0.0187, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b27", 26, Joint::revolute([1.0, 0.0, 0.0]))
-                .xyz([0.00, 0.10, -0.2])
-                .mass(1.4)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0140, 0.0001, 0.0, 0.0154, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b28", 27, Joint::revolute([0.0, 1.0, 0.0]))
-                .xyz([0.00, 0.15, -0.2])
-                .mass(1.1)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0110, 0.0001, 0.0, 0.0121, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-            Body::new("b29", 28, Joint::revolute([0.0, 0.6, 0.8]))
-                .xyz([0.00, 0.20, -0.2])
-                .mass(0.8)
-                .com([0.02, 0.01, -0.1])
-                .inertia([0.0080, 0.0001, 0.0, 0.0088, 0.0, 0.002])
-                .limits(limits(-1.5, 2.0, 60.0)),
-        ],
-    );
+    const MODEL: ArmModel<f64, 30> = {
+        let (mut bodies, mut i) = ([body(0); N], 0);
+        while i < N {
+            bodies[i] = body(i);
+            i += 1;
+        }
+        Model::new("chain", bodies)
+    };
 }
 
 /// Viscous friction, N·m·s/rad or N·s/m.

@@ -3,7 +3,7 @@
 
 use cycle_meter::Sample;
 
-use super::Context;
+use super::{Context, others};
 use crate::kit::callgraph::f32_only;
 use crate::kit::elf::Image;
 use crate::kit::error::{Error, Result, bail, check, refuse_if};
@@ -28,6 +28,7 @@ pub fn clippy(context: &Context) -> Result<String> {
 
 pub fn build(context: &Context) -> Result<String> {
     firmware::build_all(&context.workspace, context.tools.toolchain)?;
+    others::guide(context)?;
     Ok(context.workspace.bins.join(", "))
 }
 
@@ -94,19 +95,14 @@ fn within_limits(runs: &[String]) -> Result<String> {
 }
 
 pub fn no_f64(context: &Context) -> Result<String> {
-    let mut count = 0;
+    let (mut reached, mut instructions) = (0, 0);
     for measured in context.measured()? {
-        count += f32_only(&measured.elf, is_tick)?;
+        reached += f32_only(&measured.elf, is_tick)?;
+        instructions += Image::read(&measured.elf)?.m4f_instructions()?;
     }
-    Ok(format!("{count} functions reached"))
-}
-
-pub fn opcodes(context: &Context) -> Result<String> {
-    let mut count = 0;
-    for measured in context.measured()? {
-        count += Image::read(&measured.elf)?.m4f_instructions()?;
-    }
-    Ok(format!("{count} instructions"))
+    Ok(format!(
+        "{reached} functions reached, {instructions} instructions"
+    ))
 }
 
 pub fn constant(context: &Context) -> Result<String> {

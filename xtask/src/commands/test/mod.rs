@@ -2,7 +2,6 @@
 //! every scene, every report and the currency of the documents, which is what CI runs.
 
 mod absent;
-mod claims;
 mod functions;
 mod host;
 mod others;
@@ -63,21 +62,16 @@ const STEPS: &[Step] = &[
     ("doctests", Host, Everyday, "the examples in the documentation run", host::doctests),
     ("doc", Host, Full, "the documentation builds without a warning, that of private items too", host::doc),
     ("examples", Host, Everyday, "the library's examples run", package::examples),
-    ("features", Host, Full, "the library's features build for the target and change no number", package::features),
-    ("msrv", Host, Full, "the library builds with the oldest compiler that its manifest promises", others::msrv),
-    ("guide", Target, Full, "the programs of the guide's page on firmware, and the servo bus under Embassy, build for a Cortex-M", others::guide),
-    ("package", Host, Full, "the crate packages, and builds vendored from git", package::package),
+    ("features", Host, Full, "the library builds with its oldest compiler, and its features for the target; they change no number", package::features),
+    ("package", Host, Full, "the crate packages, and builds from its package alone", package::package),
     ("deny", Host, Full, "dependencies, their licences and their sources are those that deny.toml allows", package::deny),
-    ("firmware", Target, Full, "every bin of the firmware builds", functions::build),
+    ("firmware", Target, Full, "every bin of the firmware builds, as do the guide's programs and the servo bus under Embassy", functions::build),
     ("meter", Target, Everyday, "the cycle meter agrees with sequences counted by hand", functions::meter),
     ("bits", Host, Everyday, "the host and QEMU compute the same bits", functions::bits),
-    ("scene", Target, Everyday, "every scene runs to its end", scenes::runs),
-    ("determinism", Target, Full, "two runs of a scene give the same bytes", scenes::determinism),
+    ("scene", Target, Everyday, "every scene runs to its end; in a full run, one runs twice and gives the same bytes", scenes::runs),
     ("tracking", Target, Everyday, "every scene tracks within its bound, the default one better than PD as promised", scenes::tracking),
-    ("cycles", Target, Everyday, "the longest tick is short enough", scenes::cycles),
-    ("no-f64", Target, Everyday, "the tick reaches no f64 arithmetic, no sine of libm and no panic", functions::no_f64),
-    ("opcodes", Target, Everyday, "the firmware has no instruction that a Cortex-M4F lacks", functions::opcodes),
-    ("budgets", Target, Everyday, "every scene is within budgets.toml", scenes::budgets),
+    ("no-f64", Target, Everyday, "the tick reaches no f64 arithmetic, no sine of libm and no panic, and the firmware no instruction that a Cortex-M4F lacks", functions::no_f64),
+    ("budgets", Target, Everyday, "every scene is within budgets.toml, and its longest tick within half its period", scenes::budgets),
     ("constant", Target, Everyday, "the work costs the same whatever the data", functions::constant),
     // From here on programs for the host are built too: earlier they would wait for the other
     // lane's.
@@ -176,10 +170,8 @@ pub fn names() -> PossibleValuesParser {
     steps().map(|step| step.0).collect::<Vec<_>>().into()
 }
 
-/// Prints the steps, with those last that only a full run takes, and the tests that it adds to the
-/// step `host`.
+/// Prints the steps, with those last that only a full run takes.
 pub fn list() -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
     let steps = |scope| -> String {
         let steps = steps().filter(|step| step.2 == scope);
         let lines = steps.map(|(name, _, _, title, _)| format!("  {name:16} {title}\n"));
@@ -189,20 +181,14 @@ pub fn list() -> Result<ExitCode> {
         Held::Step(..) => None,
         Held::Bars(why) => Some(format!("  {:16} {why}\n", study.name)),
     });
-    let mut text = format!(
+    let text = format!(
         "every run:\n{}\nonly with --full, or by name:\n{}\nonly by name:\n{}\n\
-         pages that no step measures anew:\n{}\n\
-         tests that only --full adds to the steps `host` and `simulations`; every other step then takes all robots and scenes:\n",
+         pages that no step measures anew:\n{}",
         steps(Everyday),
         steps(Full),
         steps(Named),
         unheld.collect::<String>()
     );
-    for folder in "docs/guide/tests host-tests/hard/tests host-tests/tests host-tests/simulations/tests host-tests/specialised/tests tools/robot-import/tests".split(' ') {
-        for (program, test) in claims::full_only(&workspace.root.join(folder))? {
-            text += &format!("  {program:16} {}\n", test.replace('_', " "));
-        }
-    }
     output::print(&text)?;
     Ok(ExitCode::SUCCESS)
 }
@@ -215,7 +201,7 @@ pub struct Args {
     /// All robots, all scenes, all reports and whether the documents are current: what CI runs
     #[arg(long)]
     full: bool,
-    /// List the steps, and the claims that only --full holds
+    /// List the steps
     #[arg(long)]
     list: bool,
 }

@@ -35,7 +35,7 @@ const PICO_2: &str = "thumbv8m.main-none-eabihf";
 
 /// The guide's programs, and the servo bus on a serial port of Embassy where the target of its chip
 /// can be had.
-pub fn guide(context: &Context) -> Result<String> {
+pub fn guide(context: &Context) -> Result<()> {
     let check = |words: &str| format!("clippy --manifest-path {BOARDS} {words} -- -D warnings");
     context.cargo(&[check(
         "--package guide-firmware --package nucleo-f446re --target thumbv7em-none-eabihf",
@@ -44,8 +44,8 @@ pub fn guide(context: &Context) -> Result<String> {
         setup::for_cores(context.options, &[PICO_2], &[])
             .or_else(|_| skip(format!("no {PICO_2}")))?;
     }
-    context.cargo(&[check(&format!("--package pico2-embassy --target {PICO_2}"))])?;
-    Ok(String::new())
+    let pico = check(&format!("--package pico2-embassy --target {PICO_2}"));
+    context.cargo(&[pico]).map(drop)
 }
 
 /// The projects that `robot-import new` writes, of a pendulum and of an arm, two libraries for C in

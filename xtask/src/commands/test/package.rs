@@ -1,18 +1,14 @@
-//! The steps about the library as a dependency: what cargo packages and vendors, its features and
-//! its examples.
+//! The steps about the library as a dependency: what cargo packages, its features and its examples.
 
 use std::ffi::OsString;
 use std::path::Path;
-use std::process::Command;
 
-use tempfile::TempDir;
-
-use super::Context;
+use super::{Context, others};
 use crate::kit::error::{Error, Result, refuse_if};
 use crate::kit::host_bin::SHARED;
 use crate::kit::shell;
 use crate::kit::toolchain::{TARGET, Toolchain};
-use crate::kit::workspace::{read, write};
+use crate::kit::workspace::read;
 
 const LIBRARY: &str = "dynamics-core";
 const CONTROLLER: &str = "motion-control";
@@ -29,9 +25,7 @@ pub fn package(context: &Context) -> Result<String> {
     for library in [LIBRARY, CONTROLLER] {
         copies_are_equal(root, &root.join(library))?;
     }
-    context.cargo(&["package --package dynamics-core --allow-dirty"])?;
-    vendored_builds(context, folder()?.path())?;
-    Ok(String::new())
+    context.cargo(&["package --package dynamics-core --allow-dirty"])
 }
 
 /// Compares what stands in the workspace's root with the crate's copies.
@@ -47,57 +41,6 @@ fn copies_are_equal(root: &Path, library: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Builds a project that depends on the library by git, from nothing but what `cargo vendor` has
-/// copied.
-fn vendored_builds(context: &Context, folder: &Path) -> Result<()> {
-    let git_url = commit_work_tree(&context.workspace.root, &folder.join("repository"))?;
-    let project = folder.join("project");
-    let put = |name: &str, text: &str| {
-        let path = project.join(name);
-        create_parent(&path)?;
-        write(&path, text)
-    };
-    let manifest = format!(
-        "[package]\nname = \"vendored\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[workspace]\n\n\
-         [dependencies]\n{LIBRARY} = {{ git = \"{git_url}\", features = [\"serde\"] }}\n"
-    );
-    let program = "use dynamics_core::glam::Vec3;\n\nfn main() {\n    \
-                   let _ = dynamics_core::effects::GravityVector::<f32>(Vec3::X);\n}\n";
-    let files = [("Cargo.toml", manifest.as_str()), ("src/main.rs", program)];
-    for (name, text) in files {
-        put(name, text)?;
-    }
-    // The versions that the workspace's other steps have been tested with.
-    let lock = read(&context.workspace.root.join("Cargo.lock"))?;
-    put("Cargo.lock", &lock)?;
-    let cargo = |subcommand| {
-        let mut command = context.workspace.cargo(subcommand);
-        command.current_dir(&project);
-        command
-    };
-    put(".cargo/config.toml", &shell::capture(&mut cargo("vendor"))?)?;
-    let mut check = cargo("check");
-    check.args(["--offline", "--locked", "--target-dir", "target"]);
-    shell::capture(&mut check).map(drop)
-}
-
-/// Commits the work tree as it is, without what git ignores, into a new repository, and returns its
-/// URL.
-fn commit_work_tree(root: &Path, repository: &Path) -> Result<String> {
-    let mut init = Command::new("git");
-    shell::capture(init.args(["init", "--quiet"]).arg(repository))?;
-    let commit = "commit --quiet --no-gpg-sign --no-verify --message work-tree";
-    for arguments in ["add --all", commit] {
-        let mut git = Command::new("git");
-        git.arg("--git-dir").arg(repository.join(".git"));
-        git.arg("--work-tree").arg(root).current_dir(root);
-        git.args(["-c", "user.name=test", "-c", "user.email=test@localhost"]);
-        shell::capture(git.args(arguments.split(' ')))?;
-    }
-    let path = repository.to_string_lossy().replace('\\', "/");
-    Ok(format!("file:///{}", path.trim_start_matches('/')))
-}
-
 pub fn features(context: &Context) -> Result<String> {
     if context.tools.toolchain == Toolchain::Native {
         for library in [LIBRARY, CONTROLLER] {
@@ -111,7 +54,10 @@ pub fn features(context: &Context) -> Result<String> {
         plain != with_features,
         "the features `{FEATURES}` change the numbers of `{COMPARED}`:\n{plain}\n{with_features}"
     );
-    Ok(FEATURES.to_owned())
+    match others::msrv(context) {
+        Err(Error::Skipped(why)) => Ok(format!("{FEATURES}; the oldest compiler: {why}")),
+        rustc => Ok(format!("{FEATURES}; {}", rustc?)),
+    }
 }
 
 pub fn examples(context: &Context) -> Result<String> {
@@ -156,27 +102,17 @@ pub fn deny(context: &Context) -> Result<String> {
     Ok(String::new())
 }
 
-/// A folder outside the workspace, whose configuration would otherwise apply.
-fn folder() -> Result<TempDir> {
-    TempDir::new().map_err(Error::file("create", "a folder for what is temporary"))
-}
-
-fn create_parent(path: &Path) -> Result<()> {
-    let parent = path.parent().unwrap_or(path);
-    std::fs::create_dir_all(parent).map_err(Error::file("create", parent))
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{COPIES, LIBRARY, copies_are_equal, create_parent, folder};
+    use super::{COPIES, LIBRARY, copies_are_equal};
     use crate::kit::workspace::write;
 
     #[test]
     fn a_licence_that_differs_from_its_copy_is_refused() {
-        let folder = folder().expect("a folder");
+        let folder = tempfile::tempdir().expect("a folder");
         let library = folder.path().join(LIBRARY);
+        std::fs::create_dir(&library).expect("a folder");
         for name in COPIES {
-            create_parent(&library.join(name)).expect("a folder");
             write(&folder.path().join(name), "a licence").expect("written");
             write(&library.join(name), "a licence").expect("written");
         }

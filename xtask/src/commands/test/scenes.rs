@@ -48,20 +48,21 @@ pub fn runs(context: &Context) -> Result<String> {
         plot::write(&measured.recording, &picture)?;
         ticks += measured.recording.ticks as usize * measured.recording.runs.len();
     }
-    Ok(format!("{ticks} ticks"))
+    let again = if context.full { twice(context)? } else { "" };
+    Ok(format!("{ticks} ticks{again}"))
 }
 
-pub fn determinism(context: &Context) -> Result<String> {
+/// Fails unless two runs of a scene give the same bytes.
+fn twice(context: &Context) -> Result<&'static str> {
     let (workspace, tools, meter) = (&context.workspace, &context.tools, context.meter()?);
     let mut scenes = context.measured()?.iter().zip(context.scenes());
-    // Without `--full` there is the default one alone.
-    let found = scenes.find(|(_, scene)| !context.full || scene.name() == TWICE);
+    let found = scenes.find(|(_, scene)| scene.name() == TWICE);
     let (first, scene) = found.ok_or_else(|| check!("`{TWICE}` is not measured"))?;
     let again = demo::measure(workspace, tools, *scene, &first.elf, meter)?;
     let ((log, costs), (log_again, costs_again)) = (&first.raw, &again.raw);
     refuse_if!(log != log_again, "two runs logged different bytes");
     refuse_if!(costs != costs_again, "two runs cost differently");
-    Ok(format!("{} bytes", log.len() + costs.len()))
+    Ok(", twice the same")
 }
 
 pub fn tracking(context: &Context) -> Result<String> {
@@ -108,7 +109,7 @@ pub fn tracking(context: &Context) -> Result<String> {
     Ok(outcomes.join(", "))
 }
 
-pub fn cycles(context: &Context) -> Result<String> {
+pub fn budgets(context: &Context) -> Result<String> {
     let mut outcomes = Vec::new();
     for measured in context.measured()? {
         let (report, longest) = (&measured.report, measured.report.tick["total"].cycles.max);
@@ -118,15 +119,9 @@ pub fn cycles(context: &Context) -> Result<String> {
             share > LARGEST_SHARE,
             "{name}: the longest tick takes {longest} modelled cycles, {percent:.0} % of its period"
         );
-        outcomes.push(format!("{name} {longest}"));
+        outcomes.push(budgets::check(&context.workspace, report)?);
     }
-    Ok(outcomes.join(", "))
-}
-
-pub fn budgets(context: &Context) -> Result<String> {
-    let measured = context.measured()?.iter();
-    let spare = measured.map(|measured| budgets::check(&context.workspace, &measured.report));
-    Ok(spare.collect::<Result<Vec<_>>>()?.join("; "))
+    Ok(outcomes.join("; "))
 }
 
 pub fn readme(context: &Context) -> Result<String> {

@@ -98,7 +98,7 @@ fn read(workspace: &Workspace, bin: &Bin) -> Result<Board> {
         let flags = format!("target.{:?}.rustflags=['{flag}']", bin.target);
         command.args(["--config", &flags]);
     }
-    shell::cargo(&mut command)?;
+    shell::capture(&mut command)?;
     let elf = target.join(bin.target).join(bin.profile);
     let image = Image::read(&elf.join(bin.name))?;
     let address = |name: &str| {

@@ -109,7 +109,7 @@ pub fn build(workspace: &Workspace, core: &Core) -> Result<PathBuf> {
         .arg(&target)
         // Instead of those of `.cargo/config.toml`, which has another linker script.
         .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"));
-    shell::cargo(&mut command)?;
+    shell::capture(&mut command)?;
     Ok(target.join(core.target).join(RELEASE).join(PACKAGE))
 }
 

@@ -179,12 +179,11 @@ fn run(bench: &Path, manifest: &Path) -> Result<Vec<Row>> {
     let mut command = Command::new(bench);
     command.arg(manifest);
     let mut rows = Vec::new();
-    shell::each_line(&mut command, |line| {
+    for line in shell::capture(&mut command)?.lines() {
         let mut row: Row =
             serde_json::from_str(line).map_err(|e| check!("peers-bench printed {line:?}: {e}"))?;
         row.target = HOST;
         rows.extend(row.ns.is_some().then_some(row));
-        Ok(())
-    })?;
+    }
     Ok(rows)
 }

@@ -99,8 +99,6 @@ pub struct Report {
     pub builds: Vec<Build>,
     pub compared: Vec<Compared>,
     pub versions: Vec<String>,
-    /// The code that was measured.
-    pub code: String,
     /// The day of the run, and the commit.
     pub date: String,
 }
@@ -140,7 +138,6 @@ impl Report {
             forward = self.in_a_row("loops forward").markdown(),
             bars = bars::table(&self.compared).markdown(),
             versions = versions.collect::<String>(),
-            code = self.code,
         )
     }
 

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use crate::kit::bracket::Bracket;
 use crate::kit::meter::{CLOCK_MHZ, Cost, MODEL};
 use crate::kit::protocol::label;
 use crate::kit::table::{Column, Table, thousands};
@@ -43,7 +42,7 @@ impl Report {
     }
 
     /// For the page, with the brackets of the cycles by the parts of a tick.
-    pub fn markdown(&self, brackets: &[Bracket]) -> String {
+    pub fn markdown(&self, brackets: &[[u64; 2]]) -> String {
         let percent = |errors: &Errors, tracking: &Tracking| {
             let share = 100.0 * errors.rms_rad / tracking.pd.rms_rad;
             format!("{} ({share:.1} %)", milli(errors.rms_rad))
@@ -123,10 +122,10 @@ impl Report {
         ]
     }
 
-    fn costs(&self, brackets: &[Bracket]) -> Table {
+    fn costs(&self, brackets: &[[u64; 2]]) -> Table {
         let by_manual = |name: &str| {
             let number = self.tick.get_index_of(name)?;
-            Some(brackets.get(number)?.words())
+            Some(brackets.get(number)?.map(thousands).join(" to "))
         };
         let whole = self.tick["total"].cycles.median as f64;
         let period = f64::from(self.period_us);

@@ -60,7 +60,10 @@ fn animate(attribute: &str, seconds: f64, values: &[String]) -> String {
     )
 }
 
-fn text(class: &str, size: u32, anchor: &str, [x, y]: [f64; 2], words: &str) -> String {
+/// A text whose style is its classes, its size and its anchor.
+fn text(style: &str, [x, y]: [f64; 2], words: &str) -> String {
+    let mut parts = style.rsplitn(3, ' ');
+    let [anchor, size, class] = [(); 3].map(|()| parts.next().unwrap_or_default());
     format!(
         "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\">{words}</text>\n"
     )
@@ -102,13 +105,8 @@ fn style() -> String {
         let of = |colour| {
             format!(".{class}{{fill:{colour}}}.{class}-line{{fill:none;stroke:{colour}}}\n")
         };
-        write!(
-            style,
-            "{}@media (prefers-color-scheme: dark){{{}}}\n",
-            of(light),
-            of(dark)
-        )
-        .expect("a string");
+        style += &of(light);
+        style += &format!("@media (prefers-color-scheme: dark){{{}}}\n", of(dark));
     }
     style
         + ".bold{font-weight:600}.dashed{stroke-dasharray:2 4}polyline{stroke-linejoin:round;stroke-linecap:round}.still{display:none}\n\
@@ -121,14 +119,8 @@ fn floor() -> String {
         let at = 0.2 * f64::from(k);
         let half = (FLOOR * FLOOR - at * at).sqrt();
         for [x, y] in [[half, at], [at, half]] {
-            let (from, to) = (
-                DVec3::new(x, y, 0.0),
-                match x == half {
-                    true => DVec3::new(-x, y, 0.0),
-                    false => DVec3::new(x, -y, 0.0),
-                },
-            );
-            let [from, to] = [from, to].map(|end| points([place(end)]));
+            let to = if x == half { [-x, y] } else { [x, -y] };
+            let [from, to] = [[x, y], to].map(|[x, y]| points([place(DVec3::new(x, y, 0.0))]));
             write!(lines, "M{from}L{to}").expect("a string");
         }
     }
@@ -149,7 +141,8 @@ fn arm(
         let at = |tick: &Tick| points(of(tick)[from..=to].iter().map(|point| place(*point)));
         // The first again at the end: a value then takes the same time of one part as of all.
         let all = samples.iter().chain(&samples[..1]);
-        let moves = animate("points", seconds, &all.map(at).collect::<Vec<_>>());
+        let places: Vec<String> = all.map(at).collect();
+        let moves = animate("points", seconds, &places);
         let line = format!("polyline class=\"{class}-line");
         let still = at(&samples[still]);
         writeln!(
@@ -164,47 +157,25 @@ fn arm(
 fn words(motion: &Motion) -> String {
     let speed = motion.ticks.len() as f64 / 1000.0 / SECONDS;
     let how = format!("simulated, at {speed:.1} times its speed");
-    let mut shapes = text(
-        "ink bold",
-        20,
-        "start",
-        [20.0, 32.0],
-        "UR5e, pick and place",
-    );
-    shapes += &text("muted", 15, "start", [20.0, 54.0], &how);
+    let mut shapes = text("ink bold 20 start", [20.0, 32.0], "UR5e, pick and place");
+    shapes += &text("muted 15 start", [20.0, 54.0], &how);
     for (class, words, x) in [("arm", "arm", 20.0), ("wanted", "reference", 84.0)] {
         shapes += &format!(
             "<rect class=\"{class}\" x=\"{x}\" y=\"70\" width=\"14\" height=\"14\" rx=\"3\"/>"
         );
-        shapes += &text("ink", 16, "start", [x + 20.0, 83.0], words);
+        shapes += &text("ink 16 start", [x + 20.0, 83.0], words);
     }
     for is_on in [true, false] {
         let shown = PARTS.map(|on| u8::from(on == is_on).to_string());
         let animation = animate("opacity", SECONDS, &shown)
             .replace("<animate", "<animate calcMode=\"discrete\"");
-        let name = if is_on {
-            "feed-forward on"
-        } else {
-            "feed-forward off"
-        };
-        let class = if is_on {
-            "arm bold moves"
-        } else {
-            "wanted bold moves"
-        };
-        shapes += &text(
-            class,
-            20,
-            "end",
-            [620.0, 32.0],
-            &format!("{name}{animation}"),
-        );
+        let (class, state) = [("wanted", "off"), ("arm", "on")][usize::from(is_on)];
+        let (style, name) = (format!("{class} bold moves 20 end"), "feed-forward");
+        shapes += &text(&style, [620.0, 32.0], &format!("{name} {state}{animation}"));
     }
     shapes
         + &text(
-            "wanted bold still",
-            20,
-            "end",
+            "wanted bold still 20 end",
             [620.0, 32.0],
             "feed-forward off",
         )
@@ -222,17 +193,11 @@ fn plotted(share: f64, error: f64) -> DVec2 {
 fn plot(errors: &[f64], still: usize, labels: &[String; PARTS.len()]) -> String {
     let [left, top, right, bottom] = PLOT;
     let title = "distance of the tip from its reference, mm";
-    let mut shapes = text("muted", 16, "start", [20.0, 396.0], title);
+    let mut shapes = text("muted 16 start", [20.0, 396.0], title);
     for error in [0.0, 20.0, 40.0] {
         let y = plotted(0.0, error).y;
         shapes += &format!("<path class=\"faint-line\" d=\"M{left},{y}H{right}\"/>");
-        shapes += &text(
-            "muted",
-            15,
-            "end",
-            [left - 8.0, y + 5.0],
-            &format!("{error}"),
-        );
+        shapes += &text("muted 15 end", [left - 8.0, y + 5.0], &error.to_string());
     }
     for (k, label) in labels.iter().enumerate() {
         let share = |k: f64| k / PARTS.len() as f64;
@@ -241,13 +206,8 @@ fn plot(errors: &[f64], still: usize, labels: &[String; PARTS.len()]) -> String 
             shapes += &format!("<path class=\"muted-line dashed\" d=\"M{x:.1},{top}V{bottom}\"/>");
         }
         let middle = plotted(share(k as f64 + 0.5), MOST);
-        shapes += &text(
-            "ink",
-            16,
-            "middle",
-            [middle.x.round(), middle.y + 20.0],
-            label,
-        );
+        let at = [middle.x.round(), middle.y + 20.0];
+        shapes += &text("ink 16 middle", at, label);
     }
     let whole = (errors.len() - 1) as f64;
     let curve = errors.iter().enumerate();

@@ -4,11 +4,9 @@ mod drawing;
 mod simulation;
 
 fn main() -> std::io::Result<()> {
-    let film = drawing::film(&simulation::run());
-    match std::env::args().nth(1) {
-        Some(file) => std::fs::write(file, film),
-        None => Err(std::io::Error::other("usage: film FILE")),
-    }
+    let usage = || std::io::Error::other("usage: film FILE");
+    let file = std::env::args().nth(1).ok_or_else(usage)?;
+    std::fs::write(file, drawing::film(&simulation::run()))
 }
 
 #[cfg(test)]

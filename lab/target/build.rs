@@ -2,7 +2,10 @@
 //! them.
 
 use std::fmt::Write;
-use std::{env, error::Error, fs, path::PathBuf};
+use std::fs::{self, File};
+use std::{env, error::Error, io, path::PathBuf};
+
+use flate2::read::GzDecoder;
 
 /// The recorded inputs of a state, in this order.
 const INPUTS: [&str; 4] = ["q", "qd", "qdd", "tau"];
@@ -11,9 +14,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let out = PathBuf::from(env::var("OUT_DIR")?);
     let mut source = String::new();
     for robot in ["ur5e", "panda", "iiwa14", "a1"] {
-        let path = format!("../../host-tests/recordings/{robot}.json");
+        let path = format!("../../host-tests/recordings/{robot}.json.gz");
         println!("cargo:rerun-if-changed={path}");
-        let recording: serde_json::Value = serde_json::from_str(&fs::read_to_string(&path)?)?;
+        let recording: serde_json::Value = serde_json::from_str(&recorded(&path)?)?;
         let rows = |input: &str| recording[input].as_array().cloned().unwrap_or_default();
         let (states, joints) = (rows("q").len(), rows("q")[0].as_array().map_or(0, Vec::len));
         let name = robot.to_uppercase();
@@ -36,6 +39,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     fs::write(out.join("states.rs"), source)?;
     fs::write(out.join("torques.rs"), torques()?)?;
     Ok(())
+}
+
+/// The text of a compressed recording.
+fn recorded(path: &str) -> io::Result<String> {
+    io::read_to_string(GzDecoder::new(File::open(path)?))
 }
 
 /// The torques that the oracle gives to forward dynamics in the hard cases of six joints, as bits.

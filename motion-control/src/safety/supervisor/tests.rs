@@ -118,58 +118,6 @@ fn each_fault_names_its_joint() {
     assert_eq!(status.fault, Some(Fault::Speed { joint: 0 }));
 }
 
-// The arm stays stopped.
-#[test]
-fn a_lasting_fault_leads_over_hold_to_stopped() {
-    let mut supervisor = riding(2);
-    good(&mut supervisor, [3.0; 2]);
-    for mode in [Mode::Full, Mode::Full, Mode::Hold, Mode::Hold, Mode::Hold] {
-        assert_eq!(supervisor.accept_measurement(Err(Fault::Stale)), mode);
-        let share = if mode == Mode::Full { 1.0 } else { 0.0 };
-        assert_eq!(
-            (supervisor.measurement_accepted(), supervisor.authority()),
-            (false, share)
-        );
-        let command = supervisor.gate(&[2.0; 2], &[0.0; 2]);
-        assert_eq!((command.torque, command.brake), ([2.0; 2], false));
-        assert_eq!(command.status.fault, Some(Fault::Stale));
-    }
-    let stopped = |command: Command<f32, 2>| {
-        assert_eq!((command.torque, command.brake), ([0.0; 2], true));
-        assert_eq!(command.status.mode, Mode::Stopped);
-        assert_eq!(command.status.fault, Some(Fault::Encoder { joint: 1 }));
-    };
-    stopped(bad(&mut supervisor, [2.0; 2]));
-    for _ in 0..10 {
-        stopped(good(&mut supervisor, [2.0; 2]));
-    }
-    stopped(good(&mut supervisor, [f32::NAN; 2]));
-}
-
-#[test]
-fn authority_rises_after_a_hold_and_stays_after_a_ride() {
-    let mut supervisor = riding(1);
-    good(&mut supervisor, [3.0; 2]);
-    bad(&mut supervisor, [3.0; 2]);
-    supervisor.accept_measurement(Ok(&[0.0; 2]));
-    assert_eq!(supervisor.authority(), 1.0);
-    supervisor.gate(&[3.0; 2], &[0.0; 2]);
-    bad(&mut supervisor, [3.0; 2]);
-    for share in [0.25, 0.5, 0.75, 1.0, 1.0] {
-        supervisor.accept_measurement(Ok(&[0.0; 2]));
-        assert_eq!(supervisor.authority(), share);
-        supervisor.gate(&[3.0; 2], &[0.0; 2]);
-    }
-}
-
-#[test]
-fn a_speed_is_not_ridden_through() {
-    let mut supervisor = riding(5);
-    good(&mut supervisor, [3.0; 2]);
-    supervisor.accept_measurement(Err(Fault::Stale));
-    assert_eq!(supervisor.check_speed(&[0.0, 2.1]), Mode::Hold);
-}
-
 #[test]
 fn an_external_failure_stops_the_arm_next_tick() {
     let mut supervisor = supervisor();
@@ -179,30 +127,6 @@ fn an_external_failure_stops_the_arm_next_tick() {
     let command = good(&mut supervisor, [3.0; 2]);
     assert_eq!((command.torque, command.brake), ([0.0; 2], true));
     assert_eq!(command.status.fault, Some(Fault::Drive { joint: 1 }));
-}
-
-// It acts in its own tick.
-#[test]
-fn an_external_stop_lasts_until_a_reset() {
-    let mut supervisor = riding(5);
-    good(&mut supervisor, [3.0; 2]);
-    bad(&mut supervisor, [3.0; 2]);
-    supervisor.accept_measurement(Err(Fault::Encoder { joint: 1 }));
-    supervisor.stop(Fault::External);
-    let command = supervisor.gate(&[3.0; 2], &[0.0; 2]);
-    assert_eq!((command.torque, command.brake), ([0.0; 2], true));
-    for _ in 0..10 {
-        let command = good(&mut supervisor, [3.0; 2]);
-        assert_eq!((command.torque, command.brake), ([0.0; 2], true));
-        assert_eq!(command.status.mode, Mode::Stopped);
-        assert_eq!(command.status.fault, Some(Fault::External));
-    }
-    assert_eq!(Fault::External.to_string(), "a stop from outside");
-    supervisor.reset();
-    assert_eq!(good(&mut supervisor, [3.0; 2]).status.fault, None);
-    // Still demanded.
-    supervisor.stop(Fault::External);
-    assert!(good(&mut supervisor, [3.0; 2]).brake);
 }
 
 // At first the last torques stand.
@@ -231,40 +155,6 @@ fn missing_torques_lead_over_a_hold_to_the_brake() {
         (Mode::Stopped, fault)
     );
     assert!(good(&mut supervisor, [3.0; 2]).brake);
-}
-
-#[test]
-fn a_fault_that_keeps_coming_back_stops_the_arm() {
-    let mut supervisor = supervisor();
-    good(&mut supervisor, [0.0; 2]);
-    let mut modes = (0..HOLD + 1).map(|_| {
-        for _ in 1..REENTRY {
-            assert_eq!(good(&mut supervisor, [0.0; 2]).status.mode, Mode::Full);
-        }
-        bad(&mut supervisor, [0.0; 2]).status.mode
-    });
-    assert!(modes.by_ref().take(3).all(|mode| mode == Mode::Hold));
-    assert_eq!(modes.next(), Some(Mode::Stopped));
-}
-
-#[test]
-fn good_ticks_up_to_full_authority_forget_a_fault() {
-    let mut supervisor = supervisor();
-    good(&mut supervisor, [0.0; 2]);
-    for _ in 0..20 {
-        assert_eq!(bad(&mut supervisor, [0.0; 2]).status.mode, Mode::Hold);
-        for _ in 0..REENTRY {
-            good(&mut supervisor, [0.0; 2]);
-        }
-    }
-}
-
-#[test]
-fn without_a_good_position_a_fault_stops_at_once() {
-    let mut supervisor = supervisor();
-    assert_eq!(supervisor.accept_measurement(Ok(&[2.0; 2])), Mode::Stopped);
-    supervisor.reset();
-    assert_eq!(supervisor.accept_measurement(Ok(&[0.9; 2])), Mode::Full);
 }
 
 #[test]
@@ -302,29 +192,6 @@ fn useless_limits_allow_nothing() {
             }
         }
     }
-}
-
-#[test]
-fn after_a_reset_faults_are_counted_anew() {
-    let mut supervisor = riding(2);
-    good(&mut supervisor, [1.0; 2]);
-    let modes = |supervisor: &mut _| [(); 6].map(|()| bad(supervisor, [1.0; 2]).status.mode);
-    let all = modes(&mut supervisor);
-    assert_eq!(all[5], Mode::Stopped);
-    supervisor.reset();
-    good(&mut supervisor, [1.0; 2]);
-    assert_eq!(modes(&mut supervisor), all);
-}
-
-#[test]
-fn excess_speed_adds_to_the_counted_faults() {
-    let mut supervisor = riding(2);
-    good(&mut supervisor, [1.0; 2]);
-    for _ in 0..2 + HOLD {
-        bad(&mut supervisor, [1.0; 2]);
-    }
-    supervisor.accept_measurement(Ok(&[0.0; 2]));
-    assert_eq!(supervisor.check_speed(&[2.1, 0.0]), Mode::Stopped);
 }
 
 #[test]

@@ -1,5 +1,3 @@
-//! Arms that tests in `tests/` simulate.
+//! The UR5e that tests in `tests/` simulate.
 
-pub mod contact;
-pub mod learning;
-mod step;
+pub mod plant;

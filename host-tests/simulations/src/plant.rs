@@ -1,16 +1,14 @@
 //! A UR5e that a wall touches, and how it differs from its model.
 
-use dynamics_core::algorithms::{NotPositiveDefinite, frame, kinematics, osim_inverse};
-use dynamics_core::effects::{Armature, Coulomb, Effect, Lugre, RIGID_BODY, Viscous, Width, hook};
+use dynamics_core::algorithms::{NotPositiveDefinite, frame, kinematics};
+use dynamics_core::effects::{
+    Armature, Coulomb, Effect, JointState, Lugre, RIGID_BODY, Viscous, Width, hook,
+};
 use dynamics_core::model::{ArmModel, model};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::{Matrix, Real, Vector, positive_part};
-use dynamics_core::sim::KahanState;
-use dynamics_core::spatial::Force;
+use dynamics_core::sim::{Integrator, KahanState, LinearlyImplicit, ModelDynamics};
 use dynamics_core::state::State;
-use glam::Vec3;
-
-use crate::step::compensated_step;
 
 /// The body that touches.
 pub const TIP: usize = 5;
@@ -98,15 +96,6 @@ pub struct Wall<R: Real> {
 }
 
 impl<R: Real> Wall<R> {
-    /// No wall and no hand.
-    pub const NONE: Self = Self {
-        origin: R::Vec3::ZERO,
-        normal: R::Vec3::ZERO,
-        stiffness: R::ZERO,
-        loss: R::ZERO,
-        hand: R::Vec3::ZERO,
-    };
-
     /// The force of the tip on the wall, N.
     pub fn force(&self, [place, velocity]: [R::Vec3; 2]) -> R {
         let depth = (place - self.origin).dot(self.normal);
@@ -129,10 +118,9 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Wall<R> {
 #[derive(Clone, Debug)]
 pub struct Plant<F> {
     pub at: KahanState<f32, 6, true>,
-    pub wall: Wall<f32>,
     /// Torques on its joints from outside, N·m.
     pub pushed: [f32; 6],
-    pub arm: ArmModel<f32, 6>,
+    arm: ArmModel<f32, 6>,
     friction: F,
 }
 
@@ -141,14 +129,14 @@ impl<F: Effect<f32, 6, 6> + Clone> Plant<F> {
     pub fn new(q: [f32; 6], inertia: [f32; 6], friction: F) -> Self {
         Self {
             at: KahanState::at(State::at(q)),
-            wall: Wall::NONE,
             pushed: [0.0; 6],
             arm: arm(inertia),
             friction,
         }
     }
 
-    /// Moves on by `steps` steps of `h` seconds under the drives' torques, N·m.
+    /// Moves on by `steps` linearly implicit steps of `h` seconds with compensated sums under the
+    /// drives' torques, N·m.
     ///
     /// # Errors
     /// As forward dynamics.
@@ -160,26 +148,18 @@ impl<F: Effect<f32, 6, 6> + Clone> Plant<F> {
     ) -> Result<(), NotPositiveDefinite> {
         let tau = core::array::from_fn(|i| torque[i] + self.pushed[i]);
         for _ in 0..steps {
-            let scene = (RIGID_BODY, rotors(), (self.friction.clone(), self.wall));
-            let acting = (&scene, &mut self.friction);
-            compensated_step(&self.arm, &mut self.at, tau, acting, h)?;
+            let mechanics = ModelDynamics {
+                robot: &self.arm,
+                tau,
+                effects: &(RIGID_BODY, rotors(), self.friction.clone()),
+            };
+            let step = LinearlyImplicit.step(&mechanics, &self.at.state, h)?;
+            self.at.add(&step, h);
+            for joint in 0..6 {
+                let at = JointState::new(self.at.state.q[joint], self.at.state.qd[joint]);
+                self.friction.advance(joint, at, h);
+            }
         }
         Ok(())
-    }
-
-    /// The force of the tip on the wall, N.
-    pub fn force(&self) -> f32 {
-        self.wall.force(tip(&self.at.state))
-    }
-
-    /// The reflected mass of the tip along the wall's normal in a posture, kg.
-    ///
-    /// # Errors
-    /// As forward dynamics.
-    pub fn mass(&self, q: &[f32; 6]) -> Result<f32, NotPositiveDefinite> {
-        let scene = (RIGID_BODY, rotors::<f32>());
-        let mobility = osim_inverse(&self.arm, q, TIP, frame::LocalWorldAligned, &scene)?;
-        let normal = self.wall.normal;
-        Ok(1.0 / (mobility * Force::new(Vec3::ZERO, normal)).lin.dot(normal))
     }
 }

@@ -114,36 +114,6 @@ fn too_few_actuated_coordinates_are_refused() {
     assert_eq!(error.to_string(), text);
 }
 
-#[test]
-fn a_loop_that_does_not_close_is_named() {
-    let model = tree(1.0);
-    let loops =
-        Loops::<1, 5, 1>::try_new(&model, [pin(FLANGE, ROCKER)], [0]).expect("it can close");
-    // With the crank turned away the rest is too short.
-    let away = assemble(
-        &model,
-        &loops,
-        &[core::f64::consts::PI, 0.1, 0.2],
-        Moving::Passive,
-    );
-    let Err(LoopError::Open { name: "pin", error }) = away else {
-        panic!("{away:?}");
-    };
-    assert!(error > 0.1 && error < 1.0, "{error}");
-    let moved = assemble(&model, &loops, &[2.5, 0.1, 0.2], Moving::All);
-    assert!(moved.is_ok(), "{moved:?}");
-}
-
-#[test]
-fn inverse_dynamics_of_an_open_loop_is_refused() {
-    let open = State::at([0.5, 0.5, 0.5]);
-    let error = inverse_dynamics(&Static::<FourBar>::NEW, &FourBar::LOOPS, &open, &RIGID_BODY);
-    assert!(
-        matches!(error, Err(LoopError::Open { name: "joint", .. })),
-        "{error:?}"
-    );
-}
-
 /// The Delta without the motor of its first crank.
 #[test]
 fn an_underactuated_loop_and_its_coordinate_are_named() {

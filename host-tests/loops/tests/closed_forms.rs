@@ -103,29 +103,6 @@ fn four_bar_gravity_is_its_weights_virtual_work() {
     within("virtual work of weights, N m", largest(errors), 1.5e-13);
 }
 
-// A flat parallelogram has four.
-#[test]
-fn a_planar_linkage_has_three_redundant_rows() {
-    let robot = Static::<Parallelogram>::NEW;
-    let rank = |q: [f64; 3]| {
-        let map = coordinate_map(&robot, &Parallelogram::LOOPS, &q);
-        let map = map.expect("a map");
-        (map.rows().rank(), map.degrees_of_freedom(), map.drive())
-    };
-    let open = assemble(
-        &robot,
-        &Parallelogram::LOOPS,
-        &Parallelogram::HOME,
-        Moving::Passive,
-    );
-    assert_eq!(rank(open.expect("it closes").q), (2, 1, Drive::Determined));
-    // Flat: coupler and rocker may follow the crank in two directions.
-    let (name, joint) = ("far_corner", 2);
-    assert_eq!(rank([0.0; 3]), (1, 1, Drive::Singular { name, joint }));
-    let flat = constraints(&robot, &Parallelogram::LOOPS, &State::at([0.0_f64; 3]));
-    assert_eq!(flat.position, [0.0; 5]);
-}
-
 /// In f32 too, and not only at zero but near it, where rounding alone tells the rows apart.
 #[test]
 fn a_nearly_flat_parallelogram_has_the_flat_rank() {

@@ -8,8 +8,8 @@ use dynamics_core::loops::{
 };
 use dynamics_core::model::{BASE, Body, Joint, Model, Problem, Robot, Static};
 use dynamics_core::robots::Ur5e;
-use dynamics_core::state::{State, all_finite};
-use loop_tests::machines::{Delta, FourBar};
+use dynamics_core::state::all_finite;
+use loop_tests::machines::Delta;
 use loop_tests::states::closed_states;
 
 const Y: [f64; 3] = [0.0, 1.0, 0.0];

@@ -2,8 +2,8 @@
 
 use dynamics_core::effects::{Gravity, RIGID_BODY};
 use dynamics_core::loops::{
-    Drive, LoopRobot, Loops, Moving, Stabilisation, assemble, constraints, coordinate_map,
-    forward_dynamics, inverse_dynamics,
+    Drive, LoopRobot, Loops, Moving, Stabilisation, assemble, coordinate_map, forward_dynamics,
+    inverse_dynamics,
 };
 use dynamics_core::model::{Robot, Static};
 use dynamics_core::state::State;

@@ -11,8 +11,9 @@ use dynamics_core::state::State;
 use glam::DVec3;
 use motion_control::{
     Command, ContactDetector, ContactPhase, ContactReaction, ContactReactionConfig,
-    ContactResponse, DetectedContact, Estimate, Gains, MotionController, MotionControllerConfig,
-    MotionLimits, ObserverConfig, SafetyLimits, SupervisorConfig, Trajectory, WayPoint, feedback,
+    ContactResponse, DetectedContact, Estimate, FrozenEncoder, Gains, MotionController,
+    MotionControllerConfig, MotionLimits, ObserverConfig, SafetyLimits, SupervisorConfig,
+    Trajectory, WayPoint, feedback,
 };
 
 use crate::contact_reaction::plant::{
@@ -44,6 +45,7 @@ pub struct Cell {
     gains: Gains<f64, 6>,
     arm: ArmModel<f64, 6>,
     friction: Friction,
+    frozen: FrozenEncoder<f64, 6>,
     measured: Q,
     reacts: bool,
     compensated: f64,
@@ -111,6 +113,7 @@ impl Cell {
             gains: Gains::from_inertia(&core::array::from_fn(|j| m.get(j, j)), OMEGA_N, 1.0),
             arm: arm(setup.off.bodies),
             friction: friction(1.0 + setup.off.friction),
+            frozen: FrozenEncoder::new([10.0 * STEP; 6], 3),
             measured: from,
             reacts: setup.response.is_some(),
             compensated: setup.share,
@@ -161,7 +164,8 @@ impl Cell {
         let measured = self.measured;
         self.measured = self.at.q.map(|q| (q / STEP).round() * STEP);
         let before = *self.controller.reference();
-        let observed = self.controller.observe(Ok(&measured));
+        let fault = self.frozen.check(&measured, &before.q);
+        let observed = self.controller.observe(fault.map(|()| &measured));
         let Estimate { q, qd } = *observed.estimate();
         let still = State {
             q,
@@ -180,7 +184,8 @@ impl Cell {
         );
         let beta = core::array::from_fn(|i| ct_qd[i] - weight[i] - resistance[i]);
         let errors = core::array::from_fn(|i| 0.03 * bodies[i].abs() + 0.1 * resistance[i].abs());
-        let contact = self.detector.update(&p, &beta, &errors);
+        // A lost measurement neither starts a reaction nor releases the arm.
+        let contact = fault.and_then(|()| self.detector.update(&p, &beta, &errors));
         self.contact = contact.ok().flatten();
 
         let tick = if self.reacts {
@@ -199,6 +204,7 @@ impl Cell {
         if command.brake {
             self.at.qd = [0.0; 6];
             self.detector.restart();
+            self.frozen.restart();
         } else {
             let scene = (RIGID, self.friction, self.wall);
             for _ in 0..PARTS {

@@ -4,12 +4,8 @@
 use dynamics_core::Core;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
-use dynamics_core::state::State;
 use host_tests::measured::largest;
-use motion_control::{
-    InertiaUpdate, MotionLimits, Observer, ObserverConfig, Reference, RestToRest, TrajectoryError,
-    WayPoint,
-};
+use motion_control::{InertiaUpdate, Observer, ObserverConfig};
 
 const H: f64 = 1e-3;
 /// Both poles at β = exp(−ω h): e_{n+2} = 2β e_{n+1} − β² e_n, of a late measurement too.
@@ -37,39 +33,6 @@ fn a_late_observer_has_both_poles_at_its_bandwidth() {
             "{bandwidth}: {product}"
         );
     }
-}
-
-#[test]
-fn a_smooth_motion_needs_limits_above_its_peaks() {
-    let stop = |q, ticks| WayPoint {
-        q: [q],
-        qd: [0.0],
-        ticks,
-    };
-    let points = [stop(0.0, 0), stop(1.7, 800)];
-    let motion = |velocity, acceleration| {
-        let limits = MotionLimits {
-            velocity,
-            acceleration,
-        };
-        RestToRest::<f64, 1, 2>::new(&points, H, &[limits])
-    };
-    let free = motion(100.0, 1000.0).unwrap();
-    let peak = |of: fn(State<f64, 1, 1>) -> f64| {
-        largest((0..=800).map(|tick| of(Reference::at(&free, tick)).abs()))
-    };
-    let (speed, acceleration) = (peak(|at| at.qd[0]), peak(|at| at.qdd[0]));
-    assert!(motion(1.001 * speed, 1.001 * acceleration).is_ok());
-    let slow = motion(0.999 * speed, 1.001 * acceleration);
-    assert!(
-        matches!(slow, Err(TrajectoryError::Velocity { .. })),
-        "{slow:?}"
-    );
-    let weak = motion(1.001 * speed, 0.999 * acceleration);
-    assert!(
-        matches!(weak, Err(TrajectoryError::Acceleration { .. })),
-        "{weak:?}"
-    );
 }
 
 // M is held and acts on the present acceleration.

@@ -43,37 +43,3 @@ fn every_transition_of_the_table_occurs_and_no_other_one() {
     assert_eq!(states.map(mode).collect::<BTreeSet<_>>(), modes);
     assert_eq!(links.collect::<BTreeSet<_>>(), transitions);
 }
-
-// An arm with useless limits stays stopped.
-#[test]
-fn a_reset_restores_the_full_law() {
-    let required = Required {
-        reason: Fault::External,
-        again: false,
-    };
-    let stopping = State::Stopping {
-        required,
-        ending: Ending::Off,
-        ticks: 1,
-    };
-    let stopped = State::Stopped { lowers: true };
-    let standing = State::Standing(required);
-    for state in [
-        State::Full,
-        State::Held,
-        State::Torqueless,
-        stopping,
-        standing,
-        stopped,
-    ] {
-        let mut supervisor = supervisor();
-        supervisor.state = state;
-        supervisor.reset();
-        assert_eq!(supervisor.state, State::Full, "after {state:?}");
-    }
-    let unusable = State::Unusable(Fault::Limits { joint: 1 });
-    let mut supervisor = supervisor();
-    supervisor.state = unusable;
-    supervisor.reset();
-    assert_eq!(supervisor.state, unusable);
-}

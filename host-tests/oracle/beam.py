@@ -4,7 +4,7 @@
     venv/bin/pip install -r host-tests/oracle/requirements.txt
     venv/bin/python host-tests/oracle/beam.py
 
-writes host-tests/recordings/beam.json, and prints how much the modes that are left out change the tip's displacement.
+writes host-tests/recordings/beam.json.gz, and prints how much the modes that are left out change the tip's displacement.
 With --check it writes nothing and fails if the file would change. Parts: `dynamics` from D'Alembert's principle
 (beam_points.py), `frequencies` and `static` from finite elements (beam_fe.py), `forced` from both (beam_forced.py).
 
@@ -20,11 +20,8 @@ of Robotics Research 3(3), 1984. A link's frame is at its joint, the beam lies a
 amplitudes, sections of a bent beam have no rotary inertia.
 """
 
-import argparse
 import json
-import pathlib
 import random
-import sys
 
 import mpmath
 from beam_fe import NODE, Elements, dot
@@ -33,9 +30,9 @@ from beam_points import Chain, rodrigues
 from beam_shapes import Link, bending, modal, torsion
 from mpmath import mp, mpf
 from precise import torques
+from recorded import RECORDINGS, of_one
 
 SEED, STATES, GRAVITY = 1984, 30, [0.0, 0.0, -9.81]
-PATH = pathlib.Path(__file__).resolve().parent.parent / "recordings" / "beam.json"
 UPPER = Link(0.5, 0.8, 4.0, 3.0, 2e-5, 2e-5, 0.3, 1e-4)
 FORE = Link(0.4, 0.4, 1.0, 0.8, 1e-5, 1e-5, 0.1, 2e-5)
 PLAIN = Link(1.0, 1.0, 1.0)
@@ -226,16 +223,5 @@ def text(value, depth=0):
     return "{\n" + ",\n".join(f"{json.dumps(k)}:{text(x, depth + 1)}" for k, x in value.items()) + "\n}"
 
 
-def main():
-    arguments = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    arguments.add_argument("--check", action="store_true", help="write nothing, fail if the file would change")
-    options = arguments.parse_args()
-    new = text(record()) + "\n"
-    if not options.check:
-        PATH.write_text(new, encoding="utf-8")
-    elif not PATH.exists() or PATH.read_text(encoding="utf-8") != new:
-        sys.exit("would change: " + str(PATH))
-
-
 if __name__ == "__main__":
-    main()
+    of_one(__doc__, RECORDINGS / "beam.json.gz", lambda: text(record()) + "\n")

@@ -3,7 +3,7 @@
 
     cargo run -p loop-tests --bin export_clusters | venv/bin/python host-tests/oracle/clusters.py
 
-reads the spanning trees as the Rust code has them and writes host-tests/recordings/clusters/<robot>.json. With --check it
+reads the spanning trees as the Rust code has them and writes host-tests/recordings/clusters/<robot>.json.gz. With --check it
 writes nothing and fails if a file would change.
 
 The loops are stated here once more, as pairs of points that coincide, and none of the library's closed forms is used:
@@ -21,10 +21,7 @@ machine is, and G and Ġ ẏ are its derivatives by differences in 50 digits. Fo
 against the equations of the tree with Lagrange multipliers.
 """
 
-import argparse
-import json
 import math
-import pathlib
 import random
 import sys
 
@@ -32,10 +29,10 @@ import mpmath
 import numpy as np
 import pinocchio as pin
 from record import pinocchio_model, single, text, uniform
+from recorded import of_robots
 
 SEED = 2026
 STATES = 200
-RECORDINGS = pathlib.Path(__file__).resolve().parent.parent / "recordings" / "clusters"
 
 
 def turned(radius, degrees):
@@ -310,23 +307,5 @@ def record(robot):
     return text(header, rows)
 
 
-def main():
-    arguments = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    arguments.add_argument("robots", nargs="?", default="-", help="JSON of export_clusters; - or nothing: stdin")
-    arguments.add_argument("--check", action="store_true", help="write nothing, fail if a file would change")
-    options = arguments.parse_args()
-    source = sys.stdin if options.robots == "-" else open(options.robots, encoding="utf-8")
-    stale = []
-    for robot in json.load(source):
-        path, new = RECORDINGS / f"{robot['name']}.json", record(robot)
-        if not options.check:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(new, encoding="utf-8")
-        elif not path.exists() or path.read_text(encoding="utf-8") != new:
-            stale.append(str(path))
-    if stale:
-        sys.exit("would change: " + ", ".join(stale))
-
-
 if __name__ == "__main__":
-    main()
+    of_robots(__doc__, "clusters", record)

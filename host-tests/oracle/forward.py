@@ -11,12 +11,12 @@ Torques are those of precise.py, in base coordinates. M has the torques of unit 
 mpmath's LU decomposition with pivoting: neither LᵀDL nor the inverse of the search.
 """
 
-import argparse
 import json
 import sys
 
 from mpmath import lu_solve, matrix, mpf
-from precise import RECORDINGS, torques
+from precise import torques
+from recorded import RECORDINGS, of_one
 
 PATH = RECORDINGS / "forward.json"
 
@@ -60,16 +60,5 @@ def text():
     return "[\n" + ",\n".join(json.dumps(one, separators=(",", ":")) for one in certificates) + "\n]\n"
 
 
-def main():
-    arguments = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    arguments.add_argument("--check", action="store_true", help="write nothing, fail if the file would change")
-    options = arguments.parse_args()
-    new = text()
-    if not options.check:
-        PATH.write_text(new, encoding="utf-8")
-    elif PATH.read_text(encoding="utf-8") != new:
-        sys.exit("would change: " + str(PATH))
-
-
 if __name__ == "__main__":
-    main()
+    of_one(__doc__, PATH, text)

@@ -7,17 +7,14 @@ coordinates, torques are moments of Newton's and Euler's forces about each axis,
 acceleration, and mobility is J M^-1 J^T by Cholesky's method.
 """
 
-import json
 import struct
-import sys
-from pathlib import Path
 
 import mpmath
 import numpy as np
 from mpmath import mp, mpf
+from recorded import of_cases
 
 mp.dps = 50
-OUT = Path(__file__).parent.parent / "recordings" / "hard"
 
 
 def exact(bits):
@@ -212,18 +209,5 @@ def record(problem):
     return {"name": problem["name"], "inputs": problem["inputs"], "condition": worst or None, "states": states}
 
 
-def main():
-    cases = {}
-    only = {int(x) for x in sys.argv[1:]}
-    for problem in json.load(sys.stdin):
-        if not only or problem["case"] in only:
-            cases.setdefault(problem["case"], []).append(problem)
-    OUT.mkdir(parents=True, exist_ok=True)
-    for case, problems in sorted(cases.items()):
-        print(case, [p["name"] for p in problems], file=sys.stderr, flush=True)
-        path = OUT / f"{case}.json"
-        path.write_text(json.dumps([record(p) for p in problems], ensure_ascii=False, indent=0) + "\n")
-
-
 if __name__ == "__main__":
-    main()
+    of_cases("hard", record)

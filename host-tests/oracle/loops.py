@@ -4,7 +4,7 @@
     cargo run -p loop-tests --bin export_machines | .venv/bin/python host-tests/oracle/loops.py
 
 builds the trees as record.py does, closes them by constraints of three coordinates at a point (all that a planar linkage
-needs of a pin, and all of a ball joint), and writes host-tests/recordings/loop_<machine>.json: states with closed loops,
+needs of a pin, and all of a ball joint), and writes host-tests/recordings/loop_<machine>.json.gz: states with closed loops,
 found by Newton's method here, torques of inverse dynamics by least squares with the constraints' Jacobian, and
 accelerations by `constraintDynamics`. Before anything is recorded they are held against `lcaba` and against the
 equations of motion with Lagrange multipliers, solved by numpy. Coordinates are ours, not Pinocchio's (joints.py).
@@ -17,7 +17,8 @@ import sys
 import numpy as np
 import pinocchio as pin
 from by_hand import placement
-from record import RECORDINGS, pinocchio_model, text
+from record import pinocchio_model, text
+from recorded import RECORDINGS, write
 
 SEED = 2024
 STATES = 200
@@ -180,7 +181,7 @@ def record(exported):
         "machine": exported,
     }
     print(f"{name}: {STATES} states; constraintDynamics and lcaba within {worst[0]:.1e}, {worst[1]:.1e}", file=sys.stderr)
-    (RECORDINGS / f"loop_{name}.json").write_text(text(header, rows), encoding="utf-8")
+    write(RECORDINGS / f"loop_{name}.json.gz", text(header, rows))
 
 
 def main():

@@ -11,16 +11,13 @@ M q'' - K^T l = S t - C, K q'' = k over independent rows of K, and are held agai
 of the independent ones.
 """
 
-import json
-import sys
-from pathlib import Path
 
 import numpy as np
 from closed_machine import ZERO, Gamma, Machine, apply, dot, eliminated, explicit, solved, transposed
 from mpmath import mp, mpf
+from recorded import of_cases
 
 mp.dps = 50
-OUT = Path(__file__).resolve().parent.parent / "recordings" / "hard" / "loops"
 # Squares of G of the motors: a posture that f64 numbers describe is singular but for 1e-16.
 SINGULAR = mpf(10) ** -20
 
@@ -103,17 +100,5 @@ def record(problem):
     return {"name": problem["name"], "inputs": problem["inputs"], "states": states}
 
 
-def main():
-    only, cases = {int(x) for x in sys.argv[1:]}, {}
-    for problem in json.load(sys.stdin):
-        if not only or problem["case"] in only:
-            cases.setdefault(problem["case"], []).append(problem)
-    OUT.mkdir(parents=True, exist_ok=True)
-    for case, problems in sorted(cases.items()):
-        print(case, [p["name"] for p in problems], file=sys.stderr, flush=True)
-        text = json.dumps([record(p) for p in problems], ensure_ascii=False, indent=0)
-        (OUT / f"{case}.json").write_text(text + "\n", encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    of_cases("hard/loops", record)

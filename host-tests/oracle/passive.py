@@ -3,16 +3,16 @@
 
     cargo run -p host-reports --bin export_robots | .venv/bin/python host-tests/oracle/passive.py
 
-Writes host-tests/recordings/passive_ur5e.json: `mj_inverse` of 50 states, which is the motors' torque with its
+Writes host-tests/recordings/passive_ur5e.json.gz: `mj_inverse` of 50 states, which is the motors' torque with its
 `qfrc_passive` and its friction constraints in it. MuJoCo's dry friction is a constraint that slips at `frictionloss` and
 creeps below it; every joint slips fast here. Needs requirements.txt.
 """
 import json
 import sys
-from pathlib import Path
 
 import mujoco
 import numpy as np
+from recorded import RECORDINGS, write
 
 STATES = 50
 DAMPING = [12.0, 12.0, 8.0, 2.0, 2.0, 1.5]
@@ -71,9 +71,8 @@ def main():
         "robot": "ur5e", "mujoco": mujoco.__version__, "damping": DAMPING, "friction": FRICTION,
         "stiffness": STIFFNESS, "rest": REST, "armature": ARMATURE, **rows,
     }
-    path = Path(__file__).parents[1] / "recordings" / "passive_ur5e.json"
-    path.write_text(json.dumps(recording) + "\n")
-    print(f"{path.name}: MuJoCo {mujoco.__version__}, {STATES} states", file=sys.stderr)
+    write(RECORDINGS / "passive_ur5e.json.gz", json.dumps(recording) + "\n")
+    print(f"passive_ur5e: MuJoCo {mujoco.__version__}, {STATES} states", file=sys.stderr)
 
 
 main()

@@ -4,7 +4,7 @@
     venv/bin/pip install -r host-tests/oracle/requirements.txt
     venv/bin/python host-tests/oracle/precise.py
 
-reads robots and states from host-tests/recordings/<robot>.json, and writes host-tests/recordings/precise.json: the
+reads robots and states from host-tests/recordings/<robot>.json.gz, and writes host-tests/recordings/precise.json.gz: the
 torques of some of those states, rounded from 50 digits to f64. With --check it writes nothing and fails if the file
 would change.
 
@@ -13,18 +13,16 @@ recursion nor Pinocchio's. Motion of a body by products of rotations, as a sum o
 joint as its axis times the moments of all forces on the bodies above.
 """
 
-import argparse
 import json
-import pathlib
 import sys
 
 from mpmath import cos, matrix, mp, mpf, sin
+from recorded import RECORDINGS, load, of_one
 
 mp.dps = 50
 ROBOTS = ("ur5e", "panda", "a1")
 STATES = range(0, 100, 10)
 GRAVITY = (0, 0, mpf("-9.81"))
-RECORDINGS = pathlib.Path(__file__).resolve().parent.parent / "recordings"
 
 
 def vector(numbers):
@@ -104,7 +102,7 @@ def carries(robot, i, j):
 def text():
     lines = []
     for name in ROBOTS:
-        recording = json.loads((RECORDINGS / f"{name}.json").read_text(encoding="utf-8"))
+        recording = load(name)
         assert all(body["joint"] in ("revolute", "continuous", "fixed") for body in recording["model"]["bodies"])
         rows, worst = [], mpf(0)
         for k in STATES:
@@ -118,16 +116,5 @@ def text():
     return "{\n" + head + ",\n".join(lines) + "\n}\n"
 
 
-def main():
-    arguments = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    arguments.add_argument("--check", action="store_true", help="write nothing, fail if the file would change")
-    options = arguments.parse_args()
-    path, new = RECORDINGS / "precise.json", text()
-    if not options.check:
-        path.write_text(new, encoding="utf-8")
-    elif not path.exists() or path.read_text(encoding="utf-8") != new:
-        sys.exit("would change: " + str(path))
-
-
 if __name__ == "__main__":
-    main()
+    of_one(__doc__, RECORDINGS / "precise.json.gz", text)

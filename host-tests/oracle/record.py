@@ -5,7 +5,7 @@
     cargo run -p host-reports --bin export_robots | venv/bin/python host-tests/oracle/record.py
 
 reads the robots' constants as the Rust code has them, builds Pinocchio's models from those numbers (not
-from a URDF with rounded angles), and writes host-tests/recordings/<robot>.json. With --check it writes
+from a URDF with rounded angles), and writes host-tests/recordings/<robot>.json.gz. With --check it writes
 nothing and fails if a file would change. The same versions give the same bytes.
 
 A state is q, q̇, q̈ and a torque. All are exactly representable in f32, so that f32 code can be asked
@@ -20,9 +20,7 @@ against products of transforms and Jacobians in numpy (by_hand.py); quantities.p
 first states only.
 """
 
-import argparse
 import json
-import pathlib
 import random
 import sys
 
@@ -31,6 +29,7 @@ import pinocchio as pin
 from by_hand import check, placement, symmetric
 from joints import Order, joint_model
 from quantities import Plant, armature, inputs, of_state, upper
+from recorded import of_robots
 
 SEED = 2024
 STATES = 200  # random ones; the state of all zeros comes before them
@@ -40,7 +39,6 @@ REGRESSORS = 5  # states of which the regressor, the largest quantity, is record
 INPUTS = ("q", "qd", "qdd", "tau", "wrenches", "base_velocity", "base_acceleration", "step")
 GRAVITY = [0.0, 0.0, -9.81]
 RANGE = {"angle": np.pi, "length": 1.0, "qd": 3.0, "qdd": 10.0}
-RECORDINGS = pathlib.Path(__file__).resolve().parent.parent / "recordings"
 
 
 def moving(robot):
@@ -206,24 +204,5 @@ def text(header, rows):
     return "{\n" + ",\n".join(fields) + "\n}\n"
 
 
-def main():
-    arguments = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    arguments.add_argument("robots", nargs="?", default="-", help="JSON of export_robots; - or nothing: stdin")
-    arguments.add_argument("--out", type=pathlib.Path, default=RECORDINGS, help="folder of the recordings")
-    arguments.add_argument("--check", action="store_true", help="write nothing, fail if a file would change")
-    options = arguments.parse_args()
-    source = sys.stdin if options.robots == "-" else open(options.robots, encoding="utf-8")
-    stale = []
-    for robot in json.load(source):
-        path, new = options.out / f"{robot['name']}.json", record(robot)
-        if not options.check:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(new, encoding="utf-8")
-        elif not path.exists() or path.read_text(encoding="utf-8") != new:
-            stale.append(str(path))
-    if stale:
-        sys.exit("would change: " + ", ".join(stale))
-
-
 if __name__ == "__main__":
-    main()
+    of_robots(__doc__, ".", record)

@@ -3,7 +3,7 @@
 
     cargo run -p host-reports --bin export_robots | .venv/bin/python host-tests/oracle/toppra_paths.py
 
-Writes host-tests/recordings/toppra_ur5e.json: of each path its way-points, its limits, the duration on a fine grid, and on a
+Writes host-tests/recordings/toppra_ur5e.json.gz: of each path its way-points, its limits, the duration on a fine grid, and on a
 coarse grid, which has all knots, the duration and ṡ² at all points. s is from 0 to 1. The paths are natural cubic splines, parameterised by the length of the polygon through the
 way-points (scipy's, through toppra's SplineInterpolator). Rotor inertia is on Pinocchio's diagonal, Coulomb friction is
 toppra's dry friction. toppra has no viscous friction. Needs requirements.txt.
@@ -11,7 +11,6 @@ toppra's dry friction. toppra has no viscous friction. Needs requirements.txt.
 import json
 import sys
 from importlib.metadata import version
-from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
@@ -19,6 +18,7 @@ import toppra
 import toppra.algorithm
 import toppra.constraint
 from record import pinocchio_model
+from recorded import RECORDINGS, write
 
 PATHS = 20
 FINE = 200  # segments from knot to knot
@@ -109,8 +109,7 @@ def main():
         "robot": "ur5e", "toppra": version("toppra"), "pinocchio": pin.__version__, "fine": FINE, "segments": COARSE,
         "armature": ARMATURE, "paths": paths,
     }
-    file = Path(__file__).parents[1] / "recordings" / "toppra_ur5e.json"
-    file.write_text(json.dumps(recording) + "\n")
+    write(RECORDINGS / "toppra_ur5e.json.gz", json.dumps(recording) + "\n")
 
 
 if __name__ == "__main__":

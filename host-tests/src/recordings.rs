@@ -1,7 +1,9 @@
 //! Results of other codes, written by the scripts in `host-tests/oracle`.
 
+use std::fs::File;
 use std::path::PathBuf;
 
+use flate2::read::GzDecoder;
 use serde::Deserialize;
 
 /// The recorded answers for one robot; every row of an array is a state.
@@ -172,8 +174,9 @@ impl Precise {
 /// # Panics
 /// As [`load`].
 pub fn read<T: serde::de::DeserializeOwned>(name: &str) -> T {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("recordings/{name}.json"));
-    let text = std::fs::read_to_string(&path)
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("recordings/{name}.json.gz"));
+    let text = File::open(path)
+        .and_then(|file| std::io::read_to_string(GzDecoder::new(file)))
         .unwrap_or_else(|e| panic!("recording of `{name}` in host-tests/recordings: {e}"));
     serde_json::from_str(&text).unwrap_or_else(|e| panic!("recording of `{name}`: {e}"))
 }

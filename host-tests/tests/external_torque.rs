@@ -7,10 +7,7 @@ use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use glam::DVec3;
-use motion_control::{
-    ConfigError, ConfigParameter, ContactDetector, Fault, MomentumObserver, ObserverConfig,
-    TipWrench, TipWrenchConfig,
-};
+use motion_control::{ContactDetector, ObserverConfig, TipWrench, TipWrenchConfig};
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
@@ -73,55 +70,6 @@ fn a_force_at_the_tip_is_found_within_the_noise() {
     ];
     println!("{worst:?} N");
     assert!(worst.iter().all(|&worst| worst < 0.005), "{worst:?} N");
-}
-
-/// Half the sum of squares whose least the estimate is, at the wrench x of the sizes of `given`.
-fn cost(
-    given: &TipWrenchConfig<f64, 6>,
-    jacobian: &[Motion<f64>; 6],
-    external: &[f64; 6],
-    x: [f64; 6],
-) -> f64 {
-    let sizes = [given.couple, given.force];
-    let wrench: [f64; 6] = core::array::from_fn(|k| x[k] * sizes[k / 3]);
-    let torques = pushed(jacobian, wrench);
-    let misfit: f64 = (0..6)
-        .map(|j| ((torques[j] - external[j]) / given.noise[j]).powi(2))
-        .sum();
-    0.5 * (misfit + x.iter().map(|x| x * x).sum::<f64>())
-}
-
-/// The largest slope of the cost at an estimate, each of whose numbers is multiplied by `spoiled`.
-fn slope(spoiled: f64) -> f64 {
-    let given = TipWrenchConfig {
-        noise: [2.0, 1.5, 1.0, 0.5, 0.4, 0.3],
-        force: 40.0,
-        couple: 5.0,
-    };
-    let jacobian = Core::<Ur5e>::jacobian(
-        &[0.3, -1.2, 1.5, 0.3, 0.7, 0.2],
-        5,
-        frame::LocalWorldAligned,
-    );
-    let external = [4.0, -7.0, 3.0, 1.0, -0.8, 0.5];
-    let estimator = TipWrench::try_new(given).expect("sizes that can be");
-    let found = estimator.estimate(&jacobian, &external).expect("finite");
-    let x = six(found);
-    let x: [f64; 6] = core::array::from_fn(|k| spoiled * x[k] / [given.couple, given.force][k / 3]);
-    let at = |k: usize, step: f64| {
-        let mut x = x;
-        x[k] += step;
-        cost(&given, &jacobian, &external, x)
-    };
-    (0..6)
-        .map(|k| ((at(k, 1e-3) - at(k, -1e-3)) / 2e-3).abs())
-        .fold(0.0, f64::max)
-}
-
-#[test]
-fn the_estimate_minimises_its_sum_of_squares() {
-    assert!(slope(1.0) < 1e-9, "{}", slope(1.0));
-    assert!(slope(1.01) > 1e-3, "{}", slope(1.01));
 }
 
 fn dot(a: &[f64; 6], b: &[f64; 6]) -> f64 {
@@ -203,62 +151,6 @@ fn singular_postures_do_not_enlarge_wrenches_in_f32() {
     }
 }
 
-#[test]
-fn numbers_that_are_not_finite_name_their_joint() {
-    let jacobian = Core::<Ur5e>::jacobian(&[0.5_f32; 6], 5, frame::LocalWorldAligned);
-    let given = estimator(0.1, [10.0, 100.0]);
-    for bad in [f32::NAN, f32::INFINITY] {
-        let mut external = [1.0; 6];
-        external[3] = bad;
-        let fault = given.estimate(&jacobian, &external);
-        assert_eq!(fault, Err(Fault::NotFinite { joint: 3 }));
-        let mut moved = jacobian;
-        moved[2].lin.y = bad;
-        let fault = given.estimate(&moved, &[1.0; 6]);
-        assert_eq!(fault, Err(Fault::NotFinite { joint: 2 }));
-    }
-    // Finite numbers whose products are not.
-    let fault = given.estimate(&jacobian, &[1e38; 6]);
-    assert_eq!(fault, Err(Fault::NotFinite { joint: 0 }));
-    let mut far = jacobian;
-    far[2].lin.y = 1e20;
-    let fault = given.estimate(&far, &[1.0; 6]);
-    assert_eq!(fault, Err(Fault::NotFinite { joint: 0 }));
-}
-
-#[test]
-fn impossible_noise_and_wrench_sizes_are_refused() {
-    let good = TipWrenchConfig {
-        noise: [0.1; 2],
-        force: 100.0,
-        couple: 0.0,
-    };
-    assert!(TipWrench::try_new(good).is_ok());
-    let refused = |config, parameter| {
-        let error = ConfigError::OutOfRange { parameter };
-        assert_eq!(TipWrench::try_new(config), Err(error));
-        assert!(error.to_string().contains("not"));
-    };
-    for bad in [0.0, -1.0, 1e7, f64::NAN] {
-        let noise = [0.1, bad];
-        refused(
-            TipWrenchConfig { noise, ..good },
-            ConfigParameter::TorqueNoise,
-        );
-    }
-    for bad in [0.0, -1.0, f64::INFINITY, f64::NAN] {
-        let force = TipWrenchConfig { force: bad, ..good };
-        refused(force, ConfigParameter::WrenchSize);
-    }
-    for bad in [-1.0, f64::INFINITY, f64::NAN] {
-        let couple = TipWrenchConfig {
-            couple: bad,
-            ..good
-        };
-        refused(couple, ConfigParameter::WrenchSize);
-    }
-}
-
 // With two poles it rises as the external torque of the same error does.
 #[test]
 fn the_threshold_rises_with_the_stated_model_error() {
@@ -282,27 +174,4 @@ fn the_threshold_rises_with_the_stated_model_error() {
         detector.drive(&[0.0]);
     }
     assert!((detector.external_torque()[0] - 3.0).abs() < 0.01);
-}
-
-#[test]
-fn a_restart_forgets_the_momentum_of_before() {
-    let config = ObserverConfig {
-        bandwidth: 50.0,
-        tick: 1e-3,
-    };
-    let mut observer: MomentumObserver<f64, 1> =
-        MomentumObserver::try_new(config).expect("a good one");
-    let mut step = |p: f64, restart: bool| {
-        observer.update(&[p], &[0.0]).expect("finite");
-        observer.drive(&[0.0]);
-        if restart {
-            observer.restart();
-            // Another arm moves on, with other momentum, before it is measured again.
-            observer.drive(&[0.0]);
-        }
-        observer.external_torque()[0]
-    };
-    assert_eq!(step(1.0, true), 0.0);
-    assert_eq!(step(5.0, false), 0.0);
-    assert!(step(5.1, false) > 1.0);
 }

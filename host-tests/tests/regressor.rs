@@ -109,35 +109,6 @@ fn the_regressor_its_rows_and_its_columns_agree_with_pinocchio() {
     verdict.speak();
 }
 
-/// Each of these errors would pass a comparison that finds nothing.
-// The parameters have another order, a velocity is missing, or a body is shifted.
-#[test]
-fn wrong_regressors_are_found() {
-    let r = load(Ur5e::MODEL.name);
-    let whole = |i| Core::<Ur5e>::regressor(&state_of::<f64, 6, 6>(&r, i), &RIGID_BODY);
-    let by_rows_of_the_triangle = error(&r, |i| {
-        whole(i).map(|row| {
-            row.map(|mut body| {
-                body.swap(6, 7);
-                body
-            })
-        })
-    });
-    let without_coriolis = error(&r, |i| {
-        let scene = (Gravity::EARTH, Inertia);
-        Core::<Ur5e>::regressor(&state_of::<f64, 6, 6>(&r, i), &scene)
-    });
-    let shifted = error(&r, |i| {
-        whole(i).map(|mut row| {
-            row.rotate_left(1);
-            row
-        })
-    });
-    for error in [by_rows_of_the_triangle, without_coriolis, shifted] {
-        assert!(error > 1e-2, "{error:.1e}");
-    }
-}
-
 /// Σ Y φ.
 fn product<R: Real, const B: usize, const V: usize>(
     y: &[[[R; 10]; B]; V],

@@ -3,11 +3,17 @@ import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { gunzipSync } from "node:zlib";
 import { root, target } from "../build.mjs";
+
+/// What the oracle recorded of a robot.
+function recorded(robot) {
+  return JSON.parse(gunzipSync(readFileSync(join(root, `host-tests/recordings/${robot}.json.gz`))));
+}
 
 /// Flips the lowest bit of an angle of a recorded state, the first that is not zero.
 function spoil(module) {
-  const { q } = JSON.parse(readFileSync(join(root, "host-tests/recordings/ur5e.json"), "utf8"));
+  const { q } = recorded("ur5e");
   const state = Buffer.from(Float32Array.from(q[1]).buffer);
   const at = module.indexOf(state);
   if (at < 0) throw new Error("the recorded state is not in the module");
@@ -30,7 +36,7 @@ export async function bits(spoilt = false) {
 export async function pageBits(page, spoilt = false) {
   const lines = [];
   for (const robot of ["ur5e", "panda"]) {
-    const { q, qd, qdd } = JSON.parse(readFileSync(join(root, `host-tests/recordings/${robot}.json`), "utf8"));
+    const { q, qd, qdd } = recorded(robot);
     for (const [key, quantity] of Object.entries({ default: "engine rnea", "trig=table3x4,form=core": "core rnea" })) {
       const motions = q.map((_, i) => ({ q: q[i], qd: qd[i], qdd: qdd[i] }));
       const torques = await page.evaluate((robot, key, motions) => motions.map((motion) => play.state.library.call({ op: "way", robot, key, motion }).torque), robot, key, motions);

@@ -133,7 +133,6 @@ pub mod recording {
     //! The recording of `host-tests/oracle/beam.py`.
 
     use std::collections::BTreeMap;
-    use std::path::Path;
     use std::sync::OnceLock;
 
     use serde::Deserialize;
@@ -211,10 +210,6 @@ pub mod recording {
     /// If the file is missing or has another form.
     pub fn recording() -> &'static Recording {
         static RECORDING: OnceLock<Recording> = OnceLock::new();
-        RECORDING.get_or_init(|| {
-            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../recordings/beam.json");
-            let text = std::fs::read_to_string(&path).expect("recordings/beam.json");
-            serde_json::from_str(&text).expect("the recording's form")
-        })
+        RECORDING.get_or_init(|| host_tests::recordings::read("beam"))
     }
 }

@@ -8,8 +8,8 @@ use dynamics_core::loops::{
 };
 use dynamics_core::model::{BASE, Body, Joint, Model, Problem, Robot, Static};
 use dynamics_core::robots::Ur5e;
-use dynamics_core::state::{State, all_finite};
-use loop_tests::machines::{Delta, FourBar};
+use dynamics_core::state::all_finite;
+use loop_tests::machines::Delta;
 use loop_tests::states::closed_states;
 
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
@@ -112,36 +112,6 @@ fn too_few_actuated_coordinates_are_refused() {
     let text =
         "robot `ur5e`: fewer coordinates are actuated than are free to move: 2 of at least 3";
     assert_eq!(error.to_string(), text);
-}
-
-#[test]
-fn a_loop_that_does_not_close_is_named() {
-    let model = tree(1.0);
-    let loops =
-        Loops::<1, 5, 1>::try_new(&model, [pin(FLANGE, ROCKER)], [0]).expect("it can close");
-    // With the crank turned away the rest is too short.
-    let away = assemble(
-        &model,
-        &loops,
-        &[core::f64::consts::PI, 0.1, 0.2],
-        Moving::Passive,
-    );
-    let Err(LoopError::Open { name: "pin", error }) = away else {
-        panic!("{away:?}");
-    };
-    assert!(error > 0.1 && error < 1.0, "{error}");
-    let moved = assemble(&model, &loops, &[2.5, 0.1, 0.2], Moving::All);
-    assert!(moved.is_ok(), "{moved:?}");
-}
-
-#[test]
-fn inverse_dynamics_of_an_open_loop_is_refused() {
-    let open = State::at([0.5, 0.5, 0.5]);
-    let error = inverse_dynamics(&Static::<FourBar>::NEW, &FourBar::LOOPS, &open, &RIGID_BODY);
-    assert!(
-        matches!(error, Err(LoopError::Open { name: "joint", .. })),
-        "{error:?}"
-    );
 }
 
 /// The Delta without the motor of its first crank.

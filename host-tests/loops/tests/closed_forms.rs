@@ -2,8 +2,8 @@
 
 use dynamics_core::effects::{Gravity, RIGID_BODY};
 use dynamics_core::loops::{
-    Drive, LoopRobot, Loops, Moving, Stabilisation, assemble, constraints, coordinate_map,
-    forward_dynamics, inverse_dynamics,
+    Drive, LoopRobot, Loops, Moving, Stabilisation, assemble, coordinate_map, forward_dynamics,
+    inverse_dynamics,
 };
 use dynamics_core::model::{Robot, Static};
 use dynamics_core::state::State;
@@ -101,29 +101,6 @@ fn four_bar_gravity_is_its_weights_virtual_work() {
         errors.push((got.expect("a torque").tau[0] + work).abs());
     }
     within("virtual work of weights, N m", largest(errors), 1.5e-13);
-}
-
-// A flat parallelogram has four.
-#[test]
-fn a_planar_linkage_has_three_redundant_rows() {
-    let robot = Static::<Parallelogram>::NEW;
-    let rank = |q: [f64; 3]| {
-        let map = coordinate_map(&robot, &Parallelogram::LOOPS, &q);
-        let map = map.expect("a map");
-        (map.rows().rank(), map.degrees_of_freedom(), map.drive())
-    };
-    let open = assemble(
-        &robot,
-        &Parallelogram::LOOPS,
-        &Parallelogram::HOME,
-        Moving::Passive,
-    );
-    assert_eq!(rank(open.expect("it closes").q), (2, 1, Drive::Determined));
-    // Flat: coupler and rocker may follow the crank in two directions.
-    let (name, joint) = ("far_corner", 2);
-    assert_eq!(rank([0.0; 3]), (1, 1, Drive::Singular { name, joint }));
-    let flat = constraints(&robot, &Parallelogram::LOOPS, &State::at([0.0_f64; 3]));
-    assert_eq!(flat.position, [0.0; 5]);
 }
 
 /// In f32 too, and not only at zero but near it, where rounding alone tells the rows apart.

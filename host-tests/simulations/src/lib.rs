@@ -1,6 +1,4 @@
-//! Arms that tests in `tests/` simulate, and hard cases that compute for minutes.
+//! The UR5e that tests in `tests/` simulate, and hard cases that compute for minutes.
 
-pub mod contact;
-pub mod learning;
 pub mod long;
-mod step;
+pub mod plant;

@@ -13,7 +13,6 @@ mod hand_guiding;
 mod hop;
 mod impedance;
 mod integrators;
-mod learning;
 mod momentum_observer;
 mod panda_payload;
 mod parameter_estimator;

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::rnea;
-use dynamics_core::effects::{Armature, Coulomb, Effect, LoadFriction, RIGID_BODY, Viscous, Width};
+use dynamics_core::effects::{Armature, Coulomb, LoadFriction, RIGID_BODY, Viscous, Width};
 use dynamics_core::robots::So101;
 use dynamics_core::state::State;
 use firmware_demo::scene::Scene;
@@ -15,44 +15,25 @@ use identification::files::recorded::Recorded;
 use identification::files::report::Found;
 use identification::files::robot::Robot;
 use identification::files::run::{self, JointEffect, Options};
-use motion_control::{Observer, ObserverConfig};
 use robot_import::import::Options as Selection;
 use robot_import::inertia::MassProperties;
 use robot_import::model;
-use simulation_tests::learning::TICK;
-use simulation_tests::learning::arm::{Arm, BRISTLES, GEARS, SMOOTH};
-use simulation_tests::learning::firmware::{Firmware, Task};
-use simulation_tests::learning::parameters::Model;
-use simulation_tests::learning::run::{LEARNING, excitation};
-use simulation_tests::learning::selected::KNOWN;
 
-/// The scene's half a minute of learning: what the observer estimates, and the measured torques.
-fn record(friction: impl Effect<f32, 6, 6> + Clone) -> String {
-    let nominal = Model::of(&KNOWN.nominal).expect("a possible model");
-    let mut firmware = Firmware::new(&KNOWN, nominal).expect("numbers");
-    let mut observer: Observer<f32, 6> = Observer::new(ObserverConfig {
-        bandwidth: 60.0,
-        tick: TICK,
-    });
-    let mut arm = Arm::new(excitation(0.0), friction);
+use crate::common::Rng;
+use crate::parameter_estimator::arm::{LEARNED, NOISE, TICK, friction, nominal, normal, observed};
+
+/// Half a minute of learning: what the observer estimates, and the measured torques.
+fn record() -> String {
     let mut text = String::from("number,tick,mode,time_s");
     (0..6).for_each(|j| text += &format!(",estimate_{j},torque_{j}"));
-    let mut before = [0.0; 6];
-    for tick in 0..LEARNING {
-        let wanted = excitation(TICK * tick as f32);
-        let encoders = arm.encoders();
-        let command = firmware.tick(&encoders, &before, &wanted, Task::Learn);
-        before = arm.advance(&command).expect("an arm with mass");
-        let estimate = observer.update(&encoders, &wanted.qdd);
-        let _ = write!(
-            text,
-            "\n{tick},{tick},full,{:.6}",
-            f64::from(TICK) * f64::from(tick)
-        );
-        for (q, torque) in estimate.q.iter().zip(before) {
-            let _ = write!(text, ",{q},{torque}");
+    let (mut rng, mut tick) = (Rng::new(2), 0);
+    observed(&nominal(1), LEARNED, 0..0, |estimate, torques| {
+        let _ = write!(text, "\n{tick},{tick},full,{:.6}", TICK * f64::from(tick));
+        for (q, torque) in estimate.q.iter().zip(torques) {
+            let _ = write!(text, ",{q},{}", torque + NOISE * normal(&mut rng));
         }
-    }
+        tick += 1;
+    });
     text + "\n"
 }
 
@@ -110,18 +91,17 @@ fn errors(robot: &Robot, found: &Found) -> [[f64; 2]; 6] {
     let path = TaughtPath::reference().expect("a path");
     let (mut errors, mut largest, mut count) = ([[0.0_f64; 2]; 6], [0.0_f64; 6], 0.0);
     for tick in (0..path.ticks()).step_by(9) {
-        let at = path.at(tick);
-        let truth = Core::<So101>::rnea(&at, &(RIGID_BODY, SMOOTH, GEARS));
-        let State { q, qd, qdd } = at;
+        let State { q, qd, qdd } = path.at(tick);
         let at = State {
             q: q.map(f64::from),
             qd: qd.map(f64::from),
             qdd: qdd.map(f64::from),
         };
+        let truth = Core::<So101>::rnea(&at, &(RIGID_BODY, friction()));
         for (j, found) in torques(robot, found, &at).into_iter().enumerate() {
-            let error = (found - f64::from(truth[j])).abs();
+            let error = (found - truth[j]).abs();
             errors[j] = [errors[j][0] + error * error, errors[j][1].max(error)];
-            largest[j] = largest[j].max(f64::from(truth[j]).abs());
+            largest[j] = largest[j].max(truth[j].abs());
         }
         count += 1.0;
     }
@@ -133,9 +113,10 @@ fn errors(robot: &Robot, found: &Found) -> [[f64; 2]; 6] {
     })
 }
 
-fn identified(friction: impl Effect<f32, 6, 6> + Clone) -> [[f64; 2]; 6] {
+#[test]
+fn a_record_of_the_scene_gives_torques_within_five_per_cent() {
     let path = Path::new("so101_learn.csv");
-    let recorded = Recorded::from(path, record(friction).as_bytes()).expect("ticks");
+    let recorded = Recorded::from(path, record().as_bytes()).expect("ticks");
     let options = Options {
         effects: vec![
             JointEffect::Viscous,
@@ -151,19 +132,7 @@ fn identified(friction: impl Effect<f32, 6, 6> + Clone) -> [[f64; 2]; 6] {
     let found = run::identify(&robot, (path, &recorded), None, &options).expect("parameters");
     // The half tick of a torque that is held for a tick: no delay beside it, and no mistake.
     assert_eq!((found.delay, found.mistake.as_ref()), (1e-3, None));
-    errors(&robot, &found)
-}
-
-#[test]
-fn a_record_of_the_scene_gives_torques_within_five_per_cent() {
-    for [rms, largest] in identified(SMOOTH) {
-        assert!(rms < 0.02 && largest < 0.05, "{rms} {largest}");
-    }
-}
-
-#[test]
-fn bristles_leave_the_torques_within_five_per_cent_too() {
-    for [rms, largest] in identified(BRISTLES) {
+    for [rms, largest] in errors(&robot, &found) {
         assert!(rms < 0.02 && largest < 0.05, "{rms} {largest}");
     }
 }

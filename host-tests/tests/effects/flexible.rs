@@ -240,46 +240,6 @@ fn a_sprung_motor_and_sledge_have_the_closed_form() {
     worst.check::<f64>("motor and sledge", "stretch");
 }
 
-// Its error is of first order in the step.
-#[test]
-fn the_elastic_plant_is_stable_at_a_stiffness_of_1e7() {
-    fn ends<R: Real>(h: f64, steps: usize) -> [f64; 6] {
-        let model = dynamics_core::model::model::<R, Ur5e, 6, 6, 6>();
-        let joints = ElasticJoints {
-            stiffness: [R::from_f64(1e7); 6],
-            rotor: [R::from_f64(0.5); 6],
-            friction: [R::from_f64(20.0); 6],
-        };
-        let mut links = State::at([0.0, -1.5, 0.5, 0.3, 0.2, 0.1].map(R::from_f64));
-        let mut motors = MotorState {
-            position: links.q,
-            velocity: [R::ZERO; 6],
-        };
-        let mut scene = RIGID_BODY;
-        for _ in 0..steps {
-            elastic_step(
-                model,
-                &joints,
-                &mut links,
-                &mut motors,
-                &[R::ZERO; 6],
-                &mut scene,
-                R::from_f64(h),
-            )
-            .unwrap();
-            assert!(links.qd.iter().all(|qd| qd.to_f64().abs() < 10.0));
-            assert!((0..6).all(|i| (links.q[i] - motors.position[i]).to_f64().abs() < 1e-4));
-        }
-        links.q.map(R::to_f64)
-    }
-    let far = |a: [f64; 6], b: [f64; 6]| largest((0..6).map(|i| (a[i] - b[i]).abs()));
-    let fine = ends::<f64>(2.5e-5, 20_000);
-    let [coarse, half] = [(1e-3, 500), (5e-4, 1000)].map(|(h, n)| far(ends::<f64>(h, n), fine));
-    assert!((coarse / half - 2.0).abs() < 0.15, "{coarse} {half}");
-    let single = far(ends::<f32>(1e-3, 500), ends::<f64>(1e-3, 500));
-    assert!(single < 1e-3, "{single}");
-}
-
 #[test]
 fn a_compliant_arm_follows_by_elastic_feedforward() {
     // A fifth-order rest-to-rest course in closed form, and a soft arm.

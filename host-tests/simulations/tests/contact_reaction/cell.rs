@@ -11,9 +11,9 @@ use dynamics_core::state::State;
 use glam::DVec3;
 use motion_control::{
     Command, ContactDetector, ContactPhase, ContactReaction, ContactReactionConfig,
-    ContactResponse, DetectedContact, Estimate, FrozenEncoder, Gains, Mode, MotionController,
-    MotionControllerConfig, MotionLimits, ObserverConfig, Reference, SafetyLimits,
-    SupervisorConfig, Trajectory, WayPoint, feedback,
+    ContactResponse, DetectedContact, Estimate, FrozenEncoder, Gains, MotionController,
+    MotionControllerConfig, MotionLimits, ObserverConfig, SafetyLimits, SupervisorConfig,
+    Trajectory, WayPoint, feedback,
 };
 
 use crate::contact_reaction::plant::{
@@ -33,24 +33,6 @@ const RELEASE: u32 = 200; // ticks
 const RIGID: (Gravity, Inertia, Coriolis, Armature<f64, 6>) =
     (Gravity::EARTH, Inertia, Coriolis, ROTORS);
 
-/// What spoils a tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Spoiled {
-    Nothing,
-    /// Uniform noise of the encoders, rad.
-    Noise(f64),
-    /// The encoder of a joint does not change.
-    Stuck(usize),
-    /// The torque of the law for a joint is NaN.
-    Torque(usize),
-    /// The bounds of the model's errors are NaN.
-    Detector,
-    /// The model's friction has the wrong sign.
-    Friction,
-    /// A load at the tip, N.
-    Load(f64),
-}
-
 pub struct Cell {
     pub motion: Trajectory<f64, 6, 2>,
     pub controller: MotionController<f64, 6>,
@@ -67,7 +49,6 @@ pub struct Cell {
     measured: Q,
     reacts: bool,
     compensated: f64,
-    random: u32,
 }
 
 impl Cell {
@@ -136,7 +117,6 @@ impl Cell {
             measured: from,
             reacts: setup.response.is_some(),
             compensated: setup.share,
-            random: 0x5eed_1234,
         }
     }
 
@@ -177,32 +157,12 @@ impl Cell {
         tip(&self.at)[0]
     }
 
-    /// In (-1, 1).
-    fn noise(&mut self) -> f64 {
-        self.random ^= self.random << 13;
-        self.random ^= self.random >> 17;
-        self.random ^= self.random << 5;
-        f64::from(self.random) / f64::from(u32::MAX) * 2.0 - 1.0
-    }
-
     /// One tick of the loop and of the plant.
-    pub fn tick(&mut self, spoiled: Spoiled) -> Command<f64, 6> {
-        let motion = self.motion;
-        self.tick_along(&motion, spoiled)
-    }
-
-    fn tick_along(&mut self, motion: &impl Reference<f64, 6>, spoiled: Spoiled) -> Command<f64, 6> {
+    pub fn tick(&mut self) -> Command<f64, 6> {
+        let motion = &self.motion;
         // The encoders send what they latched in the tick before.
         let measured = self.measured;
-        let q: Q = self.at.q;
-        for (j, q) in q.into_iter().enumerate() {
-            let q = match spoiled {
-                Spoiled::Noise(size) => q + size * self.noise(),
-                Spoiled::Stuck(joint) if joint == j => continue,
-                _ => q,
-            };
-            self.measured[j] = (q / STEP).round() * STEP;
-        }
+        self.measured = self.at.q.map(|q| (q / STEP).round() * STEP);
         let before = *self.controller.reference();
         let fault = self.frozen.check(&measured, &before.q);
         let observed = self.controller.observe(fault.map(|()| &measured));
@@ -214,9 +174,7 @@ impl Cell {
         };
         let MomentumAndCoriolis { p, ct_qd } = Core::<Ur5e>::momentum_and_coriolis(&still, &ROTORS);
         let weight = Core::<Ur5e>::rnea(&still, &Gravity::EARTH);
-        let wrong = spoiled == Spoiled::Friction;
-        let sign = if wrong { -1.0 } else { 1.0 };
-        let resistance = Core::<Ur5e>::rnea(&still, &friction(sign));
+        let resistance = Core::<Ur5e>::rnea(&still, &friction(1.0));
         let bodies = Core::<Ur5e>::rnea(
             &State {
                 qdd: before.qdd,
@@ -225,11 +183,7 @@ impl Cell {
             &RIGID,
         );
         let beta = core::array::from_fn(|i| ct_qd[i] - weight[i] - resistance[i]);
-        let bound = |i: usize| 0.03 * bodies[i].abs() + 0.1 * resistance[i].abs();
-        let errors = match spoiled {
-            Spoiled::Detector => [f64::NAN; 6],
-            _ => core::array::from_fn(bound),
-        };
+        let errors = core::array::from_fn(|i| 0.03 * bodies[i].abs() + 0.1 * resistance[i].abs());
         // A lost measurement neither starts a reaction nor releases the arm.
         let contact = fault.and_then(|()| self.detector.update(&p, &beta, &errors));
         self.contact = contact.ok().flatten();
@@ -243,24 +197,16 @@ impl Cell {
             ContactPhase::Floating => self.compensated,
             _ => 1.0,
         };
-        let ahead = Core::<Ur5e>::rnea(tick.reference(), &(RIGID, friction(sign * share)));
+        let ahead = Core::<Ur5e>::rnea(tick.reference(), &(RIGID, friction(share)));
         let back = feedback(&self.gains, tick.reference(), tick.estimate());
-        let mut tau: Q = core::array::from_fn(|i| ahead[i] + back[i]);
-        if let Spoiled::Torque(joint) = spoiled {
-            tau[joint] = f64::NAN;
-        }
-        let command = tick.command(&tau);
+        let command = tick.command(&core::array::from_fn(|i| ahead[i] + back[i]));
         self.detector.drive(&command.torque);
         if command.brake {
             self.at.qd = [0.0; 6];
             self.detector.restart();
             self.frozen.restart();
         } else {
-            let mut wall = self.wall;
-            if let Spoiled::Load(load) = spoiled {
-                wall.hand.z -= load;
-            }
-            let scene = (RIGID, self.friction, wall);
+            let scene = (RIGID, self.friction, self.wall);
             for _ in 0..PARTS {
                 let h = TICK / f64::from(PARTS);
                 semi_implicit(&self.arm, &mut self.at, &command.torque, &scene, h)
@@ -268,34 +214,5 @@ impl Cell {
             }
         }
         command
-    }
-
-    /// Returns the arm to its motion, over the path to its start, and follows it to the end.
-    /// Whether it gets there.
-    pub fn recovers(&mut self, spoiled: Spoiled) -> bool {
-        let motion = self.motion;
-        let limits = [MotionLimits {
-            velocity: 0.5,
-            acceleration: 2.0,
-        }; 6];
-        let on_motion = self.controller.mode() == Mode::Full;
-        if on_motion && self.reaction.phase() == ContactPhase::Watching {
-            for _ in 0..motion.ticks() {
-                self.tick(spoiled);
-            }
-        } else {
-            let Ok(path) = self.controller.approach(&motion, &limits, &self.limits) else {
-                return false;
-            };
-            if self.reaction.reset(&mut self.controller, &path).is_err() {
-                return false;
-            }
-            for _ in 0..path.ticks() + 600 {
-                self.tick_along(&path, spoiled);
-            }
-        }
-        let end = motion.at(motion.ticks()).q;
-        let mut joints = self.at.q.iter().zip(end);
-        joints.all(|(q, end)| (q - end).abs() < 5e-3)
     }
 }

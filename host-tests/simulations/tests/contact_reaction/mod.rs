@@ -1,12 +1,11 @@
 //! Claims about what an arm does after a contact: a UR5e that runs against an elastic wall, and one
 //! that a hand pushes. `TABLES_WRITE=1` writes the table of `docs/guide/src/contact.md`.
 
-mod bad_input;
 mod cell;
 mod plant;
 mod reactions;
 
-use self::cell::{Cell, MARGIN, Spoiled};
+use self::cell::{Cell, MARGIN};
 use self::plant::{MOTIONS, Off, SPEED, STIFFNESSES, Setup};
 use host_tests::page::Table;
 use motion_control::{ContactResponse, MotionLimits};
@@ -80,7 +79,7 @@ fn crash(setup: &Setup) -> Crash {
         } else {
             forces.push(force);
         }
-        let command = cell.tick(Spoiled::Nothing);
+        let command = cell.tick();
         torque = torque.max(Cell::share(&command.torque, &cell.limits.torque));
         fastest = fastest.max(Cell::share(&cell.at.qd, &cell.limits.speed));
         if !forces.is_empty() {
@@ -178,7 +177,7 @@ fn the_margins_exceed_4_9_noise_deviations() {
         let mut squares = [0.0; 6];
         let ticks = cell.motion.ticks();
         for _ in 0..ticks {
-            cell.tick(Spoiled::Nothing);
+            cell.tick();
             let external = cell.detector.external_torque();
             squares = core::array::from_fn(|j| squares[j] + external[j] * external[j]);
         }

@@ -3,9 +3,9 @@
 use dynamics_core::effects::{Armature, Coulomb, Viscous, Width};
 use dynamics_core::model::ArmModel;
 use motion_control::ContactResponse;
-use simulation_tests::contact::plant;
+use simulation_tests::plant;
 
-pub use simulation_tests::contact::plant::{TIP, tip};
+pub use simulation_tests::plant::{TIP, tip};
 
 pub type Q = [f64; 6];
 /// Speed of the tip at the contact, m/s.

@@ -1,7 +1,6 @@
 //! Claims about an arm that a hand guides: a UR5e with friction of bristles, of which the law has a
 //! model with a smooth sign. `TABLES_WRITE=1` writes the tables of `docs/guide/src/guiding.md`.
 
-mod bad_input;
 pub mod cell;
 pub mod plant;
 mod release;

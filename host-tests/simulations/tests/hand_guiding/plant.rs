@@ -3,9 +3,9 @@
 use dynamics_core::effects::{Armature, Coulomb, Effect, Lugre, Viscous, Width, hook};
 use dynamics_core::model::ArmModel;
 use glam::DVec3;
-use simulation_tests::contact::plant;
+use simulation_tests::plant;
 
-pub use simulation_tests::contact::plant::{SLIDING, TIP, tip};
+pub use simulation_tests::plant::{SLIDING, TIP, tip};
 
 pub type Q = [f64; 6];
 pub const ROTORS: Armature<f64, 6> = Armature(plant::ROTORS);

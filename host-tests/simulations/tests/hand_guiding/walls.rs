@@ -4,7 +4,7 @@ use glam::DVec3;
 use motion_control::{CartesianImpedance, ImpedanceConfig};
 
 use crate::hand_guiding::cell::{Cell, Setup};
-use crate::hand_guiding::plant::{Hand, Q};
+use crate::hand_guiding::plant::Hand;
 use crate::hand_guiding::{POSTURES, SHARE, setup};
 
 /// An arm with locked joints after a push of a hand.
@@ -16,10 +16,6 @@ fn pushed(setup: &Setup, locked: [bool; 6], push: DVec3, ticks: u32) -> Cell {
         cell.tick();
     }
     cell
-}
-
-fn moved(cell: &Cell) -> Q {
-    core::array::from_fn(|j| (cell.at.q[j] - POSTURES[0][j]).abs())
 }
 
 // The joint does not oscillate.
@@ -55,21 +51,6 @@ fn a_virtual_wall_stops_and_returns_the_joint() {
         cell.tick();
         assert!((depth(&cell) - after).abs() < 1e-6, "it is at rest");
     }
-}
-
-// The other joints are moved.
-#[test]
-fn a_locked_joint_yields_only_to_a_stronger_hand() {
-    let (strong, push) = (setup(SHARE, 0.1), DVec3::new(0.0, 25.0, 0.0));
-    let first = [true, false, false, false, false, false];
-    let free = moved(&pushed(&strong, [false; 6], push, 700));
-    let locked = moved(&pushed(&strong, first, push, 700));
-    println!("{free:.3?} {locked:.3?} rad");
-    assert!(free[0] > 0.1 && locked[0] < 0.02 && locked[4] > 0.1);
-    let mut weak = strong;
-    weak.config.lock.torque[0] = 2.0;
-    let slips = moved(&pushed(&weak, first, push, 700));
-    assert!(slips[0] > 0.1, "{slips:?}");
 }
 
 /// The tip pushed for a second and released: its greatest distance from its height, its way across,

@@ -135,23 +135,3 @@ fn the_damping_diagonalises_inertia_and_stiffness_at_once() {
     verdict.speak();
     assert!(worst[2].error > 0.1 * worst[2].full_scale);
 }
-
-// It is the tangent to the period as a function of ω².
-#[test]
-fn below_the_slowest_mode_damping_follows_a_tangent() {
-    let config = ImpedanceConfig {
-        stiffness: [9.0_f64],
-        zeta: 0.7,
-        slowest: 3.0,
-    };
-    let impedance = CartesianImpedance::try_new(config).expect("a good one");
-    // 4 kg: ω² = 2.25 s⁻², a quarter of ω_min². The tangent at ω_min² is (3 − ω²/ω_min²)/(2 ω_min).
-    let ([[d]], how) = impedance.damping(&[[0.25]]);
-    let period = (3.0 - 0.25) / 6.0;
-    assert!((d - 2.0 * 0.7 * 9.0 * period).abs() < 1e-12, "{d}");
-    let Conditioning::Damped { smallest } = how else {
-        panic!("{how:?}");
-    };
-    assert!((smallest - 0.25).abs() < 1e-12, "{smallest}");
-    assert_eq!(impedance.damping(&[[1.01]]).1, Conditioning::Regular); // ω² = 9.09 s⁻²
-}

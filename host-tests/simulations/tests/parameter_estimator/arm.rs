@@ -15,7 +15,7 @@ use dynamics_core::sim::runge_kutta;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use firmware_demo::scenes::so101_teach as so101;
-use motion_control::{Excitation, Observer, ObserverConfig};
+use motion_control::{Estimate, Excitation, Observer, ObserverConfig};
 
 use crate::common::Rng;
 
@@ -86,10 +86,6 @@ pub fn parameters(bodies: &[[f64; 10]; 6], mut of: impl FnMut() -> f64) -> [f64;
             .nth(k)
             .unwrap()
     })
-}
-
-pub fn truth() -> [f64; N] {
-    parameters(&inertial_parameters(&So101::MODEL, &()), || 1.0)
 }
 
 /// The bodies off by 30 % as below, and each parameter of a joint.
@@ -186,6 +182,16 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
 /// The rows of a run in closed loop under the servos' position gains with the feed-forward of a
 /// model, and their ticks; the encoder of joint 2 sticks in the ticks `stuck`.
 pub fn run(nominal: &[f64; N], ticks: usize, stuck: core::ops::Range<usize>) -> Vec<(usize, Row)> {
+    observed(nominal, ticks, stuck, |_, _| ())
+}
+
+/// The same; `observe` gets the estimate and the torques of each tick.
+pub fn observed(
+    nominal: &[f64; N],
+    ticks: usize,
+    stuck: core::ops::Range<usize>,
+    mut observe: impl FnMut(&Estimate<f64, 6>, &[f64; 6]),
+) -> Vec<(usize, Row)> {
     let gain = f64::from(so101::SERVO_GAIN * so101::STALL);
     let step = f64::from(so101::STALL) * 1e-3;
     let most = f64::from(so101::MAX_DUTY * so101::STALL);
@@ -213,6 +219,7 @@ pub fn run(nominal: &[f64; N], ticks: usize, stuck: core::ops::Range<usize>) -> 
                 + 0.5 * (wanted.qd[i] - estimate.qd[i]);
             (law.clamp(-most, most) / step).round() * step
         });
+        observe(&estimate, &tau);
         past.push_back((estimate, tau));
         let joint = k % 6;
         if past.len() > 2 * APART {

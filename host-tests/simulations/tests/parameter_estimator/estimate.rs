@@ -26,23 +26,6 @@ fn half_a_minute_of_motion_identifies_24_parameters() {
     }
 }
 
-/// Each of these errors would pass a check of the torques that finds nothing.
-#[test]
-fn wrong_torque_signs_and_joint_columns_are_found() {
-    let of = |change: fn(&mut Row)| {
-        let mut learner = Learner::new(1, FORGETTING, 1000.0);
-        for (_, row) in minute(1).iter().take(LEARNED / 2) {
-            let mut row = *row;
-            change(&mut row);
-            let _ = learner.add(&row);
-        }
-        validation(&learner.found()).0
-    };
-    let signs = of(|row| row.tau = -row.tau);
-    let columns = of(|row| row.own.swap(0, 1));
-    assert!(signs > 1.0 && columns > 0.2, "{signs:.2} {columns:.2}");
-}
-
 /// One of the first body and seven of each of the others, five of each joint, less the armatures of
 /// the first two joints, whose columns are those of inertias about their axes.
 const RANK: usize = 1 + 5 * 7 + 6 * OWN - 2;

@@ -49,25 +49,3 @@ fn no_stored_set_is_impossible_in_many_noisy_ticks() {
     }
     assert!(outside > ticks / 100, "{outside}");
 }
-
-// The other bodies follow the estimate.
-#[test]
-fn a_massless_body_stays_massless_under_updates() {
-    let mut nominal = truth();
-    nominal[30..40].fill(0.0);
-    let mut stored: PhysicalParameters<f64, 6, N> =
-        PhysicalParameters::try_new(nominal).expect("possible");
-    let base = base_of::<f64, P>(&nominal).expect("enough columns");
-    let estimate = base.prior.map(|prior| 0.1 * prior);
-    assert_eq!(stored.update(&base, &estimate), 1.0);
-    assert_eq!(stored.parameters()[30..40], [0.0; 10]);
-    assert!(stored.parameters() != &nominal);
-    let kept = stored;
-    let mut with_mass = nominal;
-    with_mass[30..40].copy_from_slice(&truth()[30..40]);
-    assert_eq!(stored.follow(&with_mass), 0.0);
-    assert_eq!(stored, kept);
-    let mut point = nominal;
-    point[30] = 0.1;
-    assert!(PhysicalParameters::<f64, 6, N>::try_new(point).is_err());
-}

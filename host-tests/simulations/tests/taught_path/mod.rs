@@ -5,7 +5,6 @@
 mod person;
 mod playback;
 mod toppra;
-mod trees;
 mod ur5e;
 
 use host_tests::page::Table;

@@ -16,7 +16,7 @@ use crate::hand_guiding::plant::{Inertias, Q, SLIDING, arm, modelled, real};
 use crate::taught_path::person::{STEP, guide, measured, shaken};
 use crate::taught_path::table;
 use crate::taught_path::ur5e::{RIGID, inverse_dynamics};
-use simulation_tests::contact::plant::VISCOUS;
+use simulation_tests::plant::VISCOUS;
 
 const TORQUE: Q = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];
 /// Share of the torques for the motion; the rest is for the feedback and stiction.

@@ -11,9 +11,7 @@ use serde::Deserialize;
 
 use crate::hand_guiding::plant::{Q, ROTORS};
 use crate::taught_path::table;
-use crate::taught_path::ur5e::{
-    Shares, Widened, inverse_dynamics, inverse_dynamics_f32, shares, to_f32,
-};
+use crate::taught_path::ur5e::{Shares, inverse_dynamics, shares};
 
 /// What `host-tests/oracle/toppra_paths.py` wrote.
 #[derive(Deserialize)]
@@ -201,32 +199,4 @@ fn the_paths_have_points_of_zero_inertia() {
     }
     println!("{signs:?}");
     assert!(signs.iter().all(|&signs| signs >= 5), "{signs:?}");
-}
-
-#[test]
-fn f32_has_the_durations_of_f64_within_the_limits() {
-    let (mut off, mut excess) = (0.0_f64, 0.0_f64);
-    for recorded in recording().paths {
-        let (path, limits) = (recorded.path(), recorded.limits());
-        let timed = TimedPath::<_, _, 201>::new(&path, TICK, &limits, inverse_dynamics)
-            .unwrap_or_else(|error| panic!("{error}"));
-        let points: Vec<[f32; 6]> = recorded
-            .points
-            .iter()
-            .map(|q| q.map(|q| q as f32))
-            .collect();
-        let mut single = PathSpline::<f32, 6, 32>::EMPTY;
-        single
-            .fit(&points, &[0.1; 6], &[0.0; 6])
-            .expect("way-points");
-        let narrow = to_f32(&limits);
-        let motion =
-            TimedPath::<_, _, 201>::new(&single, TICK as f32, &narrow, inverse_dynamics_f32)
-                .unwrap_or_else(|error| panic!("{error}"));
-        off = off.max((f64::from(motion.seconds()) / timed.seconds() - 1.0).abs());
-        let [double, single] = [shares(&timed, &limits), shares(&Widened(motion), &limits)];
-        excess = excess.max(single.torque - double.torque);
-    }
-    within("duration of f32", off, 1e-5);
-    within("more torque of f32", excess, 1e-5);
 }

@@ -3,11 +3,8 @@
 use dynamics_core::Core;
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
 use dynamics_core::robots::Ur5e;
-use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use motion_control::{
-    GeometricPath, JointFriction, MotionLimits, PathLimits, Reference, TimedPath,
-};
+use motion_control::{PathLimits, Reference};
 
 use crate::hand_guiding::plant::{Q, ROTORS};
 
@@ -16,11 +13,6 @@ pub const RIGID: (Gravity, Inertia, Coriolis, Armature<f64, 6>) =
 
 pub fn inverse_dynamics(state: &State<f64, 6, 6>) -> Q {
     Core::<Ur5e>::rnea(state, &RIGID)
-}
-
-pub fn inverse_dynamics_f32(state: &State<f32, 6, 6>) -> [f32; 6] {
-    let rotors = Armature(ROTORS.0.map(|rotor| rotor as f32));
-    Core::<Ur5e>::rnea(state, &(Gravity::EARTH, Inertia, Coriolis, rotors))
 }
 
 /// By another way than that of the plan: M q̈ by CRBA, and C q̇ with the Coriolis matrix.
@@ -78,34 +70,4 @@ pub fn shares(motion: &impl Reference<f64, 6>, limits: &PathLimits<f64, 6>) -> S
         }
     }
     most
-}
-
-pub fn to_f32(limits: &PathLimits<f64, 6>) -> PathLimits<f32, 6> {
-    PathLimits {
-        torque: limits.torque.map(|x| x as f32),
-        motion: limits.motion.map(|limit| MotionLimits {
-            velocity: limit.velocity as f32,
-            acceleration: limit.acceleration as f32,
-        }),
-        friction: limits.friction.map(|friction| JointFriction {
-            coulomb: friction.coulomb as f32,
-            viscous: friction.viscous as f32,
-            certain: friction.certain as f32,
-        }),
-    }
-}
-
-/// A motion of f32 in f64.
-pub struct Widened<'a, P, const M: usize>(pub TimedPath<'a, f32, P, M>);
-
-impl<P: GeometricPath<f32, 6>, const M: usize> Reference<f64, 6> for Widened<'_, P, M> {
-    fn at(&self, tick: u32) -> State<f64, 6, 6> {
-        let State { q, qd, qdd } = self.0.at(tick);
-        let [q, qd, qdd] = [q, qd, qdd].map(|x| x.map(Real::to_f64));
-        State { q, qd, qdd }
-    }
-
-    fn ticks(&self) -> u32 {
-        self.0.ticks()
-    }
 }

@@ -4,22 +4,20 @@
 //! the momentum of the composite body beyond a joint at unit rate of that joint.
 
 use core::borrow::Borrow;
-use core::marker::PhantomData;
 
 use super::acceleration_field::Inertia;
+use super::call::Call;
 use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointPair, Remainder};
-use super::displacement::Displacement;
 use super::energy::WithMasses;
 use super::folding::Folded;
 use super::gate::EngineScene;
 use super::pass::{Pass, sweep};
 use super::pose::Pose;
-use super::rnea::inertia;
-use super::totals::{Totals, centre, fixed, totals};
-use super::{Engine, Specialised};
+use super::totals::{Totals, centre, fixed};
+use super::Engine;
 use crate::algorithms::CenterOfMass;
 use crate::effects::{Declared, Effect};
-use crate::model::{JointCoordinate, Robot};
+use crate::model::Robot;
 use crate::scalar::{Real, Vector};
 use crate::spatial::Force;
 use crate::state::{Configuration, RobotState};
@@ -55,7 +53,7 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
         let length = CompiledRobot::<T, B, Q, V>::LENGTH;
         let all = Self::all_bodies::<R, S, E, B, Q, V>(state, effects);
         let (position, mass_inv) = all.centre(length);
@@ -94,7 +92,7 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
         let all = Self::all_bodies::<R, S, E, B, Q, V>(state, effects);
         force(&all, CompiledRobot::<T, B, Q, V>::LENGTH)
     }
@@ -126,7 +124,7 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
         let length = CompiledRobot::<T, B, Q, V>::LENGTH;
         let all = Self::all_bodies::<R, S, E, B, Q, V>(state, effects);
         let (h, (centre, _)) = (force(&all, length), all.centre(length));
@@ -146,9 +144,9 @@ impl<T, K> Engine<T, K> {
     {
         const { WithMasses::<R, E, B, V>::KNOWN };
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        let (turns, qd) = (&trig.borrow().coordinates, &state.state().qd);
-        totals::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V, true>(turns, Some(qd), effects)
+        let trig = configuration.trig_or(Self::trig_source());
+        let (trig, qd) = (trig.borrow(), &state.state().qd);
+        Self::call(trig, effects).totals::<true>(Some(qd))
     }
 
     /// The centroidal momentum matrix A_G with h_G = A_G q̇, by columns, one for each coordinate,
@@ -182,7 +180,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
         const { WithMasses::<R, E, B, V>::KNOWN };
         const {
             assert!(
@@ -190,8 +188,8 @@ impl<T, K> Engine<T, K> {
                 "no rotors that spin as bodies here; name `Armature`"
             )
         };
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        matrix::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(&trig.borrow().coordinates, effects)
+        let trig = q.trig_or(Self::trig_source());
+        Self::call(trig.borrow(), effects).centroidal_matrix()
     }
 }
 
@@ -202,35 +200,32 @@ fn force<R: Real>(all: &Totals<R>, length: f64) -> Force<R> {
     Force::new(h.n.get(), h.f.scale(Folded::constant(1.0 / length)).get())
 }
 
-#[cfg_attr(optimised, inline(always))]
-fn matrix<R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    effects: &E,
-) -> [Force<R>; V]
+impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
 where
+    R: Real,
+    C: Compiled,
     E: Effect<R, B, V>,
 {
-    let mut columns = [Force::ZERO; V];
-    let mut pass = Columns::<R, C, E, B, Q, V> {
-        turns,
-        effects,
-        columns: &mut columns,
-        robot: PhantomData,
-    };
-    let moving = sweep::<R, C, _>(&mut pass, &Pose::BASE);
-    let all = moving + fixed(Remainder::<C, B, V>::AT_BASE);
-    let (centre, _) = centre(all.mass, all.moment, C::LENGTH);
-    for column in &mut columns {
-        column.ang -= centre.cross(column.lin);
+    #[cfg_attr(optimised, inline(always))]
+    fn centroidal_matrix(&self) -> [Force<R>; V] {
+        let mut columns = [Force::ZERO; V];
+        let mut pass = Columns::<R, C, E, B, Q, V> {
+            call: self,
+            columns: &mut columns,
+        };
+        let moving = sweep::<R, C, _>(&mut pass, &Pose::BASE);
+        let all = moving + fixed(Remainder::<C, B, V>::AT_BASE);
+        let (centre, _) = centre(all.mass, all.moment, C::LENGTH);
+        for column in &mut columns {
+            column.ang -= centre.cross(column.lin);
+        }
+        columns
     }
-    columns
 }
 
 struct Columns<'a, R: Real, C, E, const B: usize, const Q: usize, const V: usize> {
-    turns: &'a [JointCoordinate<R>; Q],
-    effects: &'a E,
+    call: &'a Call<'a, R, C, E, B, Q, V>,
     columns: &'a mut [Force<R>; V],
-    robot: PhantomData<C>,
 }
 
 impl<R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize> Pass<R, C>
@@ -244,18 +239,18 @@ where
 
     #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &Pose<R>) -> Pose<R> {
-        parent.transformed_by::<C, I>(&Displacement::of::<C, Q, I>(self.turns))
+        parent.transformed_by::<C, I>(&self.call.displacement::<I>())
     }
 
     #[cfg_attr(optimised, inline(always))]
     fn leave<const I: usize>(&mut self, at: &Pose<R>, inner: Inertia<R>) -> Inertia<R> {
-        let body = inertia::<R, C, E, B, Q, V, I>(self.effects, true) + inner;
+        let body = self.call.inertia::<I>(true) + inner;
         for_each_joint!(K, {
             if JointPair::<C, I, K>::IS_COORDINATE {
                 self.columns[K] = column(at, &body, CompiledJoint::<C, K>::JOINT, C::LENGTH_INV);
             }
         });
-        body.to_parent::<C, I>(&Displacement::of::<C, Q, I>(self.turns))
+        body.to_parent::<C, I>(&self.call.displacement::<I>())
     }
 }
 

@@ -5,11 +5,9 @@
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 
-use super::base::unaccelerated;
-use super::compile::{Compiled, CompiledRobot};
+use super::compile::Compiled;
 use super::gate::EngineScene;
-use super::totals::totals;
-use super::{Engine, Specialised};
+use super::Engine;
 use crate::effects::{Declared, Effect};
 use crate::model::Robot;
 use crate::scalar::Real;
@@ -44,7 +42,7 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
         const {
             assert!(
                 E::BASE_PARAMETERS == 0 || !E::BASE_MOTION,
@@ -52,10 +50,9 @@ impl<T, K> Engine<T, K> {
             )
         };
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        let (turns, qd) = (&trig.borrow().coordinates, &state.state().qd);
-        let all =
-            totals::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V, false>(turns, Some(qd), effects);
+        let trig = configuration.trig_or(Self::trig_source());
+        let (trig, qd) = (trig.borrow(), &state.state().qd);
+        let all = Self::call(trig, effects).totals::<false>(Some(qd));
         all.twice.get() * R::from_f64(0.5)
     }
 
@@ -85,14 +82,13 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
         const { WithMasses::<R, E, B, V>::KNOWN };
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        let turns = &trig.borrow().coordinates;
-        let all = totals::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V, false>(turns, None, effects);
-        let length = CompiledRobot::<T, B, Q, V>::LENGTH;
+        let trig = q.trig_or(Self::trig_source());
+        let call = Self::call(trig.borrow(), effects);
+        let all = call.totals::<false>(None);
         // The base at rest accelerates by −g.
-        let up = unaccelerated::<R, E, B, V>(effects, length).a;
+        let up = call.unaccelerated().a;
         up.dot(all.moment).get()
     }
 }

@@ -3,7 +3,6 @@
 //! Featherstone, RBDA (2008), section 4.1; axes and arms in base coordinates: z_j, z_j × (p − p_j).
 
 use core::borrow::Borrow;
-use core::marker::PhantomData;
 
 use super::compile::{
     Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointMotion, JointPair,
@@ -12,7 +11,7 @@ use super::displacement::Displacement;
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::kinematics::poses;
-use super::{Engine, Specialised, only_if};
+use super::{Engine, only_if};
 use crate::algorithms::Frame;
 use crate::model::{JointCoordinate, OnBody, Robot};
 use crate::scalar::{Real, Vector};
@@ -70,7 +69,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
     {
         let _ = (body, frame);
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
+        let trig = q.trig_or(Self::trig_source());
         jacobian::<R, CompiledRobot<T, B, Q, V>, F, Q, V, BODY>(trig.borrow())
     }
 }

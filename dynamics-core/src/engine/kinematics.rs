@@ -7,13 +7,12 @@ use core::borrow::Borrow;
 use core::marker::PhantomData;
 
 use super::acceleration_field::AccelerationField;
-use super::base::carried;
 use super::compile::{BodyPlacement, Compiled, CompiledRobot};
 use super::folding::{Folded, Mat3, Vec3};
 use super::gate::EngineScene;
 use super::named::{AllBodies, Named, joints};
-use super::pass::{Nothing, Pass, Rates, moved, sweep};
-use super::{Engine, Specialised};
+use super::pass::{Motions, Nothing, Pass, sweep};
+use super::Engine;
 use crate::algorithms::{Frame, Kinematics, Pose};
 use crate::effects::Effect;
 use crate::model::{BASE, Bodies, JointCoordinate, OnBody, Robot};
@@ -49,7 +48,7 @@ impl<T, K> Engine<T, K> {
         T: Robot<B, Q, V>,
         K: Kernel<R>,
     {
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
+        let trig = q.trig_or(Self::trig_source());
         poses::<R, CompiledRobot<T, B, Q, V>, AllBodies, B, Q, V>(trig.borrow())
     }
 
@@ -86,7 +85,7 @@ impl<T, K> Engine<T, K> {
         L: Bodies<N>,
     {
         let _ = bodies;
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
+        let trig = q.trig_or(Self::trig_source());
         poses::<R, CompiledRobot<T, B, Q, V>, L, N, Q, V>(trig.borrow())
     }
 
@@ -121,11 +120,11 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        let base = carried::<R, E, B, V>(effects, CompiledRobot::<T, B, Q, V>::LENGTH);
-        motions::<R, CompiledRobot<T, B, Q, V>, AllBodies, B, Q, V>(
+        let trig = configuration.trig_or(Self::trig_source());
+        let base = Self::call(trig.borrow(), effects).carried();
+        Walk::<R, CompiledRobot<T, B, Q, V>, AllBodies, B, Q, V, true>::along(
             trig.borrow(),
             state.state(),
             &base,
@@ -179,12 +178,16 @@ impl<T, K> Engine<T, K> {
         E: Effect<R, B, V>,
         L: Bodies<N>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
         let _ = bodies;
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        let base = carried::<R, E, B, V>(effects, CompiledRobot::<T, B, Q, V>::LENGTH);
-        motions::<R, CompiledRobot<T, B, Q, V>, L, N, Q, V>(trig.borrow(), state.state(), &base)
+        let trig = configuration.trig_or(Self::trig_source());
+        let base = Self::call(trig.borrow(), effects).carried();
+        Walk::<R, CompiledRobot<T, B, Q, V>, L, N, Q, V, true>::along(
+            trig.borrow(),
+            state.state(),
+            &base,
+        )
     }
 
     /// The acceleration J̇ q̇ of a body at q̈ = 0, in a [`Frame`], rad/s² and m/s², as
@@ -232,7 +235,7 @@ impl<T, K> Engine<T, K> {
     {
         let _ = (body, frame);
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
+        let trig = configuration.trig_or(Self::trig_source());
         let coasting = State {
             qdd: [R::ZERO; V],
             ..*state.state()
@@ -241,7 +244,7 @@ impl<T, K> Engine<T, K> {
             poses: [pose],
             velocities: [v],
             accelerations: [a],
-        } = motions::<R, CompiledRobot<T, B, Q, V>, OnBody<BODY>, 1, Q, V>(
+        } = Walk::<R, CompiledRobot<T, B, Q, V>, OnBody<BODY>, 1, Q, V, true>::along(
             trig.borrow(),
             &coasting,
             &AccelerationField::RESTING,
@@ -262,52 +265,7 @@ where
         qd: [R::ZERO; V],
         qdd: [R::ZERO; V],
     };
-    walk::<R, C, L, N, Q, V, false>(trig, &resting, &AccelerationField::RESTING).poses
-}
-
-#[cfg_attr(optimised, inline(always))]
-fn motions<R: Real, C: Compiled, L, const N: usize, const Q: usize, const V: usize>(
-    trig: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    base: &AccelerationField<R>,
-) -> Kinematics<R, N>
-where
-    L: Bodies<N>,
-{
-    walk::<R, C, L, N, Q, V, true>(trig, state, base)
-}
-
-/// The poses of the bodies L and, if the joints have RATES, their motions.
-#[cfg_attr(optimised, inline(always))]
-fn walk<
-    R: Real,
-    C: Compiled,
-    L,
-    const N: usize,
-    const Q: usize,
-    const V: usize,
-    const RATES: bool,
->(
-    trig: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    base: &AccelerationField<R>,
-) -> Kinematics<R, N>
-where
-    L: Bodies<N>,
-{
-    let mut walk = Walk::<R, C, L, N, Q, V, RATES> {
-        turns: &trig.coordinates,
-        state,
-        found: Kinematics {
-            poses: [Pose::IDENTITY; N],
-            velocities: [Motion::ZERO; N],
-            accelerations: [Motion::ZERO; N],
-        },
-        types: PhantomData,
-    };
-    walk.see::<BASE>(base);
-    let Nothing = sweep::<R, C, _>(&mut walk, base);
-    walk.found
+    Walk::<R, C, L, N, Q, V, false>::along(trig, &resting, &AccelerationField::RESTING).poses
 }
 
 struct Walk<'a, R: Real, C, L, const N: usize, const Q: usize, const V: usize, const RATES: bool> {
@@ -329,14 +287,15 @@ where
 
     #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &AccelerationField<R>) -> AccelerationField<R> {
-        let rates = Rates {
+        let motions = Motions {
+            turns: self.turns,
             qd: &self.state.qd,
             qdd: &self.state.qdd,
             velocity: RATES,
             products: RATES,
             accel: RATES,
         };
-        let field = moved::<R, C, Q, V, I>(parent, self.turns, &rates);
+        let field = motions.field::<C, I>(parent);
         self.see::<I>(&field);
         field
     }
@@ -347,11 +306,33 @@ where
     }
 }
 
-impl<R: Real, C: Compiled, L, const N: usize, const Q: usize, const V: usize, const RATES: bool>
-    Walk<'_, R, C, L, N, Q, V, RATES>
+impl<'a, R: Real, C: Compiled, L, const N: usize, const Q: usize, const V: usize, const RATES: bool>
+    Walk<'a, R, C, L, N, Q, V, RATES>
 where
     L: Bodies<N>,
 {
+    /// The poses of the bodies L and, if the joints have RATES, their motions.
+    #[cfg_attr(optimised, inline(always))]
+    fn along(
+        trig: &'a JointTrig<R, Q>,
+        state: &'a State<R, Q, V>,
+        base: &AccelerationField<R>,
+    ) -> Kinematics<R, N> {
+        let mut walk = Self {
+            turns: &trig.coordinates,
+            state,
+            found: Kinematics {
+                poses: [Pose::IDENTITY; N],
+                velocities: [Motion::ZERO; N],
+                accelerations: [Motion::ZERO; N],
+            },
+            types: PhantomData,
+        };
+        walk.see::<BASE>(base);
+        let Nothing = sweep::<R, C, _>(&mut walk, base);
+        walk.found
+    }
+
     /// Writes the poses and motions of the bodies L that move with joint I, or stand on the base.
     #[cfg_attr(optimised, inline(always))]
     fn see<const I: usize>(&mut self, field: &AccelerationField<R>) {

@@ -6,11 +6,10 @@
 //! of J L⁻¹.
 
 use core::borrow::Borrow;
-use core::marker::PhantomData;
 
 use super::compile::{Compiled, CompiledRobot, JointAndBody, JointPair};
 use super::gate::EngineScene;
-use super::{Engine, Specialised, only_if};
+use super::{Engine, only_if};
 use crate::algorithms::{
     Damping, Frame, NotPositiveDefinite, OperationalSpace, OsimInverse, task_jacobian,
 };
@@ -73,11 +72,11 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
+        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        let trig = q.trig_or(Self::trig_source());
         let trig: &JointTrig<R, Q> = trig.borrow();
         let rows = task_jacobian(&Self::jacobian(trig, body, frame), directions);
-        of_rows::<R, T, K, E, M, B, Q, V>(trig, rows, effects, damping)
+        Self::of_rows(trig, rows, effects, damping)
     }
 
     /// The operational-space inertia of the task whose Jacobian has these rows: of one body, or of
@@ -128,9 +127,9 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        of_rows::<R, T, K, E, M, B, Q, V>(trig.borrow(), rows, effects, damping)
+        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        let trig = q.trig_or(Self::trig_source());
+        Self::of_rows(trig.borrow(), rows, effects, damping)
     }
 
     /// The inverse operational-space inertia Λ⁻¹ = J M⁻¹ Jᵀ of a body in a [`Frame`], as
@@ -181,8 +180,8 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
+        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        let trig = q.trig_or(Self::trig_source());
         let trig: &JointTrig<R, Q> = trig.borrow();
         let factors = Self::ltdl(&Self::crba(trig, effects))?;
         let mut columns = Self::jacobian(trig, body, frame);
@@ -192,23 +191,23 @@ impl<T, K> Engine<T, K> {
             &mut columns,
         ))
     }
-}
 
-#[cfg_attr(optimised, inline(always))]
-fn of_rows<R: Real, T, K, E, const M: usize, const B: usize, const Q: usize, const V: usize>(
-    trig: &JointTrig<R, Q>,
-    rows: [[R; V]; M],
-    effects: &E,
-    damping: Damping<R>,
-) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
-where
-    T: Robot<B, Q, V>,
-    K: Kernel<R>,
-    E: Effect<R, B, V>,
-{
-    let factors = Engine::<T, K>::ltdl(&Engine::<T, K>::crba(trig, effects))?;
-    let solve = |tau: &_| Engine::<T, K>::solve(&factors, tau);
-    Ok(OperationalSpace::new(rows, solve, damping))
+    #[cfg_attr(optimised, inline(always))]
+    fn of_rows<R: Real, E, const M: usize, const B: usize, const Q: usize, const V: usize>(
+        trig: &JointTrig<R, Q>,
+        rows: [[R; V]; M],
+        effects: &E,
+        damping: Damping<R>,
+    ) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
+    {
+        let factors = Self::ltdl(&Self::crba(trig, effects))?;
+        let solve = |tau: &_| Self::solve(&factors, tau);
+        Ok(OperationalSpace::new(rows, solve, damping))
+    }
 }
 
 /// Λ⁻¹ of a body from the columns of its J, which become those of J L⁻¹, in place.

@@ -9,7 +9,6 @@ use super::compile::{Compiled, CompiledJoint, JointPair};
 use super::displacement::Displacement;
 use super::folding::Folded;
 use super::joint_rates::{JointRates, SeveralRates, Twist};
-use super::only_if;
 use crate::model::{BASE, JointCoordinate};
 use crate::scalar::Real;
 
@@ -62,18 +61,14 @@ fn children<R: Real, C: Compiled, P: Pass<R, C>, const I: usize>(
     body: &P::Outward,
 ) -> P::Inward {
     let mut sum = P::NOTHING;
-    for_each_joint!(J, {
-        if Step::<R, C, P, I, J>::IS_TAKEN
-            && let Some(visit) = const {
-                only_if(
-                    Step::<R, C, P, I, J>::IS_TAKEN,
-                    visit::<R, C, P, J> as Visit<R, C, P>,
-                )
-            }
+    for_each_joint!(
+        J,
+        Step::<R, C, P, I, J>::IS_TAKEN,
+        visit = visit::<R, C, P, J> as Visit<R, C, P>,
         {
             sum = sum + visit(pass, body);
         }
-    });
+    );
     sum
 }
 
@@ -95,47 +90,50 @@ impl<R: Real, C: Compiled, P: Pass<R, C>, const I: usize, const J: usize> Step<R
     const IS_TAKEN: bool = JointPair::<C, I, J>::IS_CHILD && P::JOINTS & (1 << J) != 0;
 }
 
-/// The field of the body behind joint I, from that of its parent, with its pose if the parent's is
-/// known.
-#[cfg_attr(optimised, inline(always))]
-pub(super) fn moved<R: Real, C: Compiled, const Q: usize, const V: usize, const I: usize>(
-    parent: &AccelerationField<R>,
-    turns: &[JointCoordinate<R>; Q],
-    rates: &Rates<'_, R, V>,
-) -> AccelerationField<R> {
-    let at = Displacement::of::<C, Q, I>(turns);
-    let (qd, qdd) = (rates.qd, rates.qdd);
-    let mut field = if CompiledJoint::<C, I>::COUNT > 1 {
-        let several = SeveralRates {
-            velocity: Twist::of::<C, V, I>(qd, rates.velocity),
-            products: Twist::of::<C, V, I>(qd, rates.products),
-            accel: Twist::of::<C, V, I>(qdd, rates.accel),
-        };
-        parent.across_several::<C, I>(&at, &several)
-    } else {
-        let unit = if CompiledJoint::<C, I>::PRISMATIC {
-            Folded::constant(C::LENGTH_INV)
-        } else {
-            Folded::ONE
-        };
-        let one = JointRates {
-            velocity: Folded::runtime_if(rates.velocity, qd[I]) * unit,
-            omega_products: Folded::runtime_if(rates.products, qd[I]) * unit,
-            accel: Folded::runtime_if(rates.accel, qdd[I]) * unit,
-        };
-        parent.across::<C, I>(&at, one)
-    };
-    field.pose = parent.pose.transformed_by::<C, I>(&at);
-    field
-}
-
-/// The rates of all joints, and which of them a pass needs; what it does not need is a known zero.
+/// The positions and rates of all joints, and which rates a pass needs; what it does not need is a
+/// known zero.
 #[derive(Clone, Copy)]
-pub(super) struct Rates<'a, R, const V: usize> {
+pub(super) struct Motions<'a, R, const Q: usize, const V: usize> {
+    pub(super) turns: &'a [JointCoordinate<R>; Q],
     pub(super) qd: &'a [R; V],
     pub(super) qdd: &'a [R; V],
     pub(super) velocity: bool,
     /// Of the velocity, its products.
     pub(super) products: bool,
     pub(super) accel: bool,
+}
+
+impl<R: Real, const Q: usize, const V: usize> Motions<'_, R, Q, V> {
+    /// The field of the body behind joint I, from that of its parent, with its pose if the parent's is
+    /// known.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn field<C: Compiled, const I: usize>(
+        &self,
+        parent: &AccelerationField<R>,
+    ) -> AccelerationField<R> {
+        let at = Displacement::of::<C, Q, I>(self.turns);
+        let (qd, qdd) = (self.qd, self.qdd);
+        let mut field = if CompiledJoint::<C, I>::COUNT > 1 {
+            let several = SeveralRates {
+                velocity: Twist::of::<C, V, I>(qd, self.velocity),
+                products: Twist::of::<C, V, I>(qd, self.products),
+                accel: Twist::of::<C, V, I>(qdd, self.accel),
+            };
+            parent.across_several::<C, I>(&at, &several)
+        } else {
+            let unit = if CompiledJoint::<C, I>::PRISMATIC {
+                Folded::constant(C::LENGTH_INV)
+            } else {
+                Folded::ONE
+            };
+            let one = JointRates {
+                velocity: Folded::runtime_if(self.velocity, qd[I]) * unit,
+                omega_products: Folded::runtime_if(self.products, qd[I]) * unit,
+                accel: Folded::runtime_if(self.accel, qdd[I]) * unit,
+            };
+            parent.across::<C, I>(&at, one)
+        };
+        field.pose = parent.pose.transformed_by::<C, I>(&at);
+        field
+    }
 }

@@ -5,13 +5,14 @@
 //! in one line away from it. Turns do not change them, so that they are constants of the robot;
 //! slides and a payload add to them.
 
+use super::call::Call;
 use super::compile::{
     Compiled, CompiledJoint, JointMotion, JointPair, is_slide_beyond, joint, place, supports,
 };
 use super::{Index, only_if};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::{Declared, Effect, RegroupedInertia, add_inertia, call_hook};
-use crate::model::{BASE, JointCoordinate, JointKind, Link};
+use crate::model::{BASE, JointKind, Link};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
 use glam::DVec3;
@@ -143,184 +144,143 @@ impl Singular {
     }
 }
 
-/// The pivots that rounding may leave of a singular M: of each joint, kg·m² or kg.
-#[cfg_attr(optimised, inline(always))]
-pub(crate) fn noise<R, C, E, const B: usize, const Q: usize, const V: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    effects: &E,
-) -> [R; V]
+impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
 where
     R: Real,
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    let mut noise = [R::ZERO; V];
-    for_each_joint!(J, {
-        if Index::<J, V>::IS_BELOW
-            && let Some(of_joint) = const {
+    /// The pivots that rounding may leave of a singular M: of each joint, kg·m² or kg.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn noise(&self) -> [R; V] {
+        let mut noise = [R::ZERO; V];
+        for_each_joint!(
+            J,
+            Index::<J, V>::IS_BELOW,
+            pivot_noise = Self::pivot_noise::<J> as fn(&_) -> _,
+            {
+                noise[J] = pivot_noise(self);
+            }
+        );
+        noise
+    }
+
+    /// Whether the pivots of forward dynamics exceed their noise in any state, of joints on a parent:
+    /// of numbers, only a NaN does not.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn certain(&self) -> [bool; V] {
+        let mut certain = [false; V];
+        for_each_joint!(J, {
+            if Index::<J, V>::IS_BELOW {
+                certain[J] = const { Self::is_certain(J) } && self.effects.inertia(J).is_none();
+            }
+        });
+        certain
+    }
+
+    /// The same of joint `i` without its rotor, by the inertia of its body alone.
+    const fn is_certain(i: usize) -> bool {
+        let joint = joint::<C>(i);
+        let size = Sizes::<C, B, V>::of(i);
+        let most = if joint.prismatic {
+            size.mass
+        } else {
+            size.second
+        };
+        // The rounding errors of f32, and as much again for those of the pivot.
+        let noise = 2.0 * ROUNDINGS * f32::EPSILON as f64 * most + f32::MIN_POSITIVE as f64;
+        joint.parent != BASE
+            && joint.alone > noise
+            && E::BASE_PARAMETERS == 0
+            && load::<C>(i, 0, &E::PAYLOAD) == B
+            && !slides_beyond::<C>(i)
+    }
+
+    /// The same of joint I. A pivot that exceeds it has a finite reciprocal: neither the smallest
+    /// numbers nor, of an infinite inertia, infinity does.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn pivot_noise<const I: usize>(&self) -> R {
+        let mut size = self.largest_inertia::<I>();
+        add_inertia(self.effects, I, &mut size);
+        size * (R::EPSILON * R::from_f64(ROUNDINGS)) + R::MIN_POSITIVE
+    }
+
+    /// The largest inertia that joint I could move, without its rotor's: a constant of robots without
+    /// slides and payload.
+    #[cfg_attr(optimised, inline(always))]
+    fn largest_inertia<const I: usize>(&self) -> R {
+        let own = const { Sizes::<C, B, V>::of(I) };
+        let [mut mass, mut moment, mut second] =
+            [own.mass, own.moment, own.second].map(R::from_f64);
+        if const { E::BASE_PARAMETERS > 0 } {
+            let mut body = RegroupedInertia::default();
+            call_hook!(E::REGROUPED.load, self.effects, I, &mut body);
+            [mass, moment, second] = body.size;
+        }
+        let prismatic = CompiledJoint::<C, I>::PRISMATIC;
+        let mut size = if prismatic { mass } else { second };
+        let mut slides = R::ZERO;
+        if !prismatic {
+            for_each_joint!(K, {
+                if JointPair::<C, I, K>::IS_SLIDE_BEYOND {
+                    slides += self.slide::<K>();
+                }
+            });
+            if const { slides_beyond::<C>(I) } {
+                size += slides * (moment + moment + slides * mass);
+            }
+        }
+        if const { load::<C>(I, 0, &E::PAYLOAD) < B }
+            && let Some(payloads_added) = const {
                 only_if(
-                    J < V,
-                    of_joint::<R, C, E, B, Q, V, J> as fn(&[JointCoordinate<R>; Q], &E) -> R,
+                    load::<C>(I, 0, &E::PAYLOAD) < B,
+                    Self::payloads_added::<I> as fn(&_, _, _) -> _,
                 )
             }
         {
-            noise[J] = of_joint(turns, effects);
+            size = payloads_added(self, size, slides);
         }
-    });
-    noise
-}
-
-/// Whether the pivots of forward dynamics exceed their noise in any state, of joints on a parent:
-/// of numbers, only a NaN does not.
-#[cfg_attr(optimised, inline(always))]
-pub(crate) fn certain<R, C, E, const B: usize, const Q: usize, const V: usize>(
-    effects: &E,
-) -> [bool; V]
-where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    let mut certain = [false; V];
-    for_each_joint!(J, {
-        if Index::<J, V>::IS_BELOW {
-            certain[J] = const { is_certain::<R, C, E, B, V>(J) } && effects.inertia(J).is_none();
-        }
-    });
-    certain
-}
-
-/// The same of joint `i` without its rotor, by the inertia of its body alone.
-const fn is_certain<R: Real, C: Compiled, E, const B: usize, const V: usize>(i: usize) -> bool
-where
-    E: Effect<R, B, V>,
-{
-    let joint = joint::<C>(i);
-    let size = Sizes::<C, B, V>::of(i);
-    let most = if joint.prismatic {
-        size.mass
-    } else {
-        size.second
-    };
-    // The rounding errors of f32, and as much again for those of the pivot.
-    let noise = 2.0 * ROUNDINGS * f32::EPSILON as f64 * most + f32::MIN_POSITIVE as f64;
-    joint.parent != BASE
-        && joint.alone > noise
-        && E::BASE_PARAMETERS == 0
-        && load::<C>(i, 0, &E::PAYLOAD) == B
-        && !slides_beyond::<C>(i)
-}
-
-/// The same of joint I. A pivot that exceeds it has a finite reciprocal: neither the smallest
-/// numbers nor, of an infinite inertia, infinity does.
-#[cfg_attr(optimised, inline(always))]
-pub(crate) fn of_joint<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    effects: &E,
-) -> R
-where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    let mut size = largest_inertia::<R, C, E, B, Q, V, I>(turns, effects);
-    add_inertia(effects, I, &mut size);
-    size * (R::EPSILON * R::from_f64(ROUNDINGS)) + R::MIN_POSITIVE
-}
-
-/// The largest inertia that joint I could move, without its rotor's: a constant of robots without
-/// slides and payload.
-#[cfg_attr(optimised, inline(always))]
-fn largest_inertia<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    effects: &E,
-) -> R
-where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    let own = const { Sizes::<C, B, V>::of(I) };
-    let [mut mass, mut moment, mut second] = [own.mass, own.moment, own.second].map(R::from_f64);
-    if const { E::BASE_PARAMETERS > 0 } {
-        let mut body = RegroupedInertia::default();
-        call_hook!(E::REGROUPED.load, effects, I, &mut body);
-        [mass, moment, second] = body.size;
+        size
     }
-    let prismatic = CompiledJoint::<C, I>::PRISMATIC;
-    let mut size = if prismatic { mass } else { second };
-    let mut slides = R::ZERO;
-    if !prismatic {
+
+    /// How far coordinate I has moved its body's origin, m.
+    #[cfg_attr(optimised, inline(always))]
+    fn slide<const I: usize>(&self) -> R {
+        let joint = CompiledJoint::<C, I>::JOINT;
+        let q = match CompiledJoint::<C, I>::POSITION {
+            Some(position) => self.turns[position].q.abs(),
+            None => R::ZERO,
+        };
+        match CompiledJoint::<C, I>::MOTION {
+            JointMotion::Screw => q * R::from_f64((joint.pitch * C::LENGTH).abs()),
+            _ => q,
+        }
+    }
+
+    /// Adds the payloads that joint I moves to the inertia that it could move.
+    #[cfg_attr(optimised, inline(always))]
+    fn payloads_added<const I: usize>(&self, mut size: R, slides: R) -> R {
+        const {
+            assert!(
+                load::<C>(I, 32, &E::PAYLOAD) == B,
+                "the engine takes up to 32 bodies with payloads; use `Core`"
+            )
+        };
         for_each_joint!(K, {
-            if JointPair::<C, I, K>::IS_SLIDE_BEYOND {
-                slides += slide::<R, C, Q, K>(turns);
+            let body = const { load::<C>(I, K, &E::PAYLOAD) };
+            if body < B {
+                let mut payload = SpatialInertia::ZERO;
+                call_hook!(E::ADDED_INERTIA.add, self.effects, body, &mut payload);
+                size += if CompiledJoint::<C, I>::PRISMATIC {
+                    payload.mass
+                } else {
+                    let reach = const { reach(C::LINKS, I, load::<C>(I, K, &E::PAYLOAD)) };
+                    of_load(&payload, slides + R::from_f64(reach))
+                };
             }
         });
-        if const { slides_beyond::<C>(I) } {
-            size += slides * (moment + moment + slides * mass);
-        }
+        size
     }
-    if const { load::<C>(I, 0, &E::PAYLOAD) < B }
-        && let Some(loaded) = const {
-            only_if(
-                load::<C>(I, 0, &E::PAYLOAD) < B,
-                loaded::<R, C, E, B, Q, V, I> as fn(&E, R, R) -> R,
-            )
-        }
-    {
-        size = loaded(effects, size, slides);
-    }
-    size
-}
-
-/// How far coordinate I has moved its body's origin, m.
-#[cfg_attr(optimised, inline(always))]
-fn slide<R: Real, C: Compiled, const Q: usize, const I: usize>(
-    turns: &[JointCoordinate<R>; Q],
-) -> R {
-    let joint = CompiledJoint::<C, I>::JOINT;
-    let q = match CompiledJoint::<C, I>::POSITION {
-        Some(position) => turns[position].q.abs(),
-        None => R::ZERO,
-    };
-    match CompiledJoint::<C, I>::MOTION {
-        JointMotion::Screw => q * R::from_f64((joint.pitch * C::LENGTH).abs()),
-        _ => q,
-    }
-}
-
-/// Adds the payloads that joint I moves to the inertia that it could move.
-#[cfg_attr(optimised, inline(always))]
-fn loaded<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    effects: &E,
-    mut size: R,
-    slides: R,
-) -> R
-where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    const {
-        assert!(
-            load::<C>(I, 32, &E::PAYLOAD) == B,
-            "the engine takes up to 32 bodies with payloads; use `Core`"
-        )
-    };
-    for_each_joint!(K, {
-        let body = const { load::<C>(I, K, &E::PAYLOAD) };
-        if body < B {
-            let mut payload = SpatialInertia::ZERO;
-            call_hook!(E::ADDED_INERTIA.add, effects, body, &mut payload);
-            size += if CompiledJoint::<C, I>::PRISMATIC {
-                payload.mass
-            } else {
-                let reach = const { reach(C::LINKS, I, load::<C>(I, K, &E::PAYLOAD)) };
-                of_load(&payload, slides + R::from_f64(reach))
-            };
-        }
-    });
-    size
 }
 
 /// The largest inertia of a payload about an axis that is no further than `reach` from its body's

@@ -8,18 +8,16 @@
 //! of q̇ and q̈.
 
 use core::hint::black_box;
-use core::marker::PhantomData;
 
 use super::acceleration_field::{Inertia, Wrench, along_z};
-use super::base::unaccelerated;
+use super::call::Call;
 use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion, JointPair};
 use super::folding::{Folded, Mat3, Series, Sym3, Turn, Vec3};
 use super::folding::{constant_offset_cross, rotate_to_parent};
 use super::gate::EngineScene;
-use super::rnea::inertia;
-use super::{Engine, Specialised, only_if};
+use super::Engine;
 use crate::effects::{Effect, JointState, add_joint_torque_rates};
-use crate::model::{JointCoordinate, Robot};
+use crate::model::Robot;
 use crate::scalar::Real;
 use crate::state::{JointTrig, State, TrigSource};
 use crate::trig::Kernel;
@@ -39,32 +37,38 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
         const { takes_elastic_joints::<CompiledRobot<T, B, Q, V>>() };
-        let trig: JointTrig<R, Q> = Specialised::<T, K, B, V>(PhantomData).compute(&state.q);
+        let trig: JointTrig<R, Q> = Self::trig_source().compute(&state.q);
+        Self::call(&trig, effects).torque_rates(state, [jerk, snap])
+    }
+}
+
+impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
+where
+    R: Real,
+    C: Compiled,
+    E: Effect<R, B, V>,
+{
+    #[cfg_attr(optimised, inline(always))]
+    fn torque_rates(&self, state: &State<R, Q, V>, [jerk, snap]: [&[R; V]; 2]) -> [[R; 3]; V] {
         let mut tau = [[R::ZERO; 3]; V];
         let mut task = Task {
-            turns: &trig.coordinates,
+            call: self,
             state,
             jerk,
             snap,
-            effects,
             tau: &mut tau,
         };
-        let length = CompiledRobot::<T, B, Q, V>::LENGTH;
-        let base = Field::at_rest(unaccelerated::<R, E, B, V>(effects, length).a);
-        for_each_joint!(J, {
-            if CompiledJoint::<CompiledRobot<T, B, Q, V>, J>::IS_ON_BASE
-                && let Some(visit) = const {
-                    only_if(
-                        CompiledJoint::<CompiledRobot<T, B, Q, V>, J>::IS_ON_BASE,
-                        visit::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V, J> as Visit<R, E, Q, V>,
-                    )
-                }
+        let base = Field::at_rest(self.unaccelerated().a);
+        for_each_joint!(
+            J,
+            CompiledJoint::<C, J>::IS_ON_BASE,
+            visit = Task::visit::<J> as fn(&mut _, &_) -> _,
             {
                 visit(&mut task, &base);
             }
-        });
+        );
         tau
     }
 }
@@ -82,79 +86,70 @@ const fn takes_elastic_joints<C: Compiled>() {
 }
 
 /// The data that all bodies share.
-struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
-    turns: &'a [JointCoordinate<R>; Q],
+struct Task<'a, R: Real, C, E, const B: usize, const Q: usize, const V: usize> {
+    call: &'a Call<'a, R, C, E, B, Q, V>,
     state: &'a State<R, Q, V>,
     jerk: &'a [R; V],
     snap: &'a [R; V],
-    effects: &'a E,
     tau: &'a mut [[R; 3]; V],
 }
 
-type Visit<R, E, const Q: usize, const V: usize> =
-    fn(&mut Task<'_, R, E, Q, V>, &Field<R>) -> WrenchSeries<R>;
-
-/// Visits joint I and its descendants; returns the wrench that they need from the parent, in its
-/// frame.
-#[cfg_attr(optimised, inline(always))]
-fn visit<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    task: &mut Task<'_, R, E, Q, V>,
-    parent: &Field<R>,
-) -> WrenchSeries<R>
+impl<R, C, E, const B: usize, const Q: usize, const V: usize> Task<'_, R, C, E, B, Q, V>
 where
     R: Real,
     C: Compiled,
     E: Effect<R, B, V>,
 {
-    let joint = CompiledJoint::<C, I>::JOINT;
-    let (half, length_inv) = (R::from_f64(0.5), Folded::constant(C::LENGTH_INV));
-    let (at, qdd) = (
-        JointState::new(task.state.q[I], task.state.qd[I]),
-        task.state.qdd[I],
-    );
-    let (jerk, snap) = (task.jerk[I], task.snap[I]);
-    let turn = Turn::new(task.turns[I], at.qd, qdd);
-    let slide = Series::runtime([task.turns[I].q, at.qd, half * qdd]).times(length_inv);
-    let accel = Series::runtime([qdd, jerk, half * snap]);
-    let field = if joint.prismatic {
-        let rate = Series::runtime([at.qd, qdd, half * jerk]).times(length_inv);
-        parent.across_prismatic(joint, slide, rate, accel.times(length_inv))
-    } else {
-        parent.across_revolute(joint, &turn, at.qd, accel)
-    };
-    let body = inertia::<R, C, E, B, Q, V, I>(task.effects, false);
-    let mut total = field.wrench(&body);
-    if const { !CompiledJoint::<C, I>::IS_ON_BASE } {
-        total = total.finished();
-    }
-
-    for_each_joint!(J, {
-        if JointPair::<C, I, J>::IS_PARENT
-            && let Some(visit) = const {
-                only_if(
-                    JointPair::<C, I, J>::IS_PARENT,
-                    visit::<R, C, E, B, Q, V, J> as Visit<R, E, Q, V>,
-                )
-            }
-        {
-            let child = visit(task, &field);
-            total = WrenchSeries {
-                f: total.f + child.f,
-                n: total.n + child.n,
-            };
+    /// Visits joint I and its descendants; returns the wrench that they need from the parent, in its
+    /// frame.
+    #[cfg_attr(optimised, inline(always))]
+    fn visit<const I: usize>(&mut self, parent: &Field<R>) -> WrenchSeries<R> {
+        let joint = CompiledJoint::<C, I>::JOINT;
+        let (half, length_inv) = (R::from_f64(0.5), Folded::constant(C::LENGTH_INV));
+        let (at, qdd) = (
+            JointState::new(self.state.q[I], self.state.qd[I]),
+            self.state.qdd[I],
+        );
+        let (jerk, snap) = (self.jerk[I], self.snap[I]);
+        let turn = Turn::new(self.call.turns[I], at.qd, qdd);
+        let slide = Series::runtime([self.call.turns[I].q, at.qd, half * qdd]).times(length_inv);
+        let accel = Series::runtime([qdd, jerk, half * snap]);
+        let field = if joint.prismatic {
+            let rate = Series::runtime([at.qd, qdd, half * jerk]).times(length_inv);
+            parent.across_prismatic(joint, slide, rate, accel.times(length_inv))
+        } else {
+            parent.across_revolute(joint, &turn, at.qd, accel)
+        };
+        let body = self.call.inertia::<I>(false);
+        let mut total = field.wrench(&body);
+        if const { !CompiledJoint::<C, I>::IS_ON_BASE } {
+            total = total.finished();
         }
-    });
 
-    let along = if joint.prismatic {
-        total.f.z().times(length_inv)
-    } else {
-        total.n.z()
-    };
-    let [tau, rate, half_accel] = along.0.map(Folded::get);
-    let mut rates = [tau, rate, half_accel + half_accel];
-    add_joint_torque_rates(task.effects, I, at, [qdd, jerk, snap], &mut rates);
-    task.tau[I] = rates;
-    total.to_parent::<C, I>(&turn, slide)
+        for_each_joint!(
+            J,
+            JointPair::<C, I, J>::IS_PARENT,
+            visit = Self::visit::<J> as fn(&mut _, &_) -> WrenchSeries<R>,
+            {
+                let child = visit(self, &field);
+                total = WrenchSeries {
+                    f: total.f + child.f,
+                    n: total.n + child.n,
+                };
+            }
+        );
+
+        let along = if joint.prismatic {
+            total.f.z().times(length_inv)
+        } else {
+            total.n.z()
+        };
+        let [tau, rate, half_accel] = along.0.map(Folded::get);
+        let mut rates = [tau, rate, half_accel + half_accel];
+        add_joint_torque_rates(self.call.effects, I, at, [qdd, jerk, snap], &mut rates);
+        self.tau[I] = rates;
+        total.to_parent::<C, I>(&turn, slide)
+    }
 }
 
 /// The acceleration field of a body, in its frame: the components' polynomials in time.

@@ -13,19 +13,18 @@ use core::marker::PhantomData;
 
 use self::power::BodyPower;
 use super::acceleration_field::AccelerationField;
-use super::base::base;
-use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointPair};
-use super::displacement::Displacement;
+use super::call::Call;
+use super::compile::{Compiled, CompiledJoint, JointPair};
 use super::folding::Folded;
 use super::gate::EngineScene;
 use super::joint_rates::Twist;
 use super::named::{AllBodies, Named, joints};
-use super::pass::{Nothing, Pass, Rates, moved, sweep};
-use super::{Engine, Specialised, only_if};
+use super::pass::{Motions, Nothing, Pass, sweep};
+use super::{Engine, only_if};
 use crate::effects::Effect;
-use crate::model::{Bodies, JointCoordinate, OnBody, Robot};
+use crate::model::{Bodies, OnBody, Robot};
 use crate::scalar::Real;
-use crate::state::{Configuration, JointTrig, RobotState, State};
+use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
@@ -63,14 +62,10 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        columns::<R, CompiledRobot<T, B, Q, V>, AllBodies, E, B, B, Q, V>(
-            trig.borrow(),
-            state.state(),
-            effects,
-        )
+        let trig = configuration.trig_or(Self::trig_source());
+        Self::call(trig.borrow(), effects).regressor_columns::<AllBodies, B>(state.state())
     }
 
     /// The columns of the regressor of one body, by coordinates: the torques of the joints per unit
@@ -115,51 +110,60 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
         let _ = body;
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        columns::<R, CompiledRobot<T, B, Q, V>, OnBody<BODY>, E, 1, B, Q, V>(
-            trig.borrow(),
-            state.state(),
-            effects,
-        )
-        .map(|[columns]| columns)
+        let trig = configuration.trig_or(Self::trig_source());
+        Self::call(trig.borrow(), effects)
+            .regressor_columns::<OnBody<BODY>, 1>(state.state())
+            .map(|[columns]| columns)
     }
 }
 
-/// The columns of the bodies L.
-#[cfg_attr(optimised, inline(always))]
-fn columns<
+impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
+where
     R: Real,
     C: Compiled,
-    L: Bodies<N>,
-    E,
-    const N: usize,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
->(
-    trig: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    effects: &E,
-) -> [[[R; 10]; N]; V]
-where
     E: Effect<R, B, V>,
 {
-    let mut y = [[[R::ZERO; 10]; N]; V];
-    let mut pass = Columns::<R, C, L, E, N, B, Q, V> {
-        turns: &trig.coordinates,
-        state,
-        y: &mut y,
-        types: PhantomData,
-    };
-    let at_base = Moving {
-        field: base::<R, E, B, V>(effects, C::LENGTH),
-        by: [Twist::ZERO; V],
-    };
-    let Nothing = sweep::<R, C, _>(&mut pass, &at_base);
-    y
+    /// The columns of the bodies L.
+    #[cfg_attr(optimised, inline(always))]
+    fn regressor_columns<L: Bodies<N>, const N: usize>(
+        &self,
+        state: &State<R, Q, V>,
+    ) -> [[[R; 10]; N]; V] {
+        let mut y = [[[R::ZERO; 10]; N]; V];
+        let mut pass = Columns::<R, C, L, E, N, B, Q, V> {
+            call: self,
+            state,
+            y: &mut y,
+            types: PhantomData,
+        };
+        let at_base = Moving {
+            field: self.base(),
+            by: [Twist::ZERO; V],
+        };
+        let Nothing = sweep::<R, C, _>(&mut pass, &at_base);
+        y
+    }
+
+    /// The field of the body behind joint I, as far as the effects need it.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn regressed_field<const I: usize>(
+        &self,
+        parent: &AccelerationField<R>,
+        state: &State<R, Q, V>,
+    ) -> AccelerationField<R> {
+        let motions = Motions {
+            turns: self.turns,
+            qd: &state.qd,
+            qdd: &state.qdd,
+            velocity: false,
+            products: E::VELOCITY_PRODUCTS,
+            accel: E::ACCELERATIONS,
+        };
+        motions.field::<C, I>(parent)
+    }
 }
 
 /// A body's field, and its motion at unit rate of each coordinate, in its joint's frame.
@@ -170,10 +174,10 @@ struct Moving<R, const V: usize> {
 }
 
 struct Columns<'a, R, C, L, E, const N: usize, const B: usize, const Q: usize, const V: usize> {
-    turns: &'a [JointCoordinate<R>; Q],
+    call: &'a Call<'a, R, C, E, B, Q, V>,
     state: &'a State<R, Q, V>,
     y: &'a mut [[[R; 10]; N]; V],
-    types: PhantomData<(C, L, E)>,
+    types: PhantomData<L>,
 }
 
 impl<
@@ -196,8 +200,8 @@ where
 
     #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &Moving<R, V>) -> Moving<R, V> {
-        let field = field_of::<R, C, E, B, Q, V, I>(&parent.field, self.turns, self.state);
-        let at = Displacement::of::<C, Q, I>(self.turns);
+        let field = self.call.regressed_field::<I>(&parent.field, self.state);
+        let at = self.call.displacement::<I>();
         let mut body = Moving {
             field,
             by: parent.by,
@@ -214,7 +218,7 @@ where
             if let Some(see) = const {
                 only_if(
                     Named::<C, L, N, I, N_TH>::IS_SOME,
-                    see::<R, C, L, N, V, I, N_TH> as See<R, N, V>,
+                    Self::see::<I, N_TH> as fn(&mut _, &_),
                 )
             } {
                 see(self.y, &body);
@@ -229,55 +233,22 @@ where
     }
 }
 
-type See<R, const N: usize, const V: usize> = fn(&mut [[[R; 10]; N]; V], &Moving<R, V>);
-
-/// Writes the columns of the K-th of the bodies L that move with joint I.
-#[cfg_attr(optimised, inline(always))]
-fn see<
+impl<R, C, L, E, const N: usize, const B: usize, const Q: usize, const V: usize>
+    Columns<'_, R, C, L, E, N, B, Q, V>
+where
     R: Real,
     C: Compiled,
     L: Bodies<N>,
-    const N: usize,
-    const V: usize,
-    const I: usize,
-    const K: usize,
->(
-    y: &mut [[[R; 10]; N]; V],
-    body: &Moving<R, V>,
-) {
-    let (at, place) = Named::<C, L, N, I, K>::BODY;
-    let power = BodyPower::of(&body.field, place, C::LENGTH);
-    for_each_joint!(J, {
-        if JointPair::<C, I, J>::IS_COORDINATE || JointPair::<C, J, I>::IS_ANCESTOR {
-            y[J][*at] = power.per_parameter(&body.by[J]);
-        }
-    });
-}
-
-/// The field of the body behind joint I, as far as the effects need it.
-#[cfg_attr(optimised, inline(always))]
-fn field_of<
-    R: Real,
-    C: Compiled,
-    E,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const I: usize,
->(
-    parent: &AccelerationField<R>,
-    turns: &[JointCoordinate<R>; Q],
-    state: &State<R, Q, V>,
-) -> AccelerationField<R>
-where
-    E: Effect<R, B, V>,
 {
-    let rates = Rates {
-        qd: &state.qd,
-        qdd: &state.qdd,
-        velocity: false,
-        products: E::VELOCITY_PRODUCTS,
-        accel: E::ACCELERATIONS,
-    };
-    moved::<R, C, Q, V, I>(parent, turns, &rates)
+    /// Writes the columns of the K-th of the bodies L that move with joint I.
+    #[cfg_attr(optimised, inline(always))]
+    fn see<const I: usize, const K: usize>(y: &mut [[[R; 10]; N]; V], body: &Moving<R, V>) {
+        let (at, place) = Named::<C, L, N, I, K>::BODY;
+        let power = BodyPower::of(&body.field, place, C::LENGTH);
+        for_each_joint!(J, {
+            if JointPair::<C, I, J>::IS_COORDINATE || JointPair::<C, J, I>::IS_ANCESTOR {
+                y[J][*at] = power.per_parameter(&body.by[J]);
+            }
+        });
+    }
 }

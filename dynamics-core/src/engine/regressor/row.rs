@@ -1,22 +1,19 @@
 //! The row of the regressor of one coordinate, whose number may be known at run time only.
 
 use core::borrow::Borrow;
-use core::marker::PhantomData;
 
-use super::field_of;
 use super::power::BodyPower;
 use crate::effects::Effect;
 use crate::engine::acceleration_field::AccelerationField;
-use crate::engine::base::base;
-use crate::engine::compile::{Compiled, CompiledJoint, CompiledRobot, JointPair};
-use crate::engine::displacement::Displacement;
+use crate::engine::call::Call;
+use crate::engine::compile::{Compiled, CompiledJoint, JointPair};
 use crate::engine::folding::Folded;
 use crate::engine::gate::EngineScene;
 use crate::engine::joint_rates::Twist;
 use crate::engine::named::{AllBodies, Named};
 use crate::engine::pass::{Nothing, Pass, sweep};
-use crate::engine::{Engine, Specialised, only_if};
-use crate::model::{JointCoordinate, Robot};
+use crate::engine::{Engine, only_if};
+use crate::model::Robot;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
@@ -90,23 +87,23 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
+        let trig = configuration.trig_or(Self::trig_source());
+        let call = Self::call(trig.borrow(), effects);
         let mut y = [[R::ZERO; 10]; B];
-        let mut pass = Row::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V> {
-            turns: &trig.borrow().coordinates,
+        let mut pass = Row {
+            call: &call,
             state: state.state(),
             coordinate,
             bodies,
             y: &mut y,
-            types: PhantomData,
         };
         let at_base = Moving {
-            field: base::<R, E, B, V>(effects, CompiledRobot::<T, B, Q, V>::LENGTH),
+            field: call.base(),
             by: Twist::ZERO,
         };
-        let Nothing = sweep::<R, CompiledRobot<T, B, Q, V>, _>(&mut pass, &at_base);
+        let Nothing = sweep(&mut pass, &at_base);
         y
     }
 }
@@ -119,12 +116,11 @@ struct Moving<R> {
 }
 
 struct Row<'a, R, C, E, const B: usize, const Q: usize, const V: usize> {
-    turns: &'a [JointCoordinate<R>; Q],
+    call: &'a Call<'a, R, C, E, B, Q, V>,
     state: &'a State<R, Q, V>,
     coordinate: usize,
     bodies: &'a [bool; B],
     y: &'a mut [[R; 10]; B],
-    types: PhantomData<(C, E)>,
 }
 
 impl<R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize> Pass<R, C>
@@ -138,8 +134,8 @@ where
 
     #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &Moving<R>) -> Moving<R> {
-        let field = field_of::<R, C, E, B, Q, V, I>(&parent.field, self.turns, self.state);
-        let at = Displacement::of::<C, Q, I>(self.turns);
+        let field = self.call.regressed_field::<I>(&parent.field, self.state);
+        let at = self.call.displacement::<I>();
         let mut by = parent.by.carried::<C, I>(&at);
         for_each_joint!(K, {
             if JointPair::<C, I, K>::IS_COORDINATE {

@@ -41,21 +41,20 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "ABI")]
     #[doc(alias = "FD")]
     #[inline(never)]
-    pub fn aba<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
+    pub fn aba<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
         tau: &[R; V],
-        effects: &E,
+        effects: &Effects,
     ) -> Result<[R; V], NotPositiveDefinite>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         const {
             assert!(
-                !E::GYROSCOPIC_ROTORS,
+                !Effects::GYROSCOPIC_ROTORS,
                 "the engine's articulated bodies carry no rotors that spin as bodies; use `forward_dynamics`"
             )
         };
@@ -65,8 +64,8 @@ impl<T, K> Engine<T, K> {
 }
 
 /// The results of the inward pass for the outward pass.
-struct Task<'a, R: Real, C, E, const B: usize, const Q: usize, const V: usize> {
-    call: &'a Call<'a, R, C, E, B, Q, V>,
+struct Task<'a, R: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, Tree, Effects, B, Q, V>,
     /// U = Iᴬ S: couple and force.
     u: &'a mut [[R; 6]; V],
     d_inv: &'a mut [R; V],
@@ -75,15 +74,16 @@ struct Task<'a, R: Real, C, E, const B: usize, const Q: usize, const V: usize> {
     x: &'a mut [R; V],
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     #[cfg_attr(optimised, inline(always))]
     fn accelerations_by_bodies(
-        &self,
+        self,
         state: &State<R, Q, V>,
         tau: &[R; V],
     ) -> Result<[R; V], NotPositiveDefinite> {
@@ -100,7 +100,7 @@ where
         };
         for_each_joint!(
             J,
-            CompiledJoint::<C, J>::IS_ON_BASE,
+            CompiledJoint::<Tree, J>::IS_ON_BASE,
             inward = Task::inward::<J> as fn(&mut _) -> _,
             {
                 let _ = inward(&mut task);
@@ -109,7 +109,7 @@ where
         task.singular.outermost()?;
         for_each_joint!(
             J,
-            CompiledJoint::<C, J>::IS_ON_BASE,
+            CompiledJoint::<Tree, J>::IS_ON_BASE,
             outward = Task::outward::<J> as fn(&mut _, _),
             {
                 outward(&mut task, [R::Vec3::ZERO; 2]);
@@ -119,22 +119,23 @@ where
     }
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Task<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Task<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     /// The inward pass: the articulated inertia of joint I and its bias force, in the parent's frame.
     #[cfg_attr(optimised, inline(always))]
     fn inward<const I: usize>(&mut self) -> (Articulated<R>, Wrench<R>) {
-        let joint = CompiledJoint::<C, I>::JOINT;
-        let length_inv = Folded::constant(C::LENGTH_INV);
+        let joint = CompiledJoint::<Tree, I>::JOINT;
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
         let mut ia = Articulated::of(&Inertia::NONE);
         if let Some(inertia) = const {
             only_if(
-                CompiledJoint::<C, I>::LAST == I,
-                Call::inertia::<I> as fn(&_, _) -> _,
+                CompiledJoint::<Tree, I>::LAST == I,
+                Call::inertia::<I> as fn(_, _) -> _,
             )
         } {
             ia = Articulated::of(&inertia(self.call, false));
@@ -145,7 +146,7 @@ where
         };
         for_each_joint!(
             J,
-            JointPair::<C, I, J>::IS_PARENT,
+            JointPair::<Tree, I, J>::IS_PARENT,
             inward = Self::inward::<J> as fn(&mut _) -> (Articulated<R>, Wrench<R>),
             {
                 let (inertia, wrench) = inward(self);
@@ -176,21 +177,20 @@ where
         };
         let at = self.call.displacement::<I>();
         (
-            ia.minus_joint(n, f, Folded::runtime(d_inv))
-                .to_parent::<C, I>(&at),
-            push.to_parent::<C, I>(&at),
+            ia.minus_joint(n, f, Folded::runtime(d_inv)).to_parent(&at),
+            push.to_parent(&at),
         )
     }
 
     /// The outward pass: the acceleration of joint I, from its parent's α and a.
     #[cfg_attr(optimised, inline(always))]
     fn outward<const I: usize>(&mut self, [alpha, a]: [R::Vec3; 2]) {
-        let joint = CompiledJoint::<C, I>::JOINT;
-        let length_inv = Folded::constant(C::LENGTH_INV);
+        let joint = CompiledJoint::<Tree, I>::JOINT;
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
         let (rot, mut p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
         let at = self.call.displacement::<I>();
-        if CompiledJoint::<C, I>::SHIFTS {
-            p = p + at.shift::<C, I>();
+        if CompiledJoint::<Tree, I>::SHIFTS {
+            p = p + at.shift();
         }
         // Plain numbers: what is known of them ends with the first joints, which are at rest.
         let (mut alpha, mut a) = if joint.parent == BASE {
@@ -198,10 +198,7 @@ where
         } else {
             (Vec3::runtime(alpha), Vec3::runtime(a))
         };
-        (alpha, a) = (
-            at.enter::<C, I>(&rot, alpha),
-            at.enter::<C, I>(&rot, a + alpha.cross(p)),
-        );
+        (alpha, a) = (at.enter(&rot, alpha), at.enter(&rot, a + alpha.cross(p)));
         let [nx, ny, nz, fx, fy, fz] = self.u[I].map(Folded::runtime);
         let lost = Vec3([nx, ny, nz]).dot(alpha) + Vec3([fx, fy, fz]).dot(a);
         let qdd = (Folded::runtime(self.x[I]) - lost) * Folded::runtime(self.d_inv[I]);
@@ -216,7 +213,7 @@ where
         }
         for_each_joint!(
             J,
-            JointPair::<C, I, J>::IS_PARENT,
+            JointPair::<Tree, I, J>::IS_PARENT,
             outward = Self::outward::<J> as fn(&mut _, _),
             {
                 outward(self, [alpha.get(), a.get()]);

@@ -10,21 +10,22 @@ use crate::effects::{Declared, Effect, Scene, base_given, call_hook, field_axes}
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     /// The base without its acceleration: a = −g, its velocity if it moves, and its pose, in units of
     /// length; all other values are known zeros.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn unaccelerated(&self) -> AccelerationField<R> {
-        let length = C::LENGTH;
-        const { Scene::<R, E, B, V>::MEANING };
+    pub(crate) fn unaccelerated(self) -> AccelerationField<R> {
+        let length = Tree::LENGTH;
+        const { Scene::<R, Effects, B, V>::MEANING };
         let mut g = R::Vec3::ZERO;
-        call_hook!(E::GRAVITY_FIELD.add, self.effects, &mut g);
-        let (g, [x, y, z]) = (g.array(), const { field_axes::<R, E, B, V>() });
+        call_hook!(Effects::GRAVITY_FIELD.add, self.effects, &mut g);
+        let (g, [x, y, z]) = (g.array(), const { field_axes::<R, Effects, B, V>() });
         let up = Folded::constant(-1.0 / length);
         let weight = Vec3([
             Folded::runtime_if(x, g[0]) * up,
@@ -40,12 +41,17 @@ where
             v: Vec3::ZERO,
             pose: Pose::UNKNOWN,
         };
-        if E::BODY_POSE {
+        if Effects::BODY_POSE {
             field.pose = Pose::BASE;
         }
-        if E::BASE_MOTION {
+        if Effects::BASE_MOTION {
             let (mut velocity, mut acceleration) = (Motion::ZERO, Motion::ZERO);
-            call_hook!(E::BASE.add, self.effects, &mut velocity, &mut acceleration);
+            call_hook!(
+                Effects::BASE.add,
+                self.effects,
+                &mut velocity,
+                &mut acceleration
+            );
             field.omega = Vec3::runtime(velocity.ang);
             field.v = Vec3::runtime(velocity.lin).scale(Folded::constant(1.0 / length));
         }
@@ -54,13 +60,13 @@ where
     /// The motion of the base: a = −g plus its own acceleration, in units of length. If it is at rest,
     /// all other values are known zeros.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn base(&self) -> AccelerationField<R> {
-        let length = C::LENGTH;
+    pub(crate) fn base(self) -> AccelerationField<R> {
+        let length = Tree::LENGTH;
         let mut field = self.unaccelerated();
-        if E::BASE_MOTION {
+        if Effects::BASE_MOTION {
             let (_, a) = base_given(self.effects);
-            field = accelerated(field, a, E::VELOCITY_PRODUCTS, length);
-            if !E::BODY_VELOCITY {
+            field = accelerated(field, a, Effects::VELOCITY_PRODUCTS, length);
+            if !Effects::BODY_VELOCITY {
                 (field.omega, field.v) = (Vec3::ZERO, Vec3::ZERO);
             }
         }
@@ -68,10 +74,10 @@ where
     }
     /// The motion of the base without gravity, and its pose: all of it, whatever the effects need.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn carried(&self) -> AccelerationField<R> {
-        let length = C::LENGTH;
+    pub(crate) fn carried(self) -> AccelerationField<R> {
+        let length = Tree::LENGTH;
         let mut field = AccelerationField::RESTING;
-        if E::BASE_MOTION {
+        if Effects::BASE_MOTION {
             let (v, a) = base_given(self.effects);
             field.omega = Vec3::runtime(v.ang);
             field.v = Vec3::runtime(v.lin).scale(Folded::constant(1.0 / length));

@@ -10,11 +10,25 @@ use crate::model::{JointCoordinate, Robot};
 use crate::scalar::Real;
 use crate::state::{JointTrig, State};
 
-/// The compiled robot C in one configuration, under the effects E.
-pub(crate) struct Call<'a, R, C, E, const B: usize, const Q: usize, const V: usize> {
+/// A compiled robot in one configuration, under the effects of a scene.
+pub(crate) struct Call<'a, R, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
     pub(super) turns: &'a [JointCoordinate<R>; Q],
-    pub(super) effects: &'a E,
-    robot: PhantomData<C>,
+    pub(super) effects: &'a Effects,
+    robot: PhantomData<Tree>,
+}
+
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize> Clone
+    for Call<'_, R, Tree, Effects, B, Q, V>
+{
+    #[cfg_attr(optimised, inline(always))]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize> Copy
+    for Call<'_, R, Tree, Effects, B, Q, V>
+{
 }
 
 impl<T, K> Engine<T, K> {
@@ -25,10 +39,10 @@ impl<T, K> Engine<T, K> {
 
     /// A call of an algorithm for the robot `T`.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn call<'a, R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    pub(crate) fn call<'a, R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
         trig: &'a JointTrig<R, Q>,
-        effects: &'a E,
-    ) -> Call<'a, R, CompiledRobot<T, B, Q, V>, E, B, Q, V>
+        effects: &'a Effects,
+    ) -> Call<'a, R, CompiledRobot<T, B, Q, V>, Effects, B, Q, V>
     where
         T: Robot<B, Q, V>,
     {
@@ -36,11 +50,11 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-impl<'a, R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize>
-    Call<'a, R, C, E, B, Q, V>
+impl<'a, R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'a, R, Tree, Effects, B, Q, V>
 {
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn new(turns: &'a [JointCoordinate<R>; Q], effects: &'a E) -> Self {
+    pub(crate) fn new(turns: &'a [JointCoordinate<R>; Q], effects: &'a Effects) -> Self {
         Self {
             turns,
             effects,
@@ -50,7 +64,7 @@ impl<'a, R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize
 
     /// The same under other effects.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn under<'b, F>(&self, effects: &'b F) -> Call<'b, R, C, F, B, Q, V>
+    pub(super) fn under<'b, F>(self, effects: &'b F) -> Call<'b, R, Tree, F, B, Q, V>
     where
         'a: 'b,
     {
@@ -59,23 +73,29 @@ impl<'a, R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize
 
     /// How far joint I has moved.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn displacement<const I: usize>(&self) -> Displacement<R> {
-        Displacement::of::<C, Q, I>(self.turns)
+    pub(super) fn displacement<const I: usize>(self) -> Displacement<R, Tree, I> {
+        Displacement::of(self.turns)
     }
 
     /// What effects at coordinate I read.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn joint_state<const I: usize>(&self, state: &State<R, Q, V>) -> JointState<R> {
-        joint_state::<R, C, Q, V, I>(state)
+    pub(super) fn joint_state<const I: usize>(self, state: &State<R, Q, V>) -> JointState<R> {
+        joint_state::<R, Tree, Q, V, I>(state)
     }
 }
 
 /// What effects at coordinate I read.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn joint_state<R: Real, C: Compiled, const Q: usize, const V: usize, const I: usize>(
+pub(crate) fn joint_state<
+    R: Real,
+    Tree: Compiled,
+    const Q: usize,
+    const V: usize,
+    const I: usize,
+>(
     state: &State<R, Q, V>,
 ) -> JointState<R> {
-    let q = match CompiledJoint::<C, I>::POSITION {
+    let q = match CompiledJoint::<Tree, I>::POSITION {
         Some(position) => state.q[position],
         None => R::ZERO,
     };

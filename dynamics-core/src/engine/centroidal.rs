@@ -5,6 +5,7 @@
 
 use core::borrow::Borrow;
 
+use super::Engine;
 use super::acceleration_field::Inertia;
 use super::call::Call;
 use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointPair, Remainder};
@@ -14,7 +15,6 @@ use super::gate::EngineScene;
 use super::pass::{Pass, sweep};
 use super::pose::Pose;
 use super::totals::{Totals, centre, fixed};
-use super::Engine;
 use crate::algorithms::CenterOfMass;
 use crate::effects::{Declared, Effect};
 use crate::model::Robot;
@@ -43,19 +43,18 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "CoM")]
     #[inline(never)]
     #[must_use]
-    pub fn center_of_mass<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn center_of_mass<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> CenterOfMass<R>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let length = CompiledRobot::<T, B, Q, V>::LENGTH;
-        let all = Self::all_bodies::<R, S, E, B, Q, V>(state, effects);
+        let all = Self::all_bodies(state, effects);
         let (position, mass_inv) = all.centre(length);
         CenterOfMass {
             mass: (all.mass * Folded::constant(1.0 / (length * length))).get(),
@@ -82,18 +81,17 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn momentum<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn momentum<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> Force<R>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
-        let all = Self::all_bodies::<R, S, E, B, Q, V>(state, effects);
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        let all = Self::all_bodies(state, effects);
         force(&all, CompiledRobot::<T, B, Q, V>::LENGTH)
     }
 
@@ -114,35 +112,33 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn centroidal_momentum<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn centroidal_momentum<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> Force<R>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let length = CompiledRobot::<T, B, Q, V>::LENGTH;
-        let all = Self::all_bodies::<R, S, E, B, Q, V>(state, effects);
+        let all = Self::all_bodies(state, effects);
         let (h, (centre, _)) = (force(&all, length), all.centre(length));
         Force::new(h.ang - centre.cross(h.lin), h.lin)
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn all_bodies<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    fn all_bodies<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> Totals<R>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { WithMasses::<R, E, B, V>::KNOWN };
+        const { WithMasses::<R, Effects, B, V>::KNOWN };
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
         let (trig, qd) = (trig.borrow(), &state.state().qd);
@@ -171,20 +167,20 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "CMM")]
     #[inline(never)]
     #[must_use]
-    pub fn centroidal_matrix<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    pub fn centroidal_matrix<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
         q: &impl Configuration<R, Q>,
-        effects: &E,
+        effects: &Effects,
     ) -> [Force<R>; V]
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
-        const { WithMasses::<R, E, B, V>::KNOWN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        const { WithMasses::<R, Effects, B, V>::KNOWN };
         const {
             assert!(
-                !E::GYROSCOPIC_ROTORS,
+                !Effects::GYROSCOPIC_ROTORS,
                 "no rotors that spin as bodies here; name `Armature`"
             )
         };
@@ -200,22 +196,23 @@ fn force<R: Real>(all: &Totals<R>, length: f64) -> Force<R> {
     Force::new(h.n.get(), h.f.scale(Folded::constant(1.0 / length)).get())
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     #[cfg_attr(optimised, inline(always))]
-    fn centroidal_matrix(&self) -> [Force<R>; V] {
+    fn centroidal_matrix(self) -> [Force<R>; V] {
         let mut columns = [Force::ZERO; V];
-        let mut pass = Columns::<R, C, E, B, Q, V> {
+        let mut pass = Columns::<R, Tree, Effects, B, Q, V> {
             call: self,
             columns: &mut columns,
         };
-        let moving = sweep::<R, C, _>(&mut pass, &Pose::BASE);
-        let all = moving + fixed(Remainder::<C, B, V>::AT_BASE);
-        let (centre, _) = centre(all.mass, all.moment, C::LENGTH);
+        let moving = sweep(&mut pass, &Pose::BASE);
+        let all = moving + fixed(Remainder::<Tree, B, V>::AT_BASE);
+        let (centre, _) = centre(all.mass, all.moment, Tree::LENGTH);
         for column in &mut columns {
             column.ang -= centre.cross(column.lin);
         }
@@ -223,34 +220,36 @@ where
     }
 }
 
-struct Columns<'a, R: Real, C, E, const B: usize, const Q: usize, const V: usize> {
-    call: &'a Call<'a, R, C, E, B, Q, V>,
+struct Columns<'a, R: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, Tree, Effects, B, Q, V>,
     columns: &'a mut [Force<R>; V],
 }
 
-impl<R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize> Pass<R, C>
-    for Columns<'_, R, C, E, B, Q, V>
+impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize> Pass
+    for Columns<'_, R, Tree, Effects, B, Q, V>
 where
-    E: Effect<R, B, V>,
+    Effects: Effect<R, B, V>,
 {
+    type Tree = Tree;
     type Outward = Pose<R>;
     type Inward = Inertia<R>;
     const NOTHING: Inertia<R> = Inertia::NONE;
 
     #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &Pose<R>) -> Pose<R> {
-        parent.transformed_by::<C, I>(&self.call.displacement::<I>())
+        parent.transformed_by::<Tree, I>(&self.call.displacement::<I>())
     }
 
     #[cfg_attr(optimised, inline(always))]
     fn leave<const I: usize>(&mut self, at: &Pose<R>, inner: Inertia<R>) -> Inertia<R> {
         let body = self.call.inertia::<I>(true) + inner;
         for_each_joint!(K, {
-            if JointPair::<C, I, K>::IS_COORDINATE {
-                self.columns[K] = column(at, &body, CompiledJoint::<C, K>::JOINT, C::LENGTH_INV);
+            if JointPair::<Tree, I, K>::IS_COORDINATE {
+                self.columns[K] =
+                    column(at, &body, CompiledJoint::<Tree, K>::JOINT, Tree::LENGTH_INV);
             }
         });
-        body.to_parent::<C, I>(&self.call.displacement::<I>())
+        body.to_parent(&self.call.displacement::<I>())
     }
 }
 

@@ -46,16 +46,16 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "mass matrix")]
     #[inline(never)]
     #[must_use]
-    pub fn crba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    pub fn crba<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
         q: &impl Configuration<R, Q>,
-        effects: &E,
+        effects: &Effects,
     ) -> MassMatrix<R, V>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let trig = q.trig_or(Self::trig_source());
         let mut m = MassMatrix::ZERO;
         Self::call(trig.borrow(), effects).mass_matrix(&mut m);
@@ -64,24 +64,25 @@ impl<T, K> Engine<T, K> {
 }
 
 /// The data that all bodies share.
-struct Task<'a, R: Real, C, E, const B: usize, const Q: usize, const V: usize> {
-    call: &'a Call<'a, R, C, E, B, Q, V>,
+struct Task<'a, R: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, Tree, Effects, B, Q, V>,
     m: &'a mut MassMatrix<R, V>,
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     /// Writes M(q), both triangles; what is zero by the tree's branches stays as it is.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn mass_matrix(&self, m: &mut MassMatrix<R, V>) {
+    pub(crate) fn mass_matrix(self, m: &mut MassMatrix<R, V>) {
         let mut task = Task { call: self, m };
         for_each_joint!(
             J,
-            CompiledJoint::<C, J>::IS_ON_BASE,
+            CompiledJoint::<Tree, J>::IS_ON_BASE,
             composite = Task::composite::<J> as fn(&mut _, &_) -> _,
             {
                 let _ = composite(&mut task, &Twist::ZERO);
@@ -90,16 +91,17 @@ where
     }
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Task<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Task<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     /// Writes the entry of joint I and the joint on the base.
     #[cfg_attr(optimised, inline(always))]
     fn both<const I: usize>(&mut self, entry: Folded<R>) {
-        let (root, entry) = (CompiledJoint::<C, I>::ROOT, entry.get());
+        let (root, entry) = (CompiledJoint::<Tree, I>::ROOT, entry.get());
         self.m.rows[I][root] = entry;
         self.m.rows[root][I] = entry;
     }
@@ -110,21 +112,21 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn composite<const I: usize>(&mut self, root: &Twist<R>) -> (Inertia<R>, Felt<R>) {
         let at = self.call.displacement::<I>();
-        let joint = CompiledJoint::<C, I>::JOINT;
-        let length_inv = Folded::constant(C::LENGTH_INV);
-        let own = if CompiledJoint::<C, I>::IS_ON_BASE {
+        let joint = CompiledJoint::<Tree, I>::JOINT;
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
+        let own = if CompiledJoint::<Tree, I>::IS_ON_BASE {
             // At rate −1, entries of its row need no negation.
-            Twist::along(joint, C::LENGTH_INV, Folded::constant(-1.0))
-        } else if CompiledJoint::<C, I>::IS_PARALLEL {
-            root.carried::<C, I>(&at)
+            Twist::along(joint, Tree::LENGTH_INV, Folded::constant(-1.0))
+        } else if CompiledJoint::<Tree, I>::IS_PARALLEL {
+            root.carried(&at)
         } else {
             *root
         };
         let (mut body, mut spin) = (Inertia::NONE, Folded::ZERO);
         if let Some(inertia) = const {
             only_if(
-                CompiledJoint::<C, I>::LAST == I,
-                Call::matrix_inertia::<I> as fn(&_) -> _,
+                CompiledJoint::<Tree, I>::LAST == I,
+                Call::matrix_inertia::<I> as fn(_) -> _,
             )
         } {
             (body, spin) = inertia(self.call);
@@ -132,7 +134,7 @@ where
         let mut beyond = Felt::NONE;
         for_each_joint!(
             J,
-            JointPair::<C, I, J>::IS_PARENT,
+            JointPair::<Tree, I, J>::IS_PARENT,
             composite = Self::composite::<J> as fn(&mut _, &_) -> _,
             {
                 let (inertia, felt) = composite(self, &own);
@@ -140,18 +142,18 @@ where
                 beyond = beyond + felt;
             }
         );
-        if CompiledJoint::<C, I>::IS_PARALLEL {
+        if CompiledJoint::<Tree, I>::IS_PARALLEL {
             let felt = Felt::of(&body, Self::own_spin::<I>(spin), &own) + beyond;
             self.both::<I>(felt.between);
-            self.column::<I>(felt.about, &felt.wrench::<C, I>(&at), root);
-            let left = felt.to_parent::<C, I>(&at, root);
-            if CompiledJoint::<C, I>::PARENT.parent == BASE {
+            self.column::<I>(felt.about, &felt.wrench(&at), root);
+            let left = felt.to_parent(&at, root);
+            if CompiledJoint::<Tree, I>::PARENT.parent == BASE {
                 return (left.on_root(), Felt::NONE);
             }
             return (Inertia::NONE, left);
         }
-        let turned = body.turned::<C, I>(&at);
-        if const { keeps_axis(CompiledJoint::<C, I>::MOTION) } {
+        let turned = body.turned(&at);
+        if const { keeps_axis(CompiledJoint::<Tree, I>::MOTION) } {
             // Of the turned body, so that column I and the composite of the parent share the turn's
             // products.
             let mut wrench = turned.wrench_of(joint, length_inv);
@@ -162,9 +164,9 @@ where
         } else {
             let wrench = body.wrench_of(joint, length_inv);
             let diagonal = wrench.along(joint, length_inv);
-            self.column::<I>(diagonal, &wrench.turned::<C, I>(&at), root);
+            self.column::<I>(diagonal, &wrench.turned(&at), root);
         }
-        (turned.turned_to_parent::<C, I>(&at), Felt::NONE)
+        (turned.turned_to_parent(&at), Felt::NONE)
     }
 
     /// Column I of M: its diagonal entry, and the wrench of joint I's unit acceleration, in the joint's
@@ -173,30 +175,31 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn column<const I: usize>(&mut self, diagonal: Folded<R>, wrench: &Wrench<R>, root: &Twist<R>) {
         let (mut diagonal, mut wrench) = (diagonal.get(), *wrench);
-        let length_inv = Folded::constant(C::LENGTH_INV);
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
         add_inertia(self.call.effects, I, &mut diagonal);
         self.m.rows[I][I] = diagonal;
         let couple = along_z(self.call.coupling::<I>());
         wrench = self.call.borne(wrench, couple);
         // From joint I to the base: parents come before their children.
         for_each_joint_reversed!(K, {
-            if JointPair::<C, K, I>::SUPPORTS {
-                let joint = CompiledJoint::<C, K>::JOINT;
+            if JointPair::<Tree, K, I>::SUPPORTS {
+                let joint = CompiledJoint::<Tree, K>::JOINT;
                 if joint.parent != BASE {
                     let at = self.call.displacement::<K>();
                     wrench = if const { K == I } {
-                        wrench.turned_to_parent::<C, K>(&at)
+                        wrench.turned_to_parent(&at)
                     } else {
-                        wrench.to_parent::<C, K>(&at)
+                        wrench.to_parent(&at)
                     };
-                    let parent = CompiledJoint::<C, K>::PARENT;
-                    if !(CompiledJoint::<C, I>::MEETS_ROOT && CompiledJoint::<C, K>::PARENT_ON_BASE)
+                    let parent = CompiledJoint::<Tree, K>::PARENT;
+                    if !(CompiledJoint::<Tree, I>::MEETS_ROOT
+                        && CompiledJoint::<Tree, K>::PARENT_ON_BASE)
                     {
                         let entry = wrench.along(parent, length_inv).get();
                         self.m.rows[I][joint.parent] = entry;
                         self.m.rows[joint.parent][I] = entry;
                     }
-                    if JointPair::<C, K, I>::IS_MEETING {
+                    if JointPair::<Tree, K, I>::IS_MEETING {
                         let power = root.ang.dot(wrench.n) + root.lin.dot(wrench.f);
                         self.both::<I>(-power);
                     }
@@ -209,10 +212,10 @@ where
     /// axes do not contain.
     #[cfg_attr(optimised, inline(always))]
     fn own_spin<const I: usize>(spin: Folded<R>) -> Folded<R> {
-        if E::BASE_PARAMETERS > 0 {
+        if Effects::BASE_PARAMETERS > 0 {
             spin
         } else {
-            Folded::constant(CompiledJoint::<C, I>::OWN_SPIN)
+            Folded::constant(CompiledJoint::<Tree, I>::OWN_SPIN)
         }
     }
 }

@@ -5,9 +5,8 @@
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 
-use super::compile::Compiled;
-use super::gate::EngineScene;
 use super::Engine;
+use super::gate::EngineScene;
 use crate::effects::{Declared, Effect};
 use crate::model::Robot;
 use crate::scalar::Real;
@@ -32,20 +31,19 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn kinetic_energy<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn kinetic_energy<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> R
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         const {
             assert!(
-                E::BASE_PARAMETERS == 0 || !E::BASE_MOTION,
+                Effects::BASE_PARAMETERS == 0 || !Effects::BASE_MOTION,
                 "base parameters in memory do not have all that the energy on a moving base needs; use `Core`"
             )
         };
@@ -73,17 +71,17 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn potential_energy<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    pub fn potential_energy<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
         q: &impl Configuration<R, Q>,
-        effects: &E,
+        effects: &Effects,
     ) -> R
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
-        const { WithMasses::<R, E, B, V>::KNOWN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        const { WithMasses::<R, Effects, B, V>::KNOWN };
         let trig = q.trig_or(Self::trig_source());
         let call = Self::call(trig.borrow(), effects);
         let all = call.totals::<false>(None);
@@ -94,11 +92,13 @@ impl<T, K> Engine<T, K> {
 }
 
 /// A scene whose bodies have their masses.
-pub(super) struct WithMasses<R, E, const B: usize, const V: usize>(PhantomData<(R, E)>);
+pub(super) struct WithMasses<R, Effects, const B: usize, const V: usize>(PhantomData<(R, Effects)>);
 
-impl<R: Real, E: Effect<R, B, V>, const B: usize, const V: usize> WithMasses<R, E, B, V> {
+impl<R: Real, Effects: Effect<R, B, V>, const B: usize, const V: usize>
+    WithMasses<R, Effects, B, V>
+{
     pub(super) const KNOWN: () = assert!(
-        E::BASE_PARAMETERS == 0,
+        Effects::BASE_PARAMETERS == 0,
         "base parameters in memory have no masses; use `Core`"
     );
 }

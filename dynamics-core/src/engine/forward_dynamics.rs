@@ -38,18 +38,17 @@ impl<T, K> Engine<T, K> {
     /// the largest inertia that all its descendants, stretched out, could have about it.
     #[doc(alias = "FD")]
     #[inline(never)]
-    pub fn forward_dynamics<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
+    pub fn forward_dynamics<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
         tau: &[R; V],
-        effects: &E,
+        effects: &Effects,
     ) -> Result<[R; V], NotPositiveDefinite>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let trig = state.configuration().trig_or(Self::trig_source());
         Self::call(trig.borrow(), effects).accelerations_by_factors(state.state(), tau)
     }
@@ -66,33 +65,34 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[cfg_attr(optimised, inline(always))]
     #[must_use]
-    pub fn transmitted_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    pub fn transmitted_torque<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
         state: &State<R, Q, V>,
         tau: &[R; V],
-        effects: &E,
+        effects: &Effects,
     ) -> [R; V]
     where
         T: Robot<B, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        Call::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>::behind_gears(effects, state, tau)
+        Call::<R, CompiledRobot<T, B, Q, V>, Effects, B, Q, V>::behind_gears(effects, state, tau)
     }
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     /// The torques behind the gears while their motors supply `tau`.
     #[cfg_attr(optimised, inline(always))]
-    fn behind_gears(effects: &E, state: &State<R, Q, V>, tau: &[R; V]) -> [R; V] {
+    fn behind_gears(effects: &Effects, state: &State<R, Q, V>, tau: &[R; V]) -> [R; V] {
         let mut rest = *tau;
-        if const { E::LOAD_DEPENDENT } {
+        if const { Effects::LOAD_DEPENDENT } {
             for_each_joint!(J, {
                 if Index::<J, V>::IS_BELOW {
-                    let at = joint_state::<R, C, Q, V, J>(state);
+                    let at = joint_state::<R, Tree, Q, V, J>(state);
                     rest[J] = transmitted(effects, J, at, rest[J]);
                 }
             });
@@ -102,10 +102,10 @@ where
 
     /// τ − C(q, q̇), the torque that is left to accelerate.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn remaining(&self, state: &State<R, Q, V>, tau: &[R; V]) -> [R; V] {
+    pub(crate) fn remaining(self, state: &State<R, Q, V>, tau: &[R; V]) -> [R; V] {
         const {
             assert!(
-                E::ACCELERATIONS,
+                Effects::ACCELERATIONS,
                 "forward dynamics needs `Inertia` in the scene"
             )
         };
@@ -121,7 +121,7 @@ where
 
     #[cfg_attr(optimised, inline(always))]
     fn accelerations_by_factors(
-        &self,
+        self,
         state: &State<R, Q, V>,
         tau: &[R; V],
     ) -> Result<[R; V], NotPositiveDefinite> {
@@ -133,10 +133,10 @@ where
         self.mass_matrix(&mut m);
         let noise = self.noise();
         let certain = self.certain();
-        let d_inv = decompose::<R, C, V>(&mut m.rows, &noise, &certain)?;
+        let d_inv = decompose::<R, Tree, V>(&mut m.rows, &noise, &certain)?;
         // A copy, since the array that the compiler cannot see through would stay in memory to the end.
         let mut x = rest;
-        substitute::<R, C, V>(&m.rows, &d_inv, &mut x);
+        substitute::<R, Tree, V>(&m.rows, &d_inv, &mut x);
         Ok(x)
     }
 }

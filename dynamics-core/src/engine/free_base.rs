@@ -63,20 +63,19 @@ impl<T, K> Engine<T, K> {
     /// about some axis.
     #[doc(alias = "recoil")]
     #[inline(never)]
-    pub fn base_velocity_from_momentum<R, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
+    pub fn base_velocity_from_momentum<R, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
         h: Force<R>,
-        effects: &E,
+        effects: &Effects,
     ) -> Result<[R; V], NotPositiveDefinite>
     where
         R: Real,
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
-        const { FreeScene::<R, E, B, V>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        const { FreeScene::<R, Effects, B, V>::TAKEN };
         let trig = state.configuration().trig_or(Self::trig_source());
         let (trig, state) = (trig.borrow(), state.state());
         let call = Self::call(trig, effects);
@@ -124,19 +123,18 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "floating base")]
     #[doc(alias = "hybrid dynamics")]
     #[inline(never)]
-    pub fn free_base_inverse_dynamics<R, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn free_base_inverse_dynamics<R, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> Result<JointResult<R, V>, NotPositiveDefinite>
     where
         R: Real,
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
-        const { FreeScene::<R, E, B, V>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        const { FreeScene::<R, Effects, B, V>::TAKEN };
         let trig = state.configuration().trig_or(Self::trig_source());
         let (trig, state) = (trig.borrow(), state.state());
         let call = Self::call(trig, effects);
@@ -155,11 +153,13 @@ impl<T, K> Engine<T, K> {
 }
 
 /// A scene that a base which nothing holds may have.
-struct FreeScene<R, E, const B: usize, const V: usize>(PhantomData<(R, E)>);
+struct FreeScene<R, Effects, const B: usize, const V: usize>(PhantomData<(R, Effects)>);
 
-impl<R: Real, E: Effect<R, B, V>, const B: usize, const V: usize> FreeScene<R, E, B, V> {
+impl<R: Real, Effects: Effect<R, B, V>, const B: usize, const V: usize>
+    FreeScene<R, Effects, B, V>
+{
     const TAKEN: () = assert!(
-        !E::GYROSCOPIC_ROTORS,
+        !Effects::GYROSCOPIC_ROTORS,
         "no rotors that spin as bodies here; name `Armature`"
     );
 }
@@ -190,41 +190,39 @@ fn step<R: Real, const V: usize>(
     Ok(step)
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     /// A force about the origin of the base of the description and along its axes, in the frame of the
     /// free body.
     #[cfg_attr(optimised, inline(always))]
-    fn in_base(&self, h: Force<R>) -> Force<R> {
-        let joint = CompiledJoint::<C, 0>::JOINT;
+    fn in_base(self, h: Force<R>) -> Force<R> {
+        let joint = CompiledJoint::<Tree, 0>::JOINT;
         let (rot, at) = (Mat3::constant(&joint.rot), self.displacement::<0>());
-        let origin = Vec3::constant(joint.pos) + at.shift::<C, 0>();
+        let origin = Vec3::constant(joint.pos) + at.shift();
         let lin = Vec3::runtime(h.lin);
-        let arm = origin.scale(Folded::constant(C::LENGTH));
+        let arm = origin.scale(Folded::constant(Tree::LENGTH));
         let ang = Vec3::runtime(h.ang) - arm.cross(lin);
-        Force::new(
-            at.enter::<C, 0>(&rot, ang).get(),
-            at.enter::<C, 0>(&rot, lin).get(),
-        )
+        Force::new(at.enter(&rot, ang).get(), at.enter(&rot, lin).get())
     }
 
     /// The composite inertia of the free body and its descendants in its own frame, and the columns of
     /// the descendants.
     #[cfg_attr(optimised, inline(always))]
-    fn composite(&self) -> (CompositeInertia<R>, Columns<R, V>) {
+    fn composite(self) -> (CompositeInertia<R>, Columns<R, V>) {
         const {
             assert!(
-                matches!(CompiledJoint::<C, 0>::MOTION, JointMotion::Free),
+                matches!(CompiledJoint::<Tree, 0>::MOTION, JointMotion::Free),
                 "the first joint of the robot is not free"
             );
         }
         let mut columns = [[R::ZERO; 6]; V];
         let all = self.with_descendants::<0>(&mut columns);
-        let length_inv = Folded::constant(C::LENGTH_INV);
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
         let s = all.second;
         let [x, y, z] = [
             Vec3([s.yy + s.zz, -s.xy, -s.xz]),
@@ -242,12 +240,12 @@ where
 
     /// The inertia of the body behind joint I and of its descendants, in its frame.
     #[cfg_attr(optimised, inline(always))]
-    fn with_descendants<const I: usize>(&self, columns: &mut Columns<R, V>) -> Inertia<R> {
+    fn with_descendants<const I: usize>(self, columns: &mut Columns<R, V>) -> Inertia<R> {
         let mut body = self.inertia::<I>(false);
         for_each_joint!(
             J,
-            JointPair::<C, I, J>::IS_CHILD,
-            child = Self::at_parent::<J> as fn(&_, &mut _) -> _,
+            JointPair::<Tree, I, J>::IS_CHILD,
+            child = Self::at_parent::<J> as fn(_, &mut _) -> _,
             {
                 body = body + child(self, columns);
             }
@@ -257,23 +255,23 @@ where
 
     /// The same in the frame of the parent; writes the joint's columns.
     #[cfg_attr(optimised, inline(always))]
-    fn at_parent<const I: usize>(&self, columns: &mut Columns<R, V>) -> Inertia<R> {
+    fn at_parent<const I: usize>(self, columns: &mut Columns<R, V>) -> Inertia<R> {
         let body = self.with_descendants::<I>(columns);
         for_each_joint!(K, {
-            if JointPair::<C, I, K>::IS_COORDINATE {
-                let length_inv = Folded::constant(C::LENGTH_INV);
-                let wrench = body.wrench_of(CompiledJoint::<C, K>::JOINT, length_inv);
+            if JointPair::<Tree, I, K>::IS_COORDINATE {
+                let length_inv = Folded::constant(Tree::LENGTH_INV);
+                let wrench = body.wrench_of(CompiledJoint::<Tree, K>::JOINT, length_inv);
                 let ([nx, ny, nz], [fx, fy, fz]) = (wrench.n.0, wrench.f.0);
                 columns[K] = [nx.get(), ny.get(), nz.get(), fx.get(), fy.get(), fz.get()];
             }
         });
-        body.to_parent::<C, I>(&self.displacement::<I>())
+        body.to_parent(&self.displacement::<I>())
     }
 
     /// Adds to the torques what the joints of the descendants need for an acceleration of the base.
     #[cfg_attr(optimised, inline(always))]
-    fn spread(&self, columns: &Columns<R, V>, step: &Motion<R>, tau: &mut [R; V]) {
-        let length_inv = Folded::constant(C::LENGTH_INV);
+    fn spread(self, columns: &Columns<R, V>, step: &Motion<R>, tau: &mut [R; V]) {
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
         let alpha = Vec3::runtime(step.ang);
         let a = Vec3::runtime(step.lin).scale(length_inv);
         self.to_children::<0>(columns, [alpha, a], tau);
@@ -282,17 +280,17 @@ where
     /// α and a of the body behind joint I reach its children.
     #[cfg_attr(optimised, inline(always))]
     fn to_children<const I: usize>(
-        &self,
+        self,
         columns: &Columns<R, V>,
         motion: [Vec3<R>; 2],
         tau: &mut [R; V],
     ) {
         for_each_joint!(J, {
-            if JointPair::<C, I, J>::IS_CHILD
+            if JointPair::<Tree, I, J>::IS_CHILD
                 && let Some(outward) = const {
                     only_if(
-                        JointPair::<C, I, J>::IS_CHILD,
-                        Self::outward::<J> as fn(&_, &_, _, &mut _),
+                        JointPair::<Tree, I, J>::IS_CHILD,
+                        Self::outward::<J> as fn(_, &_, _, &mut _),
                     )
                 }
             {
@@ -304,25 +302,22 @@ where
     /// Joint I and its descendants, from α and a of the parent.
     #[cfg_attr(optimised, inline(always))]
     fn outward<const I: usize>(
-        &self,
+        self,
         columns: &Columns<R, V>,
         [alpha, a]: [Vec3<R>; 2],
         tau: &mut [R; V],
     ) {
-        let joint = CompiledJoint::<C, I>::JOINT;
+        let joint = CompiledJoint::<Tree, I>::JOINT;
         let (rot, mut p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
         let at = self.displacement::<I>();
-        if CompiledJoint::<C, I>::SHIFTS {
-            p = p + at.shift::<C, I>();
+        if CompiledJoint::<Tree, I>::SHIFTS {
+            p = p + at.shift();
         }
-        let motion = [
-            at.enter::<C, I>(&rot, alpha),
-            at.enter::<C, I>(&rot, a + alpha.cross(p)),
-        ];
+        let motion = [at.enter(&rot, alpha), at.enter(&rot, a + alpha.cross(p))];
         for_each_joint!(K, {
-            if JointPair::<C, I, K>::IS_COORDINATE {
+            if JointPair::<Tree, I, K>::IS_COORDINATE {
                 let [nx, ny, nz, fx, fy, mut fz] = columns[K].map(Folded::runtime);
-                if CompiledJoint::<C, K>::IS_TURN {
+                if CompiledJoint::<Tree, K>::IS_TURN {
                     fz = Folded::ZERO;
                 }
                 let load = Vec3([nx, ny, nz]).dot(motion[0]) + Vec3([fx, fy, fz]).dot(motion[1]);

@@ -48,21 +48,20 @@ impl<T, K> Engine<T, K> {
     /// As [`Engine::forward_dynamics`], of the coordinates of given torque.
     #[doc(alias = "HD")]
     #[inline(never)]
-    pub fn hybrid_dynamics<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
+    pub fn hybrid_dynamics<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
         given: &[Prescribed<R>; V],
-        effects: &E,
+        effects: &Effects,
     ) -> Result<JointResult<R, V>, NotPositiveDefinite>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         const {
             assert!(
-                E::ACCELERATIONS,
+                Effects::ACCELERATIONS,
                 "forward dynamics needs `Inertia` in the scene"
             )
         };
@@ -72,15 +71,16 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     #[cfg_attr(optimised, inline(always))]
     fn hybrid(
-        &self,
+        self,
         state: &State<R, Q, V>,
         given: &[Prescribed<R>; V],
     ) -> Result<JointResult<R, V>, NotPositiveDefinite> {
@@ -103,7 +103,7 @@ where
             }
         });
         let mut rows = m.rows;
-        let held = times::<R, C, V>(&m, &qdd);
+        let held = times::<R, Tree, V>(&m, &qdd);
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
                 let at = self.joint_state::<J>(state);
@@ -112,17 +112,17 @@ where
                 if let Some(hold) = const {
                     only_if(
                         J < V,
-                        hold::<R, C, V, J> as fn(&mut [[R; V]; V], &[bool; V]),
+                        hold::<R, Tree, V, J> as fn(&mut [[R; V]; V], &[bool; V]),
                     )
                 } {
                     hold(&mut rows, &free);
                 }
             }
         });
-        let d_inv = decompose::<R, C, V>(&mut rows, &pivots, &[false; V])?;
-        substitute::<R, C, V>(&rows, &d_inv, &mut qdd);
+        let d_inv = decompose::<R, Tree, V>(&mut rows, &pivots, &[false; V])?;
+        substitute::<R, Tree, V>(&rows, &d_inv, &mut qdd);
 
-        let moved = times::<R, C, V>(&m, &qdd);
+        let moved = times::<R, Tree, V>(&m, &qdd);
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
                 let at = self.joint_state::<J>(state);
@@ -138,12 +138,12 @@ where
 /// Row J of M up to its diagonal, with the entries of the identity where J or the column's
 /// coordinate is not free.
 #[cfg_attr(optimised, inline(always))]
-fn hold<R: Real, C: Compiled, const V: usize, const J: usize>(
+fn hold<R: Real, Tree: Compiled, const V: usize, const J: usize>(
     rows: &mut [[R; V]; V],
     free: &[bool; V],
 ) {
     for_each_joint!(I, {
-        if JointPair::<C, I, J>::SUPPORTS {
+        if JointPair::<Tree, I, J>::SUPPORTS {
             let fixed = if I == J { R::ONE } else { R::ZERO };
             rows[J][I] = R::either(free[I] & free[J], rows[J][I], fixed);
         }
@@ -152,14 +152,14 @@ fn hold<R: Real, C: Compiled, const V: usize, const J: usize>(
 
 /// M x, without what is zero by the branches of the tree.
 #[cfg_attr(optimised, inline(always))]
-fn times<R: Real, C: Compiled, const V: usize>(m: &MassMatrix<R, V>, x: &[R; V]) -> [R; V] {
+fn times<R: Real, Tree: Compiled, const V: usize>(m: &MassMatrix<R, V>, x: &[R; V]) -> [R; V] {
     let mut product = [R::ZERO; V];
     for_each_joint!(J, {
         if Index::<J, V>::IS_BELOW
             && let Some(row) = const {
                 only_if(
                     J < V,
-                    row::<R, C, V, J> as fn(&MassMatrix<R, V>, &[R; V]) -> R,
+                    row::<R, Tree, V, J> as fn(&MassMatrix<R, V>, &[R; V]) -> R,
                 )
             }
         {
@@ -171,13 +171,13 @@ fn times<R: Real, C: Compiled, const V: usize>(m: &MassMatrix<R, V>, x: &[R; V])
 
 /// Row J of M times x.
 #[cfg_attr(optimised, inline(always))]
-fn row<R: Real, C: Compiled, const V: usize, const J: usize>(
+fn row<R: Real, Tree: Compiled, const V: usize, const J: usize>(
     m: &MassMatrix<R, V>,
     x: &[R; V],
 ) -> R {
     let mut sum = m.rows[J][J] * x[J];
     for_each_joint!(I, {
-        if JointPair::<C, I, J>::IS_ANCESTOR || JointPair::<C, J, I>::IS_ANCESTOR {
+        if JointPair::<Tree, I, J>::IS_ANCESTOR || JointPair::<Tree, J, I>::IS_ANCESTOR {
             sum += m.rows[J][I] * x[I];
         }
     });

@@ -108,15 +108,13 @@ use crate::model::{JointCoordinate, Robot};
 use crate::scalar::{Native, Real};
 use crate::state::{Configuration, JointTrig, RobotState, State, TrigSource};
 use crate::trig::{Kernel, VECTORS};
-pub(crate) use bending::{
-    BendingLink, BendingMode, Bends, MODES,
-};
+pub(crate) use bending::{BendingLink, BendingMode, Bends, MODES};
+pub(crate) use call::{Call, joint_state};
 pub(crate) use compile::{
     BendingTree, BodyPlacement, Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion,
     compile_bending, mat_add, outer, support,
 };
 use gate::EngineScene;
-pub(crate) use call::{Call, joint_state};
 pub(crate) use subtree::has_subtree_functions;
 
 /// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel
@@ -211,29 +209,40 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "ID")]
     #[doc(alias = "inverse dynamics")]
     #[inline(never)]
-    pub fn rnea<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn rnea<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> [R; V]
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let trig = state.configuration().trig_or(Self::trig_source());
         let trig = trig.borrow();
-        // Precomputed sines and cosines are loaded again on the inward pass: `black_box` hides from
-        // the compiler that both references are the same, since it would spill the loaded values to
-        // the stack. Not needed for gravity alone.
-        let back = if const { S::Configuration::PRECOMPUTED && E::VELOCITY_PRODUCTS | E::ACCELERATIONS }
-        {
-            black_box(trig)
+        // Not needed for gravity alone.
+        let back = if const { Effects::VELOCITY_PRODUCTS | Effects::ACCELERATIONS } {
+            loaded_again(&state, trig)
         } else {
             trig
         };
         Self::call(trig, effects).torques(&back.coordinates, state.state())
+    }
+}
+
+/// The same sines and cosines. Precomputed ones are loaded again on the inward pass: `black_box`
+/// hides from the compiler that both references are the same, since it would spill the loaded values
+/// to the stack.
+#[cfg_attr(optimised, inline(always))]
+fn loaded_again<'a, R: Real, State: RobotState<R, Q, V>, const Q: usize, const V: usize>(
+    _: &State,
+    trig: &'a JointTrig<R, Q>,
+) -> &'a JointTrig<R, Q> {
+    if const { State::Configuration::PRECOMPUTED } {
+        black_box(trig)
+    } else {
+        trig
     }
 }
 
@@ -256,17 +265,17 @@ impl<T> Engine<T> {
     /// The recursion of [`rnea`] for clusters, whose sines are known; `back` is `trig` as the
     /// inward pass loads it.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn run<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    pub(crate) fn run<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
         trig: &JointTrig<R, Q>,
         back: &JointTrig<R, Q>,
         state: &State<R, Q, V>,
-        effects: &E,
+        effects: &Effects,
     ) -> [R; V]
     where
         T: Robot<B, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         // Not a constant, as in `torques`: where sines are known it costs instructions (decision
         // 13).
         let mut tau = [R::ZERO; V];

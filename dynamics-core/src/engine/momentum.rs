@@ -7,7 +7,6 @@
 //! velocities.
 
 use core::borrow::Borrow;
-use core::hint::black_box;
 
 use super::acceleration_field::{AccelerationField, Inertia, Wrench, along_z};
 use super::call::Call;
@@ -16,7 +15,7 @@ use super::displacement::Displacement;
 use super::folding::{Folded, Vec3};
 use super::gate::EngineScene;
 use super::joint_rates::{JointRates, SeveralRates, Twist};
-use super::{Engine, only_if};
+use super::{Engine, loaded_again, only_if};
 use crate::algorithms::{MomentumAndCoriolis, MomentumAndDrift};
 use crate::effects::{Declared, Effect};
 use crate::model::{JointCoordinate, Robot};
@@ -48,18 +47,21 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[doc(alias = "momentum observer")]
     #[inline(never)]
-    pub fn momentum_and_coriolis<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn momentum_and_coriolis<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> MomentumAndCoriolis<R, V>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
-        let MomentumAndDrift { p, beta } = Self::momenta::<R, S, E, B, Q, V, false>(state, effects);
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        let trig = state.configuration().trig_or(Self::trig_source());
+        let trig = trig.borrow();
+        let back = &loaded_again(&state, trig).coordinates;
+        let MomentumAndDrift { p, beta } =
+            Self::call(trig, effects).momenta::<false>(back, state.state());
         MomentumAndCoriolis { p, ct_qd: beta }
     }
 
@@ -89,54 +91,34 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[doc(alias = "momentum observer")]
     #[inline(never)]
-    pub fn momentum_and_drift<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn momentum_and_drift<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> MomentumAndDrift<R, V>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
-        Self::momenta::<R, S, E, B, Q, V, true>(state, effects)
-    }
-
-    /// p and β, or p and Cᵀ q̇ if there is no DRIFT.
-    #[cfg_attr(optimised, inline(always))]
-    fn momenta<R: Real, S, E, const B: usize, const Q: usize, const V: usize, const DRIFT: bool>(
-        state: S,
-        effects: &E,
-    ) -> MomentumAndDrift<R, V>
-    where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
-    {
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let trig = state.configuration().trig_or(Self::trig_source());
         let trig = trig.borrow();
-        // As in `rnea`.
-        let back = if const { S::Configuration::PRECOMPUTED } {
-            black_box(trig)
-        } else {
-            trig
-        };
-        Self::call(trig, effects).momenta::<DRIFT>(&back.coordinates, state.state())
+        let back = &loaded_again(&state, trig).coordinates;
+        Self::call(trig, effects).momenta::<true>(back, state.state())
     }
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
-    /// The recursion of p and β; `back` are the positions as they are loaded on returning.
+    /// The recursion of p and β, or of p and Cᵀ q̇ without DRIFT; `back` are the positions as they are loaded on returning.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn momenta<const DRIFT: bool>(
-        &self,
+        self,
         back: &[JointCoordinate<R>; Q],
         state: &State<R, Q, V>,
     ) -> MomentumAndDrift<R, V> {
@@ -159,7 +141,7 @@ where
         };
         for_each_joint!(
             J,
-            CompiledJoint::<C, J>::IS_ON_BASE,
+            CompiledJoint::<Tree, J>::IS_ON_BASE,
             visit = Task::visit::<DRIFT, J> as fn(&mut _, &_) -> _,
             {
                 visit(&mut task, &base);
@@ -170,8 +152,8 @@ where
 }
 
 /// The data that all bodies share.
-struct Task<'a, R: Real, C, E, const B: usize, const Q: usize, const V: usize> {
-    call: &'a Call<'a, R, C, E, B, Q, V>,
+struct Task<'a, R: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, Tree, Effects, B, Q, V>,
     /// The positions of the call, loaded again on returning.
     back: &'a [JointCoordinate<R>; Q],
     state: &'a State<R, Q, V>,
@@ -186,11 +168,12 @@ struct Carried<R> {
     load: Wrench<R>,
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Task<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Task<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     /// Visits joint I and its descendants; returns what they carry about the origin of the parent, in
     /// its frame.
@@ -201,8 +184,8 @@ where
     ) -> Carried<R> {
         let at = self.call.displacement::<I>();
         let mut body = self.across::<I>(parent, &at);
-        if DRIFT && E::BODY_POSE {
-            body.pose = parent.pose.transformed_by::<C, I>(&at);
+        if DRIFT && Effects::BODY_POSE {
+            body.pose = parent.pose.transformed_by(&at);
         }
 
         let mut inner = Carried {
@@ -211,7 +194,7 @@ where
         };
         for_each_joint!(
             J,
-            JointPair::<C, I, J>::IS_CHILD,
+            JointPair::<Tree, I, J>::IS_CHILD,
             visit = Self::visit::<DRIFT, J> as fn(&mut _, &_) -> Carried<R>,
             {
                 let child = visit(self, &body);
@@ -224,14 +207,14 @@ where
 
         // After the children: until then the velocity takes fewer registers than the momentum beside
         // it.
-        let own = self.call.inertia::<I>(E::BASE_MOTION);
+        let own = self.call.inertia::<I>(Effects::BASE_MOTION);
         let h = momentum(&body, &own) + inner.h;
         let driven = self.call.felt::<I>(h, parent.omega);
-        if CompiledJoint::<C, I>::COUNT == 1 {
+        if CompiledJoint::<Tree, I>::COUNT == 1 {
             self.entries::<I>(&body, &driven);
         } else if let Some(entries) = const {
             only_if(
-                CompiledJoint::<C, I>::COUNT > 1,
+                CompiledJoint::<Tree, I>::COUNT > 1,
                 Self::several_entries::<I> as fn(&mut _, &_, &_),
             )
         } {
@@ -240,28 +223,28 @@ where
         let mut load = Wrench::ZERO;
         if DRIFT {
             load = body.wrench(&own);
-            if E::WRENCH {
+            if Effects::WRENCH {
                 load = self.call.environment::<I>(&body, load);
             }
             load = load + inner.load;
-            if CompiledJoint::<C, I>::COUNT == 1 {
+            if CompiledJoint::<Tree, I>::COUNT == 1 {
                 self.hold::<I>(&load);
             } else if let Some(hold) = const {
                 only_if(
-                    CompiledJoint::<C, I>::COUNT > 1,
+                    CompiledJoint::<Tree, I>::COUNT > 1,
                     Self::hold_several::<I> as fn(&mut _, &_),
                 )
             } {
                 hold(self, &load);
             }
         }
-        let turn = self.back[CompiledJoint::<C, I>::Q];
+        let turn = self.back[CompiledJoint::<Tree, I>::Q];
         let at = at.with_turn(turn);
         let spin = self.call.coupling::<I>() * Folded::runtime(self.state.qd[I]);
         let h = self.call.borne(h, along_z(spin));
         Carried {
-            h: h.to_parent::<C, I>(&at),
-            load: load.to_parent::<C, I>(&at),
+            h: h.to_parent(&at),
+            load: load.to_parent(&at),
         }
     }
 
@@ -270,33 +253,33 @@ where
     fn across<const I: usize>(
         &self,
         parent: &AccelerationField<R>,
-        at: &Displacement<R>,
+        at: &Displacement<R, Tree, I>,
     ) -> AccelerationField<R> {
-        if CompiledJoint::<C, I>::COUNT > 1 {
+        if CompiledJoint::<Tree, I>::COUNT > 1 {
             let rates = SeveralRates {
-                velocity: Twist::of::<C, V, I>(&self.state.qd, true),
+                velocity: Twist::of::<Tree, V, I>(&self.state.qd, true),
                 products: Twist::ZERO,
                 accel: Twist::ZERO,
             };
-            return parent.across_several::<C, I>(at, &rates);
+            return parent.across_several(at, &rates);
         }
         let mut rates = JointRates {
             velocity: Folded::runtime(self.state.qd[I]),
             omega_products: Folded::ZERO,
             accel: Folded::ZERO,
         };
-        if CompiledJoint::<C, I>::PRISMATIC {
-            rates.velocity = rates.velocity * Folded::constant(C::LENGTH_INV);
+        if CompiledJoint::<Tree, I>::PRISMATIC {
+            rates.velocity = rates.velocity * Folded::constant(Tree::LENGTH_INV);
         }
-        parent.across::<C, I>(at, rates)
+        parent.across(at, rates)
     }
 
     /// The entries of p and of Cᵀ q̇ of coordinate I, whose body moves as `body` and has with its
     /// descendants the momentum `h`.
     #[cfg_attr(optimised, inline(always))]
     fn entries<const I: usize>(&mut self, body: &AccelerationField<R>, h: &Wrench<R>) {
-        let joint = CompiledJoint::<C, I>::JOINT;
-        let length_inv = Folded::constant(C::LENGTH_INV);
+        let joint = CompiledJoint::<Tree, I>::JOINT;
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
         let mut p = h.along(joint, length_inv).get();
         if let Some(armature) = self.call.effects.inertia(I) {
             p += armature * self.state.qd[I];
@@ -310,7 +293,7 @@ where
     fn several_entries<const I: usize>(&mut self, body: &AccelerationField<R>, h: &Wrench<R>) {
         for_each_joint!(
             K,
-            JointPair::<C, I, K>::IS_COORDINATE,
+            JointPair::<Tree, I, K>::IS_COORDINATE,
             entries = Self::entries::<K> as fn(&mut _, &_, &_),
             {
                 entries(self, body, h);
@@ -322,9 +305,11 @@ where
     /// need.
     #[cfg_attr(optimised, inline(always))]
     fn hold<const I: usize>(&mut self, load: &Wrench<R>) {
-        let length_inv = Folded::constant(C::LENGTH_INV);
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
         let at = self.call.joint_state::<I>(self.state);
-        let mut held = load.along(CompiledJoint::<C, I>::JOINT, length_inv).get();
+        let mut held = load
+            .along(CompiledJoint::<Tree, I>::JOINT, length_inv)
+            .get();
         self.call.effects.torque(I, at, &mut held);
         self.result.beta[I] -= held;
     }
@@ -334,7 +319,7 @@ where
     fn hold_several<const I: usize>(&mut self, load: &Wrench<R>) {
         for_each_joint!(
             K,
-            JointPair::<C, I, K>::IS_COORDINATE,
+            JointPair::<Tree, I, K>::IS_COORDINATE,
             hold = Self::hold::<K> as fn(&mut _, &_),
             {
                 hold(self, load);
@@ -345,14 +330,14 @@ where
     /// The entry of Cᵀ q̇ of a coordinate: (v × S)ᵀ h = −Sᵀ (v ×* h).
     #[cfg_attr(optimised, inline(always))]
     fn rate<const I: usize>(body: &AccelerationField<R>, h: &Wrench<R>) -> Folded<R> {
-        let length_inv = Folded::constant(C::LENGTH_INV);
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
         if matches!(
-            CompiledJoint::<C, I>::MOTION,
+            CompiledJoint::<Tree, I>::MOTION,
             JointMotion::Turn | JointMotion::Slide
         ) {
             let ([wx, wy, _], [vx, vy, _]) = (body.omega.0, body.v.0);
             let ([fx, fy, _], [nx, ny, _]) = (h.f.0, h.n.0);
-            return if CompiledJoint::<C, I>::PRISMATIC {
+            return if CompiledJoint::<Tree, I>::PRISMATIC {
                 (wy * fx - wx * fy) * length_inv
             } else {
                 wy * nx - wx * ny + (vy * fx - vx * fy)
@@ -362,7 +347,7 @@ where
             f: h.f.cross(body.omega),
             n: h.n.cross(body.omega) + h.f.cross(body.v),
         };
-        back.along(CompiledJoint::<C, I>::JOINT, length_inv)
+        back.along(CompiledJoint::<Tree, I>::JOINT, length_inv)
     }
 }
 

@@ -53,8 +53,6 @@ impl<T, K> Engine<T, K> {
     #[inline(never)]
     pub fn operational_space<
         R: Real,
-        E,
-        F: Frame,
         const M: usize,
         const BODY: usize,
         const B: usize,
@@ -62,17 +60,15 @@ impl<T, K> Engine<T, K> {
         const V: usize,
     >(
         q: &impl Configuration<R, Q>,
-        (body, frame): (OnBody<BODY>, F),
+        (body, frame): (OnBody<BODY>, impl Frame),
         directions: &[Force<R>; M],
-        effects: &E,
+        effects: &impl Effect<R, B, V>,
         damping: Damping<R>,
     ) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
         let trig = q.trig_or(Self::trig_source());
         let trig: &JointTrig<R, Q> = trig.borrow();
         let rows = task_jacobian(&Self::jacobian(trig, body, frame), directions);
@@ -111,7 +107,7 @@ impl<T, K> Engine<T, K> {
     #[inline(never)]
     pub fn operational_space_of_rows<
         R: Real,
-        E,
+        Effects,
         const M: usize,
         const B: usize,
         const Q: usize,
@@ -119,15 +115,15 @@ impl<T, K> Engine<T, K> {
     >(
         q: &impl Configuration<R, Q>,
         rows: [[R; V]; M],
-        effects: &E,
+        effects: &Effects,
         damping: Damping<R>,
     ) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let trig = q.trig_or(Self::trig_source());
         Self::of_rows(trig.borrow(), rows, effects, damping)
     }
@@ -163,8 +159,7 @@ impl<T, K> Engine<T, K> {
     #[inline(never)]
     pub fn osim_inverse<
         R: Real,
-        E,
-        F: Frame,
+        Effects,
         const BODY: usize,
         const B: usize,
         const Q: usize,
@@ -172,15 +167,15 @@ impl<T, K> Engine<T, K> {
     >(
         q: &impl Configuration<R, Q>,
         body: OnBody<BODY>,
-        frame: F,
-        effects: &E,
+        frame: impl Frame,
+        effects: &Effects,
     ) -> Result<OsimInverse<R>, NotPositiveDefinite>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let trig = q.trig_or(Self::trig_source());
         let trig: &JointTrig<R, Q> = trig.borrow();
         let factors = Self::ltdl(&Self::crba(trig, effects))?;
@@ -193,16 +188,16 @@ impl<T, K> Engine<T, K> {
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn of_rows<R: Real, E, const M: usize, const B: usize, const Q: usize, const V: usize>(
+    fn of_rows<R: Real, Effects, const M: usize, const B: usize, const Q: usize, const V: usize>(
         trig: &JointTrig<R, Q>,
         rows: [[R; V]; M],
-        effects: &E,
+        effects: &Effects,
         damping: Damping<R>,
     ) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
         let factors = Self::ltdl(&Self::crba(trig, effects))?;
         let solve = |tau: &_| Self::solve(&factors, tau);
@@ -212,18 +207,18 @@ impl<T, K> Engine<T, K> {
 
 /// Λ⁻¹ of a body from the columns of its J, which become those of J L⁻¹, in place.
 #[cfg_attr(optimised, inline(always))]
-fn mobility<R: Real, C: Compiled, const V: usize, const BODY: usize>(
+fn mobility<R: Real, Tree: Compiled, const V: usize, const BODY: usize>(
     l: &[[R; V]; V],
     d_inv: &[R; V],
     columns: &mut [Motion<R>; V],
 ) -> OsimInverse<R> {
     let mut mobility = OsimInverse::ZERO;
     for_each_joint_reversed!(I, {
-        if JointAndBody::<C, I, BODY>::SUPPORTS
+        if JointAndBody::<Tree, I, BODY>::SUPPORTS
             && let Some(scatter) = const {
                 only_if(
-                    JointAndBody::<C, I, BODY>::SUPPORTS,
-                    scatter::<R, C, V, I> as fn(&[[R; V]; V], &mut [Motion<R>; V]),
+                    JointAndBody::<Tree, I, BODY>::SUPPORTS,
+                    scatter::<R, Tree, V, I> as fn(&[[R; V]; V], &mut [Motion<R>; V]),
                 )
             }
         {
@@ -236,12 +231,12 @@ fn mobility<R: Real, C: Compiled, const V: usize, const BODY: usize>(
 
 /// Subtracts from the columns of joint I's ancestors its own, times their entries of L.
 #[cfg_attr(optimised, inline(always))]
-fn scatter<R: Real, C: Compiled, const V: usize, const I: usize>(
+fn scatter<R: Real, Tree: Compiled, const V: usize, const I: usize>(
     l: &[[R; V]; V],
     columns: &mut [Motion<R>; V],
 ) {
     for_each_joint!(J, {
-        if JointPair::<C, J, I>::IS_ANCESTOR {
+        if JointPair::<Tree, J, I>::IS_ANCESTOR {
             columns[J] -= columns[I] * l[I][J];
         }
     });

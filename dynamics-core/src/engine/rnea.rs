@@ -19,23 +19,24 @@ use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::State;
 
 /// The data that all bodies share.
-pub(crate) struct Task<'a, R: Real, C, E, const B: usize, const Q: usize, const V: usize> {
-    pub(super) call: Call<'a, R, C, E, B, Q, V>,
+pub(crate) struct Task<'a, R: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    pub(super) call: Call<'a, R, Tree, Effects, B, Q, V>,
     /// The positions of the call, loaded again in the inward pass where registers are short.
     pub(super) back: &'a [JointCoordinate<R>; Q],
     pub(super) state: &'a State<R, Q, V>,
     pub(super) tau: &'a mut [R; V],
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     /// The recursion of inverse dynamics; `back` are the positions as the inward pass loads them.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn torques(&self, back: &[JointCoordinate<R>; Q], state: &State<R, Q, V>) -> [R; V] {
+    pub(crate) fn torques(self, back: &[JointCoordinate<R>; Q], state: &State<R, Q, V>) -> [R; V] {
         // A constant: behind a loop that clears the torques the compiler would reverse the order of the
         // sines and spill more of them.
         let mut tau = const { [R::ZERO; V] };
@@ -46,21 +47,24 @@ where
     /// The torques of [`torques`], written into `tau`, which holds zeros.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn write_torques(
-        &self,
+        self,
         back: &[JointCoordinate<R>; Q],
         state: &State<R, Q, V>,
         tau: &mut [R; V],
     ) {
         let base = self.base();
         let mut task = Task {
-            call: self.under(self.effects),
+            call: self,
             back,
             state,
             tau,
         };
         for_each_joint!(
             J,
-            const { CompiledJoint::<C, J>::IS_ON_BASE && !has_subtree_functions::<C>(E::WRENCH) },
+            const {
+                CompiledJoint::<Tree, J>::IS_ON_BASE
+                    && !has_subtree_functions::<Tree>(Effects::WRENCH)
+            },
             visit = Task::visit::<J> as fn(&mut _, &_) -> _,
             {
                 visit(&mut task, &base);
@@ -68,7 +72,10 @@ where
         );
         for_each_joint!(
             J,
-            const { CompiledJoint::<C, J>::IS_ON_BASE && has_subtree_functions::<C>(E::WRENCH) },
+            const {
+                CompiledJoint::<Tree, J>::IS_ON_BASE
+                    && has_subtree_functions::<Tree>(Effects::WRENCH)
+            },
             visit = Task::root_subtree::<J> as fn(&mut _),
             {
                 visit(&mut task);
@@ -77,33 +84,34 @@ where
     }
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Task<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Task<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     /// Visits joint I and its descendants; returns the wrench that they need from the parent, in its
     /// frame.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn visit<const I: usize>(&mut self, parent: &AccelerationField<R>) -> Wrench<R> {
         let (at, mut field) = self.across::<I>(parent);
-        if E::BODY_POSE {
-            field.pose = parent.pose.transformed_by::<C, I>(&at);
+        if Effects::BODY_POSE {
+            field.pose = parent.pose.transformed_by(&at);
         }
-        let body = self.call.inertia::<I>(E::BASE_MOTION);
+        let body = self.call.inertia::<I>(Effects::BASE_MOTION);
         let mut total = field.wrench(&body);
         if const { Self::is_round::<I>() } {
-            let second = &CompiledJoint::<C, I>::JOINT.second;
+            let second = &CompiledJoint::<Tree, I>::JOINT.second;
             total.n.0[2] = field.alpha.0[2] * Folded::constant(second.x_axis.x + second.y_axis.y);
         }
-        if E::WRENCH {
+        if Effects::WRENCH {
             total = self.call.environment::<I>(&field, total);
         }
 
         for_each_joint!(
             J,
-            JointPair::<C, I, J>::IS_CHILD,
+            JointPair::<Tree, I, J>::IS_CHILD,
             visit = Self::visit_child::<I, J> as fn(&mut _, &_) -> Wrench<R>,
             {
                 let child = visit(self, &field);
@@ -114,14 +122,14 @@ where
             }
         );
 
-        if CompiledJoint::<C, I>::COUNT == 1 {
+        if CompiledJoint::<Tree, I>::COUNT == 1 {
             let felt = self.call.felt::<I>(total, parent.alpha);
             self.drive::<I>(&felt);
             let couple = self.spin::<I>(&field);
             total = self.call.borne(total, couple);
         } else if let Some(drive) = const {
             only_if(
-                CompiledJoint::<C, I>::COUNT > 1,
+                CompiledJoint::<Tree, I>::COUNT > 1,
                 Self::drive_several::<I> as fn(&mut _, &_),
             )
         } {
@@ -129,14 +137,14 @@ where
         }
 
         if const { Self::is_round::<I>() } {
-            return total.turned_to_parent::<C, I>(&at);
+            return total.turned_to_parent(&at);
         }
-        let turn = if C::LOADS_SINES_AGAIN {
-            self.back[CompiledJoint::<C, I>::Q]
+        let turn = if Tree::LOADS_SINES_AGAIN {
+            self.back[CompiledJoint::<Tree, I>::Q]
         } else {
             at.turn
         };
-        total.to_parent::<C, I>(&at.with_turn(turn))
+        total.to_parent(&at.with_turn(turn))
     }
 
     /// The displacement of joint I, and the field of the body behind it from that of the parent.
@@ -144,52 +152,55 @@ where
     fn across<const I: usize>(
         &self,
         parent: &AccelerationField<R>,
-    ) -> (Displacement<R>, AccelerationField<R>) {
-        let joint = CompiledJoint::<C, I>::JOINT;
+    ) -> (Displacement<R, Tree, I>, AccelerationField<R>) {
+        let joint = CompiledJoint::<Tree, I>::JOINT;
         let (qd, qdd) = (&self.state.qd, &self.state.qdd);
-        if CompiledJoint::<C, I>::COUNT > 1 {
+        if CompiledJoint::<Tree, I>::COUNT > 1 {
             let rates = SeveralRates {
-                velocity: Twist::of::<C, V, I>(qd, E::BODY_VELOCITY),
-                products: Twist::of::<C, V, I>(qd, E::VELOCITY_PRODUCTS),
-                accel: Twist::of::<C, V, I>(qdd, E::ACCELERATIONS),
+                velocity: Twist::of::<Tree, V, I>(qd, Effects::BODY_VELOCITY),
+                products: Twist::of::<Tree, V, I>(qd, Effects::VELOCITY_PRODUCTS),
+                accel: Twist::of::<Tree, V, I>(qdd, Effects::ACCELERATIONS),
             };
             let at = self.call.displacement::<I>();
-            return (at, parent.across_several::<C, I>(&at, &rates));
+            let field = parent.across_several(&at, &rates);
+            return (at, field);
         }
         // Rates are loaded before sines and cosines, and q̈ first: less is spilled.
         let (qdd, qd) = (qdd[I], qd[I]);
         let unit = if joint.prismatic {
-            Folded::constant(C::LENGTH_INV)
+            Folded::constant(Tree::LENGTH_INV)
         } else {
             Folded::constant(1.0)
         };
         let rates = JointRates {
-            velocity: Folded::runtime_if(E::BODY_VELOCITY, qd) * unit,
-            omega_products: Folded::runtime_if(E::VELOCITY_PRODUCTS, qd) * unit,
-            accel: Folded::runtime_if(E::ACCELERATIONS, qdd) * unit,
+            velocity: Folded::runtime_if(Effects::BODY_VELOCITY, qd) * unit,
+            omega_products: Folded::runtime_if(Effects::VELOCITY_PRODUCTS, qd) * unit,
+            accel: Folded::runtime_if(Effects::ACCELERATIONS, qdd) * unit,
         };
         let at = self.call.displacement::<I>();
         if const { Self::is_round::<I>() } {
             // No turn changes what this body does to the others.
-            return (at, parent.across_revolute::<false>(joint, at.turn, rates));
+            let field = parent.across_revolute::<false>(joint, at.turn, rates);
+            return (at, field);
         }
-        (at, parent.across::<C, I>(&at, rates))
+        let field = parent.across(&at, rates);
+        (at, field)
     }
 
     /// Whether nothing in the scene feels how far the last body behind joint I has turned.
     const fn is_round<const I: usize>() -> bool {
-        CompiledJoint::<C, I>::IS_ROUND
-            && !(E::WRENCH || E::GYROSCOPIC_ROTORS)
-            && E::BASE_PARAMETERS == 0
-            && loads::<C>(I, &E::PAYLOAD) == 0
+        CompiledJoint::<Tree, I>::IS_ROUND
+            && !(Effects::WRENCH || Effects::GYROSCOPIC_ROTORS)
+            && Effects::BASE_PARAMETERS == 0
+            && loads::<Tree>(I, &Effects::PAYLOAD) == 0
     }
 
     /// ρ I (q̈ z + q̇ ω × z): the couple that the parent exerts on the rotor of joint I.
     #[cfg_attr(optimised, inline(always))]
     fn spin<const I: usize>(&self, field: &AccelerationField<R>) -> Vec3<R> {
         let coupling = self.call.coupling::<I>();
-        let qd = Folded::runtime_if(E::VELOCITY_PRODUCTS, self.state.qd[I]);
-        let qdd = Folded::runtime_if(E::ACCELERATIONS, self.state.qdd[I]);
+        let qd = Folded::runtime_if(Effects::VELOCITY_PRODUCTS, self.state.qd[I]);
+        let qdd = Folded::runtime_if(Effects::ACCELERATIONS, self.state.qdd[I]);
         along_z(coupling * qdd) + field.omega_products.cross(along_z(coupling * qd))
     }
 
@@ -197,8 +208,10 @@ where
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn drive<const I: usize>(&mut self, total: &Wrench<R>) {
         let at = self.call.joint_state::<I>(self.state);
-        let length_inv = Folded::constant(C::LENGTH_INV);
-        let mut tau = total.along(CompiledJoint::<C, I>::JOINT, length_inv).get();
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
+        let mut tau = total
+            .along(CompiledJoint::<Tree, I>::JOINT, length_inv)
+            .get();
         self.call.effects.torque(I, at, &mut tau);
         if let Some(inertia) = self.call.effects.inertia(I) {
             tau += inertia * self.state.qdd[I];
@@ -212,7 +225,7 @@ where
     fn drive_several<const I: usize>(&mut self, total: &Wrench<R>) {
         for_each_joint!(
             K,
-            JointPair::<C, I, K>::IS_COORDINATE,
+            JointPair::<Tree, I, K>::IS_COORDINATE,
             drive = Self::drive::<K> as fn(&mut _, &_),
             {
                 drive(self, total);
@@ -221,39 +234,40 @@ where
     }
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     /// The inertia of the body behind joint I, with its payloads; all of Σ if the base moves.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn inertia<const I: usize>(&self, base_moves: bool) -> Inertia<R> {
+    pub(crate) fn inertia<const I: usize>(self, base_moves: bool) -> Inertia<R> {
         let body = self.own_inertia::<I>(base_moves);
         self.with_payloads::<I>(body)
     }
 
     /// The same in M, and the inertia that only the rotation of its own joint feels.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn matrix_inertia<const I: usize>(&self) -> (Inertia<R>, Folded<R>) {
+    pub(crate) fn matrix_inertia<const I: usize>(self) -> (Inertia<R>, Folded<R>) {
         // Those of M are known at compile time only.
-        let (body, spin) = if const { E::BASE_PARAMETERS > 0 } {
+        let (body, spin) = if const { Effects::BASE_PARAMETERS > 0 } {
             let body = self.own_inertia::<I>(false);
             (body, Folded::ZERO)
         } else {
-            let joint = CompiledJoint::<C, I>::BODY;
+            let joint = CompiledJoint::<Tree, I>::BODY;
             (Inertia::in_matrix(joint), Folded::constant(joint.spin))
         };
         (self.with_payloads::<I>(body), spin)
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn with_payloads<const I: usize>(&self, body: Inertia<R>) -> Inertia<R> {
+    fn with_payloads<const I: usize>(self, body: Inertia<R>) -> Inertia<R> {
         match const {
             only_if(
-                loads::<C>(last::<C>(I), &E::PAYLOAD) > 0,
-                Self::loaded::<I> as fn(&_, _) -> _,
+                loads::<Tree>(last::<Tree>(I), &Effects::PAYLOAD) > 0,
+                Self::loaded::<I> as fn(_, _) -> _,
             )
         } {
             Some(loaded) => loaded(self, body),
@@ -263,17 +277,17 @@ where
 
     /// The same without payloads: the description's, or that of the loaded base parameters.
     #[cfg_attr(optimised, inline(always))]
-    fn own_inertia<const I: usize>(&self, base_moves: bool) -> Inertia<R> {
-        let joint = CompiledJoint::<C, I>::BODY;
-        if const { E::BASE_PARAMETERS > 0 } {
+    fn own_inertia<const I: usize>(self, base_moves: bool) -> Inertia<R> {
+        let joint = CompiledJoint::<Tree, I>::BODY;
+        if const { Effects::BASE_PARAMETERS > 0 } {
             let mut body = RegroupedInertia::default();
             call_hook!(
-                E::REGROUPED.load,
+                Effects::REGROUPED.load,
                 self.effects,
-                CompiledJoint::<C, I>::LAST,
+                CompiledJoint::<Tree, I>::LAST,
                 &mut body
             );
-            Inertia::loaded(&body, CompiledJoint::<C, I>::FIRST, base_moves)
+            Inertia::loaded(&body, CompiledJoint::<Tree, I>::FIRST, base_moves)
         } else if base_moves {
             Inertia::second_moment_only(joint)
         } else {
@@ -284,19 +298,19 @@ where
     /// Adds the payloads of the bodies on joint I, which are given in those bodies' own frames, to its
     /// inertia.
     #[cfg_attr(optimised, inline(always))]
-    fn loaded<const I: usize>(&self, mut body: Inertia<R>) -> Inertia<R> {
+    fn loaded<const I: usize>(self, mut body: Inertia<R>) -> Inertia<R> {
         const {
             assert!(
-                loads::<C>(last::<C>(I), &E::PAYLOAD) <= 32,
+                loads::<Tree>(last::<Tree>(I), &Effects::PAYLOAD) <= 32,
                 "the engine takes up to 32 bodies with payloads on one joint; use `Core`"
             )
         };
         for_each_joint!(K, {
-            if const { K < loads::<C>(last::<C>(I), &E::PAYLOAD) } {
-                let of = const { load::<C>(last::<C>(I), K, &E::PAYLOAD) };
+            if const { K < loads::<Tree>(last::<Tree>(I), &Effects::PAYLOAD) } {
+                let of = const { load::<Tree>(last::<Tree>(I), K, &Effects::PAYLOAD) };
                 let place = const {
-                    let of = load::<C>(last::<C>(I), K, &E::PAYLOAD);
-                    &place::<C>(of)
+                    let of = load::<Tree>(last::<Tree>(I), K, &Effects::PAYLOAD);
+                    &place::<Tree>(of)
                 };
                 body = self.with_load(of, place, body);
             }
@@ -306,11 +320,11 @@ where
 
     /// Adds the payload of one body, at `place`.
     #[cfg_attr(optimised, inline(always))]
-    fn with_load(&self, of: usize, place: &'static BodyPlacement, body: Inertia<R>) -> Inertia<R> {
+    fn with_load(self, of: usize, place: &'static BodyPlacement, body: Inertia<R>) -> Inertia<R> {
         let (rot, d) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
-        let length = Folded::constant(C::LENGTH);
+        let length = Folded::constant(Tree::LENGTH);
         let mut load = SpatialInertia::ZERO;
-        call_hook!(E::ADDED_INERTIA.add, self.effects, of, &mut load);
+        call_hook!(Effects::ADDED_INERTIA.add, self.effects, of, &mut load);
         let mass = Folded::runtime(load.mass) * length * length;
         let h = rot.mul(Vec3::runtime(load.first_moment)).scale(length);
         // Σ = ½ tr(Ī) 1 − Ī, turned and moved to the joint's frame.
@@ -342,21 +356,21 @@ where
     /// Subtracts the wrenches fˣ of the bodies on joint I.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn environment<const I: usize>(
-        &self,
+        self,
         field: &AccelerationField<R>,
         mut total: Wrench<R>,
     ) -> Wrench<R> {
         // Evaluated in scenes without wrenches, too, where their number does not matter.
         const {
             assert!(
-                !E::WRENCH || CompiledJoint::<C, I>::BODIES <= 32,
+                !Effects::WRENCH || CompiledJoint::<Tree, I>::BODIES <= 32,
                 "the engine takes wrenches on up to 32 bodies that move with one joint; use `Core`"
             )
         };
         // Body by body: in a loop their places would be no constants, and nothing would fold.
         for_each_joint!(K, {
-            if JointPair::<C, I, K>::HAS_BODY {
-                let (body, place) = JointPair::<C, I, K>::BODY;
+            if JointPair::<Tree, I, K>::HAS_BODY {
+                let (body, place) = JointPair::<Tree, I, K>::BODY;
                 let fx = self.exerted(*body, place, field);
                 total = Wrench {
                     f: total.f - fx.f,
@@ -370,31 +384,36 @@ where
     /// The wrench fˣ of one body, which the effects give in its own frame, in that of its joint.
     #[cfg_attr(optimised, inline(always))]
     fn exerted(
-        &self,
+        self,
         body: usize,
         place: &'static BodyPlacement,
         field: &AccelerationField<R>,
     ) -> Wrench<R> {
-        let length = Folded::constant(C::LENGTH);
+        let length = Folded::constant(Tree::LENGTH);
         let (rot, pos) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
         let mut at = BodyState {
             pose: Xform::IDENTITY,
             velocity: Motion::ZERO,
             base: None,
         };
-        if E::BASE_MOTION && E::BODY_VELOCITY {
+        if Effects::BASE_MOTION && Effects::BODY_VELOCITY {
             let (mut base, mut acceleration) = (Motion::ZERO, Motion::ZERO);
-            call_hook!(E::BASE.add, self.effects, &mut base, &mut acceleration);
+            call_hook!(
+                Effects::BASE.add,
+                self.effects,
+                &mut base,
+                &mut acceleration
+            );
             at.base = Some(base);
         }
-        if E::BODY_VELOCITY {
+        if Effects::BODY_VELOCITY {
             let v = field.v + field.omega.cross(pos);
             at.velocity = Motion::new(
                 rot.transpose_mul(field.omega).get(),
                 rot.transpose_mul(v).scale(length).get(),
             );
         }
-        if E::BODY_POSE {
+        if Effects::BODY_POSE {
             at.pose = field.pose.of(place, length);
         }
         let mut fx = Force::ZERO;

@@ -19,10 +19,10 @@ use crate::scalar::{Real, Vector};
 const WHOLE: usize = 16;
 
 /// Whether a robot is split, in a scene with wrenches on bodies or without.
-pub(crate) const fn has_subtree_functions<C: Compiled>(wrench: bool) -> bool {
+pub(crate) const fn has_subtree_functions<Tree: Compiled>(wrench: bool) -> bool {
     let (mut joints, mut i) = (0, 0);
-    while i < C::JOINTS.len() {
-        if C::JOINTS[i].first == i {
+    while i < Tree::JOINTS.len() {
+        if Tree::JOINTS[i].first == i {
             joints += 1;
         }
         i += 1;
@@ -31,22 +31,23 @@ pub(crate) const fn has_subtree_functions<C: Compiled>(wrench: bool) -> bool {
 }
 
 /// Whether joint `i` of a large robot is the parent of several others.
-const fn is_subtree_root<C: Compiled>(i: usize, wrench: bool) -> bool {
+const fn is_subtree_root<Tree: Compiled>(i: usize, wrench: bool) -> bool {
     let (mut children, mut j) = (0, 0);
-    while j < C::JOINTS.len() {
-        if is_parent::<C>(last::<C>(i), j) {
+    while j < Tree::JOINTS.len() {
+        if is_parent::<Tree>(last::<Tree>(i), j) {
             children += 1;
         }
         j += 1;
     }
-    has_subtree_functions::<C>(wrench) && children > 1
+    has_subtree_functions::<Tree>(wrench) && children > 1
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Task<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Task<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     /// Joint I on the base and its descendants.
     #[inline(never)]
@@ -61,7 +62,7 @@ where
         &mut self,
         parent: &AccelerationField<R>,
     ) -> Wrench<R> {
-        if const { !is_subtree_root::<C>(I, E::WRENCH) } {
+        if const { !is_subtree_root::<Tree>(I, Effects::WRENCH) } {
             return self.visit::<J>(parent);
         }
         let ([ux, uy, uz], [x, y, z]) = (parent.u.0, parent.pose.axes.0);
@@ -82,19 +83,19 @@ where
     fn child_subtree<const J: usize>(&mut self, parent: &SpilledField<R>) -> [R::Vec3; 2] {
         let ([omega, omega_products, alpha], [ux, uy, uz]) = (parent.rates, parent.u);
         let [a, v] = parent.origin;
-        let [x, y, z, origin] = parent.pose.map(|v| runtime_if(E::BODY_POSE, v));
-        let moves = E::VELOCITY_PRODUCTS | E::ACCELERATIONS | E::BASE_MOTION;
+        let [x, y, z, origin] = parent.pose.map(|v| runtime_if(Effects::BODY_POSE, v));
+        let moves = Effects::VELOCITY_PRODUCTS | Effects::ACCELERATIONS | Effects::BASE_MOTION;
         let field = AccelerationField {
-            omega: runtime_if(E::BODY_VELOCITY, omega),
-            omega_products: runtime_if(E::VELOCITY_PRODUCTS, omega_products),
+            omega: runtime_if(Effects::BODY_VELOCITY, omega),
+            omega_products: runtime_if(Effects::VELOCITY_PRODUCTS, omega_products),
             alpha: runtime_if(moves, alpha),
             u: Mat3([
                 runtime_if(moves, ux),
                 runtime_if(moves, uy),
                 runtime_if(moves, uz),
             ]),
-            a: runtime_if(moves | E::FIELD, a),
-            v: runtime_if(E::BODY_VELOCITY, v),
+            a: runtime_if(moves | Effects::FIELD, a),
+            v: runtime_if(Effects::BODY_VELOCITY, v),
             pose: Pose {
                 axes: Mat3([x, y, z]),
                 origin,

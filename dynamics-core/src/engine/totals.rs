@@ -76,37 +76,38 @@ pub(super) fn centre<R: Real>(mass: Folded<R>, moment: Vec3<R>, length: f64) -> 
     (moment * mass_inv, mass_inv)
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     /// The totals of all bodies of a robot at rates `qd`, or at rest without them, with what is fixed
     /// to the base. With WHOLE, of which the momentum needs all of Σ.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn totals<const WHOLE: bool>(&self, qd: Option<&[R; V]>) -> Totals<R> {
+    pub(super) fn totals<const WHOLE: bool>(self, qd: Option<&[R; V]>) -> Totals<R> {
         let mut base = AccelerationField {
             pose: Pose::UNKNOWN,
             ..AccelerationField::RESTING
         };
-        let moves = E::BASE_MOTION && qd.is_some();
+        let moves = Effects::BASE_MOTION && qd.is_some();
         if moves {
             let (v, _) = base_given(self.effects);
             base.omega = Vec3::runtime(v.ang);
-            base.v = Vec3::runtime(v.lin).scale(Folded::constant(C::LENGTH_INV));
+            base.v = Vec3::runtime(v.lin).scale(Folded::constant(Tree::LENGTH_INV));
         }
-        let mut pass = Sums::<R, C, E, B, Q, V, WHOLE> { call: self, qd };
-        let moving = sweep::<R, C, _>(&mut pass, &base);
-        of_body(&base, &fixed(Remainder::<C, B, V>::AT_BASE)).carrying(moving, base.omega)
+        let mut pass = Sums::<R, Tree, Effects, B, Q, V, WHOLE> { call: self, qd };
+        let moving = sweep(&mut pass, &base);
+        of_body(&base, &fixed(Remainder::<Tree, B, V>::AT_BASE)).carrying(moving, base.omega)
     }
 
     /// Twice the energy of what stands at the coordinates of joint I.
     #[cfg_attr(optimised, inline(always))]
-    fn rotor_energy<const I: usize>(&self, qd: &[R; V]) -> Folded<R> {
+    fn rotor_energy<const I: usize>(self, qd: &[R; V]) -> Folded<R> {
         let mut twice = R::ZERO;
         for_each_joint!(K, {
-            if JointPair::<C, I, K>::IS_COORDINATE
+            if JointPair::<Tree, I, K>::IS_COORDINATE
                 && let Some(inertia) = self.effects.inertia(K)
             {
                 twice += inertia * qd[K] * qd[K];
@@ -139,16 +140,25 @@ fn of_body<R: Real>(body: &AccelerationField<R>, own: &Inertia<R>) -> Totals<R> 
     }
 }
 
-struct Sums<'a, R, C, E, const B: usize, const Q: usize, const V: usize, const WHOLE: bool> {
-    call: &'a Call<'a, R, C, E, B, Q, V>,
+struct Sums<'a, R, Tree, Effects, const B: usize, const Q: usize, const V: usize, const WHOLE: bool>
+{
+    call: Call<'a, R, Tree, Effects, B, Q, V>,
     qd: Option<&'a [R; V]>,
 }
 
-impl<R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize, const WHOLE: bool>
-    Pass<R, C> for Sums<'_, R, C, E, B, Q, V, WHOLE>
+impl<
+    R: Real,
+    Tree: Compiled,
+    Effects,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const WHOLE: bool,
+> Pass for Sums<'_, R, Tree, Effects, B, Q, V, WHOLE>
 where
-    E: Effect<R, B, V>,
+    Effects: Effect<R, B, V>,
 {
+    type Tree = Tree;
     type Outward = AccelerationField<R>;
     type Inward = Totals<R>;
     const NOTHING: Totals<R> = Totals {
@@ -170,7 +180,7 @@ where
             products: false,
             accel: false,
         };
-        motions.field::<C, I>(parent)
+        motions.field::<Tree, I>(parent)
     }
 
     #[cfg_attr(optimised, inline(always))]
@@ -179,7 +189,7 @@ where
         body: &AccelerationField<R>,
         inner: Totals<R>,
     ) -> Totals<R> {
-        let own = self.call.inertia::<I>(WHOLE | E::BASE_MOTION);
+        let own = self.call.inertia::<I>(WHOLE | Effects::BASE_MOTION);
         let mut here = of_body(body, &own).carrying(inner, body.omega);
         let mut rotor = Wrench::ZERO;
         if let Some(qd) = self.qd {
@@ -193,11 +203,11 @@ where
             moment: here.moment,
             second: Sym3::ZERO,
         };
-        let (mass, rotor) = (mass.to_parent::<C, I>(&at), rotor.to_parent::<C, I>(&at));
+        let (mass, rotor) = (mass.to_parent(&at), rotor.to_parent(&at));
         Totals {
             mass: mass.mass,
             moment: mass.moment,
-            momentum: here.momentum.to_parent::<C, I>(&at) + rotor,
+            momentum: here.momentum.to_parent(&at) + rotor,
             twice: here.twice,
             spin: rotor.n,
         }

@@ -42,36 +42,37 @@ struct Bending<
     'a,
     'b,
     R: Real,
-    C,
-    E,
-    X,
+    Tree,
+    Effects,
+    Course,
     const B: usize,
     const Q: usize,
     const V: usize,
     const M: usize,
 > {
-    rigid: &'a mut Task<'b, R, C, E, B, Q, V>,
-    moves: X,
+    rigid: &'a mut Task<'b, R, Tree, Effects, B, Q, V>,
+    moves: Course,
     forces: &'a mut [R; M],
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Bends,
-    E: Effect<R, B, V>,
+    Tree: Bends,
+    Effects: Effect<R, B, V>,
 {
     /// The torques of the joints and the forces on the modes.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn bending_torques<const M: usize>(
-        &self,
+        self,
         joints: &State<R, Q, V>,
         modes: &State<R, M, M>,
     ) -> ([R; V], [R; M]) {
         let moves = Measured {
             joints,
             modes,
-            effects: PhantomData::<Of<E, B>>,
+            effects: PhantomData::<Of<Effects, B>>,
         };
         self.swept(joints, moves, &self.base())
     }
@@ -80,14 +81,14 @@ where
     /// alone.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn bending_inertia<const M: usize, const JOINTS: bool>(
-        &self,
+        self,
         eta: &[R; M],
     ) -> Blocks<R, V, M> {
         let mut m = ([[R::ZERO; V]; V], [[R::ZERO; V]; M], [[R::ZERO; M]; M]);
         for_each_joint!(
             L,
             const { is_column(L, V, M, JOINTS) },
-            column = Self::column::<M, L> as fn(&_, &_) -> ([R; V], [R; M]),
+            column = Self::column::<M, L> as fn(_, &_) -> ([R; V], [R; M]),
             {
                 let (tau, forces) = column(self, eta);
                 // Bodies and links are in the order of the tree: what is before a coordinate has the
@@ -110,25 +111,25 @@ where
 
     /// The torques and forces that a unit acceleration of coordinate L needs.
     #[cfg_attr(optimised, inline(always))]
-    fn column<const M: usize, const L: usize>(&self, eta: &[R; M]) -> ([R; V], [R; M]) {
+    fn column<const M: usize, const L: usize>(self, eta: &[R; M]) -> ([R; V], [R; M]) {
         let (moves, base) = (Unit::<R, V, M, L> { eta }, AccelerationField::RESTING);
         self.swept(&State::at([R::ZERO; Q]), moves, &base)
     }
 
     /// The recursion from the base.
     #[cfg_attr(optimised, inline(always))]
-    fn swept<X, const M: usize>(
-        &self,
+    fn swept<Course, const M: usize>(
+        self,
         joints: &State<R, Q, V>,
-        moves: X,
+        moves: Course,
         base: &AccelerationField<R>,
     ) -> ([R; V], [R; M])
     where
-        X: Moves<R>,
+        Course: Moves<R>,
     {
         let (mut tau, mut forces) = ([R::ZERO; V], [R::ZERO; M]);
         let mut rigid = Task {
-            call: self.under(self.effects),
+            call: self,
             back: self.turns,
             state: joints,
             tau: &mut tau,
@@ -141,7 +142,7 @@ where
         let stand = Stand::rigid(*base);
         for_each_joint!(
             J,
-            CompiledJoint::<C, J>::IS_ON_BASE,
+            CompiledJoint::<Tree, J>::IS_ON_BASE,
             visit = Bending::visit::<J> as fn(&mut _, &_) -> _,
             {
                 let _ = visit(&mut task, &stand);
@@ -159,13 +160,13 @@ const fn is_column(l: usize, joints: usize, modes: usize, all: bool) -> bool {
     l < joints + modes && (all || l >= joints)
 }
 
-impl<R, C, E, X, const B: usize, const Q: usize, const V: usize, const M: usize>
-    Bending<'_, '_, R, C, E, X, B, Q, V, M>
+impl<R, Tree, Effects, Course, const B: usize, const Q: usize, const V: usize, const M: usize>
+    Bending<'_, '_, R, Tree, Effects, Course, B, Q, V, M>
 where
     R: Real,
-    C: Bends,
-    E: Effect<R, B, V>,
-    X: Moves<R>,
+    Tree: Bends,
+    Effects: Effect<R, B, V>,
+    Course: Moves<R>,
 {
     /// Visits joint I and its descendants; returns the wrench that they need from what they stand on.
     #[cfg_attr(optimised, inline(always))]
@@ -173,33 +174,33 @@ where
         let rates = self.moves.joint(I);
         let mut bent = Mode::NO_MODES;
         for_each_mode!(K, {
-            if HasMode::<C, I, K>::IS {
+            if HasMode::<Tree, I, K>::IS {
                 bent[K] = self
                     .moves
-                    .mode(const { Bent::<C, I, true>::LINK.first + K });
+                    .mode(const { Bent::<Tree, I, true>::LINK.first + K });
             }
         });
         let at = self.stood::<I>(on);
-        let mut field = on.field.across::<C, I>(&at, rates);
-        if E::BODY_POSE {
-            field.pose = on.field.pose.transformed_by::<C, I>(&at);
+        let mut field = on.field.across(&at, rates);
+        if Effects::BODY_POSE {
+            field.pose = on.field.pose.transformed_by(&at);
         }
-        let moves = const { X::ALL && E::BASE_MOTION };
+        let moves = const { Course::ALL && Effects::BASE_MOTION };
         let body = self.rigid.call.inertia::<I>(moves);
         let mut forces = [Folded::ZERO; MODES];
-        let elastic = const { X::ALL && E::ELASTICITY };
+        let elastic = const { Course::ALL && Effects::ELASTICITY };
         let mut total = if moves {
-            bent_wrench::<R, C, I, true>(&field, body, &bent, elastic, &mut forces)
+            bent_wrench::<R, Tree, I, true>(&field, body, &bent, elastic, &mut forces)
         } else {
-            bent_wrench::<R, C, I, false>(&field, body, &bent, elastic, &mut forces)
+            bent_wrench::<R, Tree, I, false>(&field, body, &bent, elastic, &mut forces)
         };
-        if const { X::ALL && E::WRENCH } {
+        if const { Course::ALL && Effects::WRENCH } {
             total = self.rigid.call.environment::<I>(&field, total);
         }
-        if !Bent::<C, I, true>::IS {
+        if !Bent::<Tree, I, true>::IS {
             let load = self.children::<I>(&Stand::rigid(field));
             total = total + load;
-        } else if !Bent::<C, I, true>::IS_LAST {
+        } else if !Bent::<Tree, I, true>::IS_LAST {
             total = total
                 + if moves {
                     self.beyond::<I, true>(&field, &bent, &mut forces)
@@ -208,17 +209,17 @@ where
                 };
         }
         for_each_mode!(K, {
-            if HasMode::<C, I, K>::IS {
-                self.forces[const { Bent::<C, I, true>::LINK.first + K }] = forces[K].get();
+            if HasMode::<Tree, I, K>::IS {
+                self.forces[const { Bent::<Tree, I, true>::LINK.first + K }] = forces[K].get();
             }
         });
-        if X::ALL {
+        if Course::ALL {
             self.rigid.drive::<I>(&total);
         } else {
-            let along = total.along(CompiledJoint::<C, I>::JOINT, Folded::ONE);
+            let along = total.along(CompiledJoint::<Tree, I>::JOINT, Folded::ONE);
             self.rigid.tau[I] = along.get();
         }
-        total.to_parent::<C, I>(&at)
+        total.to_parent(&at)
     }
 
     /// What is on the end of the body of joint I: the wrench that it needs from the body.
@@ -229,23 +230,25 @@ where
         bent: &[Mode<R>; MODES],
         forces: &mut [Folded<R>; MODES],
     ) -> Wrench<R> {
-        let (end, along) = End::of::<C, I, MOVES>(field, bent);
-        let stand = end.stand::<C, I, MOVES>(&along);
+        let (end, along) = End::of::<Tree, I, MOVES>(field, bent);
+        let stand = end.stand::<Tree, I, MOVES>(&along);
         let mut load = self.children::<I>(&stand);
-        if !Bent::<C, I, MOVES>::ADDS_TO_ANGLES {
-            load = end.turned_back::<C, I, MOVES>(load);
+        if !Bent::<Tree, I, MOVES>::ADDS_TO_ANGLES {
+            load = end.turned_back::<Tree, I, MOVES>(load);
         }
-        if Bent::<C, I, MOVES>::HAS_BODY_ON_END {
-            let at = end.turned::<C, I, MOVES>(&along);
-            let ends =
-                Call::<R, Ends<C>, E, B, Q, V>::new(self.rigid.call.turns, self.rigid.call.effects);
+        if Bent::<Tree, I, MOVES>::HAS_BODY_ON_END {
+            let at = end.turned::<Tree, I, MOVES>(&along);
+            let ends = Call::<R, Ends<Tree>, Effects, B, Q, V>::new(
+                self.rigid.call.turns,
+                self.rigid.call.effects,
+            );
             let mut fixed = at.wrench(&ends.inertia::<I>(MOVES));
-            if const { X::ALL && E::WRENCH } {
+            if const { Course::ALL && Effects::WRENCH } {
                 fixed = ends.environment::<I>(&at, fixed);
             }
-            load = load + end.turned_back::<C, I, MOVES>(fixed);
+            load = load + end.turned_back::<Tree, I, MOVES>(fixed);
         }
-        end.carry::<C, I, MOVES>(load, forces)
+        end.carry::<Tree, I, MOVES>(load, forces)
     }
 
     /// The sum over the children of joint I.
@@ -254,7 +257,7 @@ where
         let mut total = Wrench::ZERO;
         for_each_joint!(
             J,
-            JointPair::<C, I, J>::IS_CHILD,
+            JointPair::<Tree, I, J>::IS_CHILD,
             visit = Self::visit::<J> as fn(&mut _, &_) -> _,
             {
                 total = total + visit(self, on);
@@ -265,15 +268,16 @@ where
 
     /// The displacement of joint I, its angle with that of what it stands on.
     #[cfg_attr(optimised, inline(always))]
-    fn stood<const I: usize>(&self, on: &Stand<R>) -> Displacement<R> {
+    fn stood<const I: usize>(&self, on: &Stand<R>) -> Displacement<R, Tree, I> {
         let at = self.rigid.call.displacement::<I>();
-        let axis = super::folding::Vec3::constant(CompiledJoint::<C, I>::JOINT.rot.z_axis);
+        let axis = super::folding::Vec3::constant(CompiledJoint::<Tree, I>::JOINT.rot.z_axis);
         let (s, c) = (Folded::runtime(at.turn.sin), Folded::runtime(at.turn.cos));
         let (sin, cos) = (on.sin.dot(axis), on.cos);
-        at.with_turn(JointCoordinate {
+        let turn = JointCoordinate {
             sin: (s * cos + c * sin).get(),
             cos: (c * cos - s * sin).get(),
             ..at.turn
-        })
+        };
+        at.with_turn(turn)
     }
 }

@@ -52,17 +52,16 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "parameter identification")]
     #[inline(never)]
     #[must_use]
-    pub fn regressor<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn regressor<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> [[[R; 10]; B]; V]
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
         Self::call(trig.borrow(), effects).regressor_columns::<AllBodies, B>(state.state())
@@ -93,24 +92,22 @@ impl<T, K> Engine<T, K> {
     #[must_use]
     pub fn regressor_columns<
         R: Real,
-        S,
-        E,
+        Effects,
         const BODY: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        state: S,
-        effects: &E,
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
         body: OnBody<BODY>,
     ) -> [[R; 10]; V]
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let _ = body;
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
@@ -120,20 +117,21 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-impl<R, C, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, C, E, B, Q, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
     /// The columns of the bodies L.
     #[cfg_attr(optimised, inline(always))]
-    fn regressor_columns<L: Bodies<N>, const N: usize>(
-        &self,
+    fn regressor_columns<List: Bodies<N>, const N: usize>(
+        self,
         state: &State<R, Q, V>,
     ) -> [[[R; 10]; N]; V] {
         let mut y = [[[R::ZERO; 10]; N]; V];
-        let mut pass = Columns::<R, C, L, E, N, B, Q, V> {
+        let mut pass = Columns::<R, Tree, List, Effects, N, B, Q, V> {
             call: self,
             state,
             y: &mut y,
@@ -143,14 +141,14 @@ where
             field: self.base(),
             by: [Twist::ZERO; V],
         };
-        let Nothing = sweep::<R, C, _>(&mut pass, &at_base);
+        let Nothing = sweep(&mut pass, &at_base);
         y
     }
 
     /// The field of the body behind joint I, as far as the effects need it.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn regressed_field<const I: usize>(
-        &self,
+        self,
         parent: &AccelerationField<R>,
         state: &State<R, Q, V>,
     ) -> AccelerationField<R> {
@@ -159,10 +157,10 @@ where
             qd: &state.qd,
             qdd: &state.qdd,
             velocity: false,
-            products: E::VELOCITY_PRODUCTS,
-            accel: E::ACCELERATIONS,
+            products: Effects::VELOCITY_PRODUCTS,
+            accel: Effects::ACCELERATIONS,
         };
-        motions.field::<C, I>(parent)
+        motions.field::<Tree, I>(parent)
     }
 }
 
@@ -173,30 +171,41 @@ struct Moving<R, const V: usize> {
     by: [Twist<R>; V],
 }
 
-struct Columns<'a, R, C, L, E, const N: usize, const B: usize, const Q: usize, const V: usize> {
-    call: &'a Call<'a, R, C, E, B, Q, V>,
-    state: &'a State<R, Q, V>,
-    y: &'a mut [[[R; 10]; N]; V],
-    types: PhantomData<L>,
-}
-
-impl<
-    R: Real,
-    C: Compiled,
-    L: Bodies<N>,
-    E,
+struct Columns<
+    'a,
+    R,
+    Tree,
+    List,
+    Effects,
     const N: usize,
     const B: usize,
     const Q: usize,
     const V: usize,
-> Pass<R, C> for Columns<'_, R, C, L, E, N, B, Q, V>
+> {
+    call: Call<'a, R, Tree, Effects, B, Q, V>,
+    state: &'a State<R, Q, V>,
+    y: &'a mut [[[R; 10]; N]; V],
+    types: PhantomData<List>,
+}
+
+impl<
+    R: Real,
+    Tree: Compiled,
+    List: Bodies<N>,
+    Effects,
+    const N: usize,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+> Pass for Columns<'_, R, Tree, List, Effects, N, B, Q, V>
 where
-    E: Effect<R, B, V>,
+    Effects: Effect<R, B, V>,
 {
+    type Tree = Tree;
     type Outward = Moving<R, V>;
     type Inward = Nothing;
     const NOTHING: Nothing = Nothing;
-    const JOINTS: u64 = joints::<C>(&L::NUMBERS);
+    const JOINTS: u64 = joints::<Tree>(&List::NUMBERS);
 
     #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &Moving<R, V>) -> Moving<R, V> {
@@ -207,17 +216,21 @@ where
             by: parent.by,
         };
         for_each_joint!(K, {
-            if JointPair::<C, I, K>::IS_COORDINATE {
-                body.by[K] = Twist::along(CompiledJoint::<C, K>::JOINT, C::LENGTH_INV, Folded::ONE);
-            } else if JointPair::<C, K, I>::IS_ANCESTOR {
-                body.by[K] = parent.by[K].carried::<C, I>(&at);
+            if JointPair::<Tree, I, K>::IS_COORDINATE {
+                body.by[K] = Twist::along(
+                    CompiledJoint::<Tree, K>::JOINT,
+                    Tree::LENGTH_INV,
+                    Folded::ONE,
+                );
+            } else if JointPair::<Tree, K, I>::IS_ANCESTOR {
+                body.by[K] = parent.by[K].carried(&at);
             }
         });
-        const { Named::<C, L, N, I, 0>::ARE_FEW };
+        const { Named::<Tree, List, N, I, 0>::ARE_FEW };
         for_each_joint!(N_TH, {
             if let Some(see) = const {
                 only_if(
-                    Named::<C, L, N, I, N_TH>::IS_SOME,
+                    Named::<Tree, List, N, I, N_TH>::IS_SOME,
                     Self::see::<I, N_TH> as fn(&mut _, &_),
                 )
             } {
@@ -233,20 +246,20 @@ where
     }
 }
 
-impl<R, C, L, E, const N: usize, const B: usize, const Q: usize, const V: usize>
-    Columns<'_, R, C, L, E, N, B, Q, V>
+impl<R, Tree, List, Effects, const N: usize, const B: usize, const Q: usize, const V: usize>
+    Columns<'_, R, Tree, List, Effects, N, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    L: Bodies<N>,
+    Tree: Compiled,
+    List: Bodies<N>,
 {
-    /// Writes the columns of the K-th of the bodies L that move with joint I.
+    /// Writes the columns of the K-th of the bodies of the list that move with joint I.
     #[cfg_attr(optimised, inline(always))]
     fn see<const I: usize, const K: usize>(y: &mut [[[R; 10]; N]; V], body: &Moving<R, V>) {
-        let (at, place) = Named::<C, L, N, I, K>::BODY;
-        let power = BodyPower::of(&body.field, place, C::LENGTH);
+        let (at, place) = Named::<Tree, List, N, I, K>::BODY;
+        let power = BodyPower::of(&body.field, place, Tree::LENGTH);
         for_each_joint!(J, {
-            if JointPair::<C, I, J>::IS_COORDINATE || JointPair::<C, J, I>::IS_ANCESTOR {
+            if JointPair::<Tree, I, J>::IS_COORDINATE || JointPair::<Tree, J, I>::IS_ANCESTOR {
                 y[J][*at] = power.per_parameter(&body.by[J]);
             }
         });

@@ -40,16 +40,15 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[cfg_attr(optimised, inline(always))]
     #[must_use]
-    pub fn regressor_row<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn regressor_row<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
         coordinate: usize,
     ) -> [[R; 10]; B]
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
         Self::regressor_row_of_bodies(state, effects, coordinate, &[true; B])
     }
@@ -75,25 +74,30 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn regressor_row_of_bodies<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn regressor_row_of_bodies<
+        R: Real,
+        Effects,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
         coordinate: usize,
         bodies: &[bool; B],
     ) -> [[R; 10]; B]
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, _, _, _>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
         let call = Self::call(trig.borrow(), effects);
         let mut y = [[R::ZERO; 10]; B];
         let mut pass = Row {
-            call: &call,
+            call,
             state: state.state(),
             coordinate,
             bodies,
@@ -115,19 +119,20 @@ struct Moving<R> {
     by: Twist<R>,
 }
 
-struct Row<'a, R, C, E, const B: usize, const Q: usize, const V: usize> {
-    call: &'a Call<'a, R, C, E, B, Q, V>,
+struct Row<'a, R, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, Tree, Effects, B, Q, V>,
     state: &'a State<R, Q, V>,
     coordinate: usize,
     bodies: &'a [bool; B],
     y: &'a mut [[R; 10]; B],
 }
 
-impl<R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize> Pass<R, C>
-    for Row<'_, R, C, E, B, Q, V>
+impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize> Pass
+    for Row<'_, R, Tree, Effects, B, Q, V>
 where
-    E: Effect<R, B, V>,
+    Effects: Effect<R, B, V>,
 {
+    type Tree = Tree;
     type Outward = Moving<R>;
     type Inward = Nothing;
     const NOTHING: Nothing = Nothing;
@@ -136,22 +141,22 @@ where
     fn enter<const I: usize>(&mut self, parent: &Moving<R>) -> Moving<R> {
         let field = self.call.regressed_field::<I>(&parent.field, self.state);
         let at = self.call.displacement::<I>();
-        let mut by = parent.by.carried::<C, I>(&at);
+        let mut by = parent.by.carried(&at);
         for_each_joint!(K, {
-            if JointPair::<C, I, K>::IS_COORDINATE {
+            if JointPair::<Tree, I, K>::IS_COORDINATE {
                 // What moves an ancestor does not move this joint: one of the two is zero.
                 let rate = Folded::runtime(R::either(self.coordinate == K, R::ONE, R::ZERO));
-                let own = Twist::along(CompiledJoint::<C, K>::JOINT, C::LENGTH_INV, rate);
+                let own = Twist::along(CompiledJoint::<Tree, K>::JOINT, Tree::LENGTH_INV, rate);
                 (by.ang, by.lin) = (by.ang + own.ang, by.lin + own.lin);
             }
         });
         let body = Moving { field, by };
-        const { Named::<C, AllBodies, B, I, 0>::ARE_FEW };
+        const { Named::<Tree, AllBodies, B, I, 0>::ARE_FEW };
         for_each_joint!(N_TH, {
             if let Some(see) = const {
                 only_if(
-                    Named::<C, AllBodies, B, I, N_TH>::IS_SOME,
-                    see::<R, C, B, I, N_TH> as See<R, B>,
+                    Named::<Tree, AllBodies, B, I, N_TH>::IS_SOME,
+                    see::<R, Tree, B, I, N_TH> as See<R, B>,
                 )
             } {
                 see(self.y, self.bodies, &body);
@@ -170,13 +175,13 @@ type See<R, const B: usize> = fn(&mut [[R; 10]; B], &[bool; B], &Moving<R>);
 
 /// Writes the entries of the K-th body that moves with joint I.
 #[cfg_attr(optimised, inline(always))]
-fn see<R: Real, C: Compiled, const B: usize, const I: usize, const K: usize>(
+fn see<R: Real, Tree: Compiled, const B: usize, const I: usize, const K: usize>(
     y: &mut [[R; 10]; B],
     bodies: &[bool; B],
     body: &Moving<R>,
 ) {
-    let (at, place) = Named::<C, AllBodies, B, I, K>::BODY;
+    let (at, place) = Named::<Tree, AllBodies, B, I, K>::BODY;
     if bodies[*at] {
-        y[*at] = BodyPower::of(&body.field, place, C::LENGTH).per_parameter(&body.by);
+        y[*at] = BodyPower::of(&body.field, place, Tree::LENGTH).per_parameter(&body.by);
     }
 }

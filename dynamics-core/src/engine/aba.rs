@@ -126,7 +126,8 @@ where
     Tree: Compiled,
     Effects: Effect<R, B, V>,
 {
-    /// The inward pass: the articulated inertia of joint I and its bias force, in the parent's frame.
+    /// The inward pass: the articulated inertia of joint I and its bias force, in the parent's
+    /// frame.
     #[cfg_attr(optimised, inline(always))]
     fn inward<const I: usize>(&mut self) -> (Articulated<R>, Wrench<R>) {
         let joint = CompiledJoint::<Tree, I>::JOINT;

@@ -17,8 +17,8 @@ where
     Tree: Compiled,
     Effects: Effect<R, B, V>,
 {
-    /// The base without its acceleration: a = −g, its velocity if it moves, and its pose, in units of
-    /// length; all other values are known zeros.
+    /// The base without its acceleration: a = −g, its velocity if it moves, and its pose, in units
+    /// of length; all other values are known zeros.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn unaccelerated(self) -> AccelerationField<R> {
         let length = Tree::LENGTH;
@@ -57,8 +57,8 @@ where
         }
         field
     }
-    /// The motion of the base: a = −g plus its own acceleration, in units of length. If it is at rest,
-    /// all other values are known zeros.
+    /// The motion of the base: a = −g plus its own acceleration, in units of length. If it is at
+    /// rest, all other values are known zeros.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn base(self) -> AccelerationField<R> {
         let length = Tree::LENGTH;

@@ -107,8 +107,9 @@ where
     }
 
     /// Writes the columns of joint I and of its descendants; returns their inertia in the parent's
-    /// frame, or what joints on parallel axes feel of it. `root` is the motion of the joint on the base
-    /// at rate −1, in the frame of the parent, or in that of the last ancestor on parallel axes.
+    /// frame, or what joints on parallel axes feel of it. `root` is the motion of the joint on the
+    /// base at rate −1, in the frame of the parent, or in that of the last ancestor on parallel
+    /// axes.
     #[cfg_attr(optimised, inline(always))]
     fn composite<const I: usize>(&mut self, root: &Twist<R>) -> (Inertia<R>, Felt<R>) {
         let at = self.call.displacement::<I>();
@@ -169,9 +170,9 @@ where
         (turned.turned_to_parent(&at), Felt::NONE)
     }
 
-    /// Column I of M: its diagonal entry, and the wrench of joint I's unit acceleration, in the joint's
-    /// frame, projected on each ancestor. Where it meets `root`, that of the joint on the base, their
-    /// product is the entry of both.
+    /// Column I of M: its diagonal entry, and the wrench of joint I's unit acceleration, in the
+    /// joint's frame, projected on each ancestor. Where it meets `root`, that of the joint on the
+    /// base, their product is the entry of both.
     #[cfg_attr(optimised, inline(always))]
     fn column<const I: usize>(&mut self, diagonal: Folded<R>, wrench: &Wrench<R>, root: &Twist<R>) {
         let (mut diagonal, mut wrench) = (diagonal.get(), *wrench);
@@ -208,8 +209,8 @@ where
         });
     }
 
-    /// Of the inertia `spin` that joint I's own rotation feels, what those of the children on parallel
-    /// axes do not contain.
+    /// Of the inertia `spin` that joint I's own rotation feels, what those of the children on
+    /// parallel axes do not contain.
     #[cfg_attr(optimised, inline(always))]
     fn own_spin<const I: usize>(spin: Folded<R>) -> Folded<R> {
         if Effects::BASE_PARAMETERS > 0 {

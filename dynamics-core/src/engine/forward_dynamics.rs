@@ -134,7 +134,8 @@ where
         let noise = self.noise();
         let certain = self.certain();
         let d_inv = decompose::<R, Tree, V>(&mut m.rows, &noise, &certain)?;
-        // A copy, since the array that the compiler cannot see through would stay in memory to the end.
+        // A copy, since the array that the compiler cannot see through would stay in memory to the
+        // end.
         let mut x = rest;
         substitute::<R, Tree, V>(&m.rows, &d_inv, &mut x);
         Ok(x)

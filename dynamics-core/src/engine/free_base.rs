@@ -197,8 +197,8 @@ where
     Tree: Compiled,
     Effects: Effect<R, B, V>,
 {
-    /// A force about the origin of the base of the description and along its axes, in the frame of the
-    /// free body.
+    /// A force about the origin of the base of the description and along its axes, in the frame of
+    /// the free body.
     #[cfg_attr(optimised, inline(always))]
     fn in_base(self, h: Force<R>) -> Force<R> {
         let joint = CompiledJoint::<Tree, 0>::JOINT;
@@ -210,8 +210,8 @@ where
         Force::new(at.enter(&rot, ang).get(), at.enter(&rot, lin).get())
     }
 
-    /// The composite inertia of the free body and its descendants in its own frame, and the columns of
-    /// the descendants.
+    /// The composite inertia of the free body and its descendants in its own frame, and the columns
+    /// of the descendants.
     #[cfg_attr(optimised, inline(always))]
     fn composite(self) -> (CompositeInertia<R>, Columns<R, V>) {
         const {

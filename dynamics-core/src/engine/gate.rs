@@ -47,7 +47,9 @@ macro_rules! scene {
         $(#[$doc])*
         #[track_caller]
         #[must_use]
-        pub const fn $name<Effects, const B: usize, const Q: usize, const V: usize>(effects: Effects) -> Effects
+        pub const fn $name<Effects, const B: usize, const Q: usize, const V: usize>(
+            effects: Effects,
+        ) -> Effects
         where
             T: Robot<B, Q, V>,
             Effects: Effect<$r, B, V>,

@@ -4,11 +4,11 @@
 
 use core::borrow::Borrow;
 
+use super::Engine;
 use super::call::Call;
 use super::compile::{Compiled, CompiledJoint, JointAndBody, JointMotion, JointPair};
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
-use super::{Engine, only_if};
 use crate::algorithms::Frame;
 use crate::model::{OnBody, Robot};
 use crate::scalar::{Real, Vector};
@@ -91,25 +91,21 @@ impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: 
     #[cfg_attr(optimised, inline(always))]
     fn jacobian_columns<const BODY: usize>(self) -> [Motion<R>; V] {
         let mut columns = [Motion::ZERO; V];
-        for_each_joint!(J, {
-            if const { CompiledJoint::<Tree, J>::IS_ON_BASE && JointAndBody::<Tree, J, BODY>::SUPPORTS }
-                && let Some(reach) = const {
-                    only_if(
-                        CompiledJoint::<Tree, J>::IS_ON_BASE
-                            && JointAndBody::<Tree, J, BODY>::SUPPORTS,
-                        Self::reach::<BODY, J> as fn(_, &_, &mut _) -> Vec3<R>,
-                    )
-                }
+        let base = Mat3::constant(&glam::DMat3::IDENTITY);
+        for_each_joint!(
+            J,
+            const { CompiledJoint::<Tree, J>::IS_ON_BASE && JointAndBody::<Tree, J, BODY>::SUPPORTS },
+            reach = Self::reach::<BODY, J> as fn(_, &_, &mut _) -> Vec3<R>,
             {
-                let base = Mat3::constant(&glam::DMat3::IDENTITY);
                 let _ = reach(self, &base, &mut columns);
             }
-        });
+        );
         columns
     }
 
-    /// Writes the columns of joint I and of its descendants; returns the offset of the body's origin
-    /// from the parent's, in base coordinates, m. `parent` holds the axes of the parent's frame.
+    /// Writes the columns of joint I and of its descendants; returns the offset of the body's
+    /// origin from the parent's, in base coordinates, m. `parent` holds the axes of the parent's
+    /// frame.
     #[cfg_attr(optimised, inline(always))]
     fn reach<const BODY: usize, const I: usize>(
         self,

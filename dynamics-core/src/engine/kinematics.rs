@@ -342,7 +342,8 @@ impl<
 where
     List: Bodies<N>,
 {
-    /// Writes the poses and motions of the bodies of the list that move with joint I, or stand on the base.
+    /// Writes the poses and motions of the bodies of the list that move with joint I, or stand on
+    /// the base.
     #[cfg_attr(optimised, inline(always))]
     fn see<const I: usize>(&mut self, field: &AccelerationField<R>) {
         const { Named::<Tree, List, N, I, 0>::ARE_FEW };

@@ -19,7 +19,9 @@
 macro_rules! for_each_joint {
     ($j:ident, $condition:expr, $name:ident = $function:expr, $body:block) => {
         for_each_joint!($j, {
-            if $condition && let Some($name) = const { $crate::engine::only_if($condition, $function) } {
+            if $condition
+                && let Some($name) = const { $crate::engine::only_if($condition, $function) }
+            {
                 $body
             }
         })
@@ -232,8 +234,8 @@ impl<T, K> Engine<T, K> {
 }
 
 /// The same sines and cosines. Precomputed ones are loaded again on the inward pass: `black_box`
-/// hides from the compiler that both references are the same, since it would spill the loaded values
-/// to the stack.
+/// hides from the compiler that both references are the same, since it would spill the loaded
+/// values to the stack.
 #[cfg_attr(optimised, inline(always))]
 fn loaded_again<'a, R: Real, State: RobotState<R, Q, V>, const Q: usize, const V: usize>(
     _: &State,

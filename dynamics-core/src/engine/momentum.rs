@@ -115,7 +115,8 @@ where
     Tree: Compiled,
     Effects: Effect<R, B, V>,
 {
-    /// The recursion of p and β, or of p and Cᵀ q̇ without DRIFT; `back` are the positions as they are loaded on returning.
+    /// The recursion of p and β, or of p and Cᵀ q̇ without DRIFT; `back` are the positions as they
+    /// are loaded on returning.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn momenta<const DRIFT: bool>(
         self,
@@ -175,8 +176,8 @@ where
     Tree: Compiled,
     Effects: Effect<R, B, V>,
 {
-    /// Visits joint I and its descendants; returns what they carry about the origin of the parent, in
-    /// its frame.
+    /// Visits joint I and its descendants; returns what they carry about the origin of the parent,
+    /// in its frame.
     #[cfg_attr(optimised, inline(always))]
     fn visit<const DRIFT: bool, const I: usize>(
         &mut self,
@@ -205,8 +206,8 @@ where
             }
         );
 
-        // After the children: until then the velocity takes fewer registers than the momentum beside
-        // it.
+        // After the children: until then the velocity takes fewer registers than the momentum
+        // beside it.
         let own = self.call.inertia::<I>(Effects::BASE_MOTION);
         let h = momentum(&body, &own) + inner.h;
         let driven = self.call.felt::<I>(h, parent.omega);
@@ -301,8 +302,8 @@ where
         );
     }
 
-    /// Subtracts from the entry of coordinate I what carries `load` and what the effects at the joint
-    /// need.
+    /// Subtracts from the entry of coordinate I what carries `load` and what the effects at the
+    /// joint need.
     #[cfg_attr(optimised, inline(always))]
     fn hold<const I: usize>(&mut self, load: &Wrench<R>) {
         let length_inv = Folded::constant(Tree::LENGTH_INV);

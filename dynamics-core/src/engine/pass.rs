@@ -94,8 +94,8 @@ pub(super) struct Motions<'a, R, const Q: usize, const V: usize> {
 }
 
 impl<R: Real, const Q: usize, const V: usize> Motions<'_, R, Q, V> {
-    /// The field of the body behind joint I, from that of its parent, with its pose if the parent's is
-    /// known.
+    /// The field of the body behind joint I, from that of its parent, with its pose if the parent's
+    /// is known.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn field<Tree: Compiled, const I: usize>(
         &self,

@@ -166,8 +166,8 @@ where
         noise
     }
 
-    /// Whether the pivots of forward dynamics exceed their noise in any state, of joints on a parent:
-    /// of numbers, only a NaN does not.
+    /// Whether the pivots of forward dynamics exceed their noise in any state, of joints on a
+    /// parent: of numbers, only a NaN does not.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn certain(self) -> [bool; V] {
         let mut certain = [false; V];
@@ -206,8 +206,8 @@ where
         size * (R::EPSILON * R::from_f64(ROUNDINGS)) + R::MIN_POSITIVE
     }
 
-    /// The largest inertia that joint I could move, without its rotor's: a constant of robots without
-    /// slides and payload.
+    /// The largest inertia that joint I could move, without its rotor's: a constant of robots
+    /// without slides and payload.
     #[cfg_attr(optimised, inline(always))]
     fn largest_inertia<const I: usize>(self) -> R {
         let own = const { Sizes::<Tree, B, V>::of(I) };

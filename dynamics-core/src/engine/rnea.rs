@@ -37,8 +37,8 @@ where
     /// The recursion of inverse dynamics; `back` are the positions as the inward pass loads them.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn torques(self, back: &[JointCoordinate<R>; Q], state: &State<R, Q, V>) -> [R; V] {
-        // A constant: behind a loop that clears the torques the compiler would reverse the order of the
-        // sines and spill more of them.
+        // A constant: behind a loop that clears the torques the compiler would reverse the order of
+        // the sines and spill more of them.
         let mut tau = const { [R::ZERO; V] };
         self.write_torques(back, state, &mut tau);
         tau
@@ -91,8 +91,8 @@ where
     Tree: Compiled,
     Effects: Effect<R, B, V>,
 {
-    /// Visits joint I and its descendants; returns the wrench that they need from the parent, in its
-    /// frame.
+    /// Visits joint I and its descendants; returns the wrench that they need from the parent, in
+    /// its frame.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn visit<const I: usize>(&mut self, parent: &AccelerationField<R>) -> Wrench<R> {
         let (at, mut field) = self.across::<I>(parent);
@@ -295,8 +295,8 @@ where
         }
     }
 
-    /// Adds the payloads of the bodies on joint I, which are given in those bodies' own frames, to its
-    /// inertia.
+    /// Adds the payloads of the bodies on joint I, which are given in those bodies' own frames, to
+    /// its inertia.
     #[cfg_attr(optimised, inline(always))]
     fn loaded<const I: usize>(self, mut body: Inertia<R>) -> Inertia<R> {
         const {

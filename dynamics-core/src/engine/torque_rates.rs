@@ -105,8 +105,8 @@ where
     Tree: Compiled,
     Effects: Effect<R, B, V>,
 {
-    /// Visits joint I and its descendants; returns the wrench that they need from the parent, in its
-    /// frame.
+    /// Visits joint I and its descendants; returns the wrench that they need from the parent, in
+    /// its frame.
     #[cfg_attr(optimised, inline(always))]
     fn visit<const I: usize>(&mut self, parent: &Field<R>) -> WrenchSeries<R> {
         let joint = CompiledJoint::<Tree, I>::JOINT;

@@ -83,8 +83,8 @@ where
     Tree: Compiled,
     Effects: Effect<R, B, V>,
 {
-    /// The totals of all bodies of a robot at rates `qd`, or at rest without them, with what is fixed
-    /// to the base. With WHOLE, of which the momentum needs all of Σ.
+    /// The totals of all bodies of a robot at rates `qd`, or at rest without them, with what is
+    /// fixed to the base. With WHOLE, of which the momentum needs all of Σ.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn totals<const WHOLE: bool>(self, qd: Option<&[R; V]>) -> Totals<R> {
         let mut base = AccelerationField {

@@ -91,8 +91,8 @@ where
             column = Self::column::<M, L> as fn(_, &_) -> ([R; V], [R; M]),
             {
                 let (tau, forces) = column(self, eta);
-                // Bodies and links are in the order of the tree: what is before a coordinate has the
-                // entry in its own column.
+                // Bodies and links are in the order of the tree: what is before a coordinate has
+                // the entry in its own column.
                 if L < V {
                     for (i, &entry) in tau.iter().enumerate().skip(L) {
                         (m.0[i][L], m.0[L][i]) = (entry, entry);
@@ -168,7 +168,8 @@ where
     Effects: Effect<R, B, V>,
     Course: Moves<R>,
 {
-    /// Visits joint I and its descendants; returns the wrench that they need from what they stand on.
+    /// Visits joint I and its descendants; returns the wrench that they need from what they stand
+    /// on.
     #[cfg_attr(optimised, inline(always))]
     fn visit<const I: usize>(&mut self, on: &Stand<R>) -> Wrench<R> {
         let rates = self.moves.joint(I);

@@ -184,7 +184,7 @@ where
         parent: &AccelerationField<R>,
     ) -> Carried<R> {
         let at = self.call.displacement::<I>();
-        let mut body = self.across::<I>(parent, &at);
+        let mut body = Self::across::<I>(parent, &at, &self.state.qd);
         if DRIFT && Effects::BODY_POSE {
             body.pose = parent.pose.transformed_by(&at);
         }
@@ -252,20 +252,20 @@ where
     /// The velocities of the body behind joint I.
     #[cfg_attr(optimised, inline(always))]
     fn across<const I: usize>(
-        &self,
         parent: &AccelerationField<R>,
         at: &Displacement<R, Tree, I>,
+        qd: &[R; V],
     ) -> AccelerationField<R> {
         if CompiledJoint::<Tree, I>::COUNT > 1 {
             let rates = SeveralRates {
-                velocity: Twist::of::<Tree, V, I>(&self.state.qd, true),
+                velocity: Twist::of::<Tree, V, I>(qd, true),
                 products: Twist::ZERO,
                 accel: Twist::ZERO,
             };
             return parent.across_several(at, &rates);
         }
         let mut rates = JointRates {
-            velocity: Folded::runtime(self.state.qd[I]),
+            velocity: Folded::runtime(qd[I]),
             omega_products: Folded::ZERO,
             accel: Folded::ZERO,
         };

@@ -124,7 +124,7 @@ where
     Tree: Compiled,
     Effects: Effect<R, B, V>,
 {
-    /// The columns of the bodies L.
+    /// The columns of the bodies of the list.
     #[cfg_attr(optimised, inline(always))]
     fn regressor_columns<List: Bodies<N>, const N: usize>(
         self,

@@ -77,35 +77,38 @@ impl<R: Real> Wrench<R> {
 
     /// The same in the frame of joint I's parent and about its origin.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn to_parent<C, const I: usize>(self, at: &Displacement<R>) -> Self
+    pub(crate) fn to_parent<Tree, const I: usize>(self, at: &Displacement<R, Tree, I>) -> Self
     where
-        C: Compiled,
+        Tree: Compiled,
     {
-        self.turned::<C, I>(at).turned_to_parent::<C, I>(at)
+        self.turned(at).turned_to_parent(at)
     }
 
     /// The same in the joint's frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn turned<C, const I: usize>(self, at: &Displacement<R>) -> Self
+    pub(crate) fn turned<Tree, const I: usize>(self, at: &Displacement<R, Tree, I>) -> Self
     where
-        C: Compiled,
+        Tree: Compiled,
     {
         Self {
-            f: at.leave::<C, I>(self.f),
-            n: at.leave::<C, I>(self.n),
+            f: at.leave(self.f),
+            n: at.leave(self.n),
         }
     }
 
     /// The same in the frame of joint I's parent and about its origin, from the joint's frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn turned_to_parent<C, const I: usize>(self, at: &Displacement<R>) -> Self
+    pub(crate) fn turned_to_parent<Tree, const I: usize>(
+        self,
+        at: &Displacement<R, Tree, I>,
+    ) -> Self
     where
-        C: Compiled,
+        Tree: Compiled,
     {
-        let f = rotate_to_parent::<R, C, I>(self.f);
+        let f = rotate_to_parent::<R, Tree, I>(self.f);
         Self {
             f,
-            n: rotate_to_parent::<R, C, I>(self.n) + offset_cross::<R, C, I>(f, at),
+            n: rotate_to_parent::<R, Tree, I>(self.n) + offset_cross(f, at),
         }
     }
 }
@@ -241,39 +244,42 @@ impl<R: Real> Inertia<R> {
 
     /// The same in the frame of joint I's parent and about its origin.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn to_parent<C, const I: usize>(self, at: &Displacement<R>) -> Self
+    pub(crate) fn to_parent<Tree, const I: usize>(self, at: &Displacement<R, Tree, I>) -> Self
     where
-        C: Compiled,
+        Tree: Compiled,
     {
-        self.turned::<C, I>(at).turned_to_parent::<C, I>(at)
+        self.turned(at).turned_to_parent(at)
     }
 
     /// The same in the frame of joint I.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn turned<C, const I: usize>(self, at: &Displacement<R>) -> Self
+    pub(crate) fn turned<Tree, const I: usize>(self, at: &Displacement<R, Tree, I>) -> Self
     where
-        C: Compiled,
+        Tree: Compiled,
     {
         Self {
             mass: self.mass,
-            moment: at.leave::<C, I>(self.moment),
-            second: at.leave_symmetric::<C, I>(self.second),
+            moment: at.leave(self.moment),
+            second: at.leave_symmetric(self.second),
         }
     }
 
     /// The same in the frame of joint I's parent and about its origin, from the joint's frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn turned_to_parent<C, const I: usize>(self, at: &Displacement<R>) -> Self
+    pub(crate) fn turned_to_parent<Tree, const I: usize>(
+        self,
+        at: &Displacement<R, Tree, I>,
+    ) -> Self
     where
-        C: Compiled,
+        Tree: Compiled,
     {
-        let joint = CompiledJoint::<C, I>::JOINT;
+        let joint = CompiledJoint::<Tree, I>::JOINT;
         let mut p = Vec3::constant(joint.pos);
-        if CompiledJoint::<C, I>::SHIFTS {
-            p = p + at.shift::<C, I>();
+        if CompiledJoint::<Tree, I>::SHIFTS {
+            p = p + at.shift();
         }
-        let h = rotate_to_parent::<R, C, I>(self.moment);
-        let second = rotate_symmetric_to_parent::<R, C, I>(self.second);
+        let h = rotate_to_parent::<R, Tree, I>(self.moment);
+        let second = rotate_symmetric_to_parent::<R, Tree, I>(self.second);
         Self {
             mass: self.mass,
             moment: h + p.scale(self.mass),
@@ -308,13 +314,13 @@ impl<R: Real> AccelerationField<R> {
 
     /// The field of a child behind joint I of one coordinate.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn across<C: Compiled, const I: usize>(
+    pub(crate) fn across<Tree: Compiled, const I: usize>(
         &self,
-        at: &Displacement<R>,
+        at: &Displacement<R, Tree, I>,
         rates: JointRates<R>,
     ) -> Self {
-        let joint = CompiledJoint::<C, I>::JOINT;
-        match CompiledJoint::<C, I>::MOTION {
+        let joint = CompiledJoint::<Tree, I>::JOINT;
+        match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Slide => self.across_prismatic(joint, at.slide, rates),
             JointMotion::Screw => self.across_screw(joint, at, rates),
             _ => self.across_revolute::<true>(joint, at.turn, rates),
@@ -376,7 +382,12 @@ impl<R: Real> AccelerationField<R> {
 
     /// The field of a child behind a screw joint: a rotation, then a translation that it drives.
     #[cfg_attr(optimised, inline(always))]
-    fn across_screw(&self, joint: &Joint, at: &Displacement<R>, rates: JointRates<R>) -> Self {
+    fn across_screw<Tree, const I: usize>(
+        &self,
+        joint: &Joint,
+        at: &Displacement<R, Tree, I>,
+        rates: JointRates<R>,
+    ) -> Self {
         let turned = self.across_revolute::<true>(joint, at.turn, rates);
         let pitch = Folded::constant(joint.pitch);
         let (shift, products) = (along_z(at.slide), rates.omega_products * pitch);
@@ -394,23 +405,22 @@ impl<R: Real> AccelerationField<R> {
     /// the body in the joint's frame, by the body's axes, so that α = E α_λ + ω̇_J + E ω_λ × ω_J
     /// and a = E a_λ(p) + v̇_J + (ω + E ω_λ) × v_J.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn across_several<C: Compiled, const I: usize>(
+    pub(crate) fn across_several<Tree: Compiled, const I: usize>(
         &self,
-        at: &Displacement<R>,
+        at: &Displacement<R, Tree, I>,
         rates: &SeveralRates<R>,
     ) -> Self {
-        let joint = CompiledJoint::<C, I>::JOINT;
+        let joint = CompiledJoint::<Tree, I>::JOINT;
         let rot = Mat3::constant(&joint.rot);
-        let p = Vec3::constant(joint.pos) + at.shift::<C, I>();
-        let carried = at.enter::<C, I>(&rot, self.omega_products);
+        let p = Vec3::constant(joint.pos) + at.shift();
+        let carried = at.enter(&rot, self.omega_products);
         let omega_products = carried + rates.products.ang;
-        let alpha = at.enter::<C, I>(&rot, self.alpha)
-            + rates.accel.ang
-            + carried.cross(rates.products.ang);
-        let a = at.enter::<C, I>(&rot, self.a + self.u.mul(p));
-        let v = at.enter::<C, I>(&rot, self.v + self.omega.cross(p));
+        let alpha =
+            at.enter(&rot, self.alpha) + rates.accel.ang + carried.cross(rates.products.ang);
+        let a = at.enter(&rot, self.a + self.u.mul(p));
+        let v = at.enter(&rot, self.v + self.omega.cross(p));
         Self {
-            omega: at.enter::<C, I>(&rot, self.omega) + rates.velocity.ang,
+            omega: at.enter(&rot, self.omega) + rates.velocity.ang,
             omega_products,
             alpha,
             u: u_of(alpha, omega_products),

@@ -92,21 +92,21 @@ impl<R: Real> Articulated<R> {
 
     /// The same in the frame of joint I's parent and about its origin; RBDA (2.66).
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn to_parent<C, const I: usize>(self, at: &Displacement<R>) -> Self
+    pub(crate) fn to_parent<Tree, const I: usize>(self, at: &Displacement<R, Tree, I>) -> Self
     where
-        C: Compiled,
+        Tree: Compiled,
     {
         let turned = Self {
-            ang: at.leave_symmetric::<C, I>(self.ang),
-            coupling: at.leave_matrix::<C, I>(&self.coupling),
-            lin: at.leave_symmetric::<C, I>(self.lin),
+            ang: at.leave_symmetric(self.ang),
+            coupling: at.leave_matrix(&self.coupling),
+            lin: at.leave_symmetric(self.lin),
         };
-        let lin = rotate_symmetric_to_parent::<R, C, I>(turned.lin);
-        let here = rotate_matrix_to_parent::<R, C, I>(&turned.coupling);
+        let lin = rotate_symmetric_to_parent::<R, Tree, I>(turned.lin);
+        let here = rotate_matrix_to_parent::<R, Tree, I>(&turned.coupling);
         // H′ = H + [p]× A; I′ = I + [p]× Hᵀ + ([p]× H′ᵀ)ᵀ.
-        let coupling = here + cross_offset::<R, C, I>(Mat3(lin.columns()), at);
-        let Mat3([lx, ly, lz]) = cross_offset::<R, C, I>(Mat3(here.rows()), at);
-        let Mat3([rx, ry, rz]) = cross_offset::<R, C, I>(Mat3(coupling.rows()), at);
+        let coupling = here + cross_offset(Mat3(lin.columns()), at);
+        let Mat3([lx, ly, lz]) = cross_offset(Mat3(here.rows()), at);
+        let Mat3([rx, ry, rz]) = cross_offset(Mat3(coupling.rows()), at);
         let shift = Sym3 {
             xx: lx.0[0] + rx.0[0],
             xy: ly.0[0] + rx.0[1],
@@ -116,7 +116,7 @@ impl<R: Real> Articulated<R> {
             zz: lz.0[2] + rz.0[2],
         };
         Self {
-            ang: rotate_symmetric_to_parent::<R, C, I>(turned.ang) + shift,
+            ang: rotate_symmetric_to_parent::<R, Tree, I>(turned.ang) + shift,
             coupling,
             lin,
         }

@@ -1,6 +1,8 @@
 //! The motion of the base, from which the recursion starts.
 
 use super::acceleration_field::AccelerationField;
+use super::call::Call;
+use super::compile::Compiled;
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::pose::Pose;
@@ -8,66 +10,81 @@ use crate::effects::{Declared, Effect, Scene, base_given, call_hook, field_axes}
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
 
-/// The base without its acceleration: a = −g, its velocity if it moves, and its pose, in units of
-/// length; all other values are known zeros.
-#[cfg_attr(optimised, inline(always))]
-pub(crate) fn unaccelerated<R: Real, E, const B: usize, const V: usize>(
-    effects: &E,
-    length: f64,
-) -> AccelerationField<R>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
-    E: Effect<R, B, V>,
+    R: Real,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
-    const { Scene::<R, E, B, V>::MEANING };
-    let mut g = R::Vec3::ZERO;
-    call_hook!(E::GRAVITY_FIELD.add, effects, &mut g);
-    let (g, [x, y, z]) = (g.array(), const { field_axes::<R, E, B, V>() });
-    let up = Folded::constant(-1.0 / length);
-    let weight = Vec3([
-        Folded::runtime_if(x, g[0]) * up,
-        Folded::runtime_if(y, g[1]) * up,
-        Folded::runtime_if(z, g[2]) * up,
-    ]);
-    let mut field = AccelerationField {
-        omega: Vec3::ZERO,
-        omega_products: Vec3::ZERO,
-        alpha: Vec3::ZERO,
-        u: Mat3::ZERO,
-        a: weight,
-        v: Vec3::ZERO,
-        pose: Pose::UNKNOWN,
-    };
-    if E::BODY_POSE {
-        field.pose = Pose::BASE;
-    }
-    if E::BASE_MOTION {
-        let (mut velocity, mut acceleration) = (Motion::ZERO, Motion::ZERO);
-        call_hook!(E::BASE.add, effects, &mut velocity, &mut acceleration);
-        field.omega = Vec3::runtime(velocity.ang);
-        field.v = Vec3::runtime(velocity.lin).scale(Folded::constant(1.0 / length));
-    }
-    field
-}
-
-/// The motion of the base: a = −g plus its own acceleration, in units of length. If it is at rest,
-/// all other values are known zeros.
-#[cfg_attr(optimised, inline(always))]
-pub(crate) fn base<R: Real, E, const B: usize, const V: usize>(
-    effects: &E,
-    length: f64,
-) -> AccelerationField<R>
-where
-    E: Effect<R, B, V>,
-{
-    let mut field = unaccelerated::<R, E, B, V>(effects, length);
-    if E::BASE_MOTION {
-        let (_, a) = base_given(effects);
-        field = accelerated(field, a, E::VELOCITY_PRODUCTS, length);
-        if !E::BODY_VELOCITY {
-            (field.omega, field.v) = (Vec3::ZERO, Vec3::ZERO);
+    /// The base without its acceleration: a = −g, its velocity if it moves, and its pose, in units
+    /// of length; all other values are known zeros.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn unaccelerated(self) -> AccelerationField<R> {
+        let length = Tree::LENGTH;
+        const { Scene::<R, Effects, B, V>::MEANING };
+        let mut g = R::Vec3::ZERO;
+        call_hook!(Effects::GRAVITY_FIELD.add, self.effects, &mut g);
+        let (g, [x, y, z]) = (g.array(), const { field_axes::<R, Effects, B, V>() });
+        let up = Folded::constant(-1.0 / length);
+        let weight = Vec3([
+            Folded::runtime_if(x, g[0]) * up,
+            Folded::runtime_if(y, g[1]) * up,
+            Folded::runtime_if(z, g[2]) * up,
+        ]);
+        let mut field = AccelerationField {
+            omega: Vec3::ZERO,
+            omega_products: Vec3::ZERO,
+            alpha: Vec3::ZERO,
+            u: Mat3::ZERO,
+            a: weight,
+            v: Vec3::ZERO,
+            pose: Pose::UNKNOWN,
+        };
+        if Effects::BODY_POSE {
+            field.pose = Pose::BASE;
         }
+        if Effects::BASE_MOTION {
+            let (mut velocity, mut acceleration) = (Motion::ZERO, Motion::ZERO);
+            call_hook!(
+                Effects::BASE.add,
+                self.effects,
+                &mut velocity,
+                &mut acceleration
+            );
+            field.omega = Vec3::runtime(velocity.ang);
+            field.v = Vec3::runtime(velocity.lin).scale(Folded::constant(1.0 / length));
+        }
+        field
     }
-    field
+    /// The motion of the base: a = −g plus its own acceleration, in units of length. If it is at
+    /// rest, all other values are known zeros.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn base(self) -> AccelerationField<R> {
+        let length = Tree::LENGTH;
+        let mut field = self.unaccelerated();
+        if Effects::BASE_MOTION {
+            let (_, a) = base_given(self.effects);
+            field = accelerated(field, a, Effects::VELOCITY_PRODUCTS, length);
+            if !Effects::BODY_VELOCITY {
+                (field.omega, field.v) = (Vec3::ZERO, Vec3::ZERO);
+            }
+        }
+        field
+    }
+    /// The motion of the base without gravity, and its pose: all of it, whatever the effects need.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn carried(self) -> AccelerationField<R> {
+        let length = Tree::LENGTH;
+        let mut field = AccelerationField::RESTING;
+        if Effects::BASE_MOTION {
+            let (v, a) = base_given(self.effects);
+            field.omega = Vec3::runtime(v.ang);
+            field.v = Vec3::runtime(v.lin).scale(Folded::constant(1.0 / length));
+            field = accelerated(field, a, true, length);
+        }
+        field
+    }
 }
 
 /// The field of a base of the velocity of `field`, with its spatial acceleration, and with the
@@ -100,25 +117,6 @@ fn accelerated<R: Real>(
                 centripetal([zero, zero, one]),
             ]);
         field.a = field.a + omega.cross(velocity);
-    }
-    field
-}
-
-/// The motion of the base without gravity, and its pose: all of it, whatever the effects need.
-#[cfg_attr(optimised, inline(always))]
-pub(crate) fn carried<R: Real, E, const B: usize, const V: usize>(
-    effects: &E,
-    length: f64,
-) -> AccelerationField<R>
-where
-    E: Effect<R, B, V>,
-{
-    let mut field = AccelerationField::RESTING;
-    if E::BASE_MOTION {
-        let (v, a) = base_given(effects);
-        field.omega = Vec3::runtime(v.ang);
-        field.v = Vec3::runtime(v.lin).scale(Folded::constant(1.0 / length));
-        field = accelerated(field, a, true, length);
     }
     field
 }

@@ -53,16 +53,16 @@ impl<T, K> Engine<T, K> {
     /// # Source
     /// Khalil & Dombre (2002), chapter 9.
     #[inline(never)]
-    pub fn base_parameters<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    pub fn base_parameters<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
         robot: &Calibrated<T, R, B, Q, V>,
-        effects: &E,
+        effects: &Effects,
     ) -> Result<BaseParameters<T, R, B, Q, V>, ModelError>
     where
         T: Robot<B, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
         let mut joints = joints_of(robot, effects)?;
-        let sizes = sizes::<R, T, E, B, Q, V>(robot, effects);
+        let sizes = sizes::<R, T, Effects, B, Q, V>(robot, effects);
         let length = R::from_f64(CompiledRobot::<T, B, Q, V>::LENGTH);
         let mut set = BaseParameters {
             joints: [RegroupedInertia::default(); V],
@@ -121,13 +121,13 @@ struct Carried<R: Real> {
 }
 
 /// The joints with what they carry, before regrouping.
-fn joints_of<R: Real, T, E, const B: usize, const Q: usize, const V: usize>(
+fn joints_of<R: Real, T, Effects, const B: usize, const Q: usize, const V: usize>(
     robot: &Calibrated<T, R, B, Q, V>,
-    effects: &E,
+    effects: &Effects,
 ) -> Result<[Carried<R>; V], ModelError>
 where
     T: Robot<B, Q, V>,
-    E: Effect<R, B, V>,
+    Effects: Effect<R, B, V>,
 {
     let nothing = CompositeInertia::from(SpatialInertia::ZERO);
     let at_base = Xform::IDENTITY;
@@ -258,13 +258,13 @@ fn split<R: Real>(
 
 /// Mass, largest first and largest second moment of each joint and its descendants: see
 /// [`super::pivot_noise`].
-fn sizes<R: Real, T, E, const B: usize, const Q: usize, const V: usize>(
+fn sizes<R: Real, T, Effects, const B: usize, const Q: usize, const V: usize>(
     robot: &Calibrated<T, R, B, Q, V>,
-    effects: &E,
+    effects: &Effects,
 ) -> [[R; 3]; V]
 where
     T: Robot<B, Q, V>,
-    E: Effect<R, B, V>,
+    Effects: Effect<R, B, V>,
 {
     let length = |v: R::Vec3| {
         let [x, y, z] = v.array();

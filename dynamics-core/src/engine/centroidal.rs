@@ -4,22 +4,20 @@
 //! the momentum of the composite body beyond a joint at unit rate of that joint.
 
 use core::borrow::Borrow;
-use core::marker::PhantomData;
 
+use super::Engine;
 use super::acceleration_field::Inertia;
+use super::call::Call;
 use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointPair, Remainder};
-use super::displacement::Displacement;
 use super::energy::WithMasses;
 use super::folding::Folded;
 use super::gate::EngineScene;
 use super::pass::{Pass, sweep};
 use super::pose::Pose;
-use super::rnea::inertia;
-use super::totals::{Totals, centre, fixed, totals};
-use super::{Engine, Specialised};
+use super::totals::{Totals, centre, fixed};
 use crate::algorithms::CenterOfMass;
 use crate::effects::{Declared, Effect};
-use crate::model::{JointCoordinate, Robot};
+use crate::model::Robot;
 use crate::scalar::{Real, Vector};
 use crate::spatial::Force;
 use crate::state::{Configuration, RobotState};
@@ -45,19 +43,18 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "CoM")]
     #[inline(never)]
     #[must_use]
-    pub fn center_of_mass<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn center_of_mass<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> CenterOfMass<R>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let length = CompiledRobot::<T, B, Q, V>::LENGTH;
-        let all = Self::all_bodies::<R, S, E, B, Q, V>(state, effects);
+        let all = Self::all_bodies(state, effects);
         let (position, mass_inv) = all.centre(length);
         CenterOfMass {
             mass: (all.mass * Folded::constant(1.0 / (length * length))).get(),
@@ -84,18 +81,17 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn momentum<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn momentum<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> Force<R>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        let all = Self::all_bodies::<R, S, E, B, Q, V>(state, effects);
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        let all = Self::all_bodies(state, effects);
         force(&all, CompiledRobot::<T, B, Q, V>::LENGTH)
     }
 
@@ -116,39 +112,37 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn centroidal_momentum<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn centroidal_momentum<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> Force<R>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let length = CompiledRobot::<T, B, Q, V>::LENGTH;
-        let all = Self::all_bodies::<R, S, E, B, Q, V>(state, effects);
+        let all = Self::all_bodies(state, effects);
         let (h, (centre, _)) = (force(&all, length), all.centre(length));
         Force::new(h.ang - centre.cross(h.lin), h.lin)
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn all_bodies<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    fn all_bodies<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> Totals<R>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { WithMasses::<R, E, B, V>::KNOWN };
+        const { WithMasses::<R, Effects, B, V>::KNOWN };
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        let (turns, qd) = (&trig.borrow().coordinates, &state.state().qd);
-        totals::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V, true>(turns, Some(qd), effects)
+        let trig = configuration.trig_or(Self::trig_source());
+        let (trig, qd) = (trig.borrow(), &state.state().qd);
+        Self::call(trig, effects).totals::<true>(Some(qd))
     }
 
     /// The centroidal momentum matrix A_G with h_G = A_G q̇, by columns, one for each coordinate,
@@ -173,25 +167,25 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "CMM")]
     #[inline(never)]
     #[must_use]
-    pub fn centroidal_matrix<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    pub fn centroidal_matrix<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
         q: &impl Configuration<R, Q>,
-        effects: &E,
+        effects: &Effects,
     ) -> [Force<R>; V]
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        const { WithMasses::<R, E, B, V>::KNOWN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        const { WithMasses::<R, Effects, B, V>::KNOWN };
         const {
             assert!(
-                !E::GYROSCOPIC_ROTORS,
+                !Effects::GYROSCOPIC_ROTORS,
                 "no rotors that spin as bodies here; name `Armature`"
             )
         };
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        matrix::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(&trig.borrow().coordinates, effects)
+        let trig = q.trig_or(Self::trig_source());
+        Self::call(trig.borrow(), effects).centroidal_matrix()
     }
 }
 
@@ -202,60 +196,60 @@ fn force<R: Real>(all: &Totals<R>, length: f64) -> Force<R> {
     Force::new(h.n.get(), h.f.scale(Folded::constant(1.0 / length)).get())
 }
 
-#[cfg_attr(optimised, inline(always))]
-fn matrix<R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    effects: &E,
-) -> [Force<R>; V]
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
-    E: Effect<R, B, V>,
+    R: Real,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
-    let mut columns = [Force::ZERO; V];
-    let mut pass = Columns::<R, C, E, B, Q, V> {
-        turns,
-        effects,
-        columns: &mut columns,
-        robot: PhantomData,
-    };
-    let moving = sweep::<R, C, _>(&mut pass, &Pose::BASE);
-    let all = moving + fixed(Remainder::<C, B, V>::AT_BASE);
-    let (centre, _) = centre(all.mass, all.moment, C::LENGTH);
-    for column in &mut columns {
-        column.ang -= centre.cross(column.lin);
+    #[cfg_attr(optimised, inline(always))]
+    fn centroidal_matrix(self) -> [Force<R>; V] {
+        let mut columns = [Force::ZERO; V];
+        let mut pass = Columns::<R, Tree, Effects, B, Q, V> {
+            call: self,
+            columns: &mut columns,
+        };
+        let moving = sweep(&mut pass, &Pose::BASE);
+        let all = moving + fixed(Remainder::<Tree, B, V>::AT_BASE);
+        let (centre, _) = centre(all.mass, all.moment, Tree::LENGTH);
+        for column in &mut columns {
+            column.ang -= centre.cross(column.lin);
+        }
+        columns
     }
-    columns
 }
 
-struct Columns<'a, R: Real, C, E, const B: usize, const Q: usize, const V: usize> {
-    turns: &'a [JointCoordinate<R>; Q],
-    effects: &'a E,
+struct Columns<'a, R: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, Tree, Effects, B, Q, V>,
     columns: &'a mut [Force<R>; V],
-    robot: PhantomData<C>,
 }
 
-impl<R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize> Pass<R, C>
-    for Columns<'_, R, C, E, B, Q, V>
+impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize> Pass
+    for Columns<'_, R, Tree, Effects, B, Q, V>
 where
-    E: Effect<R, B, V>,
+    Effects: Effect<R, B, V>,
 {
+    type Tree = Tree;
     type Outward = Pose<R>;
     type Inward = Inertia<R>;
     const NOTHING: Inertia<R> = Inertia::NONE;
 
     #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &Pose<R>) -> Pose<R> {
-        parent.transformed_by::<C, I>(&Displacement::of::<C, Q, I>(self.turns))
+        parent.transformed_by::<Tree, I>(&self.call.displacement::<I>())
     }
 
     #[cfg_attr(optimised, inline(always))]
     fn leave<const I: usize>(&mut self, at: &Pose<R>, inner: Inertia<R>) -> Inertia<R> {
-        let body = inertia::<R, C, E, B, Q, V, I>(self.effects, true) + inner;
+        let body = self.call.inertia::<I>(true) + inner;
         for_each_joint!(K, {
-            if JointPair::<C, I, K>::IS_COORDINATE {
-                self.columns[K] = column(at, &body, CompiledJoint::<C, K>::JOINT, C::LENGTH_INV);
+            if JointPair::<Tree, I, K>::IS_COORDINATE {
+                self.columns[K] =
+                    column(at, &body, CompiledJoint::<Tree, K>::JOINT, Tree::LENGTH_INV);
             }
         });
-        body.to_parent::<C, I>(&Displacement::of::<C, Q, I>(self.turns))
+        body.to_parent(&self.call.displacement::<I>())
     }
 }
 

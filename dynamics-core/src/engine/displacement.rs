@@ -4,13 +4,15 @@
 //! Rotations about z need a sine and a cosine; those of spherical and free joints are the matrix of
 //! the unit quaternion.
 
+use core::marker::PhantomData;
+
 use super::compile::{Compiled, CompiledJoint, JointMotion};
 use super::folding::{Folded, Mat3, Sym3, Vec3, constant_offset_cross, rotate_to_parent};
 use crate::model::{JointCoordinate, near_unit, rotation};
 use crate::scalar::{Matrix, Real};
 use crate::trig::Kernel;
 
-impl<C: Compiled, const I: usize> CompiledJoint<C, I> {
+impl<Tree: Compiled, const I: usize> CompiledJoint<Tree, I> {
     /// Writes the sine and cosine, or the unit quaternion and other positions, that coordinate I
     /// brings.
     #[cfg_attr(optimised, inline(always))]
@@ -37,8 +39,7 @@ impl<C: Compiled, const I: usize> CompiledJoint<C, I> {
 }
 
 /// The displacement of one joint; what its kind does not have is a known zero.
-#[derive(Clone, Copy)]
-pub(crate) struct Displacement<R> {
+pub(crate) struct Displacement<R, Tree, const I: usize> {
     /// The sine and cosine of the rotation about z.
     pub(crate) turn: JointCoordinate<R>,
     /// The translation along z, in units of length.
@@ -48,38 +49,38 @@ pub(crate) struct Displacement<R> {
     /// The rotation of coordinates from the joint's frame to the body's, of a spherical or free
     /// joint.
     attitude: Mat3<R>,
+    joint: PhantomData<Tree>,
 }
 
-impl<R: Real> Displacement<R> {
+impl<R: Real, Tree: Compiled, const I: usize> Displacement<R, Tree, I> {
     /// That of joint I.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn of<C: Compiled, const Q: usize, const I: usize>(
-        turns: &[JointCoordinate<R>; Q],
-    ) -> Self {
-        let turn = turns[CompiledJoint::<C, I>::Q];
-        let length_inv = Folded::constant(C::LENGTH_INV);
+    pub(crate) fn of<const Q: usize>(turns: &[JointCoordinate<R>; Q]) -> Self {
+        let turn = turns[CompiledJoint::<Tree, I>::Q];
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
         let mut at = Self {
             turn,
             slide: Folded::ZERO,
             offset: Vec3::ZERO,
             attitude: Mat3::ZERO,
+            joint: PhantomData,
         };
-        match CompiledJoint::<C, I>::MOTION {
+        match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Turn | JointMotion::Still => {}
             JointMotion::Slide => at.slide = Folded::runtime(turn.q) * length_inv,
             JointMotion::Screw => {
-                let pitch = Folded::constant(CompiledJoint::<C, I>::JOINT.pitch);
+                let pitch = Folded::constant(CompiledJoint::<Tree, I>::JOINT.pitch);
                 at.slide = Folded::runtime(turn.q) * pitch;
             }
             JointMotion::Planar => {
-                let first = CompiledJoint::<C, I>::Q + 1;
+                let first = CompiledJoint::<Tree, I>::Q + 1;
                 let (x, y) = (position(turns, first), position(turns, first + 1));
                 at.offset = Vec3([x, y, Folded::ZERO]).scale(length_inv);
             }
-            JointMotion::Spherical => at.attitude = attitude(turns, CompiledJoint::<C, I>::Q),
+            JointMotion::Spherical => at.attitude = attitude(turns, CompiledJoint::<Tree, I>::Q),
             JointMotion::Free => {
-                at.attitude = attitude(turns, CompiledJoint::<C, I>::Q);
-                let first = CompiledJoint::<C, I>::Q + 4;
+                at.attitude = attitude(turns, CompiledJoint::<Tree, I>::Q);
+                let first = CompiledJoint::<Tree, I>::Q + 4;
                 at.offset = Vec3([
                     position(turns, first),
                     position(turns, first + 1),
@@ -99,9 +100,9 @@ impl<R: Real> Displacement<R> {
 
     /// From the parent's frame to the body's: `rot` is the constant rotation of the joint's frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn enter<C: Compiled, const I: usize>(&self, rot: &Mat3<R>, v: Vec3<R>) -> Vec3<R> {
+    pub(crate) fn enter(&self, rot: &Mat3<R>, v: Vec3<R>) -> Vec3<R> {
         let v = rot.transpose_mul(v);
-        match CompiledJoint::<C, I>::MOTION {
+        match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
                 let (sin, cos) = self.sin_cos();
                 v.turn_back(sin, cos)
@@ -113,8 +114,8 @@ impl<R: Real> Displacement<R> {
 
     /// From the body's frame to the joint's.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn leave<C: Compiled, const I: usize>(&self, v: Vec3<R>) -> Vec3<R> {
-        match CompiledJoint::<C, I>::MOTION {
+    pub(crate) fn leave(&self, v: Vec3<R>) -> Vec3<R> {
+        match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
                 let (sin, cos) = self.sin_cos();
                 v.turn(sin, cos)
@@ -126,14 +127,14 @@ impl<R: Real> Displacement<R> {
 
     /// The same of a symmetric matrix.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn leave_symmetric<C: Compiled, const I: usize>(&self, s: Sym3<R>) -> Sym3<R> {
-        match CompiledJoint::<C, I>::MOTION {
+    pub(crate) fn leave_symmetric(&self, s: Sym3<R>) -> Sym3<R> {
+        match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
                 let (sin, cos) = self.sin_cos();
                 s.turn(sin, cos)
             }
             JointMotion::Spherical | JointMotion::Free => {
-                Sym3::of(&self.leave_both::<C, I>(&Mat3(s.columns())))
+                Sym3::of(&self.leave_both(&Mat3(s.columns())))
             }
             JointMotion::Slide | JointMotion::Still => s,
         }
@@ -141,41 +142,33 @@ impl<R: Real> Displacement<R> {
 
     /// The same of any matrix.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn leave_matrix<C: Compiled, const I: usize>(&self, m: &Mat3<R>) -> Mat3<R> {
-        match CompiledJoint::<C, I>::MOTION {
+    pub(crate) fn leave_matrix(&self, m: &Mat3<R>) -> Mat3<R> {
+        match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
                 let (sin, cos) = self.sin_cos();
                 m.rotated_about_z(sin, cos)
             }
-            JointMotion::Spherical | JointMotion::Free => self.leave_both::<C, I>(m),
+            JointMotion::Spherical | JointMotion::Free => self.leave_both(m),
             JointMotion::Slide | JointMotion::Still => *m,
         }
     }
 
     /// Eᵀ M E.
     #[cfg_attr(optimised, inline(always))]
-    fn leave_both<C: Compiled, const I: usize>(&self, m: &Mat3<R>) -> Mat3<R> {
+    fn leave_both(&self, m: &Mat3<R>) -> Mat3<R> {
         let [x, y, z] = m.0;
-        let half = Mat3([
-            self.leave::<C, I>(x),
-            self.leave::<C, I>(y),
-            self.leave::<C, I>(z),
-        ]);
+        let half = Mat3([self.leave(x), self.leave(y), self.leave(z)]);
         let [x, y, z] = half.rows();
-        let rows = Mat3([
-            self.leave::<C, I>(x),
-            self.leave::<C, I>(y),
-            self.leave::<C, I>(z),
-        ]);
+        let rows = Mat3([self.leave(x), self.leave(y), self.leave(z)]);
         Mat3(rows.rows())
     }
 
     /// The body's axes along those of the frame of which `joint` holds the axes of the joint's
     /// frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn axes<C: Compiled, const I: usize>(&self, joint: &Mat3<R>) -> Mat3<R> {
+    pub(crate) fn axes(&self, joint: &Mat3<R>) -> Mat3<R> {
         let [x, y, z] = joint.0;
-        match CompiledJoint::<C, I>::MOTION {
+        match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
                 let (sin, cos) = self.sin_cos();
                 Mat3([x.scale(cos) + y.scale(sin), y.scale(cos) - x.scale(sin), z])
@@ -191,8 +184,8 @@ impl<R: Real> Displacement<R> {
     /// The translation in the frame of which `joint` holds the axes of the joint's frame, in units
     /// of length.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn along<C: Compiled, const I: usize>(&self, joint: &Mat3<R>) -> Vec3<R> {
-        match CompiledJoint::<C, I>::MOTION {
+    pub(crate) fn along(&self, joint: &Mat3<R>) -> Vec3<R> {
+        match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Slide | JointMotion::Screw => joint.0[2].scale(self.slide),
             JointMotion::Planar | JointMotion::Free => joint.mul(self.offset),
             JointMotion::Turn | JointMotion::Spherical | JointMotion::Still => Vec3::ZERO,
@@ -201,12 +194,12 @@ impl<R: Real> Displacement<R> {
 
     /// The translation in the frame of the parent, in units of length.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn shift<C: Compiled, const I: usize>(&self) -> Vec3<R> {
-        match CompiledJoint::<C, I>::MOTION {
+    pub(crate) fn shift(&self) -> Vec3<R> {
+        match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Slide | JointMotion::Screw => {
-                Vec3::constant(CompiledJoint::<C, I>::JOINT.rot.z_axis).scale(self.slide)
+                Vec3::constant(CompiledJoint::<Tree, I>::JOINT.rot.z_axis).scale(self.slide)
             }
-            JointMotion::Planar | JointMotion::Free => rotate_to_parent::<R, C, I>(self.offset),
+            JointMotion::Planar | JointMotion::Free => rotate_to_parent::<R, Tree, I>(self.offset),
             JointMotion::Turn | JointMotion::Spherical | JointMotion::Still => Vec3::ZERO,
         }
     }
@@ -222,30 +215,33 @@ impl<R: Real> Displacement<R> {
 
 /// p × v, p the offset from the origin of joint I's parent to its own.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn offset_cross<R: Real, C, const I: usize>(v: Vec3<R>, at: &Displacement<R>) -> Vec3<R>
+pub(crate) fn offset_cross<R: Real, Tree, const I: usize>(
+    v: Vec3<R>,
+    at: &Displacement<R, Tree, I>,
+) -> Vec3<R>
 where
-    C: Compiled,
+    Tree: Compiled,
 {
-    let mut sum = constant_offset_cross::<R, C, I>(v);
-    if CompiledJoint::<C, I>::SHIFTS {
-        sum = sum + at.shift::<C, I>().cross(v);
+    let mut sum = constant_offset_cross::<R, Tree, I>(v);
+    if CompiledJoint::<Tree, I>::SHIFTS {
+        sum = sum + at.shift().cross(v);
     }
     sum
 }
 
 /// p × each column.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn cross_offset<R: Real, C, const I: usize>(
+pub(crate) fn cross_offset<R: Real, Tree, const I: usize>(
     Mat3([x, y, z]): Mat3<R>,
-    at: &Displacement<R>,
+    at: &Displacement<R, Tree, I>,
 ) -> Mat3<R>
 where
-    C: Compiled,
+    Tree: Compiled,
 {
     Mat3([
-        offset_cross::<R, C, I>(x, at),
-        offset_cross::<R, C, I>(y, at),
-        offset_cross::<R, C, I>(z, at),
+        offset_cross(x, at),
+        offset_cross(y, at),
+        offset_cross(z, at),
     ])
 }
 

@@ -5,11 +5,8 @@
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 
-use super::base::unaccelerated;
-use super::compile::{Compiled, CompiledRobot};
+use super::Engine;
 use super::gate::EngineScene;
-use super::totals::totals;
-use super::{Engine, Specialised};
 use crate::effects::{Declared, Effect};
 use crate::model::Robot;
 use crate::scalar::Real;
@@ -34,28 +31,26 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn kinetic_energy<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn kinetic_energy<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> R
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         const {
             assert!(
-                E::BASE_PARAMETERS == 0 || !E::BASE_MOTION,
+                Effects::BASE_PARAMETERS == 0 || !Effects::BASE_MOTION,
                 "base parameters in memory do not have all that the energy on a moving base needs; use `Core`"
             )
         };
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        let (turns, qd) = (&trig.borrow().coordinates, &state.state().qd);
-        let all =
-            totals::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V, false>(turns, Some(qd), effects);
+        let trig = configuration.trig_or(Self::trig_source());
+        let (trig, qd) = (trig.borrow(), &state.state().qd);
+        let all = Self::call(trig, effects).totals::<false>(Some(qd));
         all.twice.get() * R::from_f64(0.5)
     }
 
@@ -76,33 +71,34 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn potential_energy<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    pub fn potential_energy<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
         q: &impl Configuration<R, Q>,
-        effects: &E,
+        effects: &Effects,
     ) -> R
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        const { WithMasses::<R, E, B, V>::KNOWN };
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        let turns = &trig.borrow().coordinates;
-        let all = totals::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V, false>(turns, None, effects);
-        let length = CompiledRobot::<T, B, Q, V>::LENGTH;
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        const { WithMasses::<R, Effects, B, V>::KNOWN };
+        let trig = q.trig_or(Self::trig_source());
+        let call = Self::call(trig.borrow(), effects);
+        let all = call.totals::<false>(None);
         // The base at rest accelerates by −g.
-        let up = unaccelerated::<R, E, B, V>(effects, length).a;
+        let up = call.unaccelerated().a;
         up.dot(all.moment).get()
     }
 }
 
 /// A scene whose bodies have their masses.
-pub(super) struct WithMasses<R, E, const B: usize, const V: usize>(PhantomData<(R, E)>);
+pub(super) struct WithMasses<R, Effects, const B: usize, const V: usize>(PhantomData<(R, Effects)>);
 
-impl<R: Real, E: Effect<R, B, V>, const B: usize, const V: usize> WithMasses<R, E, B, V> {
+impl<R: Real, Effects: Effect<R, B, V>, const B: usize, const V: usize>
+    WithMasses<R, Effects, B, V>
+{
     pub(super) const KNOWN: () = assert!(
-        E::BASE_PARAMETERS == 0,
+        Effects::BASE_PARAMETERS == 0,
         "base parameters in memory have no masses; use `Core`"
     );
 }

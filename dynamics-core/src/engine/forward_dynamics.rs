@@ -5,21 +5,18 @@
 
 use core::borrow::Borrow;
 use core::hint::black_box;
-use core::marker::PhantomData;
 
+use super::call::{Call, joint_state};
 use super::compile::{Compiled, CompiledRobot};
-use super::crba::mass_matrix;
 use super::gate::EngineScene;
 use super::ltdl::{decompose, substitute};
-use super::pivot_noise::{certain, noise};
-use super::rnea::{joint_state, torques};
-use super::{Engine, Index, Specialised};
+use super::{Engine, Index};
 use crate::algorithms::MassMatrix;
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::{Bias, Declared, Effect, transmitted};
 use crate::model::Robot;
 use crate::scalar::Real;
-use crate::state::{Configuration, JointTrig, RobotState, State};
+use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
@@ -41,27 +38,19 @@ impl<T, K> Engine<T, K> {
     /// the largest inertia that all its descendants, stretched out, could have about it.
     #[doc(alias = "FD")]
     #[inline(never)]
-    pub fn forward_dynamics<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
+    pub fn forward_dynamics<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
         tau: &[R; V],
-        effects: &E,
+        effects: &Effects,
     ) -> Result<[R; V], NotPositiveDefinite>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        let trig = state
-            .configuration()
-            .trig_or(Specialised::<T, K, B, V>(PhantomData));
-        accelerate::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(
-            trig.borrow(),
-            state.state(),
-            tau,
-            effects,
-        )
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        let trig = state.configuration().trig_or(Self::trig_source());
+        Self::call(trig.borrow(), effects).accelerations_by_factors(state.state(), tau)
     }
 
     /// The torques that the gears transmit while their motors supply `tau`, N·m or N, as
@@ -76,93 +65,79 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[cfg_attr(optimised, inline(always))]
     #[must_use]
-    pub fn transmitted_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    pub fn transmitted_torque<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
         state: &State<R, Q, V>,
         tau: &[R; V],
-        effects: &E,
+        effects: &Effects,
     ) -> [R; V]
     where
         T: Robot<B, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        behind_gears::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(state, tau, effects)
+        Call::<R, CompiledRobot<T, B, Q, V>, Effects, B, Q, V>::behind_gears(effects, state, tau)
     }
 }
 
-/// The torques behind the gears while their motors supply `tau`.
-#[cfg_attr(optimised, inline(always))]
-fn behind_gears<R: Real, C, E, const B: usize, const Q: usize, const V: usize>(
-    state: &State<R, Q, V>,
-    tau: &[R; V],
-    effects: &E,
-) -> [R; V]
-where
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    let mut rest = *tau;
-    if const { E::LOAD_DEPENDENT } {
-        for_each_joint!(J, {
-            if Index::<J, V>::IS_BELOW {
-                let at = joint_state::<R, C, Q, V, J>(state);
-                rest[J] = transmitted(effects, J, at, rest[J]);
-            }
-        });
-    }
-    rest
-}
-
-/// τ − C(q, q̇), the torque that is left to accelerate.
-#[cfg_attr(optimised, inline(always))]
-pub(crate) fn remaining<R: Real, C, E, const B: usize, const Q: usize, const V: usize>(
-    trig: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    tau: &[R; V],
-    effects: &E,
-) -> [R; V]
-where
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    const {
-        assert!(
-            E::ACCELERATIONS,
-            "forward dynamics needs `Inertia` in the scene"
-        )
-    };
-    let bias = torques::<R, C, _, B, Q, V>(trig, trig, state, &Bias(effects));
-    let mut rest = behind_gears::<R, C, E, B, Q, V>(state, tau, effects);
-    for_each_joint!(J, {
-        if Index::<J, V>::IS_BELOW {
-            rest[J] -= bias[J];
-        }
-    });
-    rest
-}
-
-#[cfg_attr(optimised, inline(always))]
-fn accelerate<R, C, E, const B: usize, const Q: usize, const V: usize>(
-    trig: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    tau: &[R; V],
-    effects: &E,
-) -> Result<[R; V], NotPositiveDefinite>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
-    // The bias before M: as one block they would need more registers than there are. M and its
-    // factors need fewer in one.
-    let mut rest = remaining::<R, C, E, B, Q, V>(trig, state, tau, effects);
-    black_box(&mut rest);
-    let mut m = MassMatrix::ZERO;
-    mass_matrix::<R, C, E, B, Q, V>(&trig.coordinates, effects, &mut m);
-    let noise = noise::<R, C, E, B, Q, V>(&trig.coordinates, effects);
-    let certain = certain::<R, C, E, B, Q, V>(effects);
-    let d_inv = decompose::<R, C, V>(&mut m.rows, &noise, &certain)?;
-    // A copy, since the array that the compiler cannot see through would stay in memory to the end.
-    let mut x = rest;
-    substitute::<R, C, V>(&m.rows, &d_inv, &mut x);
-    Ok(x)
+    /// The torques behind the gears while their motors supply `tau`.
+    #[cfg_attr(optimised, inline(always))]
+    fn behind_gears(effects: &Effects, state: &State<R, Q, V>, tau: &[R; V]) -> [R; V] {
+        let mut rest = *tau;
+        if const { Effects::LOAD_DEPENDENT } {
+            for_each_joint!(J, {
+                if Index::<J, V>::IS_BELOW {
+                    let at = joint_state::<R, Tree, Q, V, J>(state);
+                    rest[J] = transmitted(effects, J, at, rest[J]);
+                }
+            });
+        }
+        rest
+    }
+
+    /// τ − C(q, q̇), the torque that is left to accelerate.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn remaining(self, state: &State<R, Q, V>, tau: &[R; V]) -> [R; V] {
+        const {
+            assert!(
+                Effects::ACCELERATIONS,
+                "forward dynamics needs `Inertia` in the scene"
+            )
+        };
+        let bias = self.under(&Bias(self.effects)).torques(self.turns, state);
+        let mut rest = Self::behind_gears(self.effects, state, tau);
+        for_each_joint!(J, {
+            if Index::<J, V>::IS_BELOW {
+                rest[J] -= bias[J];
+            }
+        });
+        rest
+    }
+
+    #[cfg_attr(optimised, inline(always))]
+    fn accelerations_by_factors(
+        self,
+        state: &State<R, Q, V>,
+        tau: &[R; V],
+    ) -> Result<[R; V], NotPositiveDefinite> {
+        // The bias before M: as one block they would need more registers than there are. M and its
+        // factors need fewer in one.
+        let mut rest = self.remaining(state, tau);
+        black_box(&mut rest);
+        let mut m = MassMatrix::ZERO;
+        self.mass_matrix(&mut m);
+        let noise = self.noise();
+        let certain = self.certain();
+        let d_inv = decompose::<R, Tree, V>(&mut m.rows, &noise, &certain)?;
+        // A copy, since the array that the compiler cannot see through would stay in memory to the
+        // end.
+        let mut x = rest;
+        substitute::<R, Tree, V>(&m.rows, &d_inv, &mut x);
+        Ok(x)
+    }
 }

@@ -10,16 +10,14 @@ use core::hint::black_box;
 use core::marker::PhantomData;
 
 use super::acceleration_field::Inertia;
-use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointMotion, JointPair};
-use super::displacement::Displacement;
+use super::call::Call;
+use super::compile::{Compiled, CompiledJoint, JointMotion, JointPair};
 use super::folding::{Folded, Mat3, Vec3};
 use super::gate::EngineScene;
-use super::momentum::momenta;
-use super::rnea::{inertia, torques};
-use super::{Engine, Specialised, only_if};
+use super::{Engine, only_if};
 use crate::algorithms::{JointResult, NotPositiveDefinite};
 use crate::effects::{Declared, Effect, OfBodies};
-use crate::model::{JointCoordinate, Robot};
+use crate::model::Robot;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::inertia::CompositeInertia;
 use crate::spatial::{Force, Motion, SpatialInertia};
@@ -65,33 +63,28 @@ impl<T, K> Engine<T, K> {
     /// about some axis.
     #[doc(alias = "recoil")]
     #[inline(never)]
-    pub fn base_velocity_from_momentum<R, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
+    pub fn base_velocity_from_momentum<R, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
         h: Force<R>,
-        effects: &E,
+        effects: &Effects,
     ) -> Result<[R; V], NotPositiveDefinite>
     where
         R: Real,
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        const { FreeScene::<R, E, B, V>::TAKEN };
-        let trig = state
-            .configuration()
-            .trig_or(Specialised::<T, K, B, V>(PhantomData));
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        const { FreeScene::<R, Effects, B, V>::TAKEN };
+        let trig = state.configuration().trig_or(Self::trig_source());
         let (trig, state) = (trig.borrow(), state.state());
+        let call = Self::call(trig, effects);
         let bodies = OfBodies(effects);
-        let p =
-            momenta::<R, CompiledRobot<T, B, Q, V>, _, B, Q, V, false>(trig, trig, state, &bodies)
-                .p;
+        let p = call.under(&bodies).momenta::<false>(call.turns, state).p;
         // One phase after the other: as one block they would need more registers than there are.
         let p = black_box(&p);
-        let (all, _) =
-            composite::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(&trig.coordinates, effects);
-        let h = in_base::<R, CompiledRobot<T, B, Q, V>, Q>(&trig.coordinates, h);
+        let (all, _) = call.composite();
+        let h = call.in_base(h);
         let mut qd = state.qd;
         step(&all, &(h - first(p)), &mut qd)?;
         Ok(qd)
@@ -130,32 +123,28 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "floating base")]
     #[doc(alias = "hybrid dynamics")]
     #[inline(never)]
-    pub fn free_base_inverse_dynamics<R, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn free_base_inverse_dynamics<R, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> Result<JointResult<R, V>, NotPositiveDefinite>
     where
         R: Real,
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        const { FreeScene::<R, E, B, V>::TAKEN };
-        let trig = state
-            .configuration()
-            .trig_or(Specialised::<T, K, B, V>(PhantomData));
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        const { FreeScene::<R, Effects, B, V>::TAKEN };
+        let trig = state.configuration().trig_or(Self::trig_source());
         let (trig, state) = (trig.borrow(), state.state());
-        let mut tau =
-            torques::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(trig, trig, state, effects);
+        let call = Self::call(trig, effects);
+        let mut tau = call.torques(call.turns, state);
         black_box(&mut tau);
-        let (all, columns) =
-            composite::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(&trig.coordinates, effects);
+        let (all, columns) = call.composite();
         let columns = black_box(&columns);
         let mut qdd = state.qdd;
         let step = step(&all, &-first(&tau), &mut qdd)?;
-        spread::<R, CompiledRobot<T, B, Q, V>, Q, V>(&trig.coordinates, columns, &step, &mut tau);
+        call.spread(columns, &step, &mut tau);
         for tau in tau.iter_mut().take(BASE_RATES) {
             *tau = R::ZERO;
         }
@@ -164,11 +153,13 @@ impl<T, K> Engine<T, K> {
 }
 
 /// A scene that a base which nothing holds may have.
-struct FreeScene<R, E, const B: usize, const V: usize>(PhantomData<(R, E)>);
+struct FreeScene<R, Effects, const B: usize, const V: usize>(PhantomData<(R, Effects)>);
 
-impl<R: Real, E: Effect<R, B, V>, const B: usize, const V: usize> FreeScene<R, E, B, V> {
+impl<R: Real, Effects: Effect<R, B, V>, const B: usize, const V: usize>
+    FreeScene<R, Effects, B, V>
+{
     const TAKEN: () = assert!(
-        !E::GYROSCOPIC_ROTORS,
+        !Effects::GYROSCOPIC_ROTORS,
         "no rotors that spin as bodies here; name `Armature`"
     );
 }
@@ -199,187 +190,143 @@ fn step<R: Real, const V: usize>(
     Ok(step)
 }
 
-/// A force about the origin of the base of the description and along its axes, in the frame of the
-/// free body.
-#[cfg_attr(optimised, inline(always))]
-fn in_base<R: Real, C: Compiled, const Q: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    h: Force<R>,
-) -> Force<R> {
-    let joint = CompiledJoint::<C, 0>::JOINT;
-    let (rot, at) = (
-        Mat3::constant(&joint.rot),
-        Displacement::of::<C, Q, 0>(turns),
-    );
-    let origin = Vec3::constant(joint.pos) + at.shift::<C, 0>();
-    let lin = Vec3::runtime(h.lin);
-    let arm = origin.scale(Folded::constant(C::LENGTH));
-    let ang = Vec3::runtime(h.ang) - arm.cross(lin);
-    Force::new(
-        at.enter::<C, 0>(&rot, ang).get(),
-        at.enter::<C, 0>(&rot, lin).get(),
-    )
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
+where
+    R: Real,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
+{
+    /// A force about the origin of the base of the description and along its axes, in the frame of
+    /// the free body.
+    #[cfg_attr(optimised, inline(always))]
+    fn in_base(self, h: Force<R>) -> Force<R> {
+        let joint = CompiledJoint::<Tree, 0>::JOINT;
+        let (rot, at) = (Mat3::constant(&joint.rot), self.displacement::<0>());
+        let origin = Vec3::constant(joint.pos) + at.shift();
+        let lin = Vec3::runtime(h.lin);
+        let arm = origin.scale(Folded::constant(Tree::LENGTH));
+        let ang = Vec3::runtime(h.ang) - arm.cross(lin);
+        Force::new(at.enter(&rot, ang).get(), at.enter(&rot, lin).get())
+    }
+
+    /// The composite inertia of the free body and its descendants in its own frame, and the columns
+    /// of the descendants.
+    #[cfg_attr(optimised, inline(always))]
+    fn composite(self) -> (CompositeInertia<R>, Columns<R, V>) {
+        const {
+            assert!(
+                matches!(CompiledJoint::<Tree, 0>::MOTION, JointMotion::Free),
+                "the first joint of the robot is not free"
+            );
+        }
+        let mut columns = [[R::ZERO; 6]; V];
+        let all = self.with_descendants::<0>(&mut columns);
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
+        let s = all.second;
+        let [x, y, z] = [
+            Vec3([s.yy + s.zz, -s.xy, -s.xz]),
+            Vec3([-s.xy, s.xx + s.zz, -s.yz]),
+            Vec3([-s.xz, -s.yz, s.xx + s.yy]),
+        ]
+        .map(Vec3::get);
+        let body = SpatialInertia {
+            mass: (all.mass * length_inv * length_inv).get(),
+            first_moment: all.moment.scale(length_inv).get(),
+            rotational: R::Mat3::from_cols(x, y, z),
+        };
+        (body.into(), columns)
+    }
+
+    /// The inertia of the body behind joint I and of its descendants, in its frame.
+    #[cfg_attr(optimised, inline(always))]
+    fn with_descendants<const I: usize>(self, columns: &mut Columns<R, V>) -> Inertia<R> {
+        let mut body = self.inertia::<I>(false);
+        for_each_joint!(
+            J,
+            JointPair::<Tree, I, J>::IS_CHILD,
+            child = Self::at_parent::<J> as fn(_, &mut _) -> _,
+            {
+                body = body + child(self, columns);
+            }
+        );
+        body
+    }
+
+    /// The same in the frame of the parent; writes the joint's columns.
+    #[cfg_attr(optimised, inline(always))]
+    fn at_parent<const I: usize>(self, columns: &mut Columns<R, V>) -> Inertia<R> {
+        let body = self.with_descendants::<I>(columns);
+        for_each_joint!(K, {
+            if JointPair::<Tree, I, K>::IS_COORDINATE {
+                let length_inv = Folded::constant(Tree::LENGTH_INV);
+                let wrench = body.wrench_of(CompiledJoint::<Tree, K>::JOINT, length_inv);
+                let ([nx, ny, nz], [fx, fy, fz]) = (wrench.n.0, wrench.f.0);
+                columns[K] = [nx.get(), ny.get(), nz.get(), fx.get(), fy.get(), fz.get()];
+            }
+        });
+        body.to_parent(&self.displacement::<I>())
+    }
+
+    /// Adds to the torques what the joints of the descendants need for an acceleration of the base.
+    #[cfg_attr(optimised, inline(always))]
+    fn spread(self, columns: &Columns<R, V>, step: &Motion<R>, tau: &mut [R; V]) {
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
+        let alpha = Vec3::runtime(step.ang);
+        let a = Vec3::runtime(step.lin).scale(length_inv);
+        self.to_children::<0>(columns, [alpha, a], tau);
+    }
+
+    /// α and a of the body behind joint I reach its children.
+    #[cfg_attr(optimised, inline(always))]
+    fn to_children<const I: usize>(
+        self,
+        columns: &Columns<R, V>,
+        motion: [Vec3<R>; 2],
+        tau: &mut [R; V],
+    ) {
+        for_each_joint!(J, {
+            if JointPair::<Tree, I, J>::IS_CHILD
+                && let Some(outward) = const {
+                    only_if(
+                        JointPair::<Tree, I, J>::IS_CHILD,
+                        Self::outward::<J> as fn(_, &_, _, &mut _),
+                    )
+                }
+            {
+                outward(self, columns, motion, tau);
+            }
+        });
+    }
+
+    /// Joint I and its descendants, from α and a of the parent.
+    #[cfg_attr(optimised, inline(always))]
+    fn outward<const I: usize>(
+        self,
+        columns: &Columns<R, V>,
+        [alpha, a]: [Vec3<R>; 2],
+        tau: &mut [R; V],
+    ) {
+        let joint = CompiledJoint::<Tree, I>::JOINT;
+        let (rot, mut p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
+        let at = self.displacement::<I>();
+        if CompiledJoint::<Tree, I>::SHIFTS {
+            p = p + at.shift();
+        }
+        let motion = [at.enter(&rot, alpha), at.enter(&rot, a + alpha.cross(p))];
+        for_each_joint!(K, {
+            if JointPair::<Tree, I, K>::IS_COORDINATE {
+                let [nx, ny, nz, fx, fy, mut fz] = columns[K].map(Folded::runtime);
+                if CompiledJoint::<Tree, K>::IS_TURN {
+                    fz = Folded::ZERO;
+                }
+                let load = Vec3([nx, ny, nz]).dot(motion[0]) + Vec3([fx, fy, fz]).dot(motion[1]);
+                tau[K] += load.get();
+            }
+        });
+        self.to_children::<I>(columns, motion, tau);
+    }
 }
 
 /// The wrenches Iᶜ S of unit accelerations, in the frames of their bodies: couple and force.
 type Columns<R, const V: usize> = [[R; 6]; V];
-
-/// The composite inertia of the free body and its descendants in its own frame, and the columns of
-/// the descendants.
-#[cfg_attr(optimised, inline(always))]
-fn composite<R: Real, C, E, const B: usize, const Q: usize, const V: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    effects: &E,
-) -> (CompositeInertia<R>, Columns<R, V>)
-where
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    const {
-        assert!(
-            matches!(CompiledJoint::<C, 0>::MOTION, JointMotion::Free),
-            "the first joint of the robot is not free"
-        );
-    }
-    let mut columns = [[R::ZERO; 6]; V];
-    let all = with_descendants::<R, C, E, B, Q, V, 0>(turns, effects, &mut columns);
-    let length_inv = Folded::constant(C::LENGTH_INV);
-    let s = all.second;
-    let [x, y, z] = [
-        Vec3([s.yy + s.zz, -s.xy, -s.xz]),
-        Vec3([-s.xy, s.xx + s.zz, -s.yz]),
-        Vec3([-s.xz, -s.yz, s.xx + s.yy]),
-    ]
-    .map(Vec3::get);
-    let body = SpatialInertia {
-        mass: (all.mass * length_inv * length_inv).get(),
-        first_moment: all.moment.scale(length_inv).get(),
-        rotational: R::Mat3::from_cols(x, y, z),
-    };
-    (body.into(), columns)
-}
-
-type Composite<R, E, const Q: usize, const V: usize> =
-    fn(&[JointCoordinate<R>; Q], &E, &mut Columns<R, V>) -> Inertia<R>;
-
-/// The inertia of the body behind joint I and of its descendants, in its frame.
-#[cfg_attr(optimised, inline(always))]
-fn with_descendants<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    effects: &E,
-    columns: &mut Columns<R, V>,
-) -> Inertia<R>
-where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    let mut body = inertia::<R, C, E, B, Q, V, I>(effects, false);
-    for_each_joint!(J, {
-        if JointPair::<C, I, J>::IS_CHILD
-            && let Some(child) = const {
-                only_if(
-                    JointPair::<C, I, J>::IS_CHILD,
-                    at_parent::<R, C, E, B, Q, V, J> as Composite<R, E, Q, V>,
-                )
-            }
-        {
-            body = body + child(turns, effects, columns);
-        }
-    });
-    body
-}
-
-/// The same in the frame of the parent; writes the joint's columns.
-#[cfg_attr(optimised, inline(always))]
-fn at_parent<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    effects: &E,
-    columns: &mut Columns<R, V>,
-) -> Inertia<R>
-where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    let body = with_descendants::<R, C, E, B, Q, V, I>(turns, effects, columns);
-    for_each_joint!(K, {
-        if JointPair::<C, I, K>::IS_COORDINATE {
-            let length_inv = Folded::constant(C::LENGTH_INV);
-            let wrench = body.wrench_of(CompiledJoint::<C, K>::JOINT, length_inv);
-            let ([nx, ny, nz], [fx, fy, fz]) = (wrench.n.0, wrench.f.0);
-            columns[K] = [nx.get(), ny.get(), nz.get(), fx.get(), fy.get(), fz.get()];
-        }
-    });
-    body.to_parent::<C, I>(&Displacement::of::<C, Q, I>(turns))
-}
-
-/// Adds to the torques what the joints of the descendants need for an acceleration of the base.
-#[cfg_attr(optimised, inline(always))]
-fn spread<R: Real, C: Compiled, const Q: usize, const V: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    columns: &Columns<R, V>,
-    step: &Motion<R>,
-    tau: &mut [R; V],
-) {
-    let length_inv = Folded::constant(C::LENGTH_INV);
-    let alpha = Vec3::runtime(step.ang);
-    let a = Vec3::runtime(step.lin).scale(length_inv);
-    to_children::<R, C, Q, V, 0>(turns, columns, [alpha, a], tau);
-}
-
-type Outward<R, const Q: usize, const V: usize> =
-    fn(&[JointCoordinate<R>; Q], &Columns<R, V>, [Vec3<R>; 2], &mut [R; V]);
-
-/// α and a of the body behind joint I reach its children.
-#[cfg_attr(optimised, inline(always))]
-fn to_children<R: Real, C: Compiled, const Q: usize, const V: usize, const I: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    columns: &Columns<R, V>,
-    motion: [Vec3<R>; 2],
-    tau: &mut [R; V],
-) {
-    for_each_joint!(J, {
-        if JointPair::<C, I, J>::IS_CHILD
-            && let Some(outward) = const {
-                only_if(
-                    JointPair::<C, I, J>::IS_CHILD,
-                    outward::<R, C, Q, V, J> as Outward<R, Q, V>,
-                )
-            }
-        {
-            outward(turns, columns, motion, tau);
-        }
-    });
-}
-
-/// Joint I and its descendants, from α and a of the parent.
-#[cfg_attr(optimised, inline(always))]
-fn outward<R: Real, C: Compiled, const Q: usize, const V: usize, const I: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    columns: &Columns<R, V>,
-    [alpha, a]: [Vec3<R>; 2],
-    tau: &mut [R; V],
-) {
-    let joint = CompiledJoint::<C, I>::JOINT;
-    let (rot, mut p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
-    let at = Displacement::of::<C, Q, I>(turns);
-    if CompiledJoint::<C, I>::SHIFTS {
-        p = p + at.shift::<C, I>();
-    }
-    let motion = [
-        at.enter::<C, I>(&rot, alpha),
-        at.enter::<C, I>(&rot, a + alpha.cross(p)),
-    ];
-    for_each_joint!(K, {
-        if JointPair::<C, I, K>::IS_COORDINATE {
-            let [nx, ny, nz, fx, fy, mut fz] = columns[K].map(Folded::runtime);
-            if CompiledJoint::<C, K>::IS_TURN {
-                fz = Folded::ZERO;
-            }
-            let load = Vec3([nx, ny, nz]).dot(motion[0]) + Vec3([fx, fy, fz]).dot(motion[1]);
-            tau[K] += load.get();
-        }
-    });
-    to_children::<R, C, Q, V, I>(turns, columns, motion, tau);
-}

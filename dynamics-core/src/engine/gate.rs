@@ -8,32 +8,33 @@ use crate::model::Robot;
 use crate::scalar::Real;
 
 /// A scene of the robot `T`, for the engine, evaluated once for all of its algorithms.
-pub(super) struct EngineScene<T, R, E, const B: usize, const Q: usize, const V: usize>(
-    PhantomData<(T, R, E)>,
+pub(super) struct EngineScene<T, R, Effects, const B: usize, const Q: usize, const V: usize>(
+    PhantomData<(T, R, Effects)>,
 );
 
-impl<T, R: Real, E, const B: usize, const Q: usize, const V: usize> EngineScene<T, R, E, B, Q, V>
+impl<T, R: Real, Effects, const B: usize, const Q: usize, const V: usize>
+    EngineScene<T, R, Effects, B, Q, V>
 where
     T: Robot<B, Q, V>,
-    E: Effect<R, B, V>,
+    Effects: Effect<R, B, V>,
 {
     /// Public functions evaluate it in their own bodies, so that the compiler names the line that
     /// calls them.
     pub(super) const TAKEN: () = {
-        let () = Scene::<R, E, B, V>::MEANING;
-        taken::<T, R, E, B, Q, V>();
+        let () = Scene::<R, Effects, B, V>::MEANING;
+        taken::<T, R, Effects, B, Q, V>();
     };
 }
 
 /// A robot and a scene that the engine takes.
 #[track_caller]
-const fn taken<T, R: Real, E, const B: usize, const Q: usize, const V: usize>()
+const fn taken<T, R: Real, Effects, const B: usize, const Q: usize, const V: usize>()
 where
     T: Robot<B, Q, V>,
-    E: Effect<R, B, V>,
+    Effects: Effect<R, B, V>,
 {
-    meaning::<R, E, B, V>();
-    are_of::<R, E, B, V>(T::MODEL.name);
+    meaning::<R, Effects, B, V>();
+    are_of::<R, Effects, B, V>(T::MODEL.name);
     assert!(
         V <= 64,
         "the engine takes up to 64 velocity coordinates; use `Core`"
@@ -46,12 +47,14 @@ macro_rules! scene {
         $(#[$doc])*
         #[track_caller]
         #[must_use]
-        pub const fn $name<E, const B: usize, const Q: usize, const V: usize>(effects: E) -> E
+        pub const fn $name<Effects, const B: usize, const Q: usize, const V: usize>(
+            effects: Effects,
+        ) -> Effects
         where
             T: Robot<B, Q, V>,
-            E: Effect<$r, B, V>,
+            Effects: Effect<$r, B, V>,
         {
-            taken::<T, $r, E, B, Q, V>();
+            taken::<T, $r, Effects, B, Q, V>();
             effects
         }
     };

@@ -6,20 +6,17 @@
 
 use core::borrow::Borrow;
 use core::hint::black_box;
-use core::marker::PhantomData;
 
-use super::compile::{Compiled, CompiledRobot, JointPair};
-use super::crba::mass_matrix;
+use super::call::Call;
+use super::compile::{Compiled, JointPair};
 use super::gate::EngineScene;
 use super::ltdl::{decompose, substitute};
-use super::pivot_noise::noise;
-use super::rnea::{joint_state, torques};
-use super::{Engine, Index, Specialised, only_if};
+use super::{Engine, Index, only_if};
 use crate::algorithms::{JointResult, MassMatrix, NotPositiveDefinite, Prescribed};
 use crate::effects::{Bias, Effect, load_friction, transmitted};
 use crate::model::Robot;
 use crate::scalar::Real;
-use crate::state::{Configuration, JointTrig, RobotState, State};
+use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
@@ -51,104 +48,102 @@ impl<T, K> Engine<T, K> {
     /// As [`Engine::forward_dynamics`], of the coordinates of given torque.
     #[doc(alias = "HD")]
     #[inline(never)]
-    pub fn hybrid_dynamics<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
+    pub fn hybrid_dynamics<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
         given: &[Prescribed<R>; V],
-        effects: &E,
+        effects: &Effects,
     ) -> Result<JointResult<R, V>, NotPositiveDefinite>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         const {
             assert!(
-                E::ACCELERATIONS,
+                Effects::ACCELERATIONS,
                 "forward dynamics needs `Inertia` in the scene"
             )
         };
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        hybrid::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(
-            trig.borrow(),
-            state.state(),
-            given,
-            effects,
-        )
+        let trig = configuration.trig_or(Self::trig_source());
+        Self::call(trig.borrow(), effects).hybrid(state.state(), given)
     }
 }
 
-#[cfg_attr(optimised, inline(always))]
-fn hybrid<R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize>(
-    trig: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    given: &[Prescribed<R>; V],
-    effects: &E,
-) -> Result<JointResult<R, V>, NotPositiveDefinite>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
-    E: Effect<R, B, V>,
+    R: Real,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
-    // One phase after the other: as one block they would need more registers than there are.
-    let mut bias = torques::<R, C, _, B, Q, V>(trig, trig, state, &Bias(effects));
-    black_box(&mut bias);
-    let mut m = MassMatrix::ZERO;
-    mass_matrix::<R, C, E, B, Q, V>(&trig.coordinates, effects, &mut m);
-    black_box(&mut m);
+    #[cfg_attr(optimised, inline(always))]
+    fn hybrid(
+        self,
+        state: &State<R, Q, V>,
+        given: &[Prescribed<R>; V],
+    ) -> Result<JointResult<R, V>, NotPositiveDefinite> {
+        // One phase after the other: as one block they would need more registers than there are.
+        let mut bias = self.under(&Bias(self.effects)).torques(self.turns, state);
+        black_box(&mut bias);
+        let mut m = MassMatrix::ZERO;
+        self.mass_matrix(&mut m);
+        black_box(&mut m);
 
-    let (mut free, mut tau, mut qdd) = ([true; V], [R::ZERO; V], [R::ZERO; V]);
-    let mut pivots = noise::<R, C, E, B, Q, V>(&trig.coordinates, effects);
-    for_each_joint!(J, {
-        if Index::<J, V>::IS_BELOW {
-            (free[J], tau[J], qdd[J]) = match given[J] {
-                Prescribed::Torque(tau) => (true, tau, R::ZERO),
-                Prescribed::Acceleration(qdd) => (false, R::ZERO, qdd),
-            };
-            pivots[J] = R::either(free[J], pivots[J], R::ZERO);
-        }
-    });
-    let mut rows = m.rows;
-    let held = times::<R, C, V>(&m, &qdd);
-    for_each_joint!(J, {
-        if Index::<J, V>::IS_BELOW {
-            let at = joint_state::<R, C, Q, V, J>(state);
-            let rest = transmitted(effects, J, at, tau[J]) - bias[J] - held[J];
-            qdd[J] = R::either(free[J], rest, qdd[J]);
-            if let Some(hold) = const {
-                only_if(
-                    J < V,
-                    hold::<R, C, V, J> as fn(&mut [[R; V]; V], &[bool; V]),
-                )
-            } {
-                hold(&mut rows, &free);
+        let (mut free, mut tau, mut qdd) = ([true; V], [R::ZERO; V], [R::ZERO; V]);
+        let mut pivots = self.noise();
+        for_each_joint!(J, {
+            if Index::<J, V>::IS_BELOW {
+                (free[J], tau[J], qdd[J]) = match given[J] {
+                    Prescribed::Torque(tau) => (true, tau, R::ZERO),
+                    Prescribed::Acceleration(qdd) => (false, R::ZERO, qdd),
+                };
+                pivots[J] = R::either(free[J], pivots[J], R::ZERO);
             }
-        }
-    });
-    let d_inv = decompose::<R, C, V>(&mut rows, &pivots, &[false; V])?;
-    substitute::<R, C, V>(&rows, &d_inv, &mut qdd);
+        });
+        let mut rows = m.rows;
+        let held = times::<R, Tree, V>(&m, &qdd);
+        for_each_joint!(J, {
+            if Index::<J, V>::IS_BELOW {
+                let at = self.joint_state::<J>(state);
+                let rest = transmitted(self.effects, J, at, tau[J]) - bias[J] - held[J];
+                qdd[J] = R::either(free[J], rest, qdd[J]);
+                if let Some(hold) = const {
+                    only_if(
+                        J < V,
+                        hold::<R, Tree, V, J> as fn(&mut [[R; V]; V], &[bool; V]),
+                    )
+                } {
+                    hold(&mut rows, &free);
+                }
+            }
+        });
+        let d_inv = decompose::<R, Tree, V>(&mut rows, &pivots, &[false; V])?;
+        substitute::<R, Tree, V>(&rows, &d_inv, &mut qdd);
 
-    let moved = times::<R, C, V>(&m, &qdd);
-    for_each_joint!(J, {
-        if Index::<J, V>::IS_BELOW {
-            let at = joint_state::<R, C, Q, V, J>(state);
-            let mut motor = bias[J] + moved[J];
-            load_friction(effects, J, at, &mut motor);
-            tau[J] = R::either(free[J], tau[J], motor);
-        }
-    });
-    Ok(JointResult { tau, qdd })
+        let moved = times::<R, Tree, V>(&m, &qdd);
+        for_each_joint!(J, {
+            if Index::<J, V>::IS_BELOW {
+                let at = self.joint_state::<J>(state);
+                let mut motor = bias[J] + moved[J];
+                load_friction(self.effects, J, at, &mut motor);
+                tau[J] = R::either(free[J], tau[J], motor);
+            }
+        });
+        Ok(JointResult { tau, qdd })
+    }
 }
 
 /// Row J of M up to its diagonal, with the entries of the identity where J or the column's
 /// coordinate is not free.
 #[cfg_attr(optimised, inline(always))]
-fn hold<R: Real, C: Compiled, const V: usize, const J: usize>(
+fn hold<R: Real, Tree: Compiled, const V: usize, const J: usize>(
     rows: &mut [[R; V]; V],
     free: &[bool; V],
 ) {
     for_each_joint!(I, {
-        if JointPair::<C, I, J>::SUPPORTS {
+        if JointPair::<Tree, I, J>::SUPPORTS {
             let fixed = if I == J { R::ONE } else { R::ZERO };
             rows[J][I] = R::either(free[I] & free[J], rows[J][I], fixed);
         }
@@ -157,14 +152,14 @@ fn hold<R: Real, C: Compiled, const V: usize, const J: usize>(
 
 /// M x, without what is zero by the branches of the tree.
 #[cfg_attr(optimised, inline(always))]
-fn times<R: Real, C: Compiled, const V: usize>(m: &MassMatrix<R, V>, x: &[R; V]) -> [R; V] {
+fn times<R: Real, Tree: Compiled, const V: usize>(m: &MassMatrix<R, V>, x: &[R; V]) -> [R; V] {
     let mut product = [R::ZERO; V];
     for_each_joint!(J, {
         if Index::<J, V>::IS_BELOW
             && let Some(row) = const {
                 only_if(
                     J < V,
-                    row::<R, C, V, J> as fn(&MassMatrix<R, V>, &[R; V]) -> R,
+                    row::<R, Tree, V, J> as fn(&MassMatrix<R, V>, &[R; V]) -> R,
                 )
             }
         {
@@ -176,13 +171,13 @@ fn times<R: Real, C: Compiled, const V: usize>(m: &MassMatrix<R, V>, x: &[R; V])
 
 /// Row J of M times x.
 #[cfg_attr(optimised, inline(always))]
-fn row<R: Real, C: Compiled, const V: usize, const J: usize>(
+fn row<R: Real, Tree: Compiled, const V: usize, const J: usize>(
     m: &MassMatrix<R, V>,
     x: &[R; V],
 ) -> R {
     let mut sum = m.rows[J][J] * x[J];
     for_each_joint!(I, {
-        if JointPair::<C, I, J>::IS_ANCESTOR || JointPair::<C, J, I>::IS_ANCESTOR {
+        if JointPair::<Tree, I, J>::IS_ANCESTOR || JointPair::<Tree, J, I>::IS_ANCESTOR {
             sum += m.rows[J][I] * x[I];
         }
     });

@@ -3,21 +3,17 @@
 //! Featherstone, RBDA (2008), section 4.1; axes and arms in base coordinates: z_j, z_j × (p − p_j).
 
 use core::borrow::Borrow;
-use core::marker::PhantomData;
 
-use super::compile::{
-    Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointMotion, JointPair,
-};
-use super::displacement::Displacement;
+use super::Engine;
+use super::call::Call;
+use super::compile::{Compiled, CompiledJoint, JointAndBody, JointMotion, JointPair};
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
-use super::kinematics::poses;
-use super::{Engine, Specialised, only_if};
 use crate::algorithms::Frame;
-use crate::model::{JointCoordinate, OnBody, Robot};
+use crate::model::{OnBody, Robot};
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
-use crate::state::{Configuration, JointTrig};
+use crate::state::Configuration;
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
@@ -70,108 +66,85 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
     {
         let _ = (body, frame);
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        jacobian::<R, CompiledRobot<T, B, Q, V>, F, Q, V, BODY>(trig.borrow())
+        let trig = q.trig_or(Self::trig_source());
+        Self::call(trig.borrow(), &()).jacobian::<F, BODY>()
     }
 }
 
-/// The Jacobian of a body in the frame F.
-#[cfg_attr(optimised, inline(always))]
-pub(super) fn jacobian<
-    R: Real,
-    C: Compiled,
-    F: Frame,
-    const Q: usize,
-    const V: usize,
-    const BODY: usize,
->(
-    trig: &JointTrig<R, Q>,
-) -> [Motion<R>; V] {
-    let mut columns = columns::<R, C, Q, V, BODY>(&trig.coordinates);
-    let [pose] = poses::<R, C, OnBody<BODY>, 1, Q, V>(trig);
-    for_each_joint!(J, {
-        if JointAndBody::<C, J, BODY>::SUPPORTS {
-            columns[J] = F::from_aligned(&pose, columns[J]);
-        }
-    });
-    columns
-}
-
-/// The columns of the joints that move the body; zero for others.
-#[cfg_attr(optimised, inline(always))]
-fn columns<R: Real, C, const Q: usize, const V: usize, const BODY: usize>(
-    turns: &[JointCoordinate<R>; Q],
-) -> [Motion<R>; V]
-where
-    C: Compiled,
+impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 {
-    let mut columns = [Motion::ZERO; V];
-    for_each_joint!(J, {
-        if const { CompiledJoint::<C, J>::IS_ON_BASE && JointAndBody::<C, J, BODY>::SUPPORTS }
-            && let Some(reach) = const {
-                only_if(
-                    CompiledJoint::<C, J>::IS_ON_BASE && JointAndBody::<C, J, BODY>::SUPPORTS,
-                    reach::<R, C, Q, V, BODY, J> as Reach<R, Q, V>,
-                )
+    /// The Jacobian of a body in the frame F.
+    #[cfg_attr(optimised, inline(always))]
+    fn jacobian<F: Frame, const BODY: usize>(self) -> [Motion<R>; V] {
+        let mut columns = self.jacobian_columns::<BODY>();
+        let [pose] = self.poses(OnBody::<BODY>);
+        for_each_joint!(J, {
+            if JointAndBody::<Tree, J, BODY>::SUPPORTS {
+                columns[J] = F::from_aligned(&pose, columns[J]);
             }
-        {
-            let base = Mat3::constant(&glam::DMat3::IDENTITY);
-            let _ = reach(turns, &base, &mut columns);
-        }
-    });
-    columns
-}
-
-type Reach<R, const Q: usize, const V: usize> =
-    fn(&[JointCoordinate<R>; Q], &Mat3<R>, &mut [Motion<R>; V]) -> Vec3<R>;
-
-/// Writes the columns of joint I and of its descendants; returns the offset of the body's origin
-/// from the parent's, in base coordinates, m. `parent` holds the axes of the parent's frame.
-#[cfg_attr(optimised, inline(always))]
-fn reach<R: Real, C, const Q: usize, const V: usize, const BODY: usize, const I: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    parent: &Mat3<R>,
-    columns: &mut [Motion<R>; V],
-) -> Vec3<R>
-where
-    C: Compiled,
-{
-    let joint = CompiledJoint::<C, I>::JOINT;
-    let length = C::LENGTH;
-    let rot = Mat3::constant(&joint.rot);
-    let [x, y, z] = rot.0;
-    let sides = Mat3([parent.mul(x), parent.mul(y), parent.mul(z)]);
-    let at = Displacement::of::<C, Q, I>(turns);
-    let axes = at.axes::<C, I>(&sides);
-    let mut offset = parent.mul(Vec3::constant(joint.pos * length));
-    if CompiledJoint::<C, I>::SHIFTS {
-        offset = offset + at.along::<C, I>(&sides).scale(Folded::constant(length));
+        });
+        columns
     }
-    let mut beyond = Vec3::<R>::ZERO;
-    if JointAndBody::<C, I, BODY>::IS_ON_JOINT {
-        let place = JointAndBody::<C, I, BODY>::PLACE;
-        beyond = axes.mul(Vec3::constant(place.pos * length));
-    }
-    for_each_joint!(J, {
-        if const { JointPair::<C, I, J>::IS_PARENT && JointAndBody::<C, J, BODY>::SUPPORTS }
-            && let Some(reach) = const {
-                only_if(
-                    JointPair::<C, I, J>::IS_PARENT && JointAndBody::<C, J, BODY>::SUPPORTS,
-                    reach::<R, C, Q, V, BODY, J> as Reach<R, Q, V>,
-                )
+
+    /// The columns of the joints that move the body; zero for others.
+    #[cfg_attr(optimised, inline(always))]
+    fn jacobian_columns<const BODY: usize>(self) -> [Motion<R>; V] {
+        let mut columns = [Motion::ZERO; V];
+        let base = Mat3::constant(&glam::DMat3::IDENTITY);
+        for_each_joint!(
+            J,
+            const { CompiledJoint::<Tree, J>::IS_ON_BASE && JointAndBody::<Tree, J, BODY>::SUPPORTS },
+            reach = Self::reach::<BODY, J> as fn(_, &_, &mut _) -> Vec3<R>,
+            {
+                let _ = reach(self, &base, &mut columns);
             }
-        {
-            beyond = reach(turns, &axes, columns);
+        );
+        columns
+    }
+
+    /// Writes the columns of joint I and of its descendants; returns the offset of the body's
+    /// origin from the parent's, in base coordinates, m. `parent` holds the axes of the parent's
+    /// frame.
+    #[cfg_attr(optimised, inline(always))]
+    fn reach<const BODY: usize, const I: usize>(
+        self,
+        parent: &Mat3<R>,
+        columns: &mut [Motion<R>; V],
+    ) -> Vec3<R> {
+        let joint = CompiledJoint::<Tree, I>::JOINT;
+        let length = Tree::LENGTH;
+        let rot = Mat3::constant(&joint.rot);
+        let [x, y, z] = rot.0;
+        let sides = Mat3([parent.mul(x), parent.mul(y), parent.mul(z)]);
+        let at = self.displacement::<I>();
+        let axes = at.axes(&sides);
+        let mut offset = parent.mul(Vec3::constant(joint.pos * length));
+        if CompiledJoint::<Tree, I>::SHIFTS {
+            offset = offset + at.along(&sides).scale(Folded::constant(length));
         }
-    });
-    let axis = axes.0[joint.axis];
-    columns[I] = if joint.prismatic {
-        Motion::new(R::Vec3::ZERO, axis.get())
-    } else if matches!(joint.motion, JointMotion::Screw) {
-        let along = axis.scale(Folded::constant(joint.pitch * length));
-        Motion::new(axis.get(), (axis.cross(beyond) + along).get())
-    } else {
-        Motion::new(axis.get(), axis.cross(beyond).get())
-    };
-    offset + beyond
+        let mut beyond = Vec3::<R>::ZERO;
+        if JointAndBody::<Tree, I, BODY>::IS_ON_JOINT {
+            let place = JointAndBody::<Tree, I, BODY>::PLACE;
+            beyond = axes.mul(Vec3::constant(place.pos * length));
+        }
+        for_each_joint!(
+            J,
+            const { JointPair::<Tree, I, J>::IS_PARENT && JointAndBody::<Tree, J, BODY>::SUPPORTS },
+            reach = Self::reach::<BODY, J> as fn(_, &_, &mut _) -> Vec3<R>,
+            {
+                beyond = reach(self, &axes, columns);
+            }
+        );
+        let axis = axes.0[joint.axis];
+        columns[I] = if joint.prismatic {
+            Motion::new(R::Vec3::ZERO, axis.get())
+        } else if matches!(joint.motion, JointMotion::Screw) {
+            let along = axis.scale(Folded::constant(joint.pitch * length));
+            Motion::new(axis.get(), (axis.cross(beyond) + along).get())
+        } else {
+            Motion::new(axis.get(), axis.cross(beyond).get())
+        };
+        offset + beyond
+    }
 }

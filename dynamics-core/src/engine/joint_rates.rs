@@ -54,26 +54,29 @@ impl<R: Real> Twist<R> {
 
     /// A motion of the parent as one of the body behind joint I.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn carried<C: Compiled, const I: usize>(&self, at: &Displacement<R>) -> Self {
-        let joint = CompiledJoint::<C, I>::JOINT;
+    pub(crate) fn carried<Tree: Compiled, const I: usize>(
+        &self,
+        at: &Displacement<R, Tree, I>,
+    ) -> Self {
+        let joint = CompiledJoint::<Tree, I>::JOINT;
         let rot = Mat3::constant(&joint.rot);
-        let p = Vec3::constant(joint.pos) + at.shift::<C, I>();
+        let p = Vec3::constant(joint.pos) + at.shift();
         Self {
-            ang: at.enter::<C, I>(&rot, self.ang),
-            lin: at.enter::<C, I>(&rot, self.lin + self.ang.cross(p)),
+            ang: at.enter(&rot, self.ang),
+            lin: at.enter(&rot, self.lin + self.ang.cross(p)),
         }
     }
 
     /// The motion of joint I, a planar, spherical or free one, of all `rates`; zero unless it is
     /// needed.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn of<C: Compiled, const V: usize, const I: usize>(
+    pub(crate) fn of<Tree: Compiled, const V: usize, const I: usize>(
         rates: &[R; V],
         needed: bool,
     ) -> Self {
         let zero = Folded::ZERO;
-        let length_inv = Folded::constant(C::LENGTH_INV);
-        let (ang, lin) = match CompiledJoint::<C, I>::MOTION {
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
+        let (ang, lin) = match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Planar => (
                 [zero, zero, rate(rates, I, needed)],
                 [rate(rates, I + 1, needed), rate(rates, I + 2, needed), zero],

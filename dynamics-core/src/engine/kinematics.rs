@@ -6,20 +6,20 @@
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 
+use super::Engine;
 use super::acceleration_field::AccelerationField;
-use super::base::carried;
-use super::compile::{BodyPlacement, Compiled, CompiledRobot};
+use super::call::Call;
+use super::compile::{BodyPlacement, Compiled};
 use super::folding::{Folded, Mat3, Vec3};
 use super::gate::EngineScene;
 use super::named::{AllBodies, Named, joints};
-use super::pass::{Nothing, Pass, Rates, moved, sweep};
-use super::{Engine, Specialised};
+use super::pass::{Motions, Nothing, Pass, sweep};
 use crate::algorithms::{Frame, Kinematics, Pose};
 use crate::effects::Effect;
 use crate::model::{BASE, Bodies, JointCoordinate, OnBody, Robot};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::Motion;
-use crate::state::{Configuration, JointTrig, RobotState, State};
+use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
@@ -49,8 +49,8 @@ impl<T, K> Engine<T, K> {
         T: Robot<B, Q, V>,
         K: Kernel<R>,
     {
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        poses::<R, CompiledRobot<T, B, Q, V>, AllBodies, B, Q, V>(trig.borrow())
+        let trig = q.trig_or(Self::trig_source());
+        Self::call(trig.borrow(), &()).poses(AllBodies)
     }
 
     /// The poses of some bodies' own frames in the base's, in the order of `bodies`: those of
@@ -76,18 +76,16 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "end effector")]
     #[inline(never)]
     #[must_use]
-    pub fn poses_of<R: Real, L, const N: usize, const B: usize, const Q: usize, const V: usize>(
+    pub fn poses_of<R: Real, const N: usize, const B: usize, const Q: usize, const V: usize>(
         q: &impl Configuration<R, Q>,
-        bodies: L,
+        bodies: impl Bodies<N>,
     ) -> [Pose<R>; N]
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        L: Bodies<N>,
     {
-        let _ = bodies;
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        poses::<R, CompiledRobot<T, B, Q, V>, L, N, Q, V>(trig.borrow())
+        let trig = q.trig_or(Self::trig_source());
+        Self::call(trig.borrow(), &()).poses(bodies)
     }
 
     /// Pose, velocity and acceleration of every body, on a base that moves as the effects specify,
@@ -111,25 +109,20 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "forward kinematics")]
     #[inline(never)]
     #[must_use]
-    pub fn kinematics<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn kinematics<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> Kinematics<R, B>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        let base = carried::<R, E, B, V>(effects, CompiledRobot::<T, B, Q, V>::LENGTH);
-        motions::<R, CompiledRobot<T, B, Q, V>, AllBodies, B, Q, V>(
-            trig.borrow(),
-            state.state(),
-            &base,
-        )
+        let trig = configuration.trig_or(Self::trig_source());
+        let call = Self::call(trig.borrow(), effects);
+        call.walk::<_, _, true>(state.state(), &call.carried(), AllBodies)
     }
 
     /// Pose, velocity and acceleration of some bodies, in the order of `bodies`: those of
@@ -160,31 +153,26 @@ impl<T, K> Engine<T, K> {
     #[must_use]
     pub fn kinematics_of<
         R: Real,
-        S,
-        E,
-        L,
+        Effects,
         const N: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        state: S,
-        effects: &E,
-        bodies: L,
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
+        bodies: impl Bodies<N>,
     ) -> Kinematics<R, N>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
-        L: Bodies<N>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        let _ = bodies;
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        let base = carried::<R, E, B, V>(effects, CompiledRobot::<T, B, Q, V>::LENGTH);
-        motions::<R, CompiledRobot<T, B, Q, V>, L, N, Q, V>(trig.borrow(), state.state(), &base)
+        let trig = configuration.trig_or(Self::trig_source());
+        let call = Self::call(trig.borrow(), effects);
+        call.walk::<_, _, true>(state.state(), &call.carried(), bodies)
     }
 
     /// The acceleration J̇ q̇ of a body at q̈ = 0, in a [`Frame`], rad/s² and m/s², as
@@ -213,26 +201,24 @@ impl<T, K> Engine<T, K> {
     #[must_use]
     pub fn bias_acceleration<
         R: Real,
-        S,
         F,
         const BODY: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        state: S,
+        state: impl RobotState<R, Q, V>,
         body: OnBody<BODY>,
         frame: F,
     ) -> Motion<R>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
         F: Frame,
     {
-        let _ = (body, frame);
+        let _ = frame;
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
+        let trig = configuration.trig_or(Self::trig_source());
         let coasting = State {
             qdd: [R::ZERO; V],
             ..*state.state()
@@ -241,102 +227,99 @@ impl<T, K> Engine<T, K> {
             poses: [pose],
             velocities: [v],
             accelerations: [a],
-        } = motions::<R, CompiledRobot<T, B, Q, V>, OnBody<BODY>, 1, Q, V>(
-            trig.borrow(),
+        } = Self::call(trig.borrow(), &()).walk::<_, _, true>(
             &coasting,
             &AccelerationField::RESTING,
+            body,
         );
         F::express(&pose, a) + F::classical_term(F::express(&pose, v))
     }
 }
 
-#[cfg_attr(optimised, inline(always))]
-pub(super) fn poses<R: Real, C: Compiled, L, const N: usize, const Q: usize, const V: usize>(
-    trig: &JointTrig<R, Q>,
-) -> [Pose<R>; N]
-where
-    L: Bodies<N>,
+impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 {
-    let resting = State {
-        q: [R::ZERO; Q],
-        qd: [R::ZERO; V],
-        qdd: [R::ZERO; V],
-    };
-    walk::<R, C, L, N, Q, V, false>(trig, &resting, &AccelerationField::RESTING).poses
+    /// The poses of the bodies of the list.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn poses<List: Bodies<N>, const N: usize>(self, bodies: List) -> [Pose<R>; N] {
+        let resting = State {
+            q: [R::ZERO; Q],
+            qd: [R::ZERO; V],
+            qdd: [R::ZERO; V],
+        };
+        let base = AccelerationField::RESTING;
+        self.walk::<List, N, false>(&resting, &base, bodies).poses
+    }
+
+    /// The poses of the bodies of the list and, if the joints have RATES, their motions.
+    #[cfg_attr(optimised, inline(always))]
+    fn walk<List: Bodies<N>, const N: usize, const RATES: bool>(
+        self,
+        state: &State<R, Q, V>,
+        base: &AccelerationField<R>,
+        _: List,
+    ) -> Kinematics<R, N> {
+        let mut walk = Walk::<R, Tree, List, N, Q, V, RATES> {
+            turns: self.turns,
+            state,
+            found: Kinematics {
+                poses: [Pose::IDENTITY; N],
+                velocities: [Motion::ZERO; N],
+                accelerations: [Motion::ZERO; N],
+            },
+            types: PhantomData,
+        };
+        walk.see::<BASE>(base);
+        let Nothing = sweep(&mut walk, base);
+        walk.found
+    }
 }
 
-#[cfg_attr(optimised, inline(always))]
-fn motions<R: Real, C: Compiled, L, const N: usize, const Q: usize, const V: usize>(
-    trig: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    base: &AccelerationField<R>,
-) -> Kinematics<R, N>
-where
-    L: Bodies<N>,
-{
-    walk::<R, C, L, N, Q, V, true>(trig, state, base)
-}
-
-/// The poses of the bodies L and, if the joints have RATES, their motions.
-#[cfg_attr(optimised, inline(always))]
-fn walk<
+struct Walk<
+    'a,
     R: Real,
-    C: Compiled,
-    L,
+    Tree,
+    List,
     const N: usize,
     const Q: usize,
     const V: usize,
     const RATES: bool,
->(
-    trig: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    base: &AccelerationField<R>,
-) -> Kinematics<R, N>
-where
-    L: Bodies<N>,
-{
-    let mut walk = Walk::<R, C, L, N, Q, V, RATES> {
-        turns: &trig.coordinates,
-        state,
-        found: Kinematics {
-            poses: [Pose::IDENTITY; N],
-            velocities: [Motion::ZERO; N],
-            accelerations: [Motion::ZERO; N],
-        },
-        types: PhantomData,
-    };
-    walk.see::<BASE>(base);
-    let Nothing = sweep::<R, C, _>(&mut walk, base);
-    walk.found
-}
-
-struct Walk<'a, R: Real, C, L, const N: usize, const Q: usize, const V: usize, const RATES: bool> {
+> {
     turns: &'a [JointCoordinate<R>; Q],
     state: &'a State<R, Q, V>,
     found: Kinematics<R, N>,
-    types: PhantomData<(C, L)>,
+    types: PhantomData<(Tree, List)>,
 }
 
-impl<R: Real, C: Compiled, L, const N: usize, const Q: usize, const V: usize, const RATES: bool>
-    Pass<R, C> for Walk<'_, R, C, L, N, Q, V, RATES>
+impl<
+    R: Real,
+    Tree: Compiled,
+    List,
+    const N: usize,
+    const Q: usize,
+    const V: usize,
+    const RATES: bool,
+> Pass for Walk<'_, R, Tree, List, N, Q, V, RATES>
 where
-    L: Bodies<N>,
+    List: Bodies<N>,
 {
+    type Tree = Tree;
     type Outward = AccelerationField<R>;
     type Inward = Nothing;
     const NOTHING: Nothing = Nothing;
-    const JOINTS: u64 = joints::<C>(&L::NUMBERS);
+    const JOINTS: u64 = joints::<Tree>(&List::NUMBERS);
 
     #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &AccelerationField<R>) -> AccelerationField<R> {
-        let rates = Rates {
+        let motions = Motions {
+            turns: self.turns,
             qd: &self.state.qd,
             qdd: &self.state.qdd,
             velocity: RATES,
             products: RATES,
             accel: RATES,
         };
-        let field = moved::<R, C, Q, V, I>(parent, self.turns, &rates);
+        let field = motions.field::<Tree, I>(parent);
         self.see::<I>(&field);
         field
     }
@@ -347,19 +330,27 @@ where
     }
 }
 
-impl<R: Real, C: Compiled, L, const N: usize, const Q: usize, const V: usize, const RATES: bool>
-    Walk<'_, R, C, L, N, Q, V, RATES>
+impl<
+    R: Real,
+    Tree: Compiled,
+    List,
+    const N: usize,
+    const Q: usize,
+    const V: usize,
+    const RATES: bool,
+> Walk<'_, R, Tree, List, N, Q, V, RATES>
 where
-    L: Bodies<N>,
+    List: Bodies<N>,
 {
-    /// Writes the poses and motions of the bodies L that move with joint I, or stand on the base.
+    /// Writes the poses and motions of the bodies of the list that move with joint I, or stand on
+    /// the base.
     #[cfg_attr(optimised, inline(always))]
     fn see<const I: usize>(&mut self, field: &AccelerationField<R>) {
-        const { Named::<C, L, N, I, 0>::ARE_FEW };
+        const { Named::<Tree, List, N, I, 0>::ARE_FEW };
         for_each_joint!(K, {
-            if Named::<C, L, N, I, K>::IS_SOME {
-                let (at, place) = Named::<C, L, N, I, K>::BODY;
-                let (pose, v, a) = motion_of(field, place, C::LENGTH);
+            if Named::<Tree, List, N, I, K>::IS_SOME {
+                let (at, place) = Named::<Tree, List, N, I, K>::BODY;
+                let (pose, v, a) = motion_of(field, place, Tree::LENGTH);
                 self.found.poses[*at] = pose;
                 if RATES {
                     self.found.velocities[*at] = v;

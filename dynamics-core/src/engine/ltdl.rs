@@ -81,19 +81,19 @@ impl<T, K> Engine<T, K> {
 /// Those that are certain to, in any state of numbers, are looked at only if that of a joint on the
 /// base does not, to which a NaN spreads.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn decompose<R: Real, C, const V: usize>(
+pub(crate) fn decompose<R: Real, Tree, const V: usize>(
     m: &mut [[R; V]; V],
     noise: &[R; V],
     certain: &[bool; V],
 ) -> Result<[R; V], NotPositiveDefinite>
 where
-    C: Compiled,
+    Tree: Compiled,
 {
     let (mut d_inv, mut singular) = ([R::ZERO; V], Singular::default());
     for_each_joint_reversed!(K, {
         if Index::<K, V>::IS_BELOW
             && let Some(eliminate) =
-                const { only_if(K < V, eliminate::<R, C, V, K> as fn(&mut [[R; V]; V], R)) }
+                const { only_if(K < V, eliminate::<R, Tree, V, K> as fn(&mut [[R; V]; V], R)) }
         {
             if !certain[K] {
                 singular.note::<R, K>(m[K][K], noise[K]);
@@ -115,16 +115,16 @@ where
 
 /// Row K of L, and its share of the rows of its ancestors.
 #[cfg_attr(optimised, inline(always))]
-fn eliminate<R: Real, C, const V: usize, const K: usize>(m: &mut [[R; V]; V], d_inv: R)
+fn eliminate<R: Real, Tree, const V: usize, const K: usize>(m: &mut [[R; V]; V], d_inv: R)
 where
-    C: Compiled,
+    Tree: Compiled,
 {
     for_each_joint_reversed!(I, {
-        if JointPair::<C, I, K>::IS_ANCESTOR
+        if JointPair::<Tree, I, K>::IS_ANCESTOR
             && let Some(subtract) = const {
                 only_if(
-                    JointPair::<C, I, K>::IS_ANCESTOR,
-                    subtract::<R, C, V, K, I> as fn(&mut [[R; V]; V], R),
+                    JointPair::<Tree, I, K>::IS_ANCESTOR,
+                    subtract::<R, Tree, V, K, I> as fn(&mut [[R; V]; V], R),
                 )
             }
         {
@@ -137,12 +137,14 @@ where
 
 /// Row I less `l` times row K.
 #[cfg_attr(optimised, inline(always))]
-fn subtract<R: Real, C, const V: usize, const K: usize, const I: usize>(m: &mut [[R; V]; V], l: R)
-where
-    C: Compiled,
+fn subtract<R: Real, Tree, const V: usize, const K: usize, const I: usize>(
+    m: &mut [[R; V]; V],
+    l: R,
+) where
+    Tree: Compiled,
 {
     for_each_joint!(J, {
-        if JointPair::<C, J, I>::SUPPORTS {
+        if JointPair::<Tree, J, I>::SUPPORTS {
             m[I][J] -= l * m[K][J];
         }
     });
@@ -153,23 +155,23 @@ type Row<R, const V: usize> = fn(&[[R; V]; V], &mut [R; V]);
 
 /// Lᵀ y = τ, D z = y, L x = z, in place.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn substitute<R: Real, C, const V: usize>(
+pub(crate) fn substitute<R: Real, Tree, const V: usize>(
     l: &[[R; V]; V],
     d_inv: &[R; V],
     x: &mut [R; V],
 ) where
-    C: Compiled,
+    Tree: Compiled,
 {
     for_each_joint_reversed!(I, {
         if Index::<I, V>::IS_BELOW
-            && let Some(scatter) = const { only_if(I < V, scatter::<R, C, V, I> as Row<R, V>) }
+            && let Some(scatter) = const { only_if(I < V, scatter::<R, Tree, V, I> as Row<R, V>) }
         {
             scatter(l, x);
         }
     });
     for_each_joint!(I, {
         if Index::<I, V>::IS_BELOW
-            && let Some(gather) = const { only_if(I < V, gather::<R, C, V, I> as Row<R, V>) }
+            && let Some(gather) = const { only_if(I < V, gather::<R, Tree, V, I> as Row<R, V>) }
         {
             x[I] *= d_inv[I];
             gather(l, x);
@@ -179,12 +181,12 @@ pub(crate) fn substitute<R: Real, C, const V: usize>(
 
 /// Subtracts from x_I the products with the entries of its ancestors.
 #[cfg_attr(optimised, inline(always))]
-fn scatter<R: Real, C, const V: usize, const I: usize>(l: &[[R; V]; V], x: &mut [R; V])
+fn scatter<R: Real, Tree, const V: usize, const I: usize>(l: &[[R; V]; V], x: &mut [R; V])
 where
-    C: Compiled,
+    Tree: Compiled,
 {
     for_each_joint!(J, {
-        if JointPair::<C, J, I>::IS_ANCESTOR {
+        if JointPair::<Tree, J, I>::IS_ANCESTOR {
             x[J] -= l[I][J] * x[I];
         }
     });
@@ -192,12 +194,12 @@ where
 
 /// Subtracts the products with x_I from the entries of its ancestors.
 #[cfg_attr(optimised, inline(always))]
-fn gather<R: Real, C, const V: usize, const I: usize>(l: &[[R; V]; V], x: &mut [R; V])
+fn gather<R: Real, Tree, const V: usize, const I: usize>(l: &[[R; V]; V], x: &mut [R; V])
 where
-    C: Compiled,
+    Tree: Compiled,
 {
     for_each_joint!(J, {
-        if JointPair::<C, J, I>::IS_ANCESTOR {
+        if JointPair::<Tree, J, I>::IS_ANCESTOR {
             x[I] -= l[I][J] * x[J];
         }
     });

@@ -14,7 +14,18 @@
 
 /// Expands a block once for each joint that there may be, its number a constant: loops are not
 /// unrolled at every opt-level, and a constant can be a const generic argument.
+///
+/// With a condition and a function, only for joints that meet it: see [`only_if`].
 macro_rules! for_each_joint {
+    ($j:ident, $condition:expr, $name:ident = $function:expr, $body:block) => {
+        for_each_joint!($j, {
+            if $condition
+                && let Some($name) = const { $crate::engine::only_if($condition, $function) }
+            {
+                $body
+            }
+        })
+    };
     ($j:ident, $body:block) => {
         for_each_joint!(@ $j $body 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15
             16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32 33 34 35 36 37 38 39 40 41 42 43 44 45 46 47
@@ -61,6 +72,7 @@ mod articulated_inertia;
 mod base;
 mod base_parameters;
 mod bending;
+mod call;
 mod centroidal;
 mod compile;
 mod crba;
@@ -98,16 +110,13 @@ use crate::model::{JointCoordinate, Robot};
 use crate::scalar::{Native, Real};
 use crate::state::{Configuration, JointTrig, RobotState, State, TrigSource};
 use crate::trig::{Kernel, VECTORS};
-pub(crate) use bending::{
-    BendingLink, BendingMode, Bends, MODES, bending_inertia, bending_torques,
-};
+pub(crate) use bending::{BendingLink, BendingMode, Bends, MODES};
+pub(crate) use call::{Call, joint_state};
 pub(crate) use compile::{
     BendingTree, BodyPlacement, Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion,
     compile_bending, mat_add, outer, support,
 };
 use gate::EngineScene;
-pub(crate) use rnea::joint_state;
-use rnea::{torques, write_torques};
 pub(crate) use subtree::has_subtree_functions;
 
 /// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel
@@ -202,38 +211,40 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "ID")]
     #[doc(alias = "inverse dynamics")]
     #[inline(never)]
-    pub fn rnea<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn rnea<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> [R; V]
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        let trig = state
-            .configuration()
-            .trig_or(Specialised::<T, K, B, V>(PhantomData));
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        let trig = state.configuration().trig_or(Self::trig_source());
         let trig = trig.borrow();
-        // Precomputed sines and cosines are loaded again on the inward pass: `black_box` hides from
-        // the compiler that both references are the same, since it would spill the loaded values to
-        // the stack. Not needed for gravity alone.
-        let back = if const { S::Configuration::PRECOMPUTED && E::VELOCITY_PRODUCTS | E::ACCELERATIONS }
-        {
-            black_box(trig)
+        // Not needed for gravity alone.
+        let back = if const { Effects::VELOCITY_PRODUCTS | Effects::ACCELERATIONS } {
+            loaded_again(&state, trig)
         } else {
             trig
         };
-        torques::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(trig, back, state.state(), effects)
+        Self::call(trig, effects).torques(&back.coordinates, state.state())
     }
 }
 
-impl<T, K> Engine<T, K> {
-    /// What computes sines and cosines of a robot of B bodies and V velocity coordinates.
-    pub(crate) const fn trig_source<const B: usize, const V: usize>() -> Specialised<T, K, B, V> {
-        Specialised(PhantomData)
+/// The same sines and cosines. Precomputed ones are loaded again on the inward pass: `black_box`
+/// hides from the compiler that both references are the same, since it would spill the loaded
+/// values to the stack.
+#[cfg_attr(optimised, inline(always))]
+fn loaded_again<'a, R: Real, State: RobotState<R, Q, V>, const Q: usize, const V: usize>(
+    _: &State,
+    trig: &'a JointTrig<R, Q>,
+) -> &'a JointTrig<R, Q> {
+    if const { State::Configuration::PRECOMPUTED } {
+        black_box(trig)
+    } else {
+        trig
     }
 }
 
@@ -256,23 +267,21 @@ impl<T> Engine<T> {
     /// The recursion of [`rnea`] for clusters, whose sines are known; `back` is `trig` as the
     /// inward pass loads it.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn run<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    pub(crate) fn run<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
         trig: &JointTrig<R, Q>,
         back: &JointTrig<R, Q>,
         state: &State<R, Q, V>,
-        effects: &E,
+        effects: &Effects,
     ) -> [R; V]
     where
         T: Robot<B, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         // Not a constant, as in `torques`: where sines are known it costs instructions (decision
         // 13).
         let mut tau = [R::ZERO; V];
-        write_torques::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>(
-            trig, back, state, effects, &mut tau,
-        );
+        Self::call(trig, effects).write_torques(&back.coordinates, state, &mut tau);
         tau
     }
 }

@@ -7,24 +7,20 @@
 //! velocities.
 
 use core::borrow::Borrow;
-use core::hint::black_box;
-use core::marker::PhantomData;
 
 use super::acceleration_field::{AccelerationField, Inertia, Wrench, along_z};
-use super::base::unaccelerated;
-use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointMotion, JointPair};
+use super::call::Call;
+use super::compile::{Compiled, CompiledJoint, JointMotion, JointPair};
 use super::displacement::Displacement;
 use super::folding::{Folded, Vec3};
 use super::gate::EngineScene;
 use super::joint_rates::{JointRates, SeveralRates, Twist};
-use super::rnea::{environment, inertia, joint_state};
-use super::rotors::{borne, coupling, felt};
-use super::{Engine, Specialised, only_if};
+use super::{Engine, loaded_again, only_if};
 use crate::algorithms::{MomentumAndCoriolis, MomentumAndDrift};
 use crate::effects::{Declared, Effect};
 use crate::model::{JointCoordinate, Robot};
 use crate::scalar::Real;
-use crate::state::{Configuration, JointTrig, RobotState, State};
+use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
@@ -51,18 +47,21 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[doc(alias = "momentum observer")]
     #[inline(never)]
-    pub fn momentum_and_coriolis<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn momentum_and_coriolis<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> MomentumAndCoriolis<R, V>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        let MomentumAndDrift { p, beta } = Self::momenta::<R, S, E, B, Q, V, false>(state, effects);
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        let trig = state.configuration().trig_or(Self::trig_source());
+        let trig = trig.borrow();
+        let back = &loaded_again(&state, trig).coordinates;
+        let MomentumAndDrift { p, beta } =
+            Self::call(trig, effects).momenta::<false>(back, state.state());
         MomentumAndCoriolis { p, ct_qd: beta }
     }
 
@@ -92,104 +91,73 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[doc(alias = "momentum observer")]
     #[inline(never)]
-    pub fn momentum_and_drift<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn momentum_and_drift<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> MomentumAndDrift<R, V>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        Self::momenta::<R, S, E, B, Q, V, true>(state, effects)
-    }
-
-    /// p and β, or p and Cᵀ q̇ if there is no DRIFT.
-    #[cfg_attr(optimised, inline(always))]
-    fn momenta<R: Real, S, E, const B: usize, const Q: usize, const V: usize, const DRIFT: bool>(
-        state: S,
-        effects: &E,
-    ) -> MomentumAndDrift<R, V>
-    where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
-    {
-        let trig = state
-            .configuration()
-            .trig_or(Specialised::<T, K, B, V>(PhantomData));
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        let trig = state.configuration().trig_or(Self::trig_source());
         let trig = trig.borrow();
-        // As in `rnea`.
-        let back = if const { S::Configuration::PRECOMPUTED } {
-            black_box(trig)
-        } else {
-            trig
-        };
-        momenta::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V, DRIFT>(
-            trig,
-            back,
-            state.state(),
-            effects,
-        )
+        let back = &loaded_again(&state, trig).coordinates;
+        Self::call(trig, effects).momenta::<true>(back, state.state())
     }
 }
 
-/// The recursion of p and β; `back` is `trig` as it is loaded on returning.
-#[cfg_attr(optimised, inline(always))]
-pub(crate) fn momenta<R, C, E, const B: usize, const Q: usize, const V: usize, const DRIFT: bool>(
-    trig: &JointTrig<R, Q>,
-    back: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    effects: &E,
-) -> MomentumAndDrift<R, V>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
-    // A constant, for the order of the sines: see `torques` of `rnea`.
-    let mut result = const {
-        MomentumAndDrift {
-            p: [R::ZERO; V],
-            beta: [R::ZERO; V],
-        }
-    };
-    let mut base = unaccelerated::<R, E, B, V>(effects, C::LENGTH);
-    if !DRIFT {
-        base.a = Vec3::ZERO;
-    }
-    let mut task = Task {
-        turns: &trig.coordinates,
-        back: &back.coordinates,
-        state,
-        effects,
-        result: &mut result,
-    };
-    for_each_joint!(J, {
-        if CompiledJoint::<C, J>::IS_ON_BASE
-            && let Some(visit) = const {
-                only_if(
-                    CompiledJoint::<C, J>::IS_ON_BASE,
-                    visit::<R, C, E, B, Q, V, DRIFT, J> as Visit<R, E, Q, V>,
-                )
+    /// The recursion of p and β, or of p and Cᵀ q̇ without DRIFT; `back` are the positions as they
+    /// are loaded on returning.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn momenta<const DRIFT: bool>(
+        self,
+        back: &[JointCoordinate<R>; Q],
+        state: &State<R, Q, V>,
+    ) -> MomentumAndDrift<R, V> {
+        // A constant, for the order of the sines: see `torques` of `rnea`.
+        let mut result = const {
+            MomentumAndDrift {
+                p: [R::ZERO; V],
+                beta: [R::ZERO; V],
             }
-        {
-            visit(&mut task, &base);
+        };
+        let mut base = self.unaccelerated();
+        if !DRIFT {
+            base.a = Vec3::ZERO;
         }
-    });
-    result
+        let mut task = Task {
+            call: self,
+            back,
+            state,
+            result: &mut result,
+        };
+        for_each_joint!(
+            J,
+            CompiledJoint::<Tree, J>::IS_ON_BASE,
+            visit = Task::visit::<DRIFT, J> as fn(&mut _, &_) -> _,
+            {
+                visit(&mut task, &base);
+            }
+        );
+        result
+    }
 }
 
 /// The data that all bodies share.
-struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
-    turns: &'a [JointCoordinate<R>; Q],
-    /// The same, loaded again on returning.
+struct Task<'a, R: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, Tree, Effects, B, Q, V>,
+    /// The positions of the call, loaded again on returning.
     back: &'a [JointCoordinate<R>; Q],
     state: &'a State<R, Q, V>,
-    effects: &'a E,
     result: &'a mut MomentumAndDrift<R, V>,
 }
 
@@ -201,217 +169,187 @@ struct Carried<R> {
     load: Wrench<R>,
 }
 
-type Visit<R, E, const Q: usize, const V: usize> =
-    fn(&mut Task<'_, R, E, Q, V>, &AccelerationField<R>) -> Carried<R>;
-
-/// Visits joint I and its descendants; returns what they carry about the origin of the parent, in
-/// its frame.
-#[cfg_attr(optimised, inline(always))]
-fn visit<
-    R,
-    C,
-    E,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const DRIFT: bool,
-    const I: usize,
->(
-    task: &mut Task<'_, R, E, Q, V>,
-    parent: &AccelerationField<R>,
-) -> Carried<R>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Task<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
-    let at = Displacement::of::<C, Q, I>(task.turns);
-    let mut body = across::<R, C, V, I>(parent, &at, &task.state.qd);
-    if DRIFT && E::BODY_POSE {
-        body.pose = parent.pose.transformed_by::<C, I>(&at);
-    }
+    /// Visits joint I and its descendants; returns what they carry about the origin of the parent,
+    /// in its frame.
+    #[cfg_attr(optimised, inline(always))]
+    fn visit<const DRIFT: bool, const I: usize>(
+        &mut self,
+        parent: &AccelerationField<R>,
+    ) -> Carried<R> {
+        let at = self.call.displacement::<I>();
+        let mut body = Self::across::<I>(parent, &at, &self.state.qd);
+        if DRIFT && Effects::BODY_POSE {
+            body.pose = parent.pose.transformed_by(&at);
+        }
 
-    let mut inner = Carried {
-        h: Wrench::ZERO,
-        load: Wrench::ZERO,
-    };
-    for_each_joint!(J, {
-        if JointPair::<C, I, J>::IS_CHILD
-            && let Some(visit) = const {
-                only_if(
-                    JointPair::<C, I, J>::IS_CHILD,
-                    visit::<R, C, E, B, Q, V, DRIFT, J> as Visit<R, E, Q, V>,
-                )
+        let mut inner = Carried {
+            h: Wrench::ZERO,
+            load: Wrench::ZERO,
+        };
+        for_each_joint!(
+            J,
+            JointPair::<Tree, I, J>::IS_CHILD,
+            visit = Self::visit::<DRIFT, J> as fn(&mut _, &_) -> Carried<R>,
+            {
+                let child = visit(self, &body);
+                inner = Carried {
+                    h: inner.h + child.h,
+                    load: inner.load + child.load,
+                };
             }
-        {
-            let child = visit(task, &body);
-            inner = Carried {
-                h: inner.h + child.h,
-                load: inner.load + child.load,
-            };
-        }
-    });
+        );
 
-    // After the children: until then the velocity takes fewer registers than the momentum beside
-    // it.
-    let own = inertia::<R, C, E, B, Q, V, I>(task.effects, E::BASE_MOTION);
-    let h = momentum(&body, &own) + inner.h;
-    let driven = felt::<R, C, E, B, V, I>(task.effects, h, parent.omega);
-    if CompiledJoint::<C, I>::COUNT == 1 {
-        entries::<R, C, E, B, Q, V, I>(task, &body, &driven);
-    } else if let Some(entries) = const {
-        only_if(
-            CompiledJoint::<C, I>::COUNT > 1,
-            several_entries::<R, C, E, B, Q, V, I> as Entries<R, E, Q, V>,
-        )
-    } {
-        entries(task, &body, &driven);
-    }
-    let mut load = Wrench::ZERO;
-    if DRIFT {
-        load = body.wrench(&own);
-        if E::WRENCH {
-            load = environment::<R, C, E, B, Q, V, I>(task.effects, &body, load);
-        }
-        load = load + inner.load;
-        if CompiledJoint::<C, I>::COUNT == 1 {
-            hold::<R, C, E, B, Q, V, I>(task, &load);
-        } else if let Some(hold) = const {
+        // After the children: until then the velocity takes fewer registers than the momentum
+        // beside it.
+        let own = self.call.inertia::<I>(Effects::BASE_MOTION);
+        let h = momentum(&body, &own) + inner.h;
+        let driven = self.call.felt::<I>(h, parent.omega);
+        if CompiledJoint::<Tree, I>::COUNT == 1 {
+            self.entries::<I>(&body, &driven);
+        } else if let Some(entries) = const {
             only_if(
-                CompiledJoint::<C, I>::COUNT > 1,
-                hold_several::<R, C, E, B, Q, V, I> as Hold<R, E, Q, V>,
+                CompiledJoint::<Tree, I>::COUNT > 1,
+                Self::several_entries::<I> as fn(&mut _, &_, &_),
             )
         } {
-            hold(task, &load);
+            entries(self, &body, &driven);
+        }
+        let mut load = Wrench::ZERO;
+        if DRIFT {
+            load = body.wrench(&own);
+            if Effects::WRENCH {
+                load = self.call.environment::<I>(&body, load);
+            }
+            load = load + inner.load;
+            if CompiledJoint::<Tree, I>::COUNT == 1 {
+                self.hold::<I>(&load);
+            } else if let Some(hold) = const {
+                only_if(
+                    CompiledJoint::<Tree, I>::COUNT > 1,
+                    Self::hold_several::<I> as fn(&mut _, &_),
+                )
+            } {
+                hold(self, &load);
+            }
+        }
+        let turn = self.back[CompiledJoint::<Tree, I>::Q];
+        let at = at.with_turn(turn);
+        let spin = self.call.coupling::<I>() * Folded::runtime(self.state.qd[I]);
+        let h = self.call.borne(h, along_z(spin));
+        Carried {
+            h: h.to_parent(&at),
+            load: load.to_parent(&at),
         }
     }
-    let turn = task.back[CompiledJoint::<C, I>::Q];
-    let at = at.with_turn(turn);
-    let spin = coupling::<R, C, E, B, V, I>(task.effects) * Folded::runtime(task.state.qd[I]);
-    let h = borne::<R, E, B, V>(task.effects, h, along_z(spin));
-    Carried {
-        h: h.to_parent::<C, I>(&at),
-        load: load.to_parent::<C, I>(&at),
-    }
-}
 
-/// The velocities of the body behind joint I.
-#[cfg_attr(optimised, inline(always))]
-fn across<R: Real, C: Compiled, const V: usize, const I: usize>(
-    parent: &AccelerationField<R>,
-    at: &Displacement<R>,
-    qd: &[R; V],
-) -> AccelerationField<R> {
-    if CompiledJoint::<C, I>::COUNT > 1 {
-        let rates = SeveralRates {
-            velocity: Twist::of::<C, V, I>(qd, true),
-            products: Twist::ZERO,
-            accel: Twist::ZERO,
+    /// The velocities of the body behind joint I.
+    #[cfg_attr(optimised, inline(always))]
+    fn across<const I: usize>(
+        parent: &AccelerationField<R>,
+        at: &Displacement<R, Tree, I>,
+        qd: &[R; V],
+    ) -> AccelerationField<R> {
+        if CompiledJoint::<Tree, I>::COUNT > 1 {
+            let rates = SeveralRates {
+                velocity: Twist::of::<Tree, V, I>(qd, true),
+                products: Twist::ZERO,
+                accel: Twist::ZERO,
+            };
+            return parent.across_several(at, &rates);
+        }
+        let mut rates = JointRates {
+            velocity: Folded::runtime(qd[I]),
+            omega_products: Folded::ZERO,
+            accel: Folded::ZERO,
         };
-        return parent.across_several::<C, I>(at, &rates);
-    }
-    let mut rates = JointRates {
-        velocity: Folded::runtime(qd[I]),
-        omega_products: Folded::ZERO,
-        accel: Folded::ZERO,
-    };
-    if CompiledJoint::<C, I>::PRISMATIC {
-        rates.velocity = rates.velocity * Folded::constant(C::LENGTH_INV);
-    }
-    parent.across::<C, I>(at, rates)
-}
-
-type Entries<R, E, const Q: usize, const V: usize> =
-    fn(&mut Task<'_, R, E, Q, V>, &AccelerationField<R>, &Wrench<R>);
-type Hold<R, E, const Q: usize, const V: usize> = fn(&mut Task<'_, R, E, Q, V>, &Wrench<R>);
-
-/// The entries of p and of Cᵀ q̇ of coordinate I, whose body moves as `body` and has with its
-/// descendants the momentum `h`.
-#[cfg_attr(optimised, inline(always))]
-fn entries<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    task: &mut Task<'_, R, E, Q, V>,
-    body: &AccelerationField<R>,
-    h: &Wrench<R>,
-) where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    let joint = CompiledJoint::<C, I>::JOINT;
-    let length_inv = Folded::constant(C::LENGTH_INV);
-    let mut p = h.along(joint, length_inv).get();
-    if let Some(armature) = task.effects.inertia(I) {
-        p += armature * task.state.qd[I];
-    }
-    task.result.p[I] = p;
-    task.result.beta[I] = rate::<R, C, I>(body, h).get();
-}
-
-/// The same of all coordinates of a joint.
-#[cfg_attr(optimised, inline(always))]
-fn several_entries<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    task: &mut Task<'_, R, E, Q, V>,
-    body: &AccelerationField<R>,
-    h: &Wrench<R>,
-) where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    for_each_joint!(K, {
-        if JointPair::<C, I, K>::IS_COORDINATE
-            && let Some(entries) = const {
-                only_if(
-                    JointPair::<C, I, K>::IS_COORDINATE,
-                    entries::<R, C, E, B, Q, V, K> as Entries<R, E, Q, V>,
-                )
-            }
-        {
-            entries(task, body, h);
+        if CompiledJoint::<Tree, I>::PRISMATIC {
+            rates.velocity = rates.velocity * Folded::constant(Tree::LENGTH_INV);
         }
-    });
-}
+        parent.across(at, rates)
+    }
 
-/// Subtracts from the entry of coordinate I what carries `load` and what the effects at the joint
-/// need.
-#[cfg_attr(optimised, inline(always))]
-fn hold<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    task: &mut Task<'_, R, E, Q, V>,
-    load: &Wrench<R>,
-) where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    let length_inv = Folded::constant(C::LENGTH_INV);
-    let at = joint_state::<R, C, Q, V, I>(task.state);
-    let mut held = load.along(CompiledJoint::<C, I>::JOINT, length_inv).get();
-    task.effects.torque(I, at, &mut held);
-    task.result.beta[I] -= held;
-}
-
-/// The same of all coordinates of a joint.
-#[cfg_attr(optimised, inline(always))]
-fn hold_several<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    task: &mut Task<'_, R, E, Q, V>,
-    load: &Wrench<R>,
-) where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    for_each_joint!(K, {
-        if JointPair::<C, I, K>::IS_COORDINATE
-            && let Some(hold) = const {
-                only_if(
-                    JointPair::<C, I, K>::IS_COORDINATE,
-                    hold::<R, C, E, B, Q, V, K> as Hold<R, E, Q, V>,
-                )
-            }
-        {
-            hold(task, load);
+    /// The entries of p and of Cᵀ q̇ of coordinate I, whose body moves as `body` and has with its
+    /// descendants the momentum `h`.
+    #[cfg_attr(optimised, inline(always))]
+    fn entries<const I: usize>(&mut self, body: &AccelerationField<R>, h: &Wrench<R>) {
+        let joint = CompiledJoint::<Tree, I>::JOINT;
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
+        let mut p = h.along(joint, length_inv).get();
+        if let Some(armature) = self.call.effects.inertia(I) {
+            p += armature * self.state.qd[I];
         }
-    });
+        self.result.p[I] = p;
+        self.result.beta[I] = Self::rate::<I>(body, h).get();
+    }
+
+    /// The same of all coordinates of a joint.
+    #[cfg_attr(optimised, inline(always))]
+    fn several_entries<const I: usize>(&mut self, body: &AccelerationField<R>, h: &Wrench<R>) {
+        for_each_joint!(
+            K,
+            JointPair::<Tree, I, K>::IS_COORDINATE,
+            entries = Self::entries::<K> as fn(&mut _, &_, &_),
+            {
+                entries(self, body, h);
+            }
+        );
+    }
+
+    /// Subtracts from the entry of coordinate I what carries `load` and what the effects at the
+    /// joint need.
+    #[cfg_attr(optimised, inline(always))]
+    fn hold<const I: usize>(&mut self, load: &Wrench<R>) {
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
+        let at = self.call.joint_state::<I>(self.state);
+        let mut held = load
+            .along(CompiledJoint::<Tree, I>::JOINT, length_inv)
+            .get();
+        self.call.effects.torque(I, at, &mut held);
+        self.result.beta[I] -= held;
+    }
+
+    /// The same of all coordinates of a joint.
+    #[cfg_attr(optimised, inline(always))]
+    fn hold_several<const I: usize>(&mut self, load: &Wrench<R>) {
+        for_each_joint!(
+            K,
+            JointPair::<Tree, I, K>::IS_COORDINATE,
+            hold = Self::hold::<K> as fn(&mut _, &_),
+            {
+                hold(self, load);
+            }
+        );
+    }
+
+    /// The entry of Cᵀ q̇ of a coordinate: (v × S)ᵀ h = −Sᵀ (v ×* h).
+    #[cfg_attr(optimised, inline(always))]
+    fn rate<const I: usize>(body: &AccelerationField<R>, h: &Wrench<R>) -> Folded<R> {
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
+        if matches!(
+            CompiledJoint::<Tree, I>::MOTION,
+            JointMotion::Turn | JointMotion::Slide
+        ) {
+            let ([wx, wy, _], [vx, vy, _]) = (body.omega.0, body.v.0);
+            let ([fx, fy, _], [nx, ny, _]) = (h.f.0, h.n.0);
+            return if CompiledJoint::<Tree, I>::PRISMATIC {
+                (wy * fx - wx * fy) * length_inv
+            } else {
+                wy * nx - wx * ny + (vy * fx - vx * fy)
+            };
+        }
+        let back = Wrench {
+            f: h.f.cross(body.omega),
+            n: h.n.cross(body.omega) + h.f.cross(body.v),
+        };
+        back.along(CompiledJoint::<Tree, I>::JOINT, length_inv)
+    }
 }
 
 /// The momentum I v of a body: m v + ω × h, and h × v + tr(Σ) ω − Σ ω.
@@ -428,30 +366,4 @@ pub(super) fn momentum<R: Real>(body: &AccelerationField<R>, inertia: &Inertia<R
         f: body.v.scale(inertia.mass) + body.omega.cross(inertia.moment),
         n: inertia.moment.cross(body.v) + spin,
     }
-}
-
-/// The entry of Cᵀ q̇ of a coordinate: (v × S)ᵀ h = −Sᵀ (v ×* h).
-#[cfg_attr(optimised, inline(always))]
-fn rate<R: Real, C: Compiled, const I: usize>(
-    body: &AccelerationField<R>,
-    h: &Wrench<R>,
-) -> Folded<R> {
-    let length_inv = Folded::constant(C::LENGTH_INV);
-    if matches!(
-        CompiledJoint::<C, I>::MOTION,
-        JointMotion::Turn | JointMotion::Slide
-    ) {
-        let ([wx, wy, _], [vx, vy, _]) = (body.omega.0, body.v.0);
-        let ([fx, fy, _], [nx, ny, _]) = (h.f.0, h.n.0);
-        return if CompiledJoint::<C, I>::PRISMATIC {
-            (wy * fx - wx * fy) * length_inv
-        } else {
-            wy * nx - wx * ny + (vy * fx - vx * fy)
-        };
-    }
-    let back = Wrench {
-        f: h.f.cross(body.omega),
-        n: h.n.cross(body.omega) + h.f.cross(body.v),
-    };
-    back.along(CompiledJoint::<C, I>::JOINT, length_inv)
 }

@@ -21,35 +21,38 @@ impl<const N: usize> Bodies<N> for AllBodies {
     };
 }
 
-/// The K-th of the bodies L that move with joint I, or stand on the base.
-pub(super) struct Named<C, L, const N: usize, const I: usize, const K: usize>(PhantomData<(C, L)>);
+/// The K-th of the bodies of the list that move with joint I, or stand on the base.
+pub(super) struct Named<Tree, List, const N: usize, const I: usize, const K: usize>(
+    PhantomData<(Tree, List)>,
+);
 
-impl<C: Compiled, L: Bodies<N>, const N: usize, const I: usize, const K: usize>
-    Named<C, L, N, I, K>
+impl<Tree: Compiled, List: Bodies<N>, const N: usize, const I: usize, const K: usize>
+    Named<Tree, List, N, I, K>
 {
     /// That there are not more than one function can visit.
     pub(super) const ARE_FEW: () = assert!(
-        count_on::<C>(&L::NUMBERS, CompiledJoint::<C, I>::LAST) <= 32,
+        count_on::<Tree>(&List::NUMBERS, CompiledJoint::<Tree, I>::LAST) <= 32,
         "the engine takes up to 32 named bodies that move with one joint; use `Core`"
     );
     /// Whether there is one.
-    pub(super) const IS_SOME: bool = K < count_on::<C>(&L::NUMBERS, CompiledJoint::<C, I>::LAST);
-    /// Its place in L, and on the joint.
+    pub(super) const IS_SOME: bool =
+        K < count_on::<Tree>(&List::NUMBERS, CompiledJoint::<Tree, I>::LAST);
+    /// Its place in the list, and on the joint.
     pub(super) const BODY: &'static (usize, BodyPlacement) =
-        &nth_on::<C>(&L::NUMBERS, CompiledJoint::<C, I>::LAST, K);
+        &nth_on::<Tree>(&List::NUMBERS, CompiledJoint::<Tree, I>::LAST, K);
 }
 
 /// The joints that move some of these bodies, as bits.
-pub(super) const fn joints<C: Compiled>(bodies: &[usize]) -> u64 {
+pub(super) const fn joints<Tree: Compiled>(bodies: &[usize]) -> u64 {
     let (mut joints, mut k) = (0, 0);
     while k < bodies.len() {
         assert!(
-            bodies[k] < C::PLACES.len(),
+            bodies[k] < Tree::PLACES.len(),
             "a named body is one that the robot does not have: bodies are numbered from 0"
         );
-        let joint = C::PLACES[bodies[k]].joint;
+        let joint = Tree::PLACES[bodies[k]].joint;
         if joint != BASE {
-            joints |= C::SUPPORT[joint];
+            joints |= Tree::SUPPORT[joint];
         }
         k += 1;
     }
@@ -57,10 +60,10 @@ pub(super) const fn joints<C: Compiled>(bodies: &[usize]) -> u64 {
 }
 
 /// How many of these bodies move with joint `i`.
-const fn count_on<C: Compiled>(bodies: &[usize], i: usize) -> usize {
+const fn count_on<Tree: Compiled>(bodies: &[usize], i: usize) -> usize {
     let (mut count, mut k) = (0, 0);
     while k < bodies.len() {
-        if place::<C>(bodies[k]).joint == i {
+        if place::<Tree>(bodies[k]).joint == i {
             count += 1;
         }
         k += 1;
@@ -69,10 +72,14 @@ const fn count_on<C: Compiled>(bodies: &[usize], i: usize) -> usize {
 }
 
 /// The `n`-th of them: its place in the list, and on the joint. Without one, the first of the list.
-const fn nth_on<C: Compiled>(bodies: &[usize], i: usize, mut n: usize) -> (usize, BodyPlacement) {
+const fn nth_on<Tree: Compiled>(
+    bodies: &[usize],
+    i: usize,
+    mut n: usize,
+) -> (usize, BodyPlacement) {
     let mut k = 0;
     while k < bodies.len() {
-        let place = place::<C>(bodies[k]);
+        let place = place::<Tree>(bodies[k]);
         if place.joint == i {
             if n == 0 {
                 return (k, place);
@@ -81,5 +88,5 @@ const fn nth_on<C: Compiled>(bodies: &[usize], i: usize, mut n: usize) -> (usize
         }
         k += 1;
     }
-    (0, place::<C>(BASE))
+    (0, place::<Tree>(BASE))
 }

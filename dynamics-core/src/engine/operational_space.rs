@@ -6,11 +6,10 @@
 //! of J L⁻¹.
 
 use core::borrow::Borrow;
-use core::marker::PhantomData;
 
 use super::compile::{Compiled, CompiledRobot, JointAndBody, JointPair};
 use super::gate::EngineScene;
-use super::{Engine, Specialised, only_if};
+use super::{Engine, only_if};
 use crate::algorithms::{
     Damping, Frame, NotPositiveDefinite, OperationalSpace, OsimInverse, task_jacobian,
 };
@@ -54,8 +53,6 @@ impl<T, K> Engine<T, K> {
     #[inline(never)]
     pub fn operational_space<
         R: Real,
-        E,
-        F: Frame,
         const M: usize,
         const BODY: usize,
         const B: usize,
@@ -63,21 +60,19 @@ impl<T, K> Engine<T, K> {
         const V: usize,
     >(
         q: &impl Configuration<R, Q>,
-        (body, frame): (OnBody<BODY>, F),
+        (body, frame): (OnBody<BODY>, impl Frame),
         directions: &[Force<R>; M],
-        effects: &E,
+        effects: &impl Effect<R, B, V>,
         damping: Damping<R>,
     ) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        E: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
+        let trig = q.trig_or(Self::trig_source());
         let trig: &JointTrig<R, Q> = trig.borrow();
         let rows = task_jacobian(&Self::jacobian(trig, body, frame), directions);
-        of_rows::<R, T, K, E, M, B, Q, V>(trig, rows, effects, damping)
+        Self::of_rows(trig, rows, effects, damping)
     }
 
     /// The operational-space inertia of the task whose Jacobian has these rows: of one body, or of
@@ -112,7 +107,7 @@ impl<T, K> Engine<T, K> {
     #[inline(never)]
     pub fn operational_space_of_rows<
         R: Real,
-        E,
+        Effects,
         const M: usize,
         const B: usize,
         const Q: usize,
@@ -120,17 +115,17 @@ impl<T, K> Engine<T, K> {
     >(
         q: &impl Configuration<R, Q>,
         rows: [[R; V]; M],
-        effects: &E,
+        effects: &Effects,
         damping: Damping<R>,
     ) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        of_rows::<R, T, K, E, M, B, Q, V>(trig.borrow(), rows, effects, damping)
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        let trig = q.trig_or(Self::trig_source());
+        Self::of_rows(trig.borrow(), rows, effects, damping)
     }
 
     /// The inverse operational-space inertia Λ⁻¹ = J M⁻¹ Jᵀ of a body in a [`Frame`], as
@@ -164,8 +159,7 @@ impl<T, K> Engine<T, K> {
     #[inline(never)]
     pub fn osim_inverse<
         R: Real,
-        E,
-        F: Frame,
+        Effects,
         const BODY: usize,
         const B: usize,
         const Q: usize,
@@ -173,16 +167,16 @@ impl<T, K> Engine<T, K> {
     >(
         q: &impl Configuration<R, Q>,
         body: OnBody<BODY>,
-        frame: F,
-        effects: &E,
+        frame: impl Frame,
+        effects: &Effects,
     ) -> Result<OsimInverse<R>, NotPositiveDefinite>
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
-        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        let trig = q.trig_or(Self::trig_source());
         let trig: &JointTrig<R, Q> = trig.borrow();
         let factors = Self::ltdl(&Self::crba(trig, effects))?;
         let mut columns = Self::jacobian(trig, body, frame);
@@ -192,39 +186,39 @@ impl<T, K> Engine<T, K> {
             &mut columns,
         ))
     }
-}
 
-#[cfg_attr(optimised, inline(always))]
-fn of_rows<R: Real, T, K, E, const M: usize, const B: usize, const Q: usize, const V: usize>(
-    trig: &JointTrig<R, Q>,
-    rows: [[R; V]; M],
-    effects: &E,
-    damping: Damping<R>,
-) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
-where
-    T: Robot<B, Q, V>,
-    K: Kernel<R>,
-    E: Effect<R, B, V>,
-{
-    let factors = Engine::<T, K>::ltdl(&Engine::<T, K>::crba(trig, effects))?;
-    let solve = |tau: &_| Engine::<T, K>::solve(&factors, tau);
-    Ok(OperationalSpace::new(rows, solve, damping))
+    #[cfg_attr(optimised, inline(always))]
+    fn of_rows<R: Real, Effects, const M: usize, const B: usize, const Q: usize, const V: usize>(
+        trig: &JointTrig<R, Q>,
+        rows: [[R; V]; M],
+        effects: &Effects,
+        damping: Damping<R>,
+    ) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        Effects: Effect<R, B, V>,
+    {
+        let factors = Self::ltdl(&Self::crba(trig, effects))?;
+        let solve = |tau: &_| Self::solve(&factors, tau);
+        Ok(OperationalSpace::new(rows, solve, damping))
+    }
 }
 
 /// Λ⁻¹ of a body from the columns of its J, which become those of J L⁻¹, in place.
 #[cfg_attr(optimised, inline(always))]
-fn mobility<R: Real, C: Compiled, const V: usize, const BODY: usize>(
+fn mobility<R: Real, Tree: Compiled, const V: usize, const BODY: usize>(
     l: &[[R; V]; V],
     d_inv: &[R; V],
     columns: &mut [Motion<R>; V],
 ) -> OsimInverse<R> {
     let mut mobility = OsimInverse::ZERO;
     for_each_joint_reversed!(I, {
-        if JointAndBody::<C, I, BODY>::SUPPORTS
+        if JointAndBody::<Tree, I, BODY>::SUPPORTS
             && let Some(scatter) = const {
                 only_if(
-                    JointAndBody::<C, I, BODY>::SUPPORTS,
-                    scatter::<R, C, V, I> as fn(&[[R; V]; V], &mut [Motion<R>; V]),
+                    JointAndBody::<Tree, I, BODY>::SUPPORTS,
+                    scatter::<R, Tree, V, I> as fn(&[[R; V]; V], &mut [Motion<R>; V]),
                 )
             }
         {
@@ -237,12 +231,12 @@ fn mobility<R: Real, C: Compiled, const V: usize, const BODY: usize>(
 
 /// Subtracts from the columns of joint I's ancestors its own, times their entries of L.
 #[cfg_attr(optimised, inline(always))]
-fn scatter<R: Real, C: Compiled, const V: usize, const I: usize>(
+fn scatter<R: Real, Tree: Compiled, const V: usize, const I: usize>(
     l: &[[R; V]; V],
     columns: &mut [Motion<R>; V],
 ) {
     for_each_joint!(J, {
-        if JointPair::<C, J, I>::IS_ANCESTOR {
+        if JointPair::<Tree, J, I>::IS_ANCESTOR {
             columns[J] -= columns[I] * l[I][J];
         }
     });

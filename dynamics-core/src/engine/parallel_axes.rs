@@ -65,8 +65,11 @@ impl<R: Real> Felt<R> {
     /// The wrench of the joint's unit acceleration without what only the joint on the base feels of
     /// it, in the joint's frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn wrench<C: Compiled, const I: usize>(&self, at: &Displacement<R>) -> Wrench<R> {
-        let [hx, hy, _] = at.leave::<C, I>(self.moment).0;
+    pub(crate) fn wrench<Tree: Compiled, const I: usize>(
+        &self,
+        at: &Displacement<R, Tree, I>,
+    ) -> Wrench<R> {
+        let [hx, hy, _] = at.leave(self.moment).0;
         Wrench {
             f: Vec3([-hy, hx, Folded::ZERO]),
             n: along_z(self.about),
@@ -76,15 +79,15 @@ impl<R: Real> Felt<R> {
     /// The same sums in the frame of joint I's parent and about its origin; `root` is in that
     /// frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn to_parent<C: Compiled, const I: usize>(
+    pub(crate) fn to_parent<Tree: Compiled, const I: usize>(
         self,
-        at: &Displacement<R>,
+        at: &Displacement<R, Tree, I>,
         root: &Twist<R>,
     ) -> Self {
-        let joint = CompiledJoint::<C, I>::JOINT;
+        let joint = CompiledJoint::<Tree, I>::JOINT;
         let (p, z) = (Vec3::constant(joint.pos), Vec3::constant(joint.rot.z_axis));
-        let turned = at.leave::<C, I>(self.moment);
-        let moment = rotate_to_parent::<R, C, I>(turned);
+        let turned = at.leave(self.moment);
+        let moment = rotate_to_parent::<R, Tree, I>(turned);
         let (along, u, m) = (moment.dot(p), z.cross(root.ang), self.mass);
         let (up, mp) = (u.dot(p), p.scale(m));
         let across = u.dot(moment) * up;

@@ -9,12 +9,13 @@ use super::compile::{Compiled, CompiledJoint, JointPair};
 use super::displacement::Displacement;
 use super::folding::Folded;
 use super::joint_rates::{JointRates, SeveralRates, Twist};
-use super::only_if;
 use crate::model::{BASE, JointCoordinate};
 use crate::scalar::Real;
 
-/// What an algorithm does at each joint of the robot C.
-pub(super) trait Pass<R: Real, C: Compiled> {
+/// What an algorithm does at each joint of a robot.
+pub(super) trait Pass {
+    /// The robot.
+    type Tree: Compiled;
     /// What a body hands to its children.
     type Outward: Copy;
     /// What a body returns to its parent.
@@ -45,97 +46,84 @@ impl Add for Nothing {
 
 /// Visits all joints; returns the sum over those on the base.
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn sweep<R: Real, C: Compiled, P: Pass<R, C>>(
-    pass: &mut P,
-    base: &P::Outward,
-) -> P::Inward {
-    children::<R, C, P, BASE>(pass, base)
+pub(super) fn sweep<P: Pass>(pass: &mut P, base: &P::Outward) -> P::Inward {
+    children::<P, BASE>(pass, base)
 }
-
-/// A function that visits a joint.
-type Visit<R, C, P> = fn(&mut P, &<P as Pass<R, C>>::Outward) -> <P as Pass<R, C>>::Inward;
 
 /// Visits the children of joint I, or the joints on the base.
 #[cfg_attr(optimised, inline(always))]
-fn children<R: Real, C: Compiled, P: Pass<R, C>, const I: usize>(
-    pass: &mut P,
-    body: &P::Outward,
-) -> P::Inward {
+fn children<P: Pass, const I: usize>(pass: &mut P, body: &P::Outward) -> P::Inward {
     let mut sum = P::NOTHING;
-    for_each_joint!(J, {
-        if Step::<R, C, P, I, J>::IS_TAKEN
-            && let Some(visit) = const {
-                only_if(
-                    Step::<R, C, P, I, J>::IS_TAKEN,
-                    visit::<R, C, P, J> as Visit<R, C, P>,
-                )
-            }
+    for_each_joint!(
+        J,
+        Step::<P, I, J>::IS_TAKEN,
+        visit = visit::<P, J> as fn(&mut P, &P::Outward) -> P::Inward,
         {
             sum = sum + visit(pass, body);
         }
-    });
+    );
     sum
 }
 
 /// Visits joint I and its descendants.
 #[cfg_attr(optimised, inline(always))]
-fn visit<R: Real, C: Compiled, P: Pass<R, C>, const I: usize>(
-    pass: &mut P,
-    parent: &P::Outward,
-) -> P::Inward {
+fn visit<P: Pass, const I: usize>(pass: &mut P, parent: &P::Outward) -> P::Inward {
     let body = pass.enter::<I>(parent);
-    let inner = children::<R, C, P, I>(pass, &body);
+    let inner = children::<P, I>(pass, &body);
     pass.leave::<I>(&body, inner)
 }
 
 /// The way from joint I, or the base, to joint J.
-struct Step<R, C, P, const I: usize, const J: usize>(PhantomData<(R, C, P)>);
+struct Step<P, const I: usize, const J: usize>(PhantomData<P>);
 
-impl<R: Real, C: Compiled, P: Pass<R, C>, const I: usize, const J: usize> Step<R, C, P, I, J> {
-    const IS_TAKEN: bool = JointPair::<C, I, J>::IS_CHILD && P::JOINTS & (1 << J) != 0;
+impl<P: Pass, const I: usize, const J: usize> Step<P, I, J> {
+    const IS_TAKEN: bool = JointPair::<P::Tree, I, J>::IS_CHILD && P::JOINTS & (1 << J) != 0;
 }
 
-/// The field of the body behind joint I, from that of its parent, with its pose if the parent's is
-/// known.
-#[cfg_attr(optimised, inline(always))]
-pub(super) fn moved<R: Real, C: Compiled, const Q: usize, const V: usize, const I: usize>(
-    parent: &AccelerationField<R>,
-    turns: &[JointCoordinate<R>; Q],
-    rates: &Rates<'_, R, V>,
-) -> AccelerationField<R> {
-    let at = Displacement::of::<C, Q, I>(turns);
-    let (qd, qdd) = (rates.qd, rates.qdd);
-    let mut field = if CompiledJoint::<C, I>::COUNT > 1 {
-        let several = SeveralRates {
-            velocity: Twist::of::<C, V, I>(qd, rates.velocity),
-            products: Twist::of::<C, V, I>(qd, rates.products),
-            accel: Twist::of::<C, V, I>(qdd, rates.accel),
-        };
-        parent.across_several::<C, I>(&at, &several)
-    } else {
-        let unit = if CompiledJoint::<C, I>::PRISMATIC {
-            Folded::constant(C::LENGTH_INV)
-        } else {
-            Folded::ONE
-        };
-        let one = JointRates {
-            velocity: Folded::runtime_if(rates.velocity, qd[I]) * unit,
-            omega_products: Folded::runtime_if(rates.products, qd[I]) * unit,
-            accel: Folded::runtime_if(rates.accel, qdd[I]) * unit,
-        };
-        parent.across::<C, I>(&at, one)
-    };
-    field.pose = parent.pose.transformed_by::<C, I>(&at);
-    field
-}
-
-/// The rates of all joints, and which of them a pass needs; what it does not need is a known zero.
+/// The positions and rates of all joints, and which rates a pass needs; what it does not need is a
+/// known zero.
 #[derive(Clone, Copy)]
-pub(super) struct Rates<'a, R, const V: usize> {
+pub(super) struct Motions<'a, R, const Q: usize, const V: usize> {
+    pub(super) turns: &'a [JointCoordinate<R>; Q],
     pub(super) qd: &'a [R; V],
     pub(super) qdd: &'a [R; V],
     pub(super) velocity: bool,
     /// Of the velocity, its products.
     pub(super) products: bool,
     pub(super) accel: bool,
+}
+
+impl<R: Real, const Q: usize, const V: usize> Motions<'_, R, Q, V> {
+    /// The field of the body behind joint I, from that of its parent, with its pose if the parent's
+    /// is known.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn field<Tree: Compiled, const I: usize>(
+        &self,
+        parent: &AccelerationField<R>,
+    ) -> AccelerationField<R> {
+        let at = Displacement::<R, Tree, I>::of(self.turns);
+        let (qd, qdd) = (self.qd, self.qdd);
+        let mut field = if CompiledJoint::<Tree, I>::COUNT > 1 {
+            let several = SeveralRates {
+                velocity: Twist::of::<Tree, V, I>(qd, self.velocity),
+                products: Twist::of::<Tree, V, I>(qd, self.products),
+                accel: Twist::of::<Tree, V, I>(qdd, self.accel),
+            };
+            parent.across_several(&at, &several)
+        } else {
+            let unit = if CompiledJoint::<Tree, I>::PRISMATIC {
+                Folded::constant(Tree::LENGTH_INV)
+            } else {
+                Folded::ONE
+            };
+            let one = JointRates {
+                velocity: Folded::runtime_if(self.velocity, qd[I]) * unit,
+                omega_products: Folded::runtime_if(self.products, qd[I]) * unit,
+                accel: Folded::runtime_if(self.accel, qdd[I]) * unit,
+            };
+            parent.across(&at, one)
+        };
+        field.pose = parent.pose.transformed_by(&at);
+        field
+    }
 }

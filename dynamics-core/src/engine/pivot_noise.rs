@@ -5,13 +5,14 @@
 //! in one line away from it. Turns do not change them, so that they are constants of the robot;
 //! slides and a payload add to them.
 
+use super::call::Call;
 use super::compile::{
     Compiled, CompiledJoint, JointMotion, JointPair, is_slide_beyond, joint, place, supports,
 };
 use super::{Index, only_if};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::{Declared, Effect, RegroupedInertia, add_inertia, call_hook};
-use crate::model::{BASE, JointCoordinate, JointKind, Link};
+use crate::model::{BASE, JointKind, Link};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
 use glam::DVec3;
@@ -37,10 +38,10 @@ const NOTHING: Size = Size {
 };
 
 /// Carries the constants of a robot.
-struct Sizes<C, const B: usize, const V: usize>(core::marker::PhantomData<C>);
+struct Sizes<Tree, const B: usize, const V: usize>(core::marker::PhantomData<Tree>);
 
-impl<C: Compiled, const B: usize, const V: usize> Sizes<C, B, V> {
-    const ALL: [Size; V] = sizes::<B, V>(C::LINKS);
+impl<Tree: Compiled, const B: usize, const V: usize> Sizes<Tree, B, V> {
+    const ALL: [Size; V] = sizes::<B, V>(Tree::LINKS);
 
     /// That of joint `i`; beyond the last one, zero.
     const fn of(i: usize) -> Size {
@@ -94,10 +95,10 @@ const fn reach(links: &[Link<f64>], i: usize, mut body: usize) -> f64 {
 
 /// The `k`-th of the bodies with a payload that joint `i` or a descendant moves, or the number of
 /// all bodies.
-const fn load<C: Compiled>(i: usize, k: usize, loaded: &[bool]) -> usize {
+const fn load<Tree: Compiled>(i: usize, k: usize, loaded: &[bool]) -> usize {
     let (mut count, mut body) = (0, 0);
     while body < loaded.len() {
-        if loaded[body] && supports::<C>(i, place::<C>(body).joint) {
+        if loaded[body] && supports::<Tree>(i, place::<Tree>(body).joint) {
             if count == k {
                 return body;
             }
@@ -143,184 +144,145 @@ impl Singular {
     }
 }
 
-/// The pivots that rounding may leave of a singular M: of each joint, kg·m² or kg.
-#[cfg_attr(optimised, inline(always))]
-pub(crate) fn noise<R, C, E, const B: usize, const Q: usize, const V: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    effects: &E,
-) -> [R; V]
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
-    let mut noise = [R::ZERO; V];
-    for_each_joint!(J, {
-        if Index::<J, V>::IS_BELOW
-            && let Some(of_joint) = const {
+    /// The pivots that rounding may leave of a singular M: of each joint, kg·m² or kg.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn noise(self) -> [R; V] {
+        let mut noise = [R::ZERO; V];
+        for_each_joint!(
+            J,
+            Index::<J, V>::IS_BELOW,
+            pivot_noise = Self::pivot_noise::<J> as fn(_) -> _,
+            {
+                noise[J] = pivot_noise(self);
+            }
+        );
+        noise
+    }
+
+    /// Whether the pivots of forward dynamics exceed their noise in any state, of joints on a
+    /// parent: of numbers, only a NaN does not.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn certain(self) -> [bool; V] {
+        let mut certain = [false; V];
+        for_each_joint!(J, {
+            if Index::<J, V>::IS_BELOW {
+                certain[J] = const { Self::is_certain(J) } && self.effects.inertia(J).is_none();
+            }
+        });
+        certain
+    }
+
+    /// The same of joint `i` without its rotor, by the inertia of its body alone.
+    const fn is_certain(i: usize) -> bool {
+        let joint = joint::<Tree>(i);
+        let size = Sizes::<Tree, B, V>::of(i);
+        let most = if joint.prismatic {
+            size.mass
+        } else {
+            size.second
+        };
+        // The rounding errors of f32, and as much again for those of the pivot.
+        let noise = 2.0 * ROUNDINGS * f32::EPSILON as f64 * most + f32::MIN_POSITIVE as f64;
+        joint.parent != BASE
+            && joint.alone > noise
+            && Effects::BASE_PARAMETERS == 0
+            && load::<Tree>(i, 0, &Effects::PAYLOAD) == B
+            && !slides_beyond::<Tree>(i)
+    }
+
+    /// The same of joint I. A pivot that exceeds it has a finite reciprocal: neither the smallest
+    /// numbers nor, of an infinite inertia, infinity does.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn pivot_noise<const I: usize>(self) -> R {
+        let mut size = self.largest_inertia::<I>();
+        add_inertia(self.effects, I, &mut size);
+        size * (R::EPSILON * R::from_f64(ROUNDINGS)) + R::MIN_POSITIVE
+    }
+
+    /// The largest inertia that joint I could move, without its rotor's: a constant of robots
+    /// without slides and payload.
+    #[cfg_attr(optimised, inline(always))]
+    fn largest_inertia<const I: usize>(self) -> R {
+        let own = const { Sizes::<Tree, B, V>::of(I) };
+        let [mut mass, mut moment, mut second] =
+            [own.mass, own.moment, own.second].map(R::from_f64);
+        if const { Effects::BASE_PARAMETERS > 0 } {
+            let mut body = RegroupedInertia::default();
+            call_hook!(Effects::REGROUPED.load, self.effects, I, &mut body);
+            [mass, moment, second] = body.size;
+        }
+        let prismatic = CompiledJoint::<Tree, I>::PRISMATIC;
+        let mut size = if prismatic { mass } else { second };
+        let mut slides = R::ZERO;
+        if !prismatic {
+            for_each_joint!(K, {
+                if JointPair::<Tree, I, K>::IS_SLIDE_BEYOND {
+                    slides += self.slide::<K>();
+                }
+            });
+            if const { slides_beyond::<Tree>(I) } {
+                size += slides * (moment + moment + slides * mass);
+            }
+        }
+        if const { load::<Tree>(I, 0, &Effects::PAYLOAD) < B }
+            && let Some(payloads_added) = const {
                 only_if(
-                    J < V,
-                    of_joint::<R, C, E, B, Q, V, J> as fn(&[JointCoordinate<R>; Q], &E) -> R,
+                    load::<Tree>(I, 0, &Effects::PAYLOAD) < B,
+                    Self::payloads_added::<I> as fn(_, _, _) -> _,
                 )
             }
         {
-            noise[J] = of_joint(turns, effects);
+            size = payloads_added(self, size, slides);
         }
-    });
-    noise
-}
-
-/// Whether the pivots of forward dynamics exceed their noise in any state, of joints on a parent:
-/// of numbers, only a NaN does not.
-#[cfg_attr(optimised, inline(always))]
-pub(crate) fn certain<R, C, E, const B: usize, const Q: usize, const V: usize>(
-    effects: &E,
-) -> [bool; V]
-where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    let mut certain = [false; V];
-    for_each_joint!(J, {
-        if Index::<J, V>::IS_BELOW {
-            certain[J] = const { is_certain::<R, C, E, B, V>(J) } && effects.inertia(J).is_none();
-        }
-    });
-    certain
-}
-
-/// The same of joint `i` without its rotor, by the inertia of its body alone.
-const fn is_certain<R: Real, C: Compiled, E, const B: usize, const V: usize>(i: usize) -> bool
-where
-    E: Effect<R, B, V>,
-{
-    let joint = joint::<C>(i);
-    let size = Sizes::<C, B, V>::of(i);
-    let most = if joint.prismatic {
-        size.mass
-    } else {
-        size.second
-    };
-    // The rounding errors of f32, and as much again for those of the pivot.
-    let noise = 2.0 * ROUNDINGS * f32::EPSILON as f64 * most + f32::MIN_POSITIVE as f64;
-    joint.parent != BASE
-        && joint.alone > noise
-        && E::BASE_PARAMETERS == 0
-        && load::<C>(i, 0, &E::PAYLOAD) == B
-        && !slides_beyond::<C>(i)
-}
-
-/// The same of joint I. A pivot that exceeds it has a finite reciprocal: neither the smallest
-/// numbers nor, of an infinite inertia, infinity does.
-#[cfg_attr(optimised, inline(always))]
-pub(crate) fn of_joint<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    effects: &E,
-) -> R
-where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    let mut size = largest_inertia::<R, C, E, B, Q, V, I>(turns, effects);
-    add_inertia(effects, I, &mut size);
-    size * (R::EPSILON * R::from_f64(ROUNDINGS)) + R::MIN_POSITIVE
-}
-
-/// The largest inertia that joint I could move, without its rotor's: a constant of robots without
-/// slides and payload.
-#[cfg_attr(optimised, inline(always))]
-fn largest_inertia<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    turns: &[JointCoordinate<R>; Q],
-    effects: &E,
-) -> R
-where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    let own = const { Sizes::<C, B, V>::of(I) };
-    let [mut mass, mut moment, mut second] = [own.mass, own.moment, own.second].map(R::from_f64);
-    if const { E::BASE_PARAMETERS > 0 } {
-        let mut body = RegroupedInertia::default();
-        call_hook!(E::REGROUPED.load, effects, I, &mut body);
-        [mass, moment, second] = body.size;
+        size
     }
-    let prismatic = CompiledJoint::<C, I>::PRISMATIC;
-    let mut size = if prismatic { mass } else { second };
-    let mut slides = R::ZERO;
-    if !prismatic {
+
+    /// How far coordinate I has moved its body's origin, m.
+    #[cfg_attr(optimised, inline(always))]
+    fn slide<const I: usize>(self) -> R {
+        let joint = CompiledJoint::<Tree, I>::JOINT;
+        let q = match CompiledJoint::<Tree, I>::POSITION {
+            Some(position) => self.turns[position].q.abs(),
+            None => R::ZERO,
+        };
+        match CompiledJoint::<Tree, I>::MOTION {
+            JointMotion::Screw => q * R::from_f64((joint.pitch * Tree::LENGTH).abs()),
+            _ => q,
+        }
+    }
+
+    /// Adds the payloads that joint I moves to the inertia that it could move.
+    #[cfg_attr(optimised, inline(always))]
+    fn payloads_added<const I: usize>(self, mut size: R, slides: R) -> R {
+        const {
+            assert!(
+                load::<Tree>(I, 32, &Effects::PAYLOAD) == B,
+                "the engine takes up to 32 bodies with payloads; use `Core`"
+            )
+        };
         for_each_joint!(K, {
-            if JointPair::<C, I, K>::IS_SLIDE_BEYOND {
-                slides += slide::<R, C, Q, K>(turns);
+            let body = const { load::<Tree>(I, K, &Effects::PAYLOAD) };
+            if body < B {
+                let mut payload = SpatialInertia::ZERO;
+                call_hook!(Effects::ADDED_INERTIA.add, self.effects, body, &mut payload);
+                size += if CompiledJoint::<Tree, I>::PRISMATIC {
+                    payload.mass
+                } else {
+                    let reach =
+                        const { reach(Tree::LINKS, I, load::<Tree>(I, K, &Effects::PAYLOAD)) };
+                    of_load(&payload, slides + R::from_f64(reach))
+                };
             }
         });
-        if const { slides_beyond::<C>(I) } {
-            size += slides * (moment + moment + slides * mass);
-        }
+        size
     }
-    if const { load::<C>(I, 0, &E::PAYLOAD) < B }
-        && let Some(loaded) = const {
-            only_if(
-                load::<C>(I, 0, &E::PAYLOAD) < B,
-                loaded::<R, C, E, B, Q, V, I> as fn(&E, R, R) -> R,
-            )
-        }
-    {
-        size = loaded(effects, size, slides);
-    }
-    size
-}
-
-/// How far coordinate I has moved its body's origin, m.
-#[cfg_attr(optimised, inline(always))]
-fn slide<R: Real, C: Compiled, const Q: usize, const I: usize>(
-    turns: &[JointCoordinate<R>; Q],
-) -> R {
-    let joint = CompiledJoint::<C, I>::JOINT;
-    let q = match CompiledJoint::<C, I>::POSITION {
-        Some(position) => turns[position].q.abs(),
-        None => R::ZERO,
-    };
-    match CompiledJoint::<C, I>::MOTION {
-        JointMotion::Screw => q * R::from_f64((joint.pitch * C::LENGTH).abs()),
-        _ => q,
-    }
-}
-
-/// Adds the payloads that joint I moves to the inertia that it could move.
-#[cfg_attr(optimised, inline(always))]
-fn loaded<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    effects: &E,
-    mut size: R,
-    slides: R,
-) -> R
-where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    const {
-        assert!(
-            load::<C>(I, 32, &E::PAYLOAD) == B,
-            "the engine takes up to 32 bodies with payloads; use `Core`"
-        )
-    };
-    for_each_joint!(K, {
-        let body = const { load::<C>(I, K, &E::PAYLOAD) };
-        if body < B {
-            let mut payload = SpatialInertia::ZERO;
-            call_hook!(E::ADDED_INERTIA.add, effects, body, &mut payload);
-            size += if CompiledJoint::<C, I>::PRISMATIC {
-                payload.mass
-            } else {
-                let reach = const { reach(C::LINKS, I, load::<C>(I, K, &E::PAYLOAD)) };
-                of_load(&payload, slides + R::from_f64(reach))
-            };
-        }
-    });
-    size
 }
 
 /// The largest inertia of a payload about an axis that is no further than `reach` from its body's
@@ -334,10 +296,10 @@ fn of_load<R: Real>(load: &SpatialInertia<R>, reach: R) -> R {
 }
 
 /// Whether joint `i` has a descendant that slides.
-const fn slides_beyond<C: Compiled>(i: usize) -> bool {
+const fn slides_beyond<Tree: Compiled>(i: usize) -> bool {
     let mut k = 0;
-    while k < C::JOINTS.len() {
-        if is_slide_beyond::<C>(i, k) {
+    while k < Tree::JOINTS.len() {
+        if is_slide_beyond::<Tree>(i, k) {
             return true;
         }
         k += 1;

@@ -36,14 +36,17 @@ impl<R: Real> Pose<R> {
 
     /// The pose of a child behind joint I.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn transformed_by<C: Compiled, const I: usize>(&self, at: &Displacement<R>) -> Self {
-        let joint = CompiledJoint::<C, I>::JOINT;
+    pub(crate) fn transformed_by<Tree: Compiled, const I: usize>(
+        &self,
+        at: &Displacement<R, Tree, I>,
+    ) -> Self {
+        let joint = CompiledJoint::<Tree, I>::JOINT;
         let [x, y, z] = Mat3::constant(&joint.rot).0;
         let axes = Mat3([self.axes.mul(x), self.axes.mul(y), self.axes.mul(z)]);
         let origin = self.origin + self.axes.mul(Vec3::constant(joint.pos));
         Self {
-            axes: at.axes::<C, I>(&axes),
-            origin: origin + at.along::<C, I>(&axes),
+            axes: at.axes(&axes),
+            origin: origin + at.along(&axes),
         }
     }
 

@@ -9,6 +9,7 @@
 use core::marker::PhantomData;
 
 use super::acceleration_field::Wrench;
+use super::call::Call;
 use super::compile::{Compiled, CompiledJoint};
 use super::folding::{Folded, Mat3, Vec3};
 use crate::effects::{Declared, Effect, call_hook};
@@ -16,13 +17,13 @@ use crate::model::JointKind;
 use crate::scalar::Real;
 
 /// Whether coordinate I of a robot may have such a rotor: it is the only coordinate of its joint.
-struct OnlyCoordinate<C, const I: usize>(PhantomData<C>);
+struct OnlyCoordinate<Tree, const I: usize>(PhantomData<Tree>);
 
-impl<C: Compiled, const I: usize> OnlyCoordinate<C, I> {
+impl<Tree: Compiled, const I: usize> OnlyCoordinate<Tree, I> {
     const IS: bool = {
         let (mut is, mut body) = (false, 0);
-        while body < C::LINKS.len() {
-            let link = &C::LINKS[body];
+        while body < Tree::LINKS.len() {
+            let link = &Tree::LINKS[body];
             is |= link.idx_v == I
                 && link.joint.kind.coordinates().1 == 1
                 && !matches!(link.joint.kind, JointKind::Fixed);
@@ -32,65 +33,52 @@ impl<C: Compiled, const I: usize> OnlyCoordinate<C, I> {
     };
 }
 
-/// ρ I of the rotor of joint I; a known zero without one.
-#[cfg_attr(optimised, inline(always))]
-pub(super) fn coupling<R: Real, C: Compiled, E, const B: usize, const V: usize, const I: usize>(
-    effects: &E,
-) -> Folded<R>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
-    E: Effect<R, B, V>,
+    R: Real,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
-    let mut coupling = R::ZERO;
-    let has_rotor = E::GYROSCOPIC_ROTORS && OnlyCoordinate::<C, I>::IS;
-    if has_rotor {
-        call_hook!(E::ROTOR.add, effects, I, &mut coupling);
+    /// ρ I of the rotor of joint I; a known zero without one.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn coupling<const I: usize>(self) -> Folded<R> {
+        let mut coupling = R::ZERO;
+        let has_rotor = Effects::GYROSCOPIC_ROTORS && OnlyCoordinate::<Tree, I>::IS;
+        if has_rotor {
+            call_hook!(Effects::ROTOR.add, self.effects, I, &mut coupling);
+        }
+        Folded::runtime_if(has_rotor, coupling)
     }
-    Folded::runtime_if(has_rotor, coupling)
-}
-
-/// What joint I feels of `carried`: with it the couple ρ I z·x by which the rotor follows a motion
-/// x of the parent, its ω or α.
-#[cfg_attr(optimised, inline(always))]
-pub(super) fn felt<R: Real, C: Compiled, E, const B: usize, const V: usize, const I: usize>(
-    effects: &E,
-    carried: Wrench<R>,
-    parent: Vec3<R>,
-) -> Wrench<R>
-where
-    E: Effect<R, B, V>,
-{
-    let mut felt = carried;
-    if E::GYROSCOPIC_ROTORS {
-        let joint = CompiledJoint::<C, I>::JOINT;
-        let along = Mat3::constant(&joint.rot).transpose_mul(parent).0[2];
-        let couple = coupling::<R, C, E, B, V, I>(effects) * along;
-        if joint.prismatic {
-            // A force along z counts by units of length.
-            felt.f.0[2] = felt.f.0[2] + couple * Folded::constant(C::LENGTH);
+    /// What joint I feels of `carried`: with it the couple ρ I z·x by which the rotor follows a
+    /// motion x of the parent, its ω or α.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn felt<const I: usize>(self, carried: Wrench<R>, parent: Vec3<R>) -> Wrench<R> {
+        let mut felt = carried;
+        if Effects::GYROSCOPIC_ROTORS {
+            let joint = CompiledJoint::<Tree, I>::JOINT;
+            let along = Mat3::constant(&joint.rot).transpose_mul(parent).0[2];
+            let couple = self.coupling::<I>() * along;
+            if joint.prismatic {
+                // A force along z counts by units of length.
+                felt.f.0[2] = felt.f.0[2] + couple * Folded::constant(Tree::LENGTH);
+            } else {
+                felt.n.0[2] = felt.n.0[2] + couple;
+            }
+        }
+        felt
+    }
+    /// What the parent of joint I bears of `carried`: with it a couple on the rotor, in the frame
+    /// of the joint's body.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn borne(self, carried: Wrench<R>, couple: Vec3<R>) -> Wrench<R> {
+        if Effects::GYROSCOPIC_ROTORS {
+            Wrench {
+                f: carried.f,
+                n: carried.n + couple,
+            }
         } else {
-            felt.n.0[2] = felt.n.0[2] + couple;
+            carried
         }
-    }
-    felt
-}
-
-/// What the parent of joint I bears of `carried`: with it a couple on the rotor, in the frame of
-/// the joint's body.
-#[cfg_attr(optimised, inline(always))]
-pub(super) fn borne<R: Real, E, const B: usize, const V: usize>(
-    _: &E,
-    carried: Wrench<R>,
-    couple: Vec3<R>,
-) -> Wrench<R>
-where
-    E: Effect<R, B, V>,
-{
-    if E::GYROSCOPIC_ROTORS {
-        Wrench {
-            f: carried.f,
-            n: carried.n + couple,
-        }
-    } else {
-        carried
     }
 }

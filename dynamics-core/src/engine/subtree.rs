@@ -7,12 +7,11 @@
 //! in each function.
 
 use super::acceleration_field::{AccelerationField, Wrench};
-use super::base::base;
 use super::compile::{Compiled, is_parent, last};
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::pose::Pose;
-use super::rnea::{Task, visit};
+use super::rnea::Task;
 use crate::effects::{Declared, Effect};
 use crate::scalar::{Real, Vector};
 
@@ -20,10 +19,10 @@ use crate::scalar::{Real, Vector};
 const WHOLE: usize = 16;
 
 /// Whether a robot is split, in a scene with wrenches on bodies or without.
-pub(crate) const fn has_subtree_functions<C: Compiled>(wrench: bool) -> bool {
+pub(crate) const fn has_subtree_functions<Tree: Compiled>(wrench: bool) -> bool {
     let (mut joints, mut i) = (0, 0);
-    while i < C::JOINTS.len() {
-        if C::JOINTS[i].first == i {
+    while i < Tree::JOINTS.len() {
+        if Tree::JOINTS[i].first == i {
             joints += 1;
         }
         i += 1;
@@ -32,73 +31,78 @@ pub(crate) const fn has_subtree_functions<C: Compiled>(wrench: bool) -> bool {
 }
 
 /// Whether joint `i` of a large robot is the parent of several others.
-const fn is_subtree_root<C: Compiled>(i: usize, wrench: bool) -> bool {
+const fn is_subtree_root<Tree: Compiled>(i: usize, wrench: bool) -> bool {
     let (mut children, mut j) = (0, 0);
-    while j < C::JOINTS.len() {
-        if is_parent::<C>(last::<C>(i), j) {
+    while j < Tree::JOINTS.len() {
+        if is_parent::<Tree>(last::<Tree>(i), j) {
             children += 1;
         }
         j += 1;
     }
-    has_subtree_functions::<C>(wrench) && children > 1
+    has_subtree_functions::<Tree>(wrench) && children > 1
 }
 
-/// Joint I on the base and its descendants.
-#[inline(never)]
-pub(crate) fn root_subtree<
-    R,
-    C,
-    E,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const I: usize,
->(
-    task: &mut Task<'_, R, E, Q, V>,
-) where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    let length = C::LENGTH;
-    let base = base::<R, E, B, V>(task.effects, length);
-    visit::<R, C, E, B, Q, V, I>(task, &base);
-}
-
-/// Visits joint J on joint I, whose field is `parent`.
-#[cfg_attr(optimised, inline(always))]
-pub(crate) fn visit_child<
-    R,
-    C,
-    E,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const I: usize,
-    const J: usize,
->(
-    task: &mut Task<'_, R, E, Q, V>,
-    parent: &AccelerationField<R>,
-) -> Wrench<R>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Task<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
-    if const { !is_subtree_root::<C>(I, E::WRENCH) } {
-        return visit::<R, C, E, B, Q, V, J>(task, parent);
+    /// Joint I on the base and its descendants.
+    #[inline(never)]
+    pub(crate) fn root_subtree<const I: usize>(&mut self) {
+        let base = self.call.base();
+        self.visit::<I>(&base);
     }
-    let ([ux, uy, uz], [x, y, z]) = (parent.u.0, parent.pose.axes.0);
-    let field = SpilledField {
-        rates: [parent.omega, parent.omega_products, parent.alpha].map(Vec3::get),
-        u: [ux, uy, uz].map(Vec3::get),
-        origin: [parent.a, parent.v].map(Vec3::get),
-        pose: [x, y, z, parent.pose.origin].map(Vec3::get),
-    };
-    let [f, n] = child_subtree::<R, C, E, B, Q, V, J>(task, &field);
-    Wrench {
-        f: Vec3::runtime(f),
-        n: Vec3::runtime(n),
+
+    /// Visits joint J on joint I, whose field is `parent`.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn visit_child<const I: usize, const J: usize>(
+        &mut self,
+        parent: &AccelerationField<R>,
+    ) -> Wrench<R> {
+        if const { !is_subtree_root::<Tree>(I, Effects::WRENCH) } {
+            return self.visit::<J>(parent);
+        }
+        let ([ux, uy, uz], [x, y, z]) = (parent.u.0, parent.pose.axes.0);
+        let field = SpilledField {
+            rates: [parent.omega, parent.omega_products, parent.alpha].map(Vec3::get),
+            u: [ux, uy, uz].map(Vec3::get),
+            origin: [parent.a, parent.v].map(Vec3::get),
+            pose: [x, y, z, parent.pose.origin].map(Vec3::get),
+        };
+        let [f, n] = self.child_subtree::<J>(&field);
+        Wrench {
+            f: Vec3::runtime(f),
+            n: Vec3::runtime(n),
+        }
+    }
+
+    #[inline(never)]
+    fn child_subtree<const J: usize>(&mut self, parent: &SpilledField<R>) -> [R::Vec3; 2] {
+        let ([omega, omega_products, alpha], [ux, uy, uz]) = (parent.rates, parent.u);
+        let [a, v] = parent.origin;
+        let [x, y, z, origin] = parent.pose.map(|v| runtime_if(Effects::BODY_POSE, v));
+        let moves = Effects::VELOCITY_PRODUCTS | Effects::ACCELERATIONS | Effects::BASE_MOTION;
+        let field = AccelerationField {
+            omega: runtime_if(Effects::BODY_VELOCITY, omega),
+            omega_products: runtime_if(Effects::VELOCITY_PRODUCTS, omega_products),
+            alpha: runtime_if(moves, alpha),
+            u: Mat3([
+                runtime_if(moves, ux),
+                runtime_if(moves, uy),
+                runtime_if(moves, uz),
+            ]),
+            a: runtime_if(moves | Effects::FIELD, a),
+            v: runtime_if(Effects::BODY_VELOCITY, v),
+            pose: Pose {
+                axes: Mat3([x, y, z]),
+                origin,
+            },
+        };
+        let wrench = self.visit::<J>(&field);
+        [wrench.f.get(), wrench.n.get()]
     }
 }
 
@@ -109,40 +113,6 @@ struct SpilledField<R: Real> {
     u: [R::Vec3; 3],
     origin: [R::Vec3; 2],
     pose: [R::Vec3; 4],
-}
-
-#[inline(never)]
-fn child_subtree<R, C, E, const B: usize, const Q: usize, const V: usize, const J: usize>(
-    task: &mut Task<'_, R, E, Q, V>,
-    parent: &SpilledField<R>,
-) -> [R::Vec3; 2]
-where
-    R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
-{
-    let ([omega, omega_products, alpha], [ux, uy, uz]) = (parent.rates, parent.u);
-    let [a, v] = parent.origin;
-    let [x, y, z, origin] = parent.pose.map(|v| runtime_if(E::BODY_POSE, v));
-    let moves = E::VELOCITY_PRODUCTS | E::ACCELERATIONS | E::BASE_MOTION;
-    let field = AccelerationField {
-        omega: runtime_if(E::BODY_VELOCITY, omega),
-        omega_products: runtime_if(E::VELOCITY_PRODUCTS, omega_products),
-        alpha: runtime_if(moves, alpha),
-        u: Mat3([
-            runtime_if(moves, ux),
-            runtime_if(moves, uy),
-            runtime_if(moves, uz),
-        ]),
-        a: runtime_if(moves | E::FIELD, a),
-        v: runtime_if(E::BODY_VELOCITY, v),
-        pose: Pose {
-            axes: Mat3([x, y, z]),
-            origin,
-        },
-    };
-    let wrench = visit::<R, C, E, B, Q, V, J>(task, &field);
-    [wrench.f.get(), wrench.n.get()]
 }
 
 /// A vector that is a known zero unless an effect needs it.

@@ -8,18 +8,16 @@
 //! of q̇ and q̈.
 
 use core::hint::black_box;
-use core::marker::PhantomData;
 
+use super::Engine;
 use super::acceleration_field::{Inertia, Wrench, along_z};
-use super::base::unaccelerated;
+use super::call::Call;
 use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion, JointPair};
 use super::folding::{Folded, Mat3, Series, Sym3, Turn, Vec3};
 use super::folding::{constant_offset_cross, rotate_to_parent};
 use super::gate::EngineScene;
-use super::rnea::inertia;
-use super::{Engine, Specialised, only_if};
 use crate::effects::{Effect, JointState, add_joint_torque_rates};
-use crate::model::{JointCoordinate, Robot};
+use crate::model::Robot;
 use crate::scalar::Real;
 use crate::state::{JointTrig, State, TrigSource};
 use crate::trig::Kernel;
@@ -28,53 +26,63 @@ impl<T, K> Engine<T, K> {
     /// τ = ID(q, q̇, q̈) and its derivatives τ̇ and τ̈, along a course with these third and fourth
     /// derivatives of q.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn torque_rates<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    pub(crate) fn torque_rates<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
         state: &State<R, Q, V>,
         jerk: &[R; V],
         snap: &[R; V],
-        effects: &E,
+        effects: &Effects,
     ) -> [[R; 3]; V]
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         const { takes_elastic_joints::<CompiledRobot<T, B, Q, V>>() };
-        let trig: JointTrig<R, Q> = Specialised::<T, K, B, V>(PhantomData).compute(&state.q);
+        let trig: JointTrig<R, Q> = Self::trig_source().compute(&state.q);
+        Self::call(&trig, effects).torque_rates(state, [jerk, snap])
+    }
+}
+
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
+where
+    R: Real,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
+{
+    #[cfg_attr(optimised, inline(always))]
+    fn torque_rates(self, state: &State<R, Q, V>, [jerk, snap]: [&[R; V]; 2]) -> [[R; 3]; V] {
         let mut tau = [[R::ZERO; 3]; V];
         let mut task = Task {
-            turns: &trig.coordinates,
+            call: self,
             state,
             jerk,
             snap,
-            effects,
             tau: &mut tau,
         };
-        let length = CompiledRobot::<T, B, Q, V>::LENGTH;
-        let base = Field::at_rest(unaccelerated::<R, E, B, V>(effects, length).a);
-        for_each_joint!(J, {
-            if CompiledJoint::<CompiledRobot<T, B, Q, V>, J>::IS_ON_BASE
-                && let Some(visit) = const {
-                    only_if(
-                        CompiledJoint::<CompiledRobot<T, B, Q, V>, J>::IS_ON_BASE,
-                        visit::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V, J> as Visit<R, E, Q, V>,
-                    )
-                }
+        let base = Field::at_rest(self.unaccelerated().a);
+        for_each_joint!(
+            J,
+            CompiledJoint::<Tree, J>::IS_ON_BASE,
+            visit = Task::visit::<J> as fn(&mut _, &_) -> _,
             {
                 visit(&mut task, &base);
             }
-        });
+        );
         tau
     }
 }
 
 /// A robot whose joints may be elastic here.
-const fn takes_elastic_joints<C: Compiled>() {
+const fn takes_elastic_joints<Tree: Compiled>() {
     let mut i = 0;
-    while i < C::JOINTS.len() {
+    while i < Tree::JOINTS.len() {
         assert!(
-            matches!(C::JOINTS[i].motion, JointMotion::Turn | JointMotion::Slide),
+            matches!(
+                Tree::JOINTS[i].motion,
+                JointMotion::Turn | JointMotion::Slide
+            ),
             "the engine takes elastic joints that are revolute or prismatic; use `Core`"
         );
         i += 1;
@@ -82,79 +90,71 @@ const fn takes_elastic_joints<C: Compiled>() {
 }
 
 /// The data that all bodies share.
-struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
-    turns: &'a [JointCoordinate<R>; Q],
+struct Task<'a, R: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, Tree, Effects, B, Q, V>,
     state: &'a State<R, Q, V>,
     jerk: &'a [R; V],
     snap: &'a [R; V],
-    effects: &'a E,
     tau: &'a mut [[R; 3]; V],
 }
 
-type Visit<R, E, const Q: usize, const V: usize> =
-    fn(&mut Task<'_, R, E, Q, V>, &Field<R>) -> WrenchSeries<R>;
-
-/// Visits joint I and its descendants; returns the wrench that they need from the parent, in its
-/// frame.
-#[cfg_attr(optimised, inline(always))]
-fn visit<R, C, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
-    task: &mut Task<'_, R, E, Q, V>,
-    parent: &Field<R>,
-) -> WrenchSeries<R>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Task<'_, R, Tree, Effects, B, Q, V>
 where
     R: Real,
-    C: Compiled,
-    E: Effect<R, B, V>,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
-    let joint = CompiledJoint::<C, I>::JOINT;
-    let (half, length_inv) = (R::from_f64(0.5), Folded::constant(C::LENGTH_INV));
-    let (at, qdd) = (
-        JointState::new(task.state.q[I], task.state.qd[I]),
-        task.state.qdd[I],
-    );
-    let (jerk, snap) = (task.jerk[I], task.snap[I]);
-    let turn = Turn::new(task.turns[I], at.qd, qdd);
-    let slide = Series::runtime([task.turns[I].q, at.qd, half * qdd]).times(length_inv);
-    let accel = Series::runtime([qdd, jerk, half * snap]);
-    let field = if joint.prismatic {
-        let rate = Series::runtime([at.qd, qdd, half * jerk]).times(length_inv);
-        parent.across_prismatic(joint, slide, rate, accel.times(length_inv))
-    } else {
-        parent.across_revolute(joint, &turn, at.qd, accel)
-    };
-    let body = inertia::<R, C, E, B, Q, V, I>(task.effects, false);
-    let mut total = field.wrench(&body);
-    if const { !CompiledJoint::<C, I>::IS_ON_BASE } {
-        total = total.finished();
-    }
-
-    for_each_joint!(J, {
-        if JointPair::<C, I, J>::IS_PARENT
-            && let Some(visit) = const {
-                only_if(
-                    JointPair::<C, I, J>::IS_PARENT,
-                    visit::<R, C, E, B, Q, V, J> as Visit<R, E, Q, V>,
-                )
-            }
-        {
-            let child = visit(task, &field);
-            total = WrenchSeries {
-                f: total.f + child.f,
-                n: total.n + child.n,
-            };
+    /// Visits joint I and its descendants; returns the wrench that they need from the parent, in
+    /// its frame.
+    #[cfg_attr(optimised, inline(always))]
+    fn visit<const I: usize>(&mut self, parent: &Field<R>) -> WrenchSeries<R> {
+        let joint = CompiledJoint::<Tree, I>::JOINT;
+        let (half, length_inv) = (R::from_f64(0.5), Folded::constant(Tree::LENGTH_INV));
+        let (at, qdd) = (
+            JointState::new(self.state.q[I], self.state.qd[I]),
+            self.state.qdd[I],
+        );
+        let (jerk, snap) = (self.jerk[I], self.snap[I]);
+        let turn = Turn::new(self.call.turns[I], at.qd, qdd);
+        let slide = Series::runtime([self.call.turns[I].q, at.qd, half * qdd]).times(length_inv);
+        let accel = Series::runtime([qdd, jerk, half * snap]);
+        let field = if joint.prismatic {
+            let rate = Series::runtime([at.qd, qdd, half * jerk]).times(length_inv);
+            parent.across_prismatic(joint, slide, rate, accel.times(length_inv))
+        } else {
+            parent.across_revolute(joint, &turn, at.qd, accel)
+        };
+        let body = self.call.inertia::<I>(false);
+        let mut total = field.wrench(&body);
+        if const { !CompiledJoint::<Tree, I>::IS_ON_BASE } {
+            total = total.finished();
         }
-    });
 
-    let along = if joint.prismatic {
-        total.f.z().times(length_inv)
-    } else {
-        total.n.z()
-    };
-    let [tau, rate, half_accel] = along.0.map(Folded::get);
-    let mut rates = [tau, rate, half_accel + half_accel];
-    add_joint_torque_rates(task.effects, I, at, [qdd, jerk, snap], &mut rates);
-    task.tau[I] = rates;
-    total.to_parent::<C, I>(&turn, slide)
+        for_each_joint!(
+            J,
+            JointPair::<Tree, I, J>::IS_PARENT,
+            visit = Self::visit::<J> as fn(&mut _, &_) -> WrenchSeries<R>,
+            {
+                let child = visit(self, &field);
+                total = WrenchSeries {
+                    f: total.f + child.f,
+                    n: total.n + child.n,
+                };
+            }
+        );
+
+        let along = if joint.prismatic {
+            total.f.z().times(length_inv)
+        } else {
+            total.n.z()
+        };
+        let [tau, rate, half_accel] = along.0.map(Folded::get);
+        let mut rates = [tau, rate, half_accel + half_accel];
+        add_joint_torque_rates(self.call.effects, I, at, [qdd, jerk, snap], &mut rates);
+        self.tau[I] = rates;
+        total.to_parent::<Tree, I>(&turn, slide)
+    }
 }
 
 /// The acceleration field of a body, in its frame: the components' polynomials in time.
@@ -325,29 +325,29 @@ impl<R: Real> WrenchSeries<R> {
 
     /// The same in the frame of joint I's parent and about its origin.
     #[cfg_attr(optimised, inline(always))]
-    fn to_parent<C: Compiled, const I: usize>(
+    fn to_parent<Tree: Compiled, const I: usize>(
         self,
         turn: &Turn<R>,
         slide: Series<Folded<R>>,
     ) -> Self {
         let (mut f, mut n) = (self.f, self.n);
-        if !CompiledJoint::<C, I>::PRISMATIC {
+        if !CompiledJoint::<Tree, I>::PRISMATIC {
             (f, n) = (turn.leave(f), turn.leave(n));
         }
         let ([f0, f1, f2], [n0, n1, n2]) = (f.0, n.0);
         let f = Series([
-            rotate_to_parent::<R, C, I>(f0),
-            rotate_to_parent::<R, C, I>(f1),
-            rotate_to_parent::<R, C, I>(f2),
+            rotate_to_parent::<R, Tree, I>(f0),
+            rotate_to_parent::<R, Tree, I>(f1),
+            rotate_to_parent::<R, Tree, I>(f2),
         ]);
         let [f0, f1, f2] = f.0;
         let mut n = Series([
-            rotate_to_parent::<R, C, I>(n0) + constant_offset_cross::<R, C, I>(f0),
-            rotate_to_parent::<R, C, I>(n1) + constant_offset_cross::<R, C, I>(f1),
-            rotate_to_parent::<R, C, I>(n2) + constant_offset_cross::<R, C, I>(f2),
+            rotate_to_parent::<R, Tree, I>(n0) + constant_offset_cross::<R, Tree, I>(f0),
+            rotate_to_parent::<R, Tree, I>(n1) + constant_offset_cross::<R, Tree, I>(f1),
+            rotate_to_parent::<R, Tree, I>(n2) + constant_offset_cross::<R, Tree, I>(f2),
         ]);
-        if CompiledJoint::<C, I>::PRISMATIC {
-            let axis = Vec3::constant(CompiledJoint::<C, I>::JOINT.rot.z_axis);
+        if CompiledJoint::<Tree, I>::PRISMATIC {
+            let axis = Vec3::constant(CompiledJoint::<Tree, I>::JOINT.rot.z_axis);
             n = n + Series::constant(axis).scale(slide).cross(f);
         }
         Self { f, n }

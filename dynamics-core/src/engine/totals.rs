@@ -4,20 +4,16 @@
 //! Regrouping to base parameters moves mass along a joint's axis, where it moves with both links:
 //! it changes none of these sums but by what it leaves to the base.
 
-use core::marker::PhantomData;
 use core::ops::Add;
 
 use super::acceleration_field::{AccelerationField, Inertia, Wrench, along_z};
+use super::call::Call;
 use super::compile::{Compiled, Distribution, JointPair, Remainder};
-use super::displacement::Displacement;
 use super::folding::{Folded, Mat3, Sym3, Vec3};
 use super::momentum::momentum;
-use super::pass::{Pass, Rates, moved, sweep};
+use super::pass::{Motions, Pass, sweep};
 use super::pose::Pose;
-use super::rnea::inertia;
-use super::rotors::coupling;
 use crate::effects::{Declared, Effect, base_given};
-use crate::model::JointCoordinate;
 use crate::scalar::Real;
 
 /// The sums over a body and its descendants, about the origin of the parent, in its frame and in
@@ -80,43 +76,45 @@ pub(super) fn centre<R: Real>(mass: Folded<R>, moment: Vec3<R>, length: f64) -> 
     (moment * mass_inv, mass_inv)
 }
 
-/// The totals of all bodies of a robot at rates `qd`, or at rest without them, with what is fixed
-/// to the base. With WHOLE, of which the momentum needs all of Σ.
-#[cfg_attr(optimised, inline(always))]
-pub(super) fn totals<
-    R: Real,
-    C: Compiled,
-    E,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const WHOLE: bool,
->(
-    turns: &[JointCoordinate<R>; Q],
-    qd: Option<&[R; V]>,
-    effects: &E,
-) -> Totals<R>
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
-    E: Effect<R, B, V>,
+    R: Real,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
-    let mut base = AccelerationField {
-        pose: Pose::UNKNOWN,
-        ..AccelerationField::RESTING
-    };
-    let moves = E::BASE_MOTION && qd.is_some();
-    if moves {
-        let (v, _) = base_given(effects);
-        base.omega = Vec3::runtime(v.ang);
-        base.v = Vec3::runtime(v.lin).scale(Folded::constant(C::LENGTH_INV));
+    /// The totals of all bodies of a robot at rates `qd`, or at rest without them, with what is
+    /// fixed to the base. With WHOLE, of which the momentum needs all of Σ.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn totals<const WHOLE: bool>(self, qd: Option<&[R; V]>) -> Totals<R> {
+        let mut base = AccelerationField {
+            pose: Pose::UNKNOWN,
+            ..AccelerationField::RESTING
+        };
+        let moves = Effects::BASE_MOTION && qd.is_some();
+        if moves {
+            let (v, _) = base_given(self.effects);
+            base.omega = Vec3::runtime(v.ang);
+            base.v = Vec3::runtime(v.lin).scale(Folded::constant(Tree::LENGTH_INV));
+        }
+        let mut pass = Sums::<R, Tree, Effects, B, Q, V, WHOLE> { call: self, qd };
+        let moving = sweep(&mut pass, &base);
+        of_body(&base, &fixed(Remainder::<Tree, B, V>::AT_BASE)).carrying(moving, base.omega)
     }
-    let mut pass = Sums::<R, C, E, B, Q, V, WHOLE> {
-        turns,
-        qd,
-        effects,
-        robot: PhantomData,
-    };
-    let moving = sweep::<R, C, _>(&mut pass, &base);
-    of_body(&base, &fixed(Remainder::<C, B, V>::AT_BASE)).carrying(moving, base.omega)
+
+    /// Twice the energy of what stands at the coordinates of joint I.
+    #[cfg_attr(optimised, inline(always))]
+    fn rotor_energy<const I: usize>(self, qd: &[R; V]) -> Folded<R> {
+        let mut twice = R::ZERO;
+        for_each_joint!(K, {
+            if JointPair::<Tree, I, K>::IS_COORDINATE
+                && let Some(inertia) = self.effects.inertia(K)
+            {
+                twice += inertia * qd[K] * qd[K];
+            }
+        });
+        Folded::runtime(twice)
+    }
 }
 
 /// What is fixed to the base.
@@ -142,18 +140,25 @@ fn of_body<R: Real>(body: &AccelerationField<R>, own: &Inertia<R>) -> Totals<R> 
     }
 }
 
-struct Sums<'a, R, C, E, const B: usize, const Q: usize, const V: usize, const WHOLE: bool> {
-    turns: &'a [JointCoordinate<R>; Q],
+struct Sums<'a, R, Tree, Effects, const B: usize, const Q: usize, const V: usize, const WHOLE: bool>
+{
+    call: Call<'a, R, Tree, Effects, B, Q, V>,
     qd: Option<&'a [R; V]>,
-    effects: &'a E,
-    robot: PhantomData<C>,
 }
 
-impl<R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize, const WHOLE: bool>
-    Pass<R, C> for Sums<'_, R, C, E, B, Q, V, WHOLE>
+impl<
+    R: Real,
+    Tree: Compiled,
+    Effects,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const WHOLE: bool,
+> Pass for Sums<'_, R, Tree, Effects, B, Q, V, WHOLE>
 where
-    E: Effect<R, B, V>,
+    Effects: Effect<R, B, V>,
 {
+    type Tree = Tree;
     type Outward = AccelerationField<R>;
     type Inward = Totals<R>;
     const NOTHING: Totals<R> = Totals {
@@ -167,14 +172,15 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &AccelerationField<R>) -> AccelerationField<R> {
         let none = [R::ZERO; V];
-        let rates = Rates {
+        let motions = Motions {
+            turns: self.call.turns,
             qd: self.qd.unwrap_or(&none),
             qdd: &none,
             velocity: self.qd.is_some(),
             products: false,
             accel: false,
         };
-        moved::<R, C, Q, V, I>(parent, self.turns, &rates)
+        motions.field::<Tree, I>(parent)
     }
 
     #[cfg_attr(optimised, inline(always))]
@@ -183,47 +189,27 @@ where
         body: &AccelerationField<R>,
         inner: Totals<R>,
     ) -> Totals<R> {
-        let own = inertia::<R, C, E, B, Q, V, I>(self.effects, WHOLE | E::BASE_MOTION);
+        let own = self.call.inertia::<I>(WHOLE | Effects::BASE_MOTION);
         let mut here = of_body(body, &own).carrying(inner, body.omega);
         let mut rotor = Wrench::ZERO;
         if let Some(qd) = self.qd {
-            here.twice = here.twice + rotors::<R, C, E, B, V, I>(self.effects, qd);
-            let spin = coupling::<R, C, E, B, V, I>(self.effects) * Folded::runtime(qd[I]);
+            here.twice = here.twice + self.call.rotor_energy::<I>(qd);
+            let spin = self.call.coupling::<I>() * Folded::runtime(qd[I]);
             rotor.n = along_z(spin);
         }
-        let at = Displacement::of::<C, Q, I>(self.turns);
+        let at = self.call.displacement::<I>();
         let mass = Inertia {
             mass: here.mass,
             moment: here.moment,
             second: Sym3::ZERO,
         };
-        let (mass, rotor) = (mass.to_parent::<C, I>(&at), rotor.to_parent::<C, I>(&at));
+        let (mass, rotor) = (mass.to_parent(&at), rotor.to_parent(&at));
         Totals {
             mass: mass.mass,
             moment: mass.moment,
-            momentum: here.momentum.to_parent::<C, I>(&at) + rotor,
+            momentum: here.momentum.to_parent(&at) + rotor,
             twice: here.twice,
             spin: rotor.n,
         }
     }
-}
-
-/// Twice the energy of what stands at the coordinates of joint I.
-#[cfg_attr(optimised, inline(always))]
-fn rotors<R: Real, C: Compiled, E, const B: usize, const V: usize, const I: usize>(
-    effects: &E,
-    qd: &[R; V],
-) -> Folded<R>
-where
-    E: Effect<R, B, V>,
-{
-    let mut twice = R::ZERO;
-    for_each_joint!(K, {
-        if JointPair::<C, I, K>::IS_COORDINATE
-            && let Some(inertia) = effects.inertia(K)
-        {
-            twice += inertia * qd[K] * qd[K];
-        }
-    });
-    Folded::runtime(twice)
 }

@@ -1,4 +1,5 @@
-//! [`Bending`]: links that bend of a robot known at compile time, by the textbook and by the engine.
+//! [`Bending`]: links that bend of a robot known at compile time, by the textbook and by the
+//! engine.
 
 use core::borrow::Borrow;
 use core::marker::PhantomData;
@@ -12,7 +13,7 @@ use super::{
 };
 use crate::algorithms::MassMatrix;
 use crate::effects::{Bias, Effect, Scene, add_inertia, all_transmitted, no_gyroscopic_rotors};
-use crate::engine::{bending_inertia, bending_torques};
+use crate::engine::Call;
 use crate::model::{RobotModel, Static};
 use crate::scalar::Real;
 use crate::state::{Configuration, JointTrig, RobotState, State, entry};
@@ -501,9 +502,9 @@ where
     T: BendingRobot<B, Q, V, M>,
     E: Effect<R, B, V>,
 {
-    let (joints, modes) = bending_torques::<R, CompiledModes<T, B, Q, V, M>, E, B, Q, V, M>(
-        trig, joints, bent, effects,
-    );
+    let (joints, modes) =
+        Call::<R, CompiledModes<T, B, Q, V, M>, E, B, Q, V>::new(&trig.coordinates, effects)
+            .bending_torques(joints, bent);
     JointsAndModes { joints, modes }
 }
 
@@ -518,7 +519,8 @@ where
     E: Effect<R, B, V>,
 {
     let (joints, coupling, modes) =
-        bending_inertia::<R, CompiledModes<T, B, Q, V, M>, E, B, Q, V, M, true>(trig, eta, effects);
+        Call::<R, CompiledModes<T, B, Q, V, M>, E, B, Q, V>::new(&trig.coordinates, effects)
+            .bending_inertia::<M, true>(eta);
     let mut m = FlexibleInertia {
         joints: MassMatrix { rows: joints },
         coupling,
@@ -543,7 +545,9 @@ where
     T: BendingRobot<B, Q, V, M>,
     E: Effect<R, B, V>,
 {
-    bending_inertia::<R, CompiledModes<T, B, Q, V, M>, E, B, Q, V, M, false>(trig, eta, effects).2
+    Call::<R, CompiledModes<T, B, Q, V, M>, E, B, Q, V>::new(&trig.coordinates, effects)
+        .bending_inertia::<M, false>(eta)
+        .2
 }
 
 /// A robot and a scene that the engine takes with modes.

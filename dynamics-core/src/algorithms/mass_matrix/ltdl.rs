@@ -225,7 +225,7 @@ where
 }
 
 /// The bounds of the pivots of M.
-pub(in crate::algorithms) struct Sizes<R, const V: usize> {
+pub(crate) struct Sizes<R, const V: usize> {
     /// M_ii, and within a joint the errors propagated from the coordinates after it.
     sizes: [R; V],
     /// The first coordinate of the joint that each one belongs to.
@@ -234,10 +234,7 @@ pub(in crate::algorithms) struct Sizes<R, const V: usize> {
 
 impl<R: Real, const V: usize> Sizes<R, V> {
     #[cfg_attr(optimised, inline(always))]
-    pub(in crate::algorithms) fn of<D, const B: usize, const Q: usize>(
-        robot: &D,
-        m: &MassMatrix<R, V>,
-    ) -> Self
+    pub(crate) fn of<D, const B: usize, const Q: usize>(robot: &D, m: &MassMatrix<R, V>) -> Self
     where
         D: RobotModel<R, B, Q, V>,
     {
@@ -255,14 +252,14 @@ impl<R: Real, const V: usize> Sizes<R, V> {
 
     /// The rounding error of pivot `k`.
     #[cfg_attr(optimised, inline(always))]
-    pub(in crate::algorithms) fn noise(&self, k: usize) -> R {
+    pub(crate) fn noise(&self, k: usize) -> R {
         entry(&self.sizes, k) * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS))
     }
 
     /// Row `k`, subtracted `l` times from row `i`, adds its rounding errors if both are of one
     /// joint.
     #[cfg_attr(optimised, inline(always))]
-    pub(in crate::algorithms) fn add_error_of(&mut self, k: usize, i: usize, l: R) {
+    pub(crate) fn add_error_of(&mut self, k: usize, i: usize, l: R) {
         let size = entry(&self.sizes, k);
         if i >= entry(&self.firsts, k)
             && let Some(inherited) = self.sizes.get_mut(i)
@@ -274,11 +271,7 @@ impl<R: Real, const V: usize> Sizes<R, V> {
 
 /// Whether a pivot is a number and more than a rounding error.
 #[cfg_attr(optimised, inline(always))]
-pub(in crate::algorithms) fn check<R: Real>(
-    pivot: R,
-    noise: R,
-    joint: usize,
-) -> Result<(), NotPositiveDefinite> {
+pub(crate) fn check<R: Real>(pivot: R, noise: R, joint: usize) -> Result<(), NotPositiveDefinite> {
     // Comparisons that a NaN fails too, and that zero on zero does.
     if pivot > noise && pivot > R::ZERO && pivot.is_finite() {
         return Ok(());
@@ -288,6 +281,6 @@ pub(in crate::algorithms) fn check<R: Real>(
 
 /// λ of a coordinate.
 #[cfg_attr(optimised, inline(always))]
-pub(in crate::algorithms) fn parent<const V: usize>(lambda: &[usize; V], i: usize) -> usize {
+pub(crate) fn parent<const V: usize>(lambda: &[usize; V], i: usize) -> usize {
     lambda.get(i).copied().unwrap_or(BASE)
 }

@@ -67,14 +67,14 @@ impl<R: Real> Sum<R> {
 impl<R: Real> End<R> {
     /// The end of the body of joint I, whose field is `field`, and its own, in the link's axes.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn of<C: Bends, const I: usize, const MOVES: bool>(
+    pub(super) fn of<Tree: Bends, const I: usize, const MOVES: bool>(
         field: &AccelerationField<R>,
         bent: &[Mode<R>; MODES],
     ) -> (Self, AccelerationField<R>) {
         let [mut bend, mut velocity, mut products, mut accel] = [Sum::ZERO; 4];
         for_each_mode!(K, {
-            if HasMode::<C, I, K>::IS {
-                let (mode, of) = (const { &Bent::<C, I, MOVES>::LINK.modes[K] }, bent[K]);
+            if HasMode::<Tree, I, K>::IS {
+                let (mode, of) = (const { &Bent::<Tree, I, MOVES>::LINK.modes[K] }, bent[K]);
                 let (shift, turn) = (Vec3::constant(mode.shift), Vec3::constant(mode.half_turn));
                 bend = bend.plus(shift, turn, of.eta);
                 velocity = velocity.plus(shift, turn, of.velocity);
@@ -83,12 +83,12 @@ impl<R: Real> End<R> {
             }
         });
         let mut scale = Folded::constant(2.0);
-        if Bent::<C, I, MOVES>::TURNS {
+        if Bent::<Tree, I, MOVES>::TURNS {
             let square = bend.g.dot(bend.g).get();
             scale = Folded::runtime(R::from_f64(2.0) / (R::ONE + square));
         }
         let end = Self {
-            point: Vec3::constant(Bent::<C, I, MOVES>::LINK.end) + bend.shift,
+            point: Vec3::constant(Bent::<Tree, I, MOVES>::LINK.end) + bend.shift,
             g: bend.g,
             scale,
         };
@@ -97,15 +97,15 @@ impl<R: Real> End<R> {
 
     /// What the joints on the end stand on, whose field in the link's axes is `along`.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn stand<C: Bends, const I: usize, const MOVES: bool>(
+    pub(super) fn stand<Tree: Bends, const I: usize, const MOVES: bool>(
         &self,
         along: &AccelerationField<R>,
     ) -> Stand<R> {
-        if !Bent::<C, I, MOVES>::ADDS_TO_ANGLES {
-            return Stand::rigid(self.turned::<C, I, MOVES>(along));
+        if !Bent::<Tree, I, MOVES>::ADDS_TO_ANGLES {
+            return Stand::rigid(self.turned::<Tree, I, MOVES>(along));
         }
         let mut stand = Stand::rigid(*along);
-        if Bent::<C, I, MOVES>::TURNS {
+        if Bent::<Tree, I, MOVES>::TURNS {
             stand.sin = self.g.scale(self.scale);
             stand.cos = self.scale - Folded::ONE;
         }
@@ -142,11 +142,11 @@ impl<R: Real> End<R> {
 
     /// The same in the axes of the end.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn turned<C: Bends, const I: usize, const MOVES: bool>(
+    pub(super) fn turned<Tree: Bends, const I: usize, const MOVES: bool>(
         &self,
         field: &AccelerationField<R>,
     ) -> AccelerationField<R> {
-        if !Bent::<C, I, MOVES>::TURNS {
+        if !Bent::<Tree, I, MOVES>::TURNS {
             return *field;
         }
         let axes = self.axes();
@@ -182,11 +182,11 @@ impl<R: Real> End<R> {
 
     /// A wrench about the end in the link's axes, from those of the end.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn turned_back<C: Bends, const I: usize, const MOVES: bool>(
+    pub(super) fn turned_back<Tree: Bends, const I: usize, const MOVES: bool>(
         &self,
         load: Wrench<R>,
     ) -> Wrench<R> {
-        if !Bent::<C, I, MOVES>::TURNS {
+        if !Bent::<Tree, I, MOVES>::TURNS {
             return load;
         }
         let axes = self.axes();
@@ -199,15 +199,15 @@ impl<R: Real> End<R> {
     /// Adds the work of a wrench about the end, in the link's axes, to the forces on the modes;
     /// returns it about the link's joint.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn carry<C: Bends, const I: usize, const MOVES: bool>(
+    pub(super) fn carry<Tree: Bends, const I: usize, const MOVES: bool>(
         &self,
         load: Wrench<R>,
         forces: &mut [Folded<R>; MODES],
     ) -> Wrench<R> {
         let couple = (load.n - self.g.cross(load.n)).scale(self.scale);
         for_each_mode!(K, {
-            if HasMode::<C, I, K>::IS {
-                let mode = const { &Bent::<C, I, MOVES>::LINK.modes[K] };
+            if HasMode::<Tree, I, K>::IS {
+                let mode = const { &Bent::<Tree, I, MOVES>::LINK.modes[K] };
                 forces[K] = forces[K]
                     + Vec3::constant(mode.shift).dot(load.f)
                     + Vec3::constant(mode.half_turn).dot(couple);

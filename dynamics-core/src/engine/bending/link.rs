@@ -17,7 +17,7 @@ use crate::scalar::Real;
 /// The wrench that accelerates the body of joint I, bent, and what its modes need; with stiffness
 /// and damping, if the scene has these.
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn bent_wrench<R, C, const I: usize, const MOVES: bool>(
+pub(super) fn bent_wrench<R, Tree, const I: usize, const MOVES: bool>(
     field: &AccelerationField<R>,
     rigid: Inertia<R>,
     bent: &[Mode<R>; MODES],
@@ -26,7 +26,7 @@ pub(super) fn bent_wrench<R, C, const I: usize, const MOVES: bool>(
 ) -> Wrench<R>
 where
     R: Real,
-    C: Bends,
+    Tree: Bends,
 {
     let twice = field.omega_products + field.omega_products;
     let mut body = rigid;
@@ -34,22 +34,22 @@ where
     let (mut drift, mut push) = (Vec3::ZERO, Vec3::ZERO);
     let (mut drifts, mut drift_trace, mut couple) = (Mat3::ZERO, Folded::ZERO, Vec3::ZERO);
     for_each_mode!(K, {
-        if HasMode::<C, I, K>::IS {
-            let mode = const { &Bent::<C, I, MOVES>::LINK.modes[K] };
+        if HasMode::<Tree, I, K>::IS {
+            let mode = const { &Bent::<Tree, I, MOVES>::LINK.modes[K] };
             let (momentum, own) = (Vec3::constant(mode.momentum), bent[K]);
             let rest = Mat3::constant(&mode.moments);
             let (mut moments, mut force) = (rest, momentum.dot(field.a));
             let mut swing =
-                Vec3::constant(const { axial(&Bent::<C, I, MOVES>::LINK.modes[K].moments) });
+                Vec3::constant(const { axial(&Bent::<Tree, I, MOVES>::LINK.modes[K].moments) });
             let mut spread =
-                Folded::constant(const { trace(&Bent::<C, I, MOVES>::LINK.modes[K].moments) });
+                Folded::constant(const { trace(&Bent::<Tree, I, MOVES>::LINK.modes[K].moments) });
             for_each_mode!(L, {
-                if HasMode::<C, I, L>::IS {
+                if HasMode::<Tree, I, L>::IS {
                     let (other, product) = (bent[L], Mat3::constant(&mode.products[L]));
                     let across = Vec3::constant(
-                        const { axial(&Bent::<C, I, MOVES>::LINK.modes[K].products[L]) },
+                        const { axial(&Bent::<Tree, I, MOVES>::LINK.modes[K].products[L]) },
                     );
-                    let along = const { trace(&Bent::<C, I, MOVES>::LINK.modes[K].products[L]) };
+                    let along = const { trace(&Bent::<Tree, I, MOVES>::LINK.modes[K].products[L]) };
                     moments = moments + scaled(product, other.eta);
                     swing = swing + across.scale(other.eta);
                     spread = spread + Folded::constant(along) * other.eta;

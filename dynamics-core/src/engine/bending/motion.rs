@@ -43,20 +43,20 @@ impl<R: Real> Mode<R> {
     pub(super) const NO_MODES: [Self; MODES] = [Self::NONE; MODES];
 }
 
-/// A state of joints and modes, with the rates that the effects E need.
-pub(crate) struct Measured<'a, R, E, const Q: usize, const V: usize, const M: usize> {
+/// A state of joints and modes, with the rates that the effects need.
+pub(crate) struct Measured<'a, R, Effects, const Q: usize, const V: usize, const M: usize> {
     pub(crate) joints: &'a State<R, Q, V>,
     pub(crate) modes: &'a State<R, M, M>,
-    pub(crate) effects: PhantomData<E>,
+    pub(crate) effects: PhantomData<Effects>,
 }
 
 /// The effects of a type, on a robot of B bodies.
-pub(crate) struct Of<E, const B: usize>(PhantomData<E>);
+pub(crate) struct Of<Effects, const B: usize>(PhantomData<Effects>);
 
-impl<R: Real, E, const B: usize, const Q: usize, const V: usize, const M: usize> Moves<R>
-    for Measured<'_, R, Of<E, B>, Q, V, M>
+impl<R: Real, Effects, const B: usize, const Q: usize, const V: usize, const M: usize> Moves<R>
+    for Measured<'_, R, Of<Effects, B>, Q, V, M>
 where
-    E: Effect<R, B, V>,
+    Effects: Effect<R, B, V>,
 {
     const ALL: bool = true;
 
@@ -64,9 +64,9 @@ where
     fn joint(&self, i: usize) -> JointRates<R> {
         let (qd, qdd) = (self.joints.qd[i], self.joints.qdd[i]);
         JointRates {
-            velocity: Folded::runtime_if(E::BODY_VELOCITY, qd),
-            omega_products: Folded::runtime_if(E::VELOCITY_PRODUCTS, qd),
-            accel: Folded::runtime_if(E::ACCELERATIONS, qdd),
+            velocity: Folded::runtime_if(Effects::BODY_VELOCITY, qd),
+            omega_products: Folded::runtime_if(Effects::VELOCITY_PRODUCTS, qd),
+            accel: Folded::runtime_if(Effects::ACCELERATIONS, qdd),
         }
     }
 
@@ -75,10 +75,10 @@ where
         let (rate, accel) = (self.modes.qd[k], self.modes.qdd[k]);
         Mode {
             eta: Folded::runtime(self.modes.q[k]),
-            damped: Folded::runtime_if(E::ELASTICITY, rate),
-            velocity: Folded::runtime_if(E::BODY_VELOCITY, rate),
-            products: Folded::runtime_if(E::VELOCITY_PRODUCTS, rate),
-            accel: Folded::runtime_if(E::ACCELERATIONS, accel),
+            damped: Folded::runtime_if(Effects::ELASTICITY, rate),
+            velocity: Folded::runtime_if(Effects::BODY_VELOCITY, rate),
+            products: Folded::runtime_if(Effects::VELOCITY_PRODUCTS, rate),
+            accel: Folded::runtime_if(Effects::ACCELERATIONS, accel),
         }
     }
 }

@@ -38,15 +38,15 @@ pub(crate) trait Bends: Compiled {
     const END_PLACES: &'static [BodyPlacement];
 }
 
-/// What is fixed on the ends of the robot C.
-pub(super) struct Ends<C>(PhantomData<C>);
+/// What is fixed on the ends of a robot.
+pub(super) struct Ends<Tree>(PhantomData<Tree>);
 
-impl<C: Bends> Compiled for Ends<C> {
-    const LINKS: &'static [Link<f64>] = C::LINKS;
-    const JOINTS: &'static [Joint] = C::END_JOINTS;
-    const PLACES: &'static [BodyPlacement] = C::END_PLACES;
-    const LENGTH: f64 = C::LENGTH;
-    const SUPPORT: &'static [u64] = C::SUPPORT;
+impl<Tree: Bends> Compiled for Ends<Tree> {
+    const LINKS: &'static [Link<f64>] = Tree::LINKS;
+    const JOINTS: &'static [Joint] = Tree::END_JOINTS;
+    const PLACES: &'static [BodyPlacement] = Tree::END_PLACES;
+    const LENGTH: f64 = Tree::LENGTH;
+    const SUPPORT: &'static [u64] = Tree::SUPPORT;
 }
 
 /// The modes of a body, in the frame of its joint; none of a rigid one.
@@ -203,11 +203,11 @@ pub(super) const fn axial(m: &DMat3) -> DVec3 {
 }
 
 /// The body of joint I, on a base that moves or at rest.
-pub(super) struct Bent<C, const I: usize, const MOVES: bool>(PhantomData<C>);
+pub(super) struct Bent<Tree, const I: usize, const MOVES: bool>(PhantomData<Tree>);
 
-impl<C: Bends, const I: usize, const MOVES: bool> Bent<C, I, MOVES> {
+impl<Tree: Bends, const I: usize, const MOVES: bool> Bent<Tree, I, MOVES> {
     pub(super) const LINK: &'static BendingLink = {
-        let links = if MOVES { C::MOVING } else { C::AT_REST };
+        let links = if MOVES { Tree::MOVING } else { Tree::AT_REST };
         if I < links.len() {
             &links[I]
         } else {
@@ -222,8 +222,8 @@ impl<C: Bends, const I: usize, const MOVES: bool> Bent<C, I, MOVES> {
     /// larger, and nothing is rotated twice.
     pub(super) const ADDS_TO_ANGLES: bool = {
         let (mut all, mut j) = (true, 0);
-        while j < C::JOINTS.len() {
-            let joint = &C::JOINTS[j];
+        while j < Tree::JOINTS.len() {
+            let joint = &Tree::JOINTS[j];
             if joint.parent == I {
                 let at_end = joint.pos.x == 0.0 && joint.pos.y == 0.0 && joint.pos.z == 0.0;
                 all &= matches!(joint.motion, JointMotion::Turn)
@@ -235,12 +235,12 @@ impl<C: Bends, const I: usize, const MOVES: bool> Bent<C, I, MOVES> {
         all
     };
     /// Whether a body is fixed on its end.
-    pub(super) const HAS_BODY_ON_END: bool = CompiledJoint::<Ends<C>, I>::BODIES > 0;
+    pub(super) const HAS_BODY_ON_END: bool = CompiledJoint::<Ends<Tree>, I>::BODIES > 0;
     /// Whether nothing is on its end.
     pub(super) const IS_LAST: bool = {
         let (mut last, mut j) = (!Self::HAS_BODY_ON_END, 0);
-        while j < C::JOINTS.len() {
-            last &= C::JOINTS[j].parent != CompiledJoint::<C, I>::LAST;
+        while j < Tree::JOINTS.len() {
+            last &= Tree::JOINTS[j].parent != CompiledJoint::<Tree, I>::LAST;
             j += 1;
         }
         last
@@ -248,8 +248,8 @@ impl<C: Bends, const I: usize, const MOVES: bool> Bent<C, I, MOVES> {
 }
 
 /// Whether the body of joint I has a K-th mode.
-pub(super) struct HasMode<C, const I: usize, const K: usize>(PhantomData<C>);
+pub(super) struct HasMode<Tree, const I: usize, const K: usize>(PhantomData<Tree>);
 
-impl<C: Bends, const I: usize, const K: usize> HasMode<C, I, K> {
-    pub(super) const IS: bool = K < Bent::<C, I, true>::LINK.count;
+impl<Tree: Bends, const I: usize, const K: usize> HasMode<Tree, I, K> {
+    pub(super) const IS: bool = K < Bent::<Tree, I, true>::LINK.count;
 }

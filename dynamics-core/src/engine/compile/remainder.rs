@@ -20,14 +20,14 @@ pub(crate) struct Distribution {
 }
 
 /// The remainder of a compiled robot of B bodies and V joints.
-pub(crate) struct Remainder<C, const B: usize, const V: usize>(PhantomData<C>);
+pub(crate) struct Remainder<Tree, const B: usize, const V: usize>(PhantomData<Tree>);
 
-impl<C: Compiled, const B: usize, const V: usize> Remainder<C, B, V> {
+impl<Tree: Compiled, const B: usize, const V: usize> Remainder<Tree, B, V> {
     /// The bodies of the description less those of the engine: the same at all q, so that q = 0
     /// gives it.
     pub(crate) const AT_BASE: &'static Distribution = &{
-        let all = described::<C, B>();
-        let moving = regrouped::<C, V>();
+        let all = described::<Tree, B>();
+        let moving = regrouped::<Tree, V>();
         // Differences below the rounding of what they are of.
         let size = sqrt(dot(all.moment, all.moment));
         let second = &all.second;
@@ -71,12 +71,12 @@ impl Distribution {
 }
 
 /// All bodies of the description at q = 0.
-const fn described<C: Compiled, const B: usize>() -> Distribution {
-    let length = C::LENGTH;
+const fn described<Tree: Compiled, const B: usize>() -> Distribution {
+    let length = Tree::LENGTH;
     let (mut rots, mut places) = ([DMat3::IDENTITY; B], [DVec3::ZERO; B]);
     let (mut sum, mut i) = (Distribution::NOTHING, 0);
     while i < B {
-        let link = &C::LINKS[i];
+        let link = &Tree::LINKS[i];
         rots[i] = transpose(&link.placement.rot);
         places[i] = link.placement.pos;
         if link.parent != BASE {
@@ -96,11 +96,11 @@ const fn described<C: Compiled, const B: usize>() -> Distribution {
 }
 
 /// The bodies of the engine at q = 0.
-const fn regrouped<C: Compiled, const V: usize>() -> Distribution {
+const fn regrouped<Tree: Compiled, const V: usize>() -> Distribution {
     let (mut rots, mut places) = ([DMat3::IDENTITY; V], [DVec3::ZERO; V]);
     let (mut sum, mut i) = (Distribution::NOTHING, 0);
     while i < V {
-        let joint = &C::JOINTS[i];
+        let joint = &Tree::JOINTS[i];
         (rots[i], places[i]) = (joint.rot, joint.pos);
         if joint.parent != BASE {
             let (rot, pos) = (&rots[joint.parent], places[joint.parent]);

@@ -98,50 +98,50 @@ pub(crate) const fn support<const V: usize>(joints: &[Joint; V]) -> [u64; V] {
 }
 
 /// Whether joint `i`, or the base, is the parent of joint `j`.
-pub(crate) const fn is_parent<C: Compiled>(i: usize, j: usize) -> bool {
-    j < C::JOINTS.len() && C::JOINTS[j].parent == i
+pub(crate) const fn is_parent<Tree: Compiled>(i: usize, j: usize) -> bool {
+    j < Tree::JOINTS.len() && Tree::JOINTS[j].parent == i
 }
 
 /// Whether joint `k` is joint `i` or supports it.
-pub(crate) const fn supports<C: Compiled>(k: usize, i: usize) -> bool {
-    let n = C::SUPPORT.len();
-    k < n && i < n && C::SUPPORT[i] & (1 << k) != 0
+pub(crate) const fn supports<Tree: Compiled>(k: usize, i: usize) -> bool {
+    let n = Tree::SUPPORT.len();
+    k < n && i < n && Tree::SUPPORT[i] & (1 << k) != 0
 }
 
 /// Whether joint `k` supports joint `i`.
-pub(crate) const fn is_ancestor<C: Compiled>(k: usize, i: usize) -> bool {
-    k != i && supports::<C>(k, i)
+pub(crate) const fn is_ancestor<Tree: Compiled>(k: usize, i: usize) -> bool {
+    k != i && supports::<Tree>(k, i)
 }
 
 /// Whether joint `k` supports joint `i`, another one, which moves its body's origin in the parent's
 /// frame.
-pub(crate) const fn is_slide_beyond<C: Compiled>(k: usize, i: usize) -> bool {
-    if !is_ancestor::<C>(k, i) {
+pub(crate) const fn is_slide_beyond<Tree: Compiled>(k: usize, i: usize) -> bool {
+    if !is_ancestor::<Tree>(k, i) {
         return false;
     }
-    let joint = &C::JOINTS[i];
-    joint.first != C::JOINTS[k].first
+    let joint = &Tree::JOINTS[i];
+    joint.first != Tree::JOINTS[k].first
         && (joint.prismatic || matches!(joint.motion, JointMotion::Screw))
 }
 
 /// Whether joint `i` is revolute and has no children, and the inertia left to its body is Σ =
 /// diag(a, a, 0) alone.
-const fn is_round<C: Compiled>(i: usize) -> bool {
+const fn is_round<Tree: Compiled>(i: usize) -> bool {
     let mut k = 0;
-    while k < C::JOINTS.len() {
-        if is_parent::<C>(i, k) {
+    while k < Tree::JOINTS.len() {
+        if is_parent::<Tree>(i, k) {
             return false;
         }
         k += 1;
     }
     let Joint {
         moment: h, second, ..
-    } = joint::<C>(i);
+    } = joint::<Tree>(i);
     let (x, y) = (second.x_axis, second.y_axis);
     let sides = [h.x, h.y, x.y, x.z, y.z, x.x - y.y];
     // Of a body on the base, Σ is not all that is left if the base moves.
-    let turns = matches!(joint::<C>(i).motion, JointMotion::Turn);
-    let mut all = turns && joint::<C>(i).parent != BASE;
+    let turns = matches!(joint::<Tree>(i).motion, JointMotion::Turn);
+    let mut all = turns && joint::<Tree>(i).parent != BASE;
     k = 0;
     while k < sides.len() {
         all &= sides[k] == 0.0;
@@ -151,36 +151,36 @@ const fn is_round<C: Compiled>(i: usize) -> bool {
 }
 
 /// The placement of a body of the description; beyond the last one, the base.
-pub(crate) const fn place<C: Compiled>(body: usize) -> BodyPlacement {
-    if body < C::PLACES.len() {
-        C::PLACES[body]
+pub(crate) const fn place<Tree: Compiled>(body: usize) -> BodyPlacement {
+    if body < Tree::PLACES.len() {
+        Tree::PLACES[body]
     } else {
         AT_BASE
     }
 }
 
 /// The last coordinate of the joint of coordinate `i`: that of its body.
-pub(crate) const fn last<C: Compiled>(i: usize) -> usize {
-    let joint = joint::<C>(i);
+pub(crate) const fn last<Tree: Compiled>(i: usize) -> usize {
+    let joint = joint::<Tree>(i);
     joint.first + joint.count - 1
 }
 
 /// Whether joint `i` is one of several joints in a row on parallel axes, of which the first is on
 /// the joint on the base and perpendicular to it.
-const fn is_parallel<C: Compiled>(i: usize) -> bool {
-    let own = joint::<C>(i);
-    let first = joint::<C>(own.parent);
+const fn is_parallel<Tree: Compiled>(i: usize) -> bool {
+    let own = joint::<Tree>(i);
+    let first = joint::<Tree>(own.parent);
     if own.parent == BASE || !is_turn(&own) {
         return false;
     }
     if first.parent != BASE {
-        return follows(&own) && is_parallel::<C>(own.parent);
+        return follows(&own) && is_parallel::<Tree>(own.parent);
     }
     let z = own.rot.z_axis;
     let perpendicular = z.z == 0.0 && own.pos.x * z.x + own.pos.y * z.y == 0.0;
     let mut k = 0;
-    while k < C::JOINTS.len() {
-        if C::JOINTS[k].parent == i && follows(&C::JOINTS[k]) {
+    while k < Tree::JOINTS.len() {
+        if Tree::JOINTS[k].parent == i && follows(&Tree::JOINTS[k]) {
             return perpendicular && is_turn(&first);
         }
         k += 1;
@@ -198,20 +198,20 @@ const fn is_turn(joint: &Joint) -> bool {
 }
 
 /// The last ancestor of joint `i` that is one of them, or the base.
-const fn last_parallel<C: Compiled>(i: usize) -> usize {
-    let mut k = joint::<C>(i).parent;
-    while k != BASE && !is_parallel::<C>(k) {
-        k = joint::<C>(k).parent;
+const fn last_parallel<Tree: Compiled>(i: usize) -> usize {
+    let mut k = joint::<Tree>(i).parent;
+    while k != BASE && !is_parallel::<Tree>(k) {
+        k = joint::<Tree>(k).parent;
     }
     k
 }
 
 /// The spin of joint `i` without those of its children on parallel axes.
-const fn own_spin<C: Compiled>(i: usize) -> f64 {
-    let (mut spin, mut k) = (joint::<C>(i).spin, 0);
-    while k < C::JOINTS.len() {
-        if C::JOINTS[k].parent == i && is_parallel::<C>(k) {
-            spin -= C::JOINTS[k].spin;
+const fn own_spin<Tree: Compiled>(i: usize) -> f64 {
+    let (mut spin, mut k) = (joint::<Tree>(i).spin, 0);
+    while k < Tree::JOINTS.len() {
+        if Tree::JOINTS[k].parent == i && is_parallel::<Tree>(k) {
+            spin -= Tree::JOINTS[k].spin;
         }
         k += 1;
     }
@@ -219,19 +219,19 @@ const fn own_spin<C: Compiled>(i: usize) -> f64 {
 }
 
 /// The joint on the base that supports joint `i`.
-const fn root<C: Compiled>(i: usize) -> usize {
+const fn root<Tree: Compiled>(i: usize) -> usize {
     let mut k = i;
-    while joint::<C>(k).parent != BASE {
-        k = joint::<C>(k).parent;
+    while joint::<Tree>(k).parent != BASE {
+        k = joint::<Tree>(k).parent;
     }
     k
 }
 
 /// How many of the bodies that are `loaded` move with joint `i`.
-pub(crate) const fn loads<C: Compiled>(i: usize, loaded: &[bool]) -> usize {
+pub(crate) const fn loads<Tree: Compiled>(i: usize, loaded: &[bool]) -> usize {
     let (mut count, mut body) = (0, 0);
     while body < loaded.len() {
-        if loaded[body] && C::PLACES[body].joint == i {
+        if loaded[body] && Tree::PLACES[body].joint == i {
             count += 1;
         }
         body += 1;
@@ -240,10 +240,10 @@ pub(crate) const fn loads<C: Compiled>(i: usize, loaded: &[bool]) -> usize {
 }
 
 /// The `k`-th of them, or the number of all bodies.
-pub(crate) const fn load<C: Compiled>(i: usize, k: usize, loaded: &[bool]) -> usize {
+pub(crate) const fn load<Tree: Compiled>(i: usize, k: usize, loaded: &[bool]) -> usize {
     let (mut count, mut body) = (0, 0);
     while body < loaded.len() {
-        if loaded[body] && C::PLACES[body].joint == i {
+        if loaded[body] && Tree::PLACES[body].joint == i {
             if count == k {
                 return body;
             }
@@ -255,10 +255,10 @@ pub(crate) const fn load<C: Compiled>(i: usize, k: usize, loaded: &[bool]) -> us
 }
 
 /// How many bodies move with joint `i` as one.
-const fn bodies_on<C: Compiled>(i: usize) -> usize {
+const fn bodies_on<Tree: Compiled>(i: usize) -> usize {
     let (mut count, mut body) = (0, 0);
-    while body < C::PLACES.len() {
-        if C::PLACES[body].joint == i {
+    while body < Tree::PLACES.len() {
+        if Tree::PLACES[body].joint == i {
             count += 1;
         }
         body += 1;
@@ -267,12 +267,12 @@ const fn bodies_on<C: Compiled>(i: usize) -> usize {
 }
 
 /// The `k`-th body that moves with joint `i`, and its placement; beyond the last one, the base.
-const fn body_on<C: Compiled>(i: usize, k: usize) -> (usize, BodyPlacement) {
+const fn body_on<Tree: Compiled>(i: usize, k: usize) -> (usize, BodyPlacement) {
     let (mut count, mut body) = (0, 0);
-    while body < C::PLACES.len() {
-        if C::PLACES[body].joint == i {
+    while body < Tree::PLACES.len() {
+        if Tree::PLACES[body].joint == i {
             if count == k {
-                return (body, C::PLACES[body]);
+                return (body, Tree::PLACES[body]);
             }
             count += 1;
         }
@@ -282,9 +282,9 @@ const fn body_on<C: Compiled>(i: usize, k: usize) -> (usize, BodyPlacement) {
 }
 
 /// Joint `i`; beyond the last one, the padding joint.
-pub(crate) const fn joint<C: Compiled>(i: usize) -> Joint {
-    if i < C::JOINTS.len() {
-        C::JOINTS[i]
+pub(crate) const fn joint<Tree: Compiled>(i: usize) -> Joint {
+    if i < Tree::JOINTS.len() {
+        Tree::JOINTS[i]
     } else {
         PADDING_JOINT
     }
@@ -293,11 +293,11 @@ pub(crate) const fn joint<C: Compiled>(i: usize) -> Joint {
 /// Joint I of a compiled robot, by constants with names: the compiler evaluates them once, and an
 /// inline `const` block in each instance of the function around it, of which there is one for each
 /// scalar, set of effects and joint.
-pub(crate) struct CompiledJoint<C, const I: usize>(PhantomData<C>);
+pub(crate) struct CompiledJoint<Tree, const I: usize>(PhantomData<Tree>);
 
-impl<C: Compiled, const I: usize> CompiledJoint<C, I> {
+impl<Tree: Compiled, const I: usize> CompiledJoint<Tree, I> {
     /// The joint; beyond the last one, the padding joint.
-    pub(crate) const JOINT: &'static Joint = &joint::<C>(I);
+    pub(crate) const JOINT: &'static Joint = &joint::<Tree>(I);
     /// Whether its velocity is that of a translation.
     pub(crate) const PRISMATIC: bool = Self::JOINT.prismatic;
     /// How it moves the body.
@@ -316,72 +316,77 @@ impl<C: Compiled, const I: usize> CompiledJoint<C, I> {
     /// The position that belongs to the velocity, if any.
     pub(crate) const POSITION: Option<usize> = Self::JOINT.position;
     /// The first of them.
-    pub(crate) const FIRST: &'static Joint = &joint::<C>(Self::JOINT.first);
+    pub(crate) const FIRST: &'static Joint = &joint::<Tree>(Self::JOINT.first);
     /// The last of them, by whose number the body is known.
-    pub(crate) const LAST: usize = if I < C::JOINTS.len() { last::<C>(I) } else { I };
+    pub(crate) const LAST: usize = if I < Tree::JOINTS.len() {
+        last::<Tree>(I)
+    } else {
+        I
+    };
     /// The same, with the inertia of the body.
-    pub(crate) const BODY: &'static Joint = &joint::<C>(Self::LAST);
+    pub(crate) const BODY: &'static Joint = &joint::<Tree>(Self::LAST);
     /// The parent, or the padding joint.
-    pub(crate) const PARENT: &'static Joint = &joint::<C>(Self::JOINT.parent);
+    pub(crate) const PARENT: &'static Joint = &joint::<Tree>(Self::JOINT.parent);
     /// Whether its parent is the base.
-    pub(crate) const IS_ON_BASE: bool = is_parent::<C>(BASE, I);
+    pub(crate) const IS_ON_BASE: bool = is_parent::<Tree>(BASE, I);
     /// How many bodies move with it as one.
-    pub(crate) const BODIES: usize = bodies_on::<C>(Self::LAST);
+    pub(crate) const BODIES: usize = bodies_on::<Tree>(Self::LAST);
     /// Whether it is a last joint, and what regrouping left to its body is the same after any turn.
-    pub(crate) const IS_ROUND: bool = is_round::<C>(I);
+    pub(crate) const IS_ROUND: bool = is_round::<Tree>(I);
     /// Whether it is one of several joints in a row on parallel axes, perpendicular to that of the
     /// joint on the base.
-    pub(crate) const IS_PARALLEL: bool = is_parallel::<C>(I);
+    pub(crate) const IS_PARALLEL: bool = is_parallel::<Tree>(I);
     /// Whether CRBA multiplies its wrench by the motion of the joint on the base in the frame of
     /// one of them.
-    pub(crate) const MEETS_ROOT: bool = Self::IS_PARALLEL || last_parallel::<C>(I) != BASE;
+    pub(crate) const MEETS_ROOT: bool = Self::IS_PARALLEL || last_parallel::<Tree>(I) != BASE;
     /// Of the inertia that only its own rotation feels, what it does not share with children on
     /// parallel axes.
-    pub(crate) const OWN_SPIN: f64 = own_spin::<C>(I);
+    pub(crate) const OWN_SPIN: f64 = own_spin::<Tree>(I);
     /// Whether its parent is the joint on the base.
     pub(crate) const PARENT_ON_BASE: bool =
         Self::JOINT.parent != BASE && Self::PARENT.parent == BASE;
     /// The joint on the base that supports it.
-    pub(crate) const ROOT: usize = root::<C>(I);
+    pub(crate) const ROOT: usize = root::<Tree>(I);
 }
 
 /// Joints I and J of a compiled robot.
-pub(crate) struct JointPair<C, const I: usize, const J: usize>(PhantomData<C>);
+pub(crate) struct JointPair<Tree, const I: usize, const J: usize>(PhantomData<Tree>);
 
-impl<C: Compiled, const I: usize, const J: usize> JointPair<C, I, J> {
+impl<Tree: Compiled, const I: usize, const J: usize> JointPair<Tree, I, J> {
     /// Whether J's wrench, in the frame of I's parent, meets the motion of the joint on the base
     /// there.
-    pub(crate) const IS_MEETING: bool = !CompiledJoint::<C, J>::IS_PARALLEL
-        && last_parallel::<C>(J) != BASE
-        && last_parallel::<C>(J) == CompiledJoint::<C, I>::JOINT.parent;
+    pub(crate) const IS_MEETING: bool = !CompiledJoint::<Tree, J>::IS_PARALLEL
+        && last_parallel::<Tree>(J) != BASE
+        && last_parallel::<Tree>(J) == CompiledJoint::<Tree, I>::JOINT.parent;
     /// Whether I is the parent of J.
-    pub(crate) const IS_PARENT: bool = is_parent::<C>(I, J);
+    pub(crate) const IS_PARENT: bool = is_parent::<Tree>(I, J);
     /// Whether the body of joint I is the parent of J.
-    pub(crate) const IS_CHILD: bool = is_parent::<C>(CompiledJoint::<C, I>::LAST, J);
+    pub(crate) const IS_CHILD: bool = is_parent::<Tree>(CompiledJoint::<Tree, I>::LAST, J);
     /// Whether J is one of the coordinates that move the body of joint I at once.
-    pub(crate) const IS_COORDINATE: bool =
-        I < C::JOINTS.len() && J < C::JOINTS.len() && C::JOINTS[I].first == C::JOINTS[J].first;
+    pub(crate) const IS_COORDINATE: bool = I < Tree::JOINTS.len()
+        && J < Tree::JOINTS.len()
+        && Tree::JOINTS[I].first == Tree::JOINTS[J].first;
     /// Whether I is J or supports it.
-    pub(crate) const SUPPORTS: bool = supports::<C>(I, J);
+    pub(crate) const SUPPORTS: bool = supports::<Tree>(I, J);
     /// Whether I supports J.
-    pub(crate) const IS_ANCESTOR: bool = is_ancestor::<C>(I, J);
+    pub(crate) const IS_ANCESTOR: bool = is_ancestor::<Tree>(I, J);
     /// Whether I supports J, which moves its body's origin in the frame of I.
-    pub(crate) const IS_SLIDE_BEYOND: bool = is_slide_beyond::<C>(I, J);
+    pub(crate) const IS_SLIDE_BEYOND: bool = is_slide_beyond::<Tree>(I, J);
     /// Whether more than J bodies move with joint I.
-    pub(crate) const HAS_BODY: bool = Self::BODY.0 < C::PLACES.len();
+    pub(crate) const HAS_BODY: bool = Self::BODY.0 < Tree::PLACES.len();
     /// The J-th body that moves with joint I, and its placement; beyond the last one, the base.
     pub(crate) const BODY: &'static (usize, BodyPlacement) =
-        &body_on::<C>(CompiledJoint::<C, I>::LAST, J);
+        &body_on::<Tree>(CompiledJoint::<Tree, I>::LAST, J);
 }
 
 /// Joint I of a compiled robot, and a body of the description.
-pub(crate) struct JointAndBody<C, const I: usize, const BODY: usize>(PhantomData<C>);
+pub(crate) struct JointAndBody<Tree, const I: usize, const BODY: usize>(PhantomData<Tree>);
 
-impl<C: Compiled, const I: usize, const BODY: usize> JointAndBody<C, I, BODY> {
+impl<Tree: Compiled, const I: usize, const BODY: usize> JointAndBody<Tree, I, BODY> {
     /// The placement of the body.
-    pub(crate) const PLACE: &'static BodyPlacement = &place::<C>(BODY);
+    pub(crate) const PLACE: &'static BodyPlacement = &place::<Tree>(BODY);
     /// Whether the body moves with the joint as one.
     pub(crate) const IS_ON_JOINT: bool = Self::PLACE.joint == I;
     /// Whether the joint moves the body.
-    pub(crate) const SUPPORTS: bool = supports::<C>(I, Self::PLACE.joint);
+    pub(crate) const SUPPORTS: bool = supports::<Tree>(I, Self::PLACE.joint);
 }

@@ -13,97 +13,97 @@ const CROSS: usize = 1;
 
 /// R v of joint I.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn rotate_to_parent<R: Real, C, const I: usize>(v: Vec3<R>) -> Vec3<R>
+pub(crate) fn rotate_to_parent<R: Real, Tree, const I: usize>(v: Vec3<R>) -> Vec3<R>
 where
-    C: Compiled,
+    Tree: Compiled,
 {
-    product::<R, C, ROT, I>(v)
+    product::<R, Tree, ROT, I>(v)
 }
 
 /// p × v, p the offset from the origin of joint I's parent to its own, without the joint's own
 /// translation.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn constant_offset_cross<R: Real, C, const I: usize>(v: Vec3<R>) -> Vec3<R>
+pub(crate) fn constant_offset_cross<R: Real, Tree, const I: usize>(v: Vec3<R>) -> Vec3<R>
 where
-    C: Compiled,
+    Tree: Compiled,
 {
-    product::<R, C, CROSS, I>(v)
+    product::<R, Tree, CROSS, I>(v)
 }
 
 /// R M Rᵀ of joint I.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn rotate_matrix_to_parent<R: Real, C, const I: usize>(m: &Mat3<R>) -> Mat3<R>
+pub(crate) fn rotate_matrix_to_parent<R: Real, Tree, const I: usize>(m: &Mat3<R>) -> Mat3<R>
 where
-    C: Compiled,
+    Tree: Compiled,
 {
-    let half = columns_rotated::<R, C, I>(*m);
-    let rows = columns_rotated::<R, C, I>(Mat3(half.rows()));
+    let half = columns_rotated::<R, Tree, I>(*m);
+    let rows = columns_rotated::<R, Tree, I>(Mat3(half.rows()));
     Mat3(rows.rows())
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn columns_rotated<R: Real, C, const I: usize>(Mat3([x, y, z]): Mat3<R>) -> Mat3<R>
+fn columns_rotated<R: Real, Tree, const I: usize>(Mat3([x, y, z]): Mat3<R>) -> Mat3<R>
 where
-    C: Compiled,
+    Tree: Compiled,
 {
     Mat3([
-        rotate_to_parent::<R, C, I>(x),
-        rotate_to_parent::<R, C, I>(y),
-        rotate_to_parent::<R, C, I>(z),
+        rotate_to_parent::<R, Tree, I>(x),
+        rotate_to_parent::<R, Tree, I>(y),
+        rotate_to_parent::<R, Tree, I>(z),
     ])
 }
 
 /// R S Rᵀ of joint I.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn rotate_symmetric_to_parent<R: Real, C, const I: usize>(s: Sym3<R>) -> Sym3<R>
+pub(crate) fn rotate_symmetric_to_parent<R: Real, Tree, const I: usize>(s: Sym3<R>) -> Sym3<R>
 where
-    C: Compiled,
+    Tree: Compiled,
 {
-    Sym3::of(&rotate_matrix_to_parent::<R, C, I>(&Mat3(s.columns())))
+    Sym3::of(&rotate_matrix_to_parent::<R, Tree, I>(&Mat3(s.columns())))
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn product<R: Real, C, const M: usize, const I: usize>(v: Vec3<R>) -> Vec3<R>
+fn product<R: Real, Tree, const M: usize, const I: usize>(v: Vec3<R>) -> Vec3<R>
 where
-    C: Compiled,
+    Tree: Compiled,
 {
     Vec3([
-        row::<R, C, M, I, 0>(v),
-        row::<R, C, M, I, 1>(v),
-        row::<R, C, M, I, 2>(v),
+        row::<R, Tree, M, I, 0>(v),
+        row::<R, Tree, M, I, 1>(v),
+        row::<R, Tree, M, I, 2>(v),
     ])
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn row<R: Real, C, const M: usize, const I: usize, const K: usize>(
+fn row<R: Real, Tree, const M: usize, const I: usize, const K: usize>(
     Vec3([x, y, z]): Vec3<R>,
 ) -> Folded<R>
 where
-    C: Compiled,
+    Tree: Compiled,
 {
     let mut sum = Folded::ZERO;
-    if Entry::<C, M, I, K, 0>::IS_NONZERO {
-        sum = Folded::constant(Entry::<C, M, I, K, 0>::VALUE) * x;
+    if Entry::<Tree, M, I, K, 0>::IS_NONZERO {
+        sum = Folded::constant(Entry::<Tree, M, I, K, 0>::VALUE) * x;
     }
-    if Entry::<C, M, I, K, 1>::IS_NONZERO {
-        sum = sum + Folded::constant(Entry::<C, M, I, K, 1>::VALUE) * y;
+    if Entry::<Tree, M, I, K, 1>::IS_NONZERO {
+        sum = sum + Folded::constant(Entry::<Tree, M, I, K, 1>::VALUE) * y;
     }
-    if Entry::<C, M, I, K, 2>::IS_NONZERO {
-        sum = sum + Folded::constant(Entry::<C, M, I, K, 2>::VALUE) * z;
+    if Entry::<Tree, M, I, K, 2>::IS_NONZERO {
+        sum = sum + Folded::constant(Entry::<Tree, M, I, K, 2>::VALUE) * z;
     }
     sum
 }
 
 /// Row K, column L of matrix M of joint I.
-struct Entry<C, const M: usize, const I: usize, const K: usize, const L: usize>(
-    core::marker::PhantomData<C>,
+struct Entry<Tree, const M: usize, const I: usize, const K: usize, const L: usize>(
+    core::marker::PhantomData<Tree>,
 );
 
-impl<C, const M: usize, const I: usize, const K: usize, const L: usize> Entry<C, M, I, K, L>
+impl<Tree, const M: usize, const I: usize, const K: usize, const L: usize> Entry<Tree, M, I, K, L>
 where
-    C: Compiled,
+    Tree: Compiled,
 {
-    const VALUE: f64 = entry(CompiledJoint::<C, I>::JOINT, M, K, L);
+    const VALUE: f64 = entry(CompiledJoint::<Tree, I>::JOINT, M, K, L);
     const IS_NONZERO: bool = Self::VALUE != 0.0;
 }
 

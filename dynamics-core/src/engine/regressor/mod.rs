@@ -13,19 +13,18 @@ use core::marker::PhantomData;
 
 use self::power::BodyPower;
 use super::acceleration_field::AccelerationField;
-use super::base::base;
-use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointPair};
-use super::displacement::Displacement;
+use super::call::Call;
+use super::compile::{Compiled, CompiledJoint, JointPair};
 use super::folding::Folded;
 use super::gate::EngineScene;
 use super::joint_rates::Twist;
 use super::named::{AllBodies, Named, joints};
-use super::pass::{Nothing, Pass, Rates, moved, sweep};
-use super::{Engine, Specialised, only_if};
+use super::pass::{Motions, Nothing, Pass, sweep};
+use super::{Engine, only_if};
 use crate::effects::Effect;
-use crate::model::{Bodies, JointCoordinate, OnBody, Robot};
+use crate::model::{Bodies, OnBody, Robot};
 use crate::scalar::Real;
-use crate::state::{Configuration, JointTrig, RobotState, State};
+use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
@@ -53,24 +52,19 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "parameter identification")]
     #[inline(never)]
     #[must_use]
-    pub fn regressor<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn regressor<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
     ) -> [[[R; 10]; B]; V]
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        columns::<R, CompiledRobot<T, B, Q, V>, AllBodies, E, B, B, Q, V>(
-            trig.borrow(),
-            state.state(),
-            effects,
-        )
+        let trig = configuration.trig_or(Self::trig_source());
+        Self::call(trig.borrow(), effects).regressor_columns::<AllBodies, B>(state.state())
     }
 
     /// The columns of the regressor of one body, by coordinates: the torques of the joints per unit
@@ -98,68 +92,76 @@ impl<T, K> Engine<T, K> {
     #[must_use]
     pub fn regressor_columns<
         R: Real,
-        S,
-        E,
+        Effects,
         const BODY: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        state: S,
-        effects: &E,
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
         body: OnBody<BODY>,
     ) -> [[R; 10]; V]
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let _ = body;
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        columns::<R, CompiledRobot<T, B, Q, V>, OnBody<BODY>, E, 1, B, Q, V>(
-            trig.borrow(),
-            state.state(),
-            effects,
-        )
-        .map(|[columns]| columns)
+        let trig = configuration.trig_or(Self::trig_source());
+        Self::call(trig.borrow(), effects)
+            .regressor_columns::<OnBody<BODY>, 1>(state.state())
+            .map(|[columns]| columns)
     }
 }
 
-/// The columns of the bodies L.
-#[cfg_attr(optimised, inline(always))]
-fn columns<
-    R: Real,
-    C: Compiled,
-    L: Bodies<N>,
-    E,
-    const N: usize,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
->(
-    trig: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    effects: &E,
-) -> [[[R; 10]; N]; V]
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, Tree, Effects, B, Q, V>
 where
-    E: Effect<R, B, V>,
+    R: Real,
+    Tree: Compiled,
+    Effects: Effect<R, B, V>,
 {
-    let mut y = [[[R::ZERO; 10]; N]; V];
-    let mut pass = Columns::<R, C, L, E, N, B, Q, V> {
-        turns: &trig.coordinates,
-        state,
-        y: &mut y,
-        types: PhantomData,
-    };
-    let at_base = Moving {
-        field: base::<R, E, B, V>(effects, C::LENGTH),
-        by: [Twist::ZERO; V],
-    };
-    let Nothing = sweep::<R, C, _>(&mut pass, &at_base);
-    y
+    /// The columns of the bodies of the list.
+    #[cfg_attr(optimised, inline(always))]
+    fn regressor_columns<List: Bodies<N>, const N: usize>(
+        self,
+        state: &State<R, Q, V>,
+    ) -> [[[R; 10]; N]; V] {
+        let mut y = [[[R::ZERO; 10]; N]; V];
+        let mut pass = Columns::<R, Tree, List, Effects, N, B, Q, V> {
+            call: self,
+            state,
+            y: &mut y,
+            types: PhantomData,
+        };
+        let at_base = Moving {
+            field: self.base(),
+            by: [Twist::ZERO; V],
+        };
+        let Nothing = sweep(&mut pass, &at_base);
+        y
+    }
+
+    /// The field of the body behind joint I, as far as the effects need it.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn regressed_field<const I: usize>(
+        self,
+        parent: &AccelerationField<R>,
+        state: &State<R, Q, V>,
+    ) -> AccelerationField<R> {
+        let motions = Motions {
+            turns: self.turns,
+            qd: &state.qd,
+            qdd: &state.qdd,
+            velocity: false,
+            products: Effects::VELOCITY_PRODUCTS,
+            accel: Effects::ACCELERATIONS,
+        };
+        motions.field::<Tree, I>(parent)
+    }
 }
 
 /// A body's field, and its motion at unit rate of each coordinate, in its joint's frame.
@@ -169,52 +171,67 @@ struct Moving<R, const V: usize> {
     by: [Twist<R>; V],
 }
 
-struct Columns<'a, R, C, L, E, const N: usize, const B: usize, const Q: usize, const V: usize> {
-    turns: &'a [JointCoordinate<R>; Q],
-    state: &'a State<R, Q, V>,
-    y: &'a mut [[[R; 10]; N]; V],
-    types: PhantomData<(C, L, E)>,
-}
-
-impl<
-    R: Real,
-    C: Compiled,
-    L: Bodies<N>,
-    E,
+struct Columns<
+    'a,
+    R,
+    Tree,
+    List,
+    Effects,
     const N: usize,
     const B: usize,
     const Q: usize,
     const V: usize,
-> Pass<R, C> for Columns<'_, R, C, L, E, N, B, Q, V>
+> {
+    call: Call<'a, R, Tree, Effects, B, Q, V>,
+    state: &'a State<R, Q, V>,
+    y: &'a mut [[[R; 10]; N]; V],
+    types: PhantomData<List>,
+}
+
+impl<
+    R: Real,
+    Tree: Compiled,
+    List: Bodies<N>,
+    Effects,
+    const N: usize,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+> Pass for Columns<'_, R, Tree, List, Effects, N, B, Q, V>
 where
-    E: Effect<R, B, V>,
+    Effects: Effect<R, B, V>,
 {
+    type Tree = Tree;
     type Outward = Moving<R, V>;
     type Inward = Nothing;
     const NOTHING: Nothing = Nothing;
-    const JOINTS: u64 = joints::<C>(&L::NUMBERS);
+    const JOINTS: u64 = joints::<Tree>(&List::NUMBERS);
 
     #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &Moving<R, V>) -> Moving<R, V> {
-        let field = field_of::<R, C, E, B, Q, V, I>(&parent.field, self.turns, self.state);
-        let at = Displacement::of::<C, Q, I>(self.turns);
+        let field = self.call.regressed_field::<I>(&parent.field, self.state);
+        let at = self.call.displacement::<I>();
         let mut body = Moving {
             field,
             by: parent.by,
         };
         for_each_joint!(K, {
-            if JointPair::<C, I, K>::IS_COORDINATE {
-                body.by[K] = Twist::along(CompiledJoint::<C, K>::JOINT, C::LENGTH_INV, Folded::ONE);
-            } else if JointPair::<C, K, I>::IS_ANCESTOR {
-                body.by[K] = parent.by[K].carried::<C, I>(&at);
+            if JointPair::<Tree, I, K>::IS_COORDINATE {
+                body.by[K] = Twist::along(
+                    CompiledJoint::<Tree, K>::JOINT,
+                    Tree::LENGTH_INV,
+                    Folded::ONE,
+                );
+            } else if JointPair::<Tree, K, I>::IS_ANCESTOR {
+                body.by[K] = parent.by[K].carried(&at);
             }
         });
-        const { Named::<C, L, N, I, 0>::ARE_FEW };
+        const { Named::<Tree, List, N, I, 0>::ARE_FEW };
         for_each_joint!(N_TH, {
             if let Some(see) = const {
                 only_if(
-                    Named::<C, L, N, I, N_TH>::IS_SOME,
-                    see::<R, C, L, N, V, I, N_TH> as See<R, N, V>,
+                    Named::<Tree, List, N, I, N_TH>::IS_SOME,
+                    Self::see::<I, N_TH> as fn(&mut _, &_),
                 )
             } {
                 see(self.y, &body);
@@ -229,55 +246,22 @@ where
     }
 }
 
-type See<R, const N: usize, const V: usize> = fn(&mut [[[R; 10]; N]; V], &Moving<R, V>);
-
-/// Writes the columns of the K-th of the bodies L that move with joint I.
-#[cfg_attr(optimised, inline(always))]
-fn see<
-    R: Real,
-    C: Compiled,
-    L: Bodies<N>,
-    const N: usize,
-    const V: usize,
-    const I: usize,
-    const K: usize,
->(
-    y: &mut [[[R; 10]; N]; V],
-    body: &Moving<R, V>,
-) {
-    let (at, place) = Named::<C, L, N, I, K>::BODY;
-    let power = BodyPower::of(&body.field, place, C::LENGTH);
-    for_each_joint!(J, {
-        if JointPair::<C, I, J>::IS_COORDINATE || JointPair::<C, J, I>::IS_ANCESTOR {
-            y[J][*at] = power.per_parameter(&body.by[J]);
-        }
-    });
-}
-
-/// The field of the body behind joint I, as far as the effects need it.
-#[cfg_attr(optimised, inline(always))]
-fn field_of<
-    R: Real,
-    C: Compiled,
-    E,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const I: usize,
->(
-    parent: &AccelerationField<R>,
-    turns: &[JointCoordinate<R>; Q],
-    state: &State<R, Q, V>,
-) -> AccelerationField<R>
+impl<R, Tree, List, Effects, const N: usize, const B: usize, const Q: usize, const V: usize>
+    Columns<'_, R, Tree, List, Effects, N, B, Q, V>
 where
-    E: Effect<R, B, V>,
+    R: Real,
+    Tree: Compiled,
+    List: Bodies<N>,
 {
-    let rates = Rates {
-        qd: &state.qd,
-        qdd: &state.qdd,
-        velocity: false,
-        products: E::VELOCITY_PRODUCTS,
-        accel: E::ACCELERATIONS,
-    };
-    moved::<R, C, Q, V, I>(parent, turns, &rates)
+    /// Writes the columns of the K-th of the bodies of the list that move with joint I.
+    #[cfg_attr(optimised, inline(always))]
+    fn see<const I: usize, const K: usize>(y: &mut [[[R; 10]; N]; V], body: &Moving<R, V>) {
+        let (at, place) = Named::<Tree, List, N, I, K>::BODY;
+        let power = BodyPower::of(&body.field, place, Tree::LENGTH);
+        for_each_joint!(J, {
+            if JointPair::<Tree, I, J>::IS_COORDINATE || JointPair::<Tree, J, I>::IS_ANCESTOR {
+                y[J][*at] = power.per_parameter(&body.by[J]);
+            }
+        });
+    }
 }

@@ -1,22 +1,19 @@
 //! The row of the regressor of one coordinate, whose number may be known at run time only.
 
 use core::borrow::Borrow;
-use core::marker::PhantomData;
 
-use super::field_of;
 use super::power::BodyPower;
 use crate::effects::Effect;
 use crate::engine::acceleration_field::AccelerationField;
-use crate::engine::base::base;
-use crate::engine::compile::{Compiled, CompiledJoint, CompiledRobot, JointPair};
-use crate::engine::displacement::Displacement;
+use crate::engine::call::Call;
+use crate::engine::compile::{Compiled, CompiledJoint, JointPair};
 use crate::engine::folding::Folded;
 use crate::engine::gate::EngineScene;
 use crate::engine::joint_rates::Twist;
 use crate::engine::named::{AllBodies, Named};
 use crate::engine::pass::{Nothing, Pass, sweep};
-use crate::engine::{Engine, Specialised, only_if};
-use crate::model::{JointCoordinate, Robot};
+use crate::engine::{Engine, only_if};
+use crate::model::Robot;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
@@ -43,16 +40,15 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[cfg_attr(optimised, inline(always))]
     #[must_use]
-    pub fn regressor_row<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn regressor_row<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
         coordinate: usize,
     ) -> [[R; 10]; B]
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
         Self::regressor_row_of_bodies(state, effects, coordinate, &[true; B])
     }
@@ -78,35 +74,40 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn regressor_row_of_bodies<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
-        state: S,
-        effects: &E,
+    pub fn regressor_row_of_bodies<
+        R: Real,
+        Effects,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
+        state: impl RobotState<R, Q, V>,
+        effects: &Effects,
         coordinate: usize,
         bodies: &[bool; B],
     ) -> [[R; 10]; B]
     where
         T: Robot<B, Q, V>,
         K: Kernel<R>,
-        S: RobotState<R, Q, V>,
-        E: Effect<R, B, V>,
+        Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
+        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let configuration = state.configuration();
-        let trig = configuration.trig_or(Specialised::<T, K, B, V>(PhantomData));
+        let trig = configuration.trig_or(Self::trig_source());
+        let call = Self::call(trig.borrow(), effects);
         let mut y = [[R::ZERO; 10]; B];
-        let mut pass = Row::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V> {
-            turns: &trig.borrow().coordinates,
+        let mut pass = Row {
+            call,
             state: state.state(),
             coordinate,
             bodies,
             y: &mut y,
-            types: PhantomData,
         };
         let at_base = Moving {
-            field: base::<R, E, B, V>(effects, CompiledRobot::<T, B, Q, V>::LENGTH),
+            field: call.base(),
             by: Twist::ZERO,
         };
-        let Nothing = sweep::<R, CompiledRobot<T, B, Q, V>, _>(&mut pass, &at_base);
+        let Nothing = sweep(&mut pass, &at_base);
         y
     }
 }
@@ -118,44 +119,44 @@ struct Moving<R> {
     by: Twist<R>,
 }
 
-struct Row<'a, R, C, E, const B: usize, const Q: usize, const V: usize> {
-    turns: &'a [JointCoordinate<R>; Q],
+struct Row<'a, R, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, Tree, Effects, B, Q, V>,
     state: &'a State<R, Q, V>,
     coordinate: usize,
     bodies: &'a [bool; B],
     y: &'a mut [[R; 10]; B],
-    types: PhantomData<(C, E)>,
 }
 
-impl<R: Real, C: Compiled, E, const B: usize, const Q: usize, const V: usize> Pass<R, C>
-    for Row<'_, R, C, E, B, Q, V>
+impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize> Pass
+    for Row<'_, R, Tree, Effects, B, Q, V>
 where
-    E: Effect<R, B, V>,
+    Effects: Effect<R, B, V>,
 {
+    type Tree = Tree;
     type Outward = Moving<R>;
     type Inward = Nothing;
     const NOTHING: Nothing = Nothing;
 
     #[cfg_attr(optimised, inline(always))]
     fn enter<const I: usize>(&mut self, parent: &Moving<R>) -> Moving<R> {
-        let field = field_of::<R, C, E, B, Q, V, I>(&parent.field, self.turns, self.state);
-        let at = Displacement::of::<C, Q, I>(self.turns);
-        let mut by = parent.by.carried::<C, I>(&at);
+        let field = self.call.regressed_field::<I>(&parent.field, self.state);
+        let at = self.call.displacement::<I>();
+        let mut by = parent.by.carried(&at);
         for_each_joint!(K, {
-            if JointPair::<C, I, K>::IS_COORDINATE {
+            if JointPair::<Tree, I, K>::IS_COORDINATE {
                 // What moves an ancestor does not move this joint: one of the two is zero.
                 let rate = Folded::runtime(R::either(self.coordinate == K, R::ONE, R::ZERO));
-                let own = Twist::along(CompiledJoint::<C, K>::JOINT, C::LENGTH_INV, rate);
+                let own = Twist::along(CompiledJoint::<Tree, K>::JOINT, Tree::LENGTH_INV, rate);
                 (by.ang, by.lin) = (by.ang + own.ang, by.lin + own.lin);
             }
         });
         let body = Moving { field, by };
-        const { Named::<C, AllBodies, B, I, 0>::ARE_FEW };
+        const { Named::<Tree, AllBodies, B, I, 0>::ARE_FEW };
         for_each_joint!(N_TH, {
             if let Some(see) = const {
                 only_if(
-                    Named::<C, AllBodies, B, I, N_TH>::IS_SOME,
-                    see::<R, C, B, I, N_TH> as See<R, B>,
+                    Named::<Tree, AllBodies, B, I, N_TH>::IS_SOME,
+                    see::<R, Tree, B, I, N_TH> as See<R, B>,
                 )
             } {
                 see(self.y, self.bodies, &body);
@@ -174,13 +175,13 @@ type See<R, const B: usize> = fn(&mut [[R; 10]; B], &[bool; B], &Moving<R>);
 
 /// Writes the entries of the K-th body that moves with joint I.
 #[cfg_attr(optimised, inline(always))]
-fn see<R: Real, C: Compiled, const B: usize, const I: usize, const K: usize>(
+fn see<R: Real, Tree: Compiled, const B: usize, const I: usize, const K: usize>(
     y: &mut [[R; 10]; B],
     bodies: &[bool; B],
     body: &Moving<R>,
 ) {
-    let (at, place) = Named::<C, AllBodies, B, I, K>::BODY;
+    let (at, place) = Named::<Tree, AllBodies, B, I, K>::BODY;
     if bodies[*at] {
-        y[*at] = BodyPower::of(&body.field, place, C::LENGTH).per_parameter(&body.by);
+        y[*at] = BodyPower::of(&body.field, place, Tree::LENGTH).per_parameter(&body.by);
     }
 }

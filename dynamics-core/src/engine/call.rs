@@ -1,0 +1,103 @@
+//! What all functions of one call of an algorithm share, in place of a list of parameters.
+
+use core::marker::PhantomData;
+
+use super::compile::{Compiled, CompiledJoint, CompiledRobot};
+use super::displacement::Displacement;
+use super::{Engine, Specialised};
+use crate::effects::JointState;
+use crate::model::{JointCoordinate, Robot};
+use crate::scalar::Real;
+use crate::state::{JointTrig, State};
+
+/// A compiled robot in one configuration, under the effects of a scene.
+pub(crate) struct Call<'a, R, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    pub(super) turns: &'a [JointCoordinate<R>; Q],
+    pub(super) effects: &'a Effects,
+    robot: PhantomData<Tree>,
+}
+
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize> Clone
+    for Call<'_, R, Tree, Effects, B, Q, V>
+{
+    #[cfg_attr(optimised, inline(always))]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize> Copy
+    for Call<'_, R, Tree, Effects, B, Q, V>
+{
+}
+
+impl<T, K> Engine<T, K> {
+    /// What computes sines and cosines of a robot of B bodies and V velocity coordinates.
+    pub(crate) const fn trig_source<const B: usize, const V: usize>() -> Specialised<T, K, B, V> {
+        Specialised(PhantomData)
+    }
+
+    /// A call of an algorithm for the robot `T`.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn call<'a, R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        trig: &'a JointTrig<R, Q>,
+        effects: &'a Effects,
+    ) -> Call<'a, R, CompiledRobot<T, B, Q, V>, Effects, B, Q, V>
+    where
+        T: Robot<B, Q, V>,
+    {
+        Call::new(&trig.coordinates, effects)
+    }
+}
+
+impl<'a, R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'a, R, Tree, Effects, B, Q, V>
+{
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn new(turns: &'a [JointCoordinate<R>; Q], effects: &'a Effects) -> Self {
+        Self {
+            turns,
+            effects,
+            robot: PhantomData,
+        }
+    }
+
+    /// The same under other effects.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn under<'b, F>(self, effects: &'b F) -> Call<'b, R, Tree, F, B, Q, V>
+    where
+        'a: 'b,
+    {
+        Call::new(self.turns, effects)
+    }
+
+    /// How far joint I has moved.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn displacement<const I: usize>(self) -> Displacement<R, Tree, I> {
+        Displacement::of(self.turns)
+    }
+
+    /// What effects at coordinate I read.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn joint_state<const I: usize>(self, state: &State<R, Q, V>) -> JointState<R> {
+        joint_state::<R, Tree, Q, V, I>(state)
+    }
+}
+
+/// What effects at coordinate I read.
+#[cfg_attr(optimised, inline(always))]
+pub(crate) fn joint_state<
+    R: Real,
+    Tree: Compiled,
+    const Q: usize,
+    const V: usize,
+    const I: usize,
+>(
+    state: &State<R, Q, V>,
+) -> JointState<R> {
+    let q = match CompiledJoint::<Tree, I>::POSITION {
+        Some(position) => state.q[position],
+        None => R::ZERO,
+    };
+    JointState::new(q, state.qd[I])
+}

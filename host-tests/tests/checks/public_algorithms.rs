@@ -93,6 +93,7 @@ fn there_is_one_name_per_algorithm() {
     let [free, core, engine, loops, clusters] =
         ["algorithms", "textbook.rs", "engine", "loops", "clusters"]
             .map(|room| of(&src.join(room)));
+    let free = [free, of(&src.join("forms.rs"))].concat();
     println!("{free:?}\n{core:?}\n{engine:?}\n{loops:?}\n{clusters:?}");
     // The parser finds something: what every user calls.
     for (room, name) in [

@@ -48,16 +48,19 @@
 //! ```
 #![doc = include_str!("example.rs")]
 //!
-//! let stop = |q, ticks| WayPoint { q, qd: [0.0; 6], ticks }; let (home, away) = ([0.0, -1.57,
-//! 1.57, -1.57, -1.57, 0.0], [1.0, -1.2, 1.4, -1.57, -1.57, 0.0]); let speeds = [MotionLimits {
-//! velocity: 3.0, acceleration: 10.0 }; 6]; let trajectory = Trajectory::new(&[stop(home, 0),
-//! stop(away, 1000)], TICK, &speeds)?; let torque = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0]; let
-//! limits = SafetyLimits { torque, rate: torque, speed: [3.2; 6], lower: [-6.3; 6], upper: [6.3; 6]
-//! };
+//! let stop = |q, ticks| WayPoint { q, qd: [0.0; 6], ticks };
+//! let home = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0];
+//! let away = [1.0, -1.2, 1.4, -1.57, -1.57, 0.0];
+//! let speeds = [MotionLimits { velocity: 3.0, acceleration: 10.0 }; 6];
+//! let trajectory = Trajectory::new(&[stop(home, 0), stop(away, 1000)], TICK, &speeds)?;
+//! let torque = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];
+//! let (lower, upper) = ([-6.3; 6], [6.3; 6]);
+//! let limits = SafetyLimits { torque, rate: torque, speed: [3.2; 6], lower, upper };
 //!
-//! let (mut controller, gains) = (controller(limits)?, gains(&home)); // Each tick: from what the
-//! encoders latched in the tick before to what goes to drives and brake. for measured in
-//! [Ok(&home), Ok(&home), Err(Fault::Encoder { joint: 2 })] {
+//! let (mut controller, gains) = (controller(limits)?, gains(&home));
+//! // Each tick: from what the encoders latched in the tick before to what goes to drives and
+//! // brake.
+//! for measured in [Ok(&home), Ok(&home), Err(Fault::Encoder { joint: 2 })] {
 //!     let command = controller.tick(measured, &trajectory, |reference, estimate| {
 //!         law(&gains, reference, estimate)
 //!     });

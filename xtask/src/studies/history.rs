@@ -5,7 +5,7 @@ use crate::kit::meter::MODEL;
 use crate::kit::rows::{self, Row};
 use crate::kit::table::{Table, thousands};
 use crate::kit::toolchain::RELEASE;
-use crate::kit::{chart, firmware, host_bin::SHARED};
+use crate::kit::{firmware, host_bin::SHARED};
 use crate::studies::study::{Bench, Found};
 
 /// The bin, and the feature that it is built for.
@@ -63,7 +63,6 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
         rustc: bench.rustc()?,
     };
     Ok(Found {
-        picture: Some(report.picture()?),
         rustc: Some(report.rustc.clone()),
         ..Found::new(report.markdown()?, &report.rows)?
     })
@@ -161,15 +160,6 @@ impl Report {
                 "{compared} Over chains of\nother lengths an ancestor takes fewer, as a share of the core's: {others}."
             ),
         }
-    }
-
-    fn picture(&self) -> Result<String> {
-        let curves = TORQUES.map(|(key, name)| {
-            let costs = self.of(key).map(|row| (row.joints, row.cycles.max));
-            (name, costs.collect())
-        });
-        let title = "Inverse dynamics from 1965 on: cycles of a call against bodies of a chain (Cortex-M4F)";
-        chart::curves(title, "cycles", &curves, &[])
     }
 
     fn markdown(&self) -> Result<String> {

@@ -15,7 +15,7 @@ use crate::scalar::Real;
 const ABOUT_JOINTS: [&str; 6] = ["g1", "g1_free", "gen3", "iiwa14", "so101", "xarm7"];
 const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
-/// What a robot of the library is asked.
+/// The questions to a robot of the library.
 trait Ask {
     fn ask<const B: usize, const Q: usize, const V: usize>(&mut self, model: &Model<f64, B, Q, V>);
 }
@@ -79,7 +79,7 @@ impl Ask for Wrong {
             millimetres(link);
         });
         assert_eq!(both, ["MassesInGrams", "LengthsInMillimetres"], "{name}");
-        // Of lengths in m, as a table of a drawing program has them.
+        // Lengths in m, as a table of a drawing program has them.
         for unit in [1e6, 1e9] {
             let mut changed = *model;
             for link in &mut changed.links {

@@ -16,7 +16,7 @@ where
     [E::FIELD & x, E::FIELD & y, E::FIELD & z]
 }
 
-/// What holds of every scene, evaluated once for all algorithms.
+/// The facts about a scene that all algorithms need, evaluated once for all algorithms.
 pub(crate) struct Scene<R, E, const B: usize, const V: usize>(PhantomData<(R, E)>);
 
 impl<R: Real, E, const B: usize, const V: usize> Scene<R, E, B, V>
@@ -130,7 +130,7 @@ where
     };
 }
 
-/// How many bodies carry a payload.
+/// The number of bodies that carry a payload.
 pub(crate) const fn loads<R: Real, E, const B: usize, const V: usize>() -> usize
 where
     E: Effect<R, B, V>,

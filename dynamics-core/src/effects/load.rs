@@ -43,8 +43,8 @@ pub(crate) fn load_frictions<R: Real, E, const B: usize, const Q: usize, const V
     }
 }
 
-/// What of the motor's torque x is left for all else, τ. Where the load drives and cannot turn the
-/// gear, 1 + b + a sgn x ≤ 0, it is not finite: that takes a friction which holds, not one of a
+/// The part τ of the motor's torque x that is left for all else. If the load drives and cannot turn
+/// the gear, 1 + b + a sgn x ≤ 0, it is not finite: that takes a friction which holds, not one of a
 /// smooth sign.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn transmitted<R: Real, E, const B: usize, const V: usize>(
@@ -83,7 +83,7 @@ pub(crate) fn add_load_slope<R: Real, E, const B: usize, const V: usize>(
         call_hook!(E::LOAD_FRICTION.slopes, effects, joint, at, &mut slopes);
         let rise = slopes.magnitude * load.abs() + slopes.torque * load;
         let share = (load.abs() + R::MIN_POSITIVE) / (tau.abs() + R::MIN_POSITIVE);
-        // Where friction falls with speed an implicit step would not be the stabler one.
+        // If friction falls with speed, an implicit step would not be the stabler one.
         derivatives.dqd += positive_part(rise) * share;
     }
 }

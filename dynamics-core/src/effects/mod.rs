@@ -193,8 +193,8 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Sized {
     const VELOCITY_PRODUCTS: bool = false;
     /// The scene has the stiffness and damping of links that bend ([`crate::flexible`]).
     const ELASTICITY: bool = false;
-    /// What a scene contains at most once: a scene of two does not compile. Any number of times for
-    /// an effect of one's own, unless it takes this constant from one of the library, such as
+    /// A scene may contain this effect once: a scene with two does not compile. Any number of times
+    /// for an effect of one's own, unless it takes this constant from one of the library, such as
     /// `<Viscous<R, V> as Effect<R, B, V>>::ONCE`.
     const ONCE: Once = Once::NONE;
 

@@ -17,7 +17,7 @@
 /// | different kinds of friction | add up: each has its own term |
 /// | your own | add up: how often they may occur is for you to decide |
 ///
-/// Where two of a kind are meant, as in two fits of Stribeck's curve, an effect of one's own calls
+/// If two of a kind are meant, as in two fits of Stribeck's curve, an effect of one's own calls
 /// both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Once {
@@ -65,7 +65,7 @@ impl Once {
         all
     }
 
-    /// What is wrong with a scene that contains one of them twice, and what to write instead.
+    /// The mistake in a scene that contains one of them twice, and its remedy.
     pub(crate) const fn problem(self) -> Option<&'static str> {
         if self.twice == 0 {
             return None;

@@ -99,7 +99,7 @@ pub struct ParallelAnkle {
 }
 
 impl ParallelAnkle {
-    /// Of these two drives.
+    /// An ankle with these two drives.
     ///
     /// # Panics
     /// If a number is not finite, a rod's length is not positive, or a crank or the foot's point is
@@ -152,7 +152,7 @@ struct Foot<R: Real> {
     alpha: R::Vec3,
 }
 
-/// What a rod adds to the cluster: its three coordinates, their rows of G, and Ġ ẏ.
+/// A rod's part of the cluster: its three coordinates, their rows of G, and Ġ ẏ.
 type RodMotion<R> = ([JointCoordinate<R>; 3], [[R; 2]; 3], [R; 3], bool);
 
 impl Rod {

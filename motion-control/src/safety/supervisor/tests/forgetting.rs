@@ -17,7 +17,7 @@ fn bad_ticks(supervisor: &mut Supervisor<f32, 2>, ticks: u32) {
 
 type Use = fn(&mut Supervisor<f32, 2>);
 
-/// What an arm may have done before, with a good measurement first.
+/// An arm's possible past, with a good measurement first.
 const USES: [(&str, Use); 8] = [
     ("good ticks", |one| good_ticks(one, 1)),
     ("a fault", |one| bad_ticks(one, 1)),

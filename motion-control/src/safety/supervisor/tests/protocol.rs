@@ -1,4 +1,4 @@
-//! What holds of ticks that lack a half, of a reset, and of the encoders' steps.
+//! Properties of ticks that lack a half, of a reset, and of the encoders' steps.
 
 use super::*;
 

@@ -24,9 +24,9 @@ pub enum JointRange {
     /// Between its mechanical ends, rad or m of the joint: of the angles the one in this range. The
     /// range is shorter than one turn of the encoder.
     Within {
-        /// The lower end.
+        /// The lower end of the joint's range.
         lower: f32,
-        /// The upper end.
+        /// The upper end of the joint's range.
         upper: f32,
     },
     /// Within half a turn of the encoder from this position of the joint, rad or m, at the first
@@ -210,7 +210,7 @@ impl EncoderMapping {
         ticks.saturating_sub(1)
     }
 
-    /// Whether the shaft can turn by `angle` rad or more in so many ticks.
+    /// Whether the shaft can turn by `angle` rad or more in this many ticks.
     pub(crate) const fn can_turn(&self, ticks: u32, angle: f32) -> bool {
         // NaN does not occur; both are above zero.
         ticks as f32 * self.step >= HALF * angle

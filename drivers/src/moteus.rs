@@ -50,16 +50,16 @@ pub enum Mode {
     Other(u8),
 }
 
-/// What a controller replies, mapped to the joint.
+/// The reply of a controller, mapped to the joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
-    /// Its mode.
+    /// The mode of the controller.
     pub mode: Mode,
-    /// rad.
+    /// The position of the joint, rad.
     pub position: f32,
-    /// rad/s.
+    /// The velocity of the joint, rad/s.
     pub velocity: f32,
-    /// N·m.
+    /// The torque of the joint, N·m.
     pub torque: f32,
     /// The fault code, 32 and above in [`Mode::Fault`]; in other modes 96 and above name what
     /// limits the output, and 0 is nothing.

@@ -115,7 +115,7 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         (halves << Self::SHIFT) >> Self::SHIFT
     }
 
-    /// Notes that so many readings failed or were not made, one in each tick: the joint may have
+    /// Notes that this many readings failed or were not made, one in each tick: the joint may have
     /// moved on.
     #[cold]
     pub fn missed(&mut self, readings: u32) {

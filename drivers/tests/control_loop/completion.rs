@@ -1,4 +1,4 @@
-//! What the loop does at its ends: the law, the detectors, the brake, the clock of a timer.
+//! The loop's ends: the law, the detectors, the brake, the clock of a timer.
 
 use std::cell::RefCell;
 
@@ -6,7 +6,7 @@ use motion_control::{Command, Detect, Reference, Status, StopCategory};
 
 use super::*;
 
-/// What the detectors were asked, and the fault that each of them finds.
+/// The questions to the detectors, and the fault that each of them finds.
 #[derive(Default)]
 struct Watched {
     measured: RefCell<Vec<([f32; 2], [f32; 2])>>,
@@ -185,7 +185,7 @@ fn detectors_see_what_acted_and_what_was_commanded() {
         .map(|command| (command.torque, command.status))
         .collect();
     assert_eq!(seen, commanded);
-    // What no encoder measured is not examined; the torque is that of every mode.
+    // A position that no encoder measured is not examined; the torque is that of every mode.
     wires.encoders[1].error.set(Some(Broken::Wire));
     arm.tick::<One, _, ()>(&Moving, &());
     assert_eq!(watched.measured.borrow().len(), 2);

@@ -1,4 +1,4 @@
-//! What a description has that its user should know: each with its place and a reason.
+//! Facts about a description that its user should know, each with its place and a reason.
 
 use std::f64::consts::PI;
 
@@ -35,7 +35,7 @@ pub enum Topic {
     Units,
     /// Limits of torque that gravity exceeds, or that are far above every need.
     Torque,
-    /// What the file states and the import leaves out.
+    /// A statement of the file that the import leaves out.
     LeftOut,
     /// A type with another name than the robot.
     Renamed,
@@ -46,11 +46,11 @@ pub enum Topic {
 /// A piece of advice.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Advice {
-    /// Its kind.
+    /// The kind of the advice.
     pub topic: Topic,
     /// The line of the file; 0 if none is concerned.
     pub line: u32,
-    /// The link or joint.
+    /// The link or joint that it is about.
     pub name: String,
     /// A sentence with the reason.
     pub text: String,
@@ -62,8 +62,8 @@ pub const FAR_GYRATION: f64 = 2.0;
 /// The longest time for a joint's range at its limit of speed without a word, s.
 const SLOWEST: f64 = 600.0;
 
-/// How many times the torque that a robot needs a limit may be without a word: legs that carry a
-/// body need more than when they hang from it.
+/// The largest ratio of a limit to the torque that a robot needs that passes without a word: legs
+/// that carry a body need more than when they hang from it.
 const MOST_LIMIT: f64 = 30.0;
 
 /// The advice on limits of torque that are far above what the robot needs at the states of a check,

@@ -29,7 +29,7 @@ pub struct Args {
     /// The description: URDF or MJCF
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// Which robot it becomes.
+    /// The selection of the robot's joints.
     #[command(flatten)]
     pub options: Options,
     /// The robot's name; that of the file if not given
@@ -89,7 +89,7 @@ pub struct Options {
     /// isolated
     #[arg(long)]
     pub python_environment: bool,
-    /// How long the comparison may take, s
+    /// The time that the comparison may take, s
     #[arg(long, value_name = "SECONDS", default_value_t = PEER_TIME.as_secs_f64())]
     pub peer_time: f64,
     /// Let an MJCF include files below this folder, too; otherwise those below its own
@@ -98,7 +98,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// How long a comparison may take: a minute where none or an impossible time is given.
+    /// The time that a comparison may take: a minute if none or an impossible one is given.
     fn peer_time(&self) -> Duration {
         let given = Duration::try_from_secs_f64(self.peer_time).ok();
         given
@@ -187,13 +187,13 @@ pub struct Imported {
     pub selected: Selected,
     /// The robot's bodies.
     pub tree: Tree,
-    /// Its name.
+    /// The name of the robot.
     pub name: String,
-    /// Its Rust file.
+    /// The text of its Rust file.
     pub source: String,
     /// The words after `import` that write its file again, without where to.
     pub again: String,
-    /// What its user should know.
+    /// The facts that its user should know.
     pub report: Report,
 }
 

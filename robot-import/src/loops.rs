@@ -14,7 +14,7 @@ use crate::write::placed;
 pub struct Closed {
     /// Its index in the description.
     pub source: usize,
-    /// Its name.
+    /// The name of the loop.
     pub name: String,
     /// `Spherical` for a common point, `Fixed` for a common frame.
     pub kind: Kind,
@@ -56,11 +56,11 @@ pub fn closed(robot: &Description, tree: &Tree) -> (Vec<Closed>, Vec<String>) {
 /// The actuated coordinates of a machine with loops.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Motors {
-    /// Their indices in q̇.
+    /// The indices of the actuated coordinates in q̇.
     pub actuated: Vec<usize>,
     /// Which they are, a sentence.
     pub which: &'static str,
-    /// What its user should know, if the file does not say which they are.
+    /// A note for its user, if the file does not say which they are.
     pub advice: Option<String>,
 }
 
@@ -107,7 +107,7 @@ impl Motors {
             });
         }
         let [_, v] = tree.coordinates();
-        // At least so many coordinates move freely; the library asks for as many motors.
+        // At least this many coordinates move freely; the library asks for as many motors.
         let least = v.saturating_sub(rows(loops)).max(1);
         if !names.is_empty() {
             let actuated = of(&|body| names.contains(&body.joint));
@@ -147,7 +147,7 @@ impl Motors {
     }
 }
 
-/// How many directions the loops constrain.
+/// The number of directions that the loops constrain.
 fn rows(loops: &[Closed]) -> usize {
     let each = loops.iter();
     each.map(|one| if one.kind == Kind::Fixed { 6 } else { 3 })

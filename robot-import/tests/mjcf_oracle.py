@@ -1,4 +1,4 @@
-"""What MuJoCo makes of the fixtures: the recording that the test of the reader of MJCF compares with.
+"""MuJoCo's reading of the fixtures: the recording that the test of the reader of MJCF compares with.
 
     python robot-import/tests/mjcf_oracle.py                      writes robot-import/tests/mjcf/recorded.json
     python robot-import/tests/mjcf_oracle.py OUT.json FILE...     other models

@@ -7,12 +7,12 @@ use std::ops::{Add, Mul, Neg, Sub};
 pub trait Number:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
-    /// A constant.
+    /// Makes a constant, whose derivative is zero.
     fn constant(x: f64) -> Self;
     /// The product with a constant: half the work of that with a number whose derivatives are zero,
     /// and the same bits.
     fn scaled(self, by: f64) -> Self;
-    /// Sine and cosine.
+    /// The sine and the cosine of the number.
     fn sin_cos(self) -> (Self, Self);
 }
 
@@ -35,7 +35,7 @@ impl Number for f64 {
 pub struct Dual<T> {
     /// The value.
     pub value: T,
-    /// Its derivative.
+    /// The derivative of the value.
     pub rate: T,
 }
 

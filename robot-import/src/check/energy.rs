@@ -23,9 +23,9 @@ const G: f64 = 9.81;
 /// One-coordinate joints in place of a joint's, each with the component of its axis: turns about x,
 /// y, z are 0 to 2, translations along them 3 to 5.
 pub const BALL: [usize; 3] = [2, 1, 0];
-/// Of a planar joint.
+/// Coordinates of a planar joint.
 pub const PLANE: [usize; 3] = [3, 4, 2];
-/// Of a free joint.
+/// Coordinates of a free joint.
 pub const FREE: [usize; 6] = [3, 4, 5, 2, 1, 0];
 
 /// ∫ r rᵀ dm about the link's origin, m c and m.
@@ -45,7 +45,7 @@ pub struct Energy<'a> {
 }
 
 impl<'a> Energy<'a> {
-    /// Of a selection.
+    /// Makes the energy of a selection.
     pub fn of(robot: &'a Description, selected: &'a Selected) -> Self {
         let mut coordinates = if selected.free_base { FREE.len() } else { 0 };
         let mut first = vec![0; robot.joints.len()];
@@ -277,7 +277,7 @@ fn second_moments(inertial: &Inertial) -> Moments {
     (moments, c.map(|x| own.mass * x), own.mass)
 }
 
-/// No displacement.
+/// The placement without a displacement.
 pub fn identity<T: Number>() -> Rows<T> {
     std::array::from_fn(|i| std::array::from_fn(|k| T::constant(if i == k { 1.0 } else { 0.0 })))
 }

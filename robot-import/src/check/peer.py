@@ -13,7 +13,7 @@ sys.path[:] = [folder for folder in sys.path if folder not in ("", ".")]
 import json
 import os
 
-# What the peers and their libraries print is no answer.
+# The output of the peers and their libraries is no answer.
 answer = os.fdopen(os.dup(1), "w")
 os.dup2(2, 1)
 

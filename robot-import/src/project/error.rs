@@ -44,7 +44,7 @@ pub enum ProjectError {
          out, or write the project without `--board`"
     )]
     TooManyJoints {
-        /// Of the robot.
+        /// The number of joints of the robot.
         joints: usize,
         /// The board.
         board: &'static str,
@@ -54,7 +54,7 @@ pub enum ProjectError {
     /// A file or folder cannot be read or written.
     #[error("cannot {action} {}: {source}", path.display())]
     Io {
-        /// What was tried.
+        /// The attempt that failed.
         action: &'static str,
         /// The file or folder.
         path: PathBuf,

@@ -114,7 +114,7 @@ fn beside(value: &str) -> String {
 }
 
 impl Library {
-    /// What the README says of it.
+    /// The words of the README about it.
     pub(super) fn note(&self) -> Result<String, ProjectError> {
         let version = inherited(WORKSPACE, "package", "version").unwrap_or_default();
         Ok(match self {

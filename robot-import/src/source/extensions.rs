@@ -187,7 +187,7 @@ fn listed(names: impl IntoIterator<Item = String>) -> String {
     }
 }
 
-/// Names as code.
+/// The names as code in Markdown.
 fn quoted(names: impl IntoIterator<Item = String>) -> String {
     listed(names.into_iter().map(|name| format!("`{name}`")))
 }

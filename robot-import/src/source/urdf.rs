@@ -109,7 +109,7 @@ struct Origin {
 }
 
 impl Origin {
-    /// No displacement.
+    /// The placement without a displacement.
     const NONE: Self = Self {
         pose: Pose::IDENTITY,
         exact: Pose::IDENTITY,
@@ -235,7 +235,7 @@ fn ignored_quaternion(node: Node<'_, '_>) -> Option<String> {
     ))
 }
 
-/// What a joint states and the import leaves out, a sentence each.
+/// The statements of a joint that the import leaves out, a sentence each.
 fn not_read(node: Node<'_, '_>) -> Vec<String> {
     let name = shortened(node.attribute("name").unwrap_or_default());
     let mut notes = Vec::new();

@@ -8,7 +8,7 @@ use super::xml::{self, children};
 use crate::description::shortened;
 use crate::error::{ImportError, Problem, Result};
 
-/// What to do with a file that is not expanded.
+/// The advice for a file that is not expanded.
 const EXPAND: &str = "expand it first, with `xacro FILE > robot.urdf` (the program of the ROS package xacro, or of `pip install xacro`), \
     and import robot.urdf";
 

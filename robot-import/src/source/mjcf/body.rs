@@ -23,7 +23,7 @@ pub struct Tree<'e> {
     classes: &'e Classes<'e>,
     /// The links; the first is the world.
     pub links: Vec<Link>,
-    /// The joints.
+    /// The joints of the body.
     pub joints: Vec<Joint>,
     /// Each joint's position in the configuration of the file, rad or m.
     pub references: Vec<f64>,
@@ -33,7 +33,7 @@ pub struct Tree<'e> {
     pub bodies: HashMap<String, usize>,
     /// Link and placement of each site.
     pub sites: HashMap<String, (usize, Placement)>,
-    /// What is left out.
+    /// The elements that are left out.
     pub notes: Vec<String>,
     names: HashSet<String>,
     counts: [usize; 2],

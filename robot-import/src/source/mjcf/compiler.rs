@@ -8,14 +8,14 @@ const KNOWN: &str = "alignfree angle assetdir autolimits balanceinertia boundine
     discardvisual eulerseq fitaabb fusestatic inertiafromgeom inertiagrouprange meshdir passthrough savecanonical \
     savecompiled saveinertial settotalmass strippath texturedir usethread";
 
-/// Where inertias are from.
+/// The source of inertias.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FromGeoms {
     /// From geoms where no inertia is stated.
     Auto,
     /// From geoms, wherever there are some.
     Always,
-    /// As stated.
+    /// The inertias are those that the file states.
     Never,
 }
 
@@ -27,7 +27,7 @@ pub struct Compiler {
     pub eulerseq: [char; 3],
     /// Whether a range alone is a limit.
     pub autolimits: bool,
-    /// Where inertias are from.
+    /// The source of inertias.
     pub from_geoms: FromGeoms,
     /// The groups of geoms that have a mass.
     pub groups: [f64; 2],
@@ -118,7 +118,7 @@ impl Compiler {
     }
 }
 
-/// What the options state that the import leaves out.
+/// The statements of the options that the import leaves out.
 ///
 /// # Errors
 /// Numbers that are none.

@@ -24,11 +24,11 @@ pub struct Solid {
     pub frame: Placement,
 }
 
-/// What a geom adds to its body.
+/// The share of a geom in its body's inertia.
 pub enum Geom {
-    /// Nothing.
+    /// The geom has no mass.
     Massless,
-    /// A solid.
+    /// The geom is a solid.
     Solid(Box<Solid>),
     /// The solid of a mesh, which is not read.
     Mesh,

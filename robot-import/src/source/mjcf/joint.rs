@@ -14,7 +14,7 @@ const KNOWN: &str = "actuatorfrclimited actuatorfrcrange actuatorgravcomp align 
 
 /// A joint as its body has it.
 pub struct Parsed {
-    /// Its kind.
+    /// The kind of the joint.
     pub kind: Kind,
     /// Its anchor in the body's frame; without rotation.
     pub anchor: Placement,

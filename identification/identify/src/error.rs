@@ -94,7 +94,7 @@ pub enum Error {
     Json(#[from] serde_json::Error),
 }
 
-/// What is wrong with a recording.
+/// A mistake in a recording.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Problem {

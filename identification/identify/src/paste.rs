@@ -49,7 +49,7 @@ fn today() -> String {
     format!("{}-{month:02}-{:02}", today.year(), today.day())
 }
 
-/// Of the file, the lines that differ from the one before: the bodies and the constants of the
+/// The lines of the file that differ from the one before: the bodies and the constants of the
 /// joints.
 pub fn lines(file: &str) -> String {
     let between = |from: &str, to: &str| {

@@ -88,7 +88,7 @@ impl Summary {
     }
 }
 
-/// How long the machine ran, by its ticks and by this computer's clock.
+/// The time that the machine ran, by its ticks and by this computer's clock.
 #[must_use]
 pub fn duration(view: &View, took: Duration) -> String {
     let took = took.as_secs_f64();

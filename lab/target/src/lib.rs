@@ -1,5 +1,5 @@
-//! What measures on the target, and what its tests run there. The demo's scenes, robots and plants
-//! are in [`firmware_demo`]; nothing that ships depends on this crate.
+//! Programs that measure on the target, and those that tests run there. The demo's scenes, robots
+//! and plants are in [`firmware_demo`]; nothing that ships depends on this crate.
 //!
 //! | module | contents |
 //! |---|---|

@@ -67,7 +67,7 @@ macro_rules! key {
     };
 }
 key! {
-    /// What a way to compute torques is along each axis.
+    /// The choice of a way to compute torques along each axis.
     ///
     /// ```
     /// use lab_target::accuracy::key::Key;
@@ -80,17 +80,17 @@ key! {
     arith = "f32",
     /// Sines and cosines: `table3` and others, see [`super::kernels`].
     trig = "table3",
-    /// What is computed: `full` and others, see [`super::model`].
+    /// The quantity that is computed: `full` and others, see [`super::model`].
     model = "full",
     /// Every how many ticks it is computed.
     rate = "1",
-    /// What the ticks between get: `held`, `extrapolated`, `linearised`.
+    /// The torques of the ticks between: `held`, `extrapolated`, `linearised`.
     between = "held",
     /// `engine` or `core`.
     form = "engine",
 }
 key! {
-    /// What a way to simulate is along each axis; the default is what the library's scenes use.
+    /// The choice of a way to simulate along each axis; the library's scenes use the default.
     Simulated, 4:
     /// `euler`, `semi_implicit`, `rk4`, `energy`, `implicit_damping`.
     integrator = "semi_implicit",

@@ -62,14 +62,14 @@ pub trait Inverse<const N: usize>: Sized {
     const MEMORY: bool = false;
     /// A tick is given where the joints are to be so many ticks later.
     const AHEAD: usize = 0;
-    /// What a tick is given: a state, in the numbers that it computes with.
+    /// The input of a tick: a state, in the numbers that it computes with.
     type Input;
     /// The numbers of the torques.
     type Scalar: Real;
 
     /// Before the first tick, which will be that of this state.
     fn start(first: &State<f32, N, N>) -> Self;
-    /// Where the joints are to be, in its own numbers: what a firmware of this kind would have
+    /// The reference of the joints, in its own numbers, which a firmware of this kind would have
     /// computed with so far.
     fn input(state: &State<f32, N, N>) -> Self::Input;
     fn tick(&mut self, input: &Self::Input) -> [Self::Scalar; N];

@@ -39,9 +39,9 @@ const fn rate(ticks: usize) -> &'static str {
     }
 }
 
-/// What is computed and what the ticks between get it from; how many ticks ahead it is computed,
-/// its key if it is computed in every tick, and what it is given; both before the first tick; a
-/// tick that computes, and one that does not.
+/// The computed quantity and the rule for the ticks between; the ticks for which it is computed
+/// ahead, its key if it is computed in every tick, and what it is given; both before the first
+/// tick; a tick that computes, and one that does not.
 macro_rules! every {
     ($([$($generics:tt)*] $way:ty, $between:ty = $name:literal, ahead: $ahead:expr, $key:expr,
        $input:ty = |$at:ident| $given:expr, |$first:pat_param| $start:expr,

@@ -24,7 +24,7 @@ pub trait Plant<const V: usize> {
     const DECAY: f32;
     /// The start and end of its motion.
     const HOME: [f32; V];
-    /// Where it stops in between.
+    /// The place where it stops in between.
     const AWAY: [f32; V];
     /// The limits of the path to the motion.
     const MOTION: MotionLimits<f32>;

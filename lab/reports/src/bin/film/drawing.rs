@@ -6,14 +6,14 @@ use glam::{DVec2, DVec3};
 
 use crate::simulation::{Motion, PARTS, Skeleton, Tick};
 
-/// Of the film, s.
+/// The length of the film, s.
 const SECONDS: f64 = 10.0;
 /// Samples of the motion are this many ticks apart.
 const STEP: usize = 80;
 
 const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 540.0;
-/// Where the base stands, px; px of a metre; the azimuth and the elevation of the eye, rad.
+/// The place of the base, px; px of a metre; the azimuth and the elevation of the eye, rad.
 const BASE: DVec2 = DVec2::new(300.0, 300.0);
 const SCALE: f64 = 365.0;
 const AZIMUTH: f64 = -1.05;
@@ -52,7 +52,7 @@ fn points(of: impl IntoIterator<Item = DVec2>) -> String {
     each.collect::<Vec<_>>().join(" ")
 }
 
-/// What sets an attribute to these values in turn, again and again.
+/// An animation that sets an attribute to these values in turn, again and again.
 fn animate(attribute: &str, seconds: f64, values: &[String]) -> String {
     format!(
         "<animate attributeName=\"{attribute}\" dur=\"{seconds}s\" repeatCount=\"indefinite\" values=\"{}\"/>",

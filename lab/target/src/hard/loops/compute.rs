@@ -21,7 +21,7 @@ pub fn scene<R: Real>() -> Scene<R> {
     (GravityVector(g), Inertia, Coriolis)
 }
 
-/// What an error says, in numbers.
+/// An error in numbers.
 fn numbers(error: LoopError) -> [f32; 2] {
     match error {
         LoopError::Open { error, .. } => [1.0, error as f32],

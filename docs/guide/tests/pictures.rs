@@ -1,4 +1,4 @@
-//! What every picture in docs/ keeps, whoever wrote it.
+//! The rules that every picture in docs/ keeps, whoever wrote it.
 
 use std::fs::read_to_string;
 
@@ -45,7 +45,7 @@ fn texts(svg: &str) -> Vec<(String, [f64; 4])> {
     each.filter(|(words, _)| !words.is_empty()).collect()
 }
 
-/// What is wrong with a picture.
+/// The mistakes in a picture.
 fn faults(svg: &str) -> Vec<String> {
     let mut faults = Vec::new();
     let [wide, high] = ["width", "height"].map(|name| number(svg, name));

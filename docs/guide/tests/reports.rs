@@ -6,7 +6,7 @@ use std::path::Path;
 /// Pages whose reference part is long: the words before it have a bound.
 const LONG: [&str; 3] = ["accuracy.md", "costs.md", "hard-cases.md"];
 
-/// What a page lacks.
+/// The parts that a page lacks.
 fn lacks(name: &str, page: &str) -> Vec<String> {
     let plain = page.lines().filter(|line| !line.starts_with("<!--"));
     let plain: Vec<&str> = plain.collect();

@@ -28,7 +28,7 @@ pub struct Args {
     /// The board that QEMU emulates
     #[arg(long, default_value = MACHINE, value_name = "NAME")]
     machine: String,
-    /// Stop it after so many seconds
+    /// Stop it after this many seconds
     #[arg(long, default_value_t = 10, value_name = "N")]
     seconds: u64,
     /// The measurements as JSON on stdout; progress stays on stderr

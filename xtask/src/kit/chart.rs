@@ -19,7 +19,7 @@ pub use plotters::style::text_anchor::HPos;
 const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
 pub const INK: RGBColor = RGBColor(45, 50, 58);
 pub const FAINT: RGBColor = RGBColor(228, 231, 235);
-/// Of what stands behind: leader lines, unnamed dots.
+/// The colour of the background: leader lines, unnamed dots.
 pub const MUTED: RGBColor = RGBColor(140, 150, 163);
 pub const BLUE: RGBColor = RGBColor(27, 80, 162);
 pub const ORANGE: RGBColor = RGBColor(230, 145, 0);
@@ -89,7 +89,7 @@ fn themed(svg: &str) -> Result<String> {
 }
 
 fn font(size: i32) -> FontDesc<'static> {
-    // What the backend divides sizes by.
+    // The backend divides sizes by this factor.
     (FONT, 1.24 * f64::from(size)).into_font()
 }
 

@@ -83,8 +83,8 @@ impl Image {
     }
 }
 
-/// What of a section lies in flash: initial values do, and are copied to RAM at start-up. Constants
-/// that the linker has merged are in sections of strings.
+/// The part of a section that lies in flash: initial values do, and are copied to RAM at start-up.
+/// Constants that the linker has merged are in sections of strings.
 fn is_in_flash(section: &object::Section<'_, '_>) -> bool {
     use SectionKind::{Data, ReadOnlyData, ReadOnlyString, Text};
     matches!(section.kind(), Text | ReadOnlyData | ReadOnlyString | Data)

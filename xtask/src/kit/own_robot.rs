@@ -14,7 +14,7 @@ use crate::kit::workspace::{self, Workspace};
 #[derive(clap::Args)]
 #[group(skip)]
 pub struct Args {
-    /// Of the robot of this file, URDF or MJCF, alone; nothing is written
+    /// Measure the robot of this file, URDF or MJCF, alone; nothing is written
     #[arg(long, value_name = "FILE")]
     file: Option<PathBuf>,
     #[command(flatten)]
@@ -38,7 +38,7 @@ impl Args {
             .collect()
     }
 
-    /// The robot, if there is a file; fails if the firmware does not take it, or not so many
+    /// The robot, if there is a file; fails if the firmware does not take it, or not this many
     /// joints.
     pub fn robot(&self, workspace: &Workspace, most: u64) -> Result<Option<OwnRobot>> {
         let Some(file) = &self.file else {

@@ -138,7 +138,7 @@ fn functions_of_rust(elf: &Path) -> Result<BTreeMap<String, BTreeSet<String>>> {
                 continue;
             };
             let name = function.demangle().map_err(wrong)?;
-            // Where the compiler has merged instructions, a function of another crate may have a
+            // If the compiler has merged instructions, a function of another crate may have a
             // line of this one.
             let is_core = name.starts_with("core::") || name.starts_with('<');
             if is_core || !path.starts_with("core/") {

@@ -126,7 +126,7 @@ pub fn constant(context: &Context) -> Result<String> {
     Ok(steady(&kinds, &samples)?.join(", "))
 }
 
-/// Work that was done on so many states.
+/// Work that was done on this many states.
 struct Kind {
     name: String,
     states: usize,

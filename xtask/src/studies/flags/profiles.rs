@@ -1,4 +1,4 @@
-//! What the profiles of a user's own project cost: the guide's table.
+//! The cost of the profiles of a user's own project: the guide's table.
 
 use std::path::Path;
 use std::time::Duration;
@@ -51,7 +51,7 @@ const PROFILES: [(&str, &str, bool); 10] = [
 ];
 pub const WITHOUT_FLAGS: &str = "release without the compiler flags";
 
-/// What a project costs in a profile.
+/// The cost of a project in a profile.
 #[derive(Debug, Serialize)]
 pub struct Profile {
     name: &'static str,

@@ -11,7 +11,7 @@ use crate::kit::table::Table;
 use crate::kit::workspace::{self, Workspace};
 use crate::studies::peers::PAGE;
 
-/// What is measured, and what measures it.
+/// The measured code, and the code that measures it.
 const MEASURED: [&str; 5] = [
     "dynamics-core/src",
     "lab/peers",

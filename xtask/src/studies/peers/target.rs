@@ -160,7 +160,7 @@ fn compile(
     Ok((objects, path))
 }
 
-/// What a peer is called whose row is of this form.
+/// The name of a peer whose row is of this form.
 fn peer(form: &str) -> &str {
     let build = BUILDS.iter().find(|build| build[0] == form);
     build.map_or(form, |[_, name, ..]| name)

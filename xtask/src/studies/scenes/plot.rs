@@ -167,7 +167,7 @@ fn errors(recording: &Recording, plant: &str, what: &str, below: u32, area: &Are
     })
 }
 
-/// Where gravity has no torque, a law of gravity is PD alone: that is the wide line, so that it is
+/// If gravity has no torque, a law of gravity is PD alone: that is the wide line, so that it is
 /// seen below the other.
 fn width(law: &str) -> u32 {
     if law == PD { 5 } else { 2 }

@@ -59,8 +59,8 @@ pub fn effects(tree: &Tree, type_name: &str) -> String {
         "\n/// Viscous friction, N·m·s/rad or N·s/m.\npub const VISCOUS: Viscous<f32, V> = Viscous({});\n\
          /// Coulomb friction, N·m or N, full beyond 0.02 rad/s or m/s.\n\
          pub const COULOMB: Coulomb<f32, V> = Coulomb {{ torque: {}, width: Width::f32(0.02) }};\n\
-         /// Inertia of the rotors at the joints, kg·m² or kg.\npub const ARMATURE: Armature<f32, V>
-         /// = Armature({});\n{spring}\
+         /// Inertia of the rotors at the joints, kg·m² or kg.\n\
+         pub const ARMATURE: Armature<f32, V> = Armature({});\n{spring}\
          \n/// The rigid body, and the effects that the description states.\n\
          pub const SCENE: ({}) = ::dynamics_core::Core::<{type_name}>::scene_f32(({}));\n",
         text(&viscous),
@@ -88,8 +88,8 @@ pub fn coupling(tree: &Tree) -> String {
     let m = leaders.len();
     format!(
         "\n/// The number of motors.\npub const M: usize = {m};\n\
-         /// The joints' positions from the motors'.\npub const COUPLING: Transmission<f32, M, V> =
-         /// \
+         /// The joints' positions from the motors'.\n\
+         pub const COUPLING: Transmission<f32, M, V> = \
          Transmission {{ matrix: [{}], offset: [{}] }};\n",
         rows.join(", "),
         offsets.join(", "),

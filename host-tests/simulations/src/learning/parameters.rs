@@ -10,8 +10,8 @@ use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use motion_control::SelectedParameters;
 
-/// Of each joint: viscous and Coulomb friction, armature, and friction per torque of the load while
-/// the motor drives and while the load does.
+/// For each joint: viscous and Coulomb friction, armature, and friction per torque of the load
+/// while the motor drives and while the load does.
 pub const OWN: usize = 5;
 /// Ten of each body, then [`OWN`] of each joint.
 pub const N: usize = 60 + 6 * OWN;
@@ -20,7 +20,7 @@ pub const P: usize = 24;
 /// Width of the smooth sign of friction, rad/s.
 pub const WIDTH: Width<f32> = Width::f32(0.05);
 
-/// What the firmware knows before the arm moves.
+/// The firmware's knowledge before the arm moves.
 #[derive(Clone, Copy, Debug)]
 pub struct Known {
     /// The parameters of the nominal model.
@@ -74,9 +74,9 @@ impl Model {
         Engine::<So101>::rnea(state, &(RIGID_BODY, &self.bodies, self.joints))
     }
 
-    /// What the gears transmit of measured torques less what the arm needs of it, N·m: the torques
-    /// of what the model lacks. The friction of the gears grows with the load, and is no part of
-    /// them.
+    /// The measured torques that the gears transmit, less those that the arm needs, N·m: the
+    /// torques of what the model lacks. The friction of the gears grows with the load, and is no
+    /// part of them.
     pub fn unexplained(&self, state: &State<f32, 6, 6>, measured: &[f32; 6]) -> [f32; 6] {
         let (viscous, coulomb, armature, gears) = self.joints;
         let transmitted = Engine::<So101>::transmitted_torque(state, measured, &gears);

@@ -112,7 +112,7 @@ pub const SEED: u32 = 1;
 /// The file with what the firmware knows.
 pub const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/src/learning/selected.rs");
 
-/// What that file should be.
+/// The expected text of that file.
 pub fn source() -> String {
     let Known { nominal, base } = known(SEED);
     let lines = |numbers: &[f32]| -> String {
@@ -127,10 +127,11 @@ pub fn source() -> String {
         .map(|row| format!("            [{}],\n", words(row)))
         .collect();
     format!(
-        "//! What the firmware knows before the arm moves: written by host-tests/simulations/tests/learning.rs with TABLES_WRITE=1.\n\n\
+        "//! The firmware's knowledge before the arm moves: written by\n\
+         //! host-tests/simulations/tests/learning.rs with TABLES_WRITE=1.\n\n\
          use motion_control::SelectedParameters;\n\nuse super::parameters::Known;\n\n\
-         /// A nominal model whose parameters are off by 30 %, and the base parameters of the motion
-         /// by it.\n\
+         /// A nominal model whose parameters are off by 30 %, and the base parameters of the \
+         motion by it.\n\
          pub const KNOWN: Known = Known {{\n    nominal: [\n{}    ],\n    base: SelectedParameters {{\n\
          \x20       columns: {:?},\n        prior: [{}],\n        spread: [\n{spread}        ],\n    }},\n}};\n",
         lines(&nominal),

@@ -1,4 +1,4 @@
-//! What the firmware knows before the arm moves: written by
+//! The firmware's knowledge before the arm moves: written by
 //! host-tests/simulations/tests/learning.rs with TABLES_WRITE=1.
 
 use motion_control::SelectedParameters;

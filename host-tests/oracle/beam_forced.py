@@ -44,7 +44,7 @@ def motion(t):
 
 
 def coefficient(a, b, n):
-    """Of the product of a short and a long polynomial."""
+    """Coefficients of the product of a short and a long polynomial."""
     return sum(x * b[n - i] for i, x in enumerate(a) if i <= n)
 
 
@@ -81,7 +81,7 @@ def mode(omega, lever, uniform, reach=4):
 
 
 def torque(link, t, states, levers, uniforms):
-    """Of the hub, N·m: inertia of the turned points, Coriolis' force, reaction of the modes and gravity."""
+    """Torque of the hub, N·m: inertia of the turned points, Coriolis' force, reaction of the modes and gravity."""
     e, (angle, rate, acceleration) = link.exact(), motion(t)
     line = e.rho_a * e.length
     inertia = line * e.length**2 / 3 + e.rho_iy * e.length + e.tip_mass * e.length**2 + e.tip_inertia

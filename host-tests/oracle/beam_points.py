@@ -140,7 +140,7 @@ class Chain:
         return answer
 
     def positions(self, coordinates):
-        """Of all points, in the base frame."""
+        """Positions of all points, in the base frame."""
         answer = []
         for i, (origin, attitude) in enumerate(self.frames(coordinates)):
             amplitudes = coordinates[self.first[i] : self.first[i + 1]]

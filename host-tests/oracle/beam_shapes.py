@@ -60,7 +60,7 @@ def roots(f, count, step):
 
 
 def derivative(beta, x, order):
-    """Of cosh - cos and of sinh - sin, of b x."""
+    """Derivatives of cosh - cos and of sinh - sin, of b x."""
     z, even, odd = beta * x, (cosh, sinh)[order % 2], (sinh, cosh)[order % 2]
     # Derivatives of -cos and of -sin, by a quarter of a turn each.
     c = (-cos(z), sin(z), cos(z), -sin(z))[order % 4]

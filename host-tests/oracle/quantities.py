@@ -1,4 +1,4 @@
-"""What is recorded of the first states beyond ID, FD and M. "Tip" is the last body listed; every body counts
+"""The quantities that are recorded of the first states beyond ID, FD and M. "Tip" is the last body listed; every body counts
 in masses and momenta, also one that is welded to the base. Layouts: recordings.rs."""
 
 import numpy as np

@@ -1,5 +1,5 @@
-//! What hard cases compute for minutes: a package of its own, because a full run of the tests
-//! optimises it.
+//! The parts of hard cases that compute for minutes: a package of its own, because a full run of
+//! the tests optimises it.
 
 pub mod attitude;
 pub mod day;

@@ -33,7 +33,7 @@ const RELEASE: u32 = 200; // ticks
 const RIGID: (Gravity, Inertia, Coriolis, Armature<f64, 6>) =
     (Gravity::EARTH, Inertia, Coriolis, ROTORS);
 
-/// What spoils a tick.
+/// A disturbance of a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spoiled {
     Nothing,

@@ -15,7 +15,7 @@ use crate::taught_path::ur5e::{
     Shares, Widened, inverse_dynamics, inverse_dynamics_f32, shares, to_f32,
 };
 
-/// What `host-tests/oracle/toppra_paths.py` wrote.
+/// The output of `host-tests/oracle/toppra_paths.py`.
 #[derive(Deserialize)]
 struct Recording {
     armature: Q,

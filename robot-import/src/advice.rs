@@ -106,10 +106,11 @@ pub fn needless_torque(tree: &Tree, checked: &Checked) -> Option<Advice> {
         line: body.line,
         name: body.joint.clone(),
         text: format!(
-            "Its limit is {limit} {unit}, {ratio:.0} times the {needed:.2} {unit} that it needs at most at {} random states of up to \
-             {speed:.0} rad/s and {acceleration:.0} rad/s²; no joint's limit is nearer to its need, so that a safety gate with these \
-             limits never acts. State what the drive can do, or may, in `effort` of <limit> (`forcerange` or `ctrlrange` of an MJCF), \
-             or in `torque` of the written file.",
+            "Its limit is {limit} {unit}, {ratio:.0} times the {needed:.2} {unit} that it needs at \
+             most at {} random states of up to {speed:.0} rad/s and {acceleration:.0} rad/s²; no \
+             joint's limit is nearer to its need, so that a safety gate with these limits never \
+             acts. State what the drive can do, or may, in `effort` of <limit> (`forcerange` or \
+             `ctrlrange` of an MJCF), or in `torque` of the written file.",
             checked.samples.len(),
         ),
     })
@@ -169,7 +170,8 @@ fn links(robot: &Description, tree: &Tree, all: &mut Vec<Advice>) {
             add(
                 Topic::Placeholder,
                 format!(
-                    "{} kg with a radius of gyration of {gyration:.1} m: the inertia may be in other units.",
+                    "{} kg with a radius of gyration of {gyration:.1} m: the inertia may be in \
+                     other units.",
                     own.mass
                 ),
             );
@@ -205,7 +207,8 @@ fn bodies(tree: &Tree, all: &mut Vec<Advice>) {
                 topic: Topic::Massless,
                 line: body.line,
                 name: body.joint.clone(),
-                text: "Neither the body nor what it carries has mass: M is singular, and forward dynamics needs an armature."
+                text: "Neither the body nor what it carries has mass: M is singular, and forward \
+                    dynamics needs an armature."
                     .to_owned(),
             });
         }
@@ -264,8 +267,9 @@ fn joint(robot: &Description, joint: &Joint, selected: &Selected, all: &mut Vec<
         add(
             Topic::Limits,
             format!(
-                "At its limit of speed, {speed} {unit}/s, it takes {:.1} hours for its range of {range:.3} {unit}. The motion of a \
-                 project moves it as far as it comes in 4 s; its safety gate may take the last digit of an encoder for more speed.",
+                "At its limit of speed, {speed} {unit}/s, it takes {:.1} hours for its range of \
+                 {range:.3} {unit}. The motion of a project moves it as far as it comes in 4 s; \
+                 its safety gate may take the last digit of an encoder for more speed.",
                 range / speed / 3_600.0
             ),
         );
@@ -349,7 +353,8 @@ fn locked(
         Role::Moves if selected.order.contains(&leader) => add(
             Topic::Mimic,
             format!(
-                "It stands still at {position}, although it follows `{name}`, which moves: their coupling is left out."
+                "It stands still at {position}, although it follows `{name}`, which moves: their \
+                 coupling is left out."
             ),
         ),
         Role::Moves => {}
@@ -358,11 +363,12 @@ fn locked(
             let text = match follows == position {
                 true if position == 0.0 => return,
                 true => format!(
-                    "It follows `{name}`, which stands still at {at}: it stands still at {position}."
+                    "It follows `{name}`, which stands still at {at}: it stands still at \
+                     {position}."
                 ),
                 false => format!(
-                    "It stands still at {position}, and `{name}`, which it follows, at {at}, where it would be at {follows}: \
-                     the lock is taken."
+                    "It stands still at {position}, and `{name}`, which it follows, at {at}, where \
+                     it would be at {follows}: the lock is taken."
                 ),
             };
             add(Topic::Mimic, text);
@@ -409,7 +415,8 @@ fn mimic(
         add(
             Topic::Mimic,
             format!(
-                "Where `{}` is within its limits, it goes from {least:.4} to {most:.4}, beyond its own {lower} to {upper}.",
+                "Where `{}` is within its limits, it goes from {least:.4} to {most:.4}, beyond its \
+                 own {lower} to {upper}.",
                 mimic.joint
             ),
         );

@@ -229,7 +229,9 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
             link.line,
             format!("body `{}`", link.name),
             Problem::Value(
-                "its mass is that of a mesh, which is not read, and a free base needs it: give it an <inertial>".to_owned(),
+                "its mass is that of a mesh, which is not read, and a free base needs it: give it \
+                 an <inertial>"
+                    .to_owned(),
             ),
         ));
     }
@@ -258,15 +260,16 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
     if !checked.holds() {
         let difference = checked.energy.max(checked.loops.unwrap_or_default());
         return Err(Problem::Value(format!(
-            "the import differs from the file by {difference:.1e} of full scale, at most {:.0e}: this is a defect of robot-import",
+            "the import differs from the file by {difference:.1e} of full scale, at most {:.0e}: \
+             this is a defect of robot-import",
             check::MOST
         ))
         .into());
     }
     if checked.full_scale > 0.0 && checked.full_scale < LEAST {
         return Err(Problem::Value(format!(
-            "its torques are at most {:.0e} N·m or N, and f32 computes with none below {LEAST:e}: its masses and inertias are too small, \
-             maybe by their unit",
+            "its torques are at most {:.0e} N·m or N, and f32 computes with none below {LEAST:e}: \
+             its masses and inertias are too small, maybe by their unit",
             checked.full_scale
         ))
         .into());
@@ -319,7 +322,10 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
     let renamed = match (&args.type_name, kept) {
         (Some(_), _) => None,
         (None, Some(kept)) => (kept != write::type_name(&name)).then(|| {
-            format!("The type is called `{kept}` as in the file that this import replaces; --type NAME calls it otherwise.")
+            format!(
+                "The type is called `{kept}` as in the file that this import replaces; --type \
+                NAME calls it otherwise."
+            )
         }),
         (None, None) => write::renamed(&name),
     };
@@ -414,14 +420,13 @@ fn compared(
         }
     };
     match &peer {
-        Err(no_peer) if options.check => Err(Problem::Value(format!(
-            "no peer to compare with: {}",
-            no_peer.reason()
-        ))
-        .into()),
+        Err(no_peer) if options.check => {
+            Err(Problem::Value(format!("no peer to compare with: {}", no_peer.reason())).into())
+        }
         Ok(peer) if peer.difference > check::MOST => Err(Problem::Value(format!(
-            "the import differs from {} by {:.1e} of full scale, at most {:.0e}, most at joint `{}`: nothing that the import leaves \
-             out explains it, so that one of the two misreads the file{}; with `--python none` the import is compared with no peer",
+            "the import differs from {} by {:.1e} of full scale, at most {:.0e}, most at joint \
+             `{}`: nothing that the import leaves out explains it, so that one of the two misreads \
+             the file{}; with `--python none` the import is compared with no peer",
             peer.name,
             peer.difference,
             check::MOST,
@@ -440,9 +445,10 @@ fn compared(
 /// no blanks around them.
 fn misread(peer: &check::Peer) -> String {
     format!(
-        "{} misreads the file and says: \"{}\". Its torques then differ by {:.1e} of full scale, most at joint `{}`. Where the numbers of \
-         the file have no blanks and line ends around them, which XML allows, it has the torques of the import. Programs that read the \
-         file as it does leave that out: remove them.",
+        "{} misreads the file and says: \"{}\". Its torques then differ by {:.1e} of full scale, \
+         most at joint `{}`. Where the numbers of the file have no blanks and line ends around \
+         them, which XML allows, it has the torques of the import. Programs that read the file as \
+         it does leave that out: remove them.",
         peer.name, peer.complaint, peer.difference, peer.joint
     )
 }
@@ -493,7 +499,8 @@ fn repair(robot: &mut Description, notes: &mut Vec<String>) {
         if let Some(found) = impossible(inertial.inertia, 0.0) {
             inertial.inertia = ImpossibleInertia::nearest(inertial.inertia);
             notes.push(format!(
-                "The inertia of link `{}` was not physical by {:.1e} of its largest moment: the nearest physical one is taken.",
+                "The inertia of link `{}` was not physical by {:.1e} of its largest moment: the \
+                 nearest physical one is taken.",
                 link.name, found.excess
             ));
         }

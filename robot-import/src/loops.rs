@@ -84,8 +84,8 @@ impl Motors {
             return Err(Problem::Value(problem).into());
         }
         if let (false, true) = (names.is_empty(), loops.is_empty()) {
-            let problem = "`--motors`: the robot has no loop, and its torques are those of all joints: that of a joint without a motor \
-                           is zero";
+            let problem = "`--motors`: the robot has no loop, and its torques are those of all \
+                           joints: that of a joint without a motor is zero";
             return Err(Problem::Value(problem.to_owned()).into());
         }
         let of = |driven: &dyn Fn(&Body) -> bool| {
@@ -114,13 +114,15 @@ impl Motors {
             if actuated.len() < least {
                 let given = actuated.len();
                 let problem = format!(
-                    "`--motors` has {given} coordinates, and at least {least} move freely: name more joints"
+                    "`--motors` has {given} coordinates, and at least {least} move freely: name \
+                     more joints"
                 );
                 return Err(Problem::Value(problem).into());
             }
             return Ok(Self {
                 actuated,
-                which: "The actuated coordinates are those of the joints that were named as driven.",
+                which: "The actuated coordinates are those of the joints that were named as \
+                    driven.",
                 advice: None,
             });
         }
@@ -140,8 +142,8 @@ impl Motors {
             actuated: of(&|_| true),
             which: "The file has too few motors: every coordinate is taken as actuated.",
             advice: Some(format!(
-                "{driven}, and at least {least} move freely: every joint is taken as driven. `--motors A,B` names those with a \
-                 motor, or `<motor joint=…/>` in the file."
+                "{driven}, and at least {least} move freely: every joint is taken as driven. \
+                 `--motors A,B` names those with a motor, or `<motor joint=…/>` in the file."
             )),
         })
     }
@@ -181,7 +183,8 @@ pub fn source(tree: &Tree, type_name: &str, loops: &[Closed], motors: &Motors) -
         "\nuse ::dynamics_core::loops::{{BodyFrame, LoopJoint, LoopRobot, Loops}};\n\n\
          impl LoopRobot<{b}, {q}, {v}, {sizes}> for {type_name} {{\n\
          /// {which}\n\
-         const LOOPS: Loops<{sizes}> = Loops::new(&{type_name}::MODEL, [{joints}], [{actuated}]);\n}}\n\n\
+         const LOOPS: Loops<{sizes}> = Loops::new(&{type_name}::MODEL, [{joints}], \
+         [{actuated}]);\n}}\n\n\
          const _: Loops<{sizes}> = {type_name}::LOOPS;\n",
         b = tree.bodies.len(),
         actuated = actuated.join(", "),

@@ -90,7 +90,8 @@ fn root_with_a_conflict(dir: &Dir) -> Command {
         &format!(
             "echo \"$@\" >> {home}/apt-ran\n\
              case \"$*\" in\n\
-             *--simulate*qemu-system-arm*) echo 'Remv qemu-utils [1:10]'; echo 'Inst libslirp0 (4)'; echo 'Inst qemu-system-arm (1:7)';;\n\
+             *--simulate*qemu-system-arm*) echo 'Remv qemu-utils [1:10]'; echo 'Inst libslirp0 \
+             (4)'; echo 'Inst qemu-system-arm (1:7)';;\n\
              *--simulate*) echo 'Inst libslirp0 (4)';;\n\
              *download*) > qemu-system-arm.deb;;\n\
              esac"

@@ -87,7 +87,8 @@ fn what_cannot_be_read_is_found() {
             "<svg width=\"200\" height=\"{high}\">\n<style>@media ({theme}) {{}}</style>\n\
              <text x=\"150\" y=\"20\" dy=\"0.5ex\" font-size=\"12\">\na legend cut off\n</text>\n\
              <text x=\"20\" y=\"60\" dy=\"0.5ex\" font-size=\"12\">one</text>\n\
-             <text x=\"70\" y=\"{below}\" dy=\"0.5ex\" text-anchor=\"end\" font-size=\"12\">another</text>\n</svg>"
+             <text x=\"70\" y=\"{below}\" dy=\"0.5ex\" text-anchor=\"end\" \
+             font-size=\"12\">another</text>\n</svg>"
         )
     };
     let dark = "prefers-color-scheme: dark";

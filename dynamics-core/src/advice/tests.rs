@@ -185,8 +185,9 @@ fn gravity_advice_states_the_closed_form_torque() {
     assert_eq!(
         text.as_deref(),
         Some(
-            "joint 0 (`upper`): gravity needs 19.6 N·m or N at a configuration within the limits, its torque limit is 19: the motor \
-             does not hold the robot there; check masses and the limit, or narrow the limits of position"
+            "joint 0 (`upper`): gravity needs 19.6 N·m or N at a configuration within the limits, \
+             its torque limit is 19: the motor does not hold the robot there; check masses and the \
+             limit, or narrow the limits of position"
         )
     );
 }

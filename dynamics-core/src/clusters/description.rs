@@ -217,8 +217,8 @@ pub trait ClusteredRobot<
 /// A tuple of clusters: up to eight [`Driven`], of any kinds.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a tuple of clusters",
-    note = "a tuple of up to eight `Driven<C, M, N>` with `C: Cluster<M, N>`, and a comma after a single \
-            one: `(Driven<FourBar, 3, 1>,)`"
+    note = "a tuple of up to eight `Driven<C, M, N>` with `C: Cluster<M, N>`, and a comma after a \
+            single one: `(Driven<FourBar, 3, 1>,)`"
 )]
 pub trait ClusterSet: sealed::Set {}
 

@@ -78,8 +78,8 @@ impl<const Q: usize, const V: usize> Layout<Q, V> {
         }
         assert!(
             next[0] == p && next[1] == y,
-            "P and Y are not the numbers of independent positions and velocities: coordinates in no cluster, and \
-             each cluster's N"
+            "P and Y are not the numbers of independent positions and velocities: coordinates in \
+             no cluster, and each cluster's N"
         );
         layout
     }
@@ -149,8 +149,8 @@ impl<const Q: usize, const V: usize> Layout<Q, V> {
         }
         assert!(
             is_scalar(link.joint.kind),
-            "a cluster drives a joint whose velocities are not the derivatives of its positions: spherical, planar or \
-             free"
+            "a cluster drives a joint whose velocities are not the derivatives of its positions: \
+             spherical, planar or free"
         );
         k = 0;
         while k < nv {

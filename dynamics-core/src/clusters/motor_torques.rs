@@ -47,7 +47,8 @@ pub(super) fn solve<R: Real, const N: usize>(
 /// is the product of the pivots.
 #[allow(
     clippy::needless_range_loop,
-    reason = "iterators that skip entries are not unrolled: 3000 cycles of six motors, in place of 1220"
+    reason = "iterators that skip entries are not unrolled: 3000 cycles of six motors, in place of \
+        1220"
 )]
 #[cfg_attr(optimised, inline(always))]
 fn eliminate<R: Real, const N: usize>(

@@ -68,12 +68,14 @@ impl fmt::Display for NearSingular {
         if *damped {
             return write!(
                 out,
-                "cluster `{cluster}` is at a singular configuration: its rates are damped and do not close the loop"
+                "cluster `{cluster}` is at a singular configuration: its rates are damped and do \
+                 not close the loop"
             );
         }
         write!(
             out,
-            "cluster `{cluster}` is near a singular configuration: a joint moves {transmission:.1e} times as fast as y"
+            "cluster `{cluster}` is near a singular configuration: a joint moves \
+             {transmission:.1e} times as fast as y"
         )
     }
 }

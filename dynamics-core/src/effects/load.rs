@@ -144,8 +144,8 @@ where
     const {
         assert!(
             !E::LOAD_DEPENDENT,
-            "load-dependent friction needs the torque of each gear: it acts on trees without loops, clusters or elastic \
-             joints"
+            "load-dependent friction needs the torque of each gear: it acts on trees without \
+             loops, clusters or elastic joints"
         )
     };
 }

@@ -16,8 +16,8 @@ pub const CASES: &[Case] = &[
         source: "Featherstone, \"An empirical study of the joint-space inertia matrix\" (2004): κ \
             grows as n⁴ in the worst case",
         oracle: ORACLE,
-        reason: "a backward stable elimination errs by about κ ε at worst; the bounds are measured, \
-            and smaller. Torques and Λ⁻¹ do not depend on κ",
+        reason: "a backward stable elimination errs by about κ ε at worst; the bounds are \
+            measured, and smaller. Torques and Λ⁻¹ do not depend on κ",
         run: || rods::<8>(7, &[STRAIGHT_8, RANDOM_8]),
     },
     Case {

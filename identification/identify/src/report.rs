@@ -192,7 +192,8 @@ impl Found {
         };
         let _ = writeln!(
             text,
-            "{}: {} ticks of {} ms, {} gaps, {} ticks left out; fitted to {:.1} s, compared with {held}, {:.1} s",
+            "{}: {} ticks of {} ms, {} gaps, {} ticks left out; fitted to {:.1} s, compared with \
+             {held}, {:.1} s",
             self.robot,
             self.ticks,
             short(1e3 * self.tick),
@@ -216,12 +217,13 @@ impl Found {
         let _ = match lag {
             0.0 => writeln!(
                 text,
-                "delay: none; each torque belongs to the middle of its tick, {half} ms after its position"
+                "delay: none; each torque belongs to the middle of its tick, {half} ms after its \
+                 position"
             ),
             _ => writeln!(
                 text,
-                "warning: the torques {} the positions by {ms} ms, relative to a torque that is held for a tick; the fit \
-                 takes this into account",
+                "warning: the torques {} the positions by {ms} ms, relative to a torque that is \
+                 held for a tick; the fit takes this into account",
                 if lag > 0.0 {
                     "lag behind"
                 } else {
@@ -290,15 +292,17 @@ impl Found {
             Some(mistake) => {
                 let _ = writeln!(
                     text,
-                    "warning: no possible robot fits this recording ({:.1} standard deviations away), unless a mistake is corrected: {mistake}",
+                    "warning: no possible robot fits this recording ({:.1} standard deviations \
+                     away), unless a mistake is corrected: {mistake}",
                     self.misfit
                 );
             }
             None if self.misfit > IMPOSSIBLE => {
                 let _ = writeln!(
                     text,
-                    "warning: no possible robot has this estimate: the nearest one is {:.1} standard deviations away; its friction may be \
-                     of another kind (--effects). No single wrong sign, unit or zero explains it",
+                    "warning: no possible robot has this estimate: the nearest one is {:.1} \
+                     standard deviations away; its friction may be of another kind (--effects). No \
+                     single wrong sign, unit or zero explains it",
                     self.misfit
                 );
             }
@@ -370,7 +374,8 @@ impl Found {
         if let Some((joint, share)) = self.worst() {
             let _ = writeln!(
                 text,
-                "\ntorques of {held} within {:.1} % of the largest torque, RMS; the worst joint is {}",
+                "\ntorques of {held} within {:.1} % of the largest torque, RMS; the worst joint is \
+                 {}",
                 100.0 * share,
                 joint.name
             );

@@ -230,8 +230,9 @@ fn the_figures_of_the_page_are_those_of_these_arms() {
     let narrow = BaseModel::new(Ur5e::MODEL, RIGID_BODY, Width::new(0.005), LIMITS);
     let (wide, narrow) = (of(&ARM), of(&narrow));
     let mut rows = String::from(
-        "| friction of the arm | arms | parameters within 2σ | torques by | error, RMS | largest error | of the median arm | arms within 1 % | \
-         of the rated torque |\n| --- | ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: |\n",
+        "| friction of the arm | arms | parameters within 2σ | torques by | error, RMS | largest \
+         error | of the median arm | arms within 1 % | of the rated torque |\n| --- | ---: | ---: \
+         | --- | ---: | ---: | ---: | ---: | ---: |\n",
     );
     for (name, all) in [
         ("as modelled, w = 0.05 rad/s", &*ALL),

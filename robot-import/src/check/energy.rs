@@ -488,9 +488,10 @@ mod tests {
         for i in 1..=joints {
             let _ = write!(
                 text,
-                "<link name='l{i}'><inertial><origin xyz='0 0 0.1'/><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' \
-                 izz='1'/></inertial></link><joint name='j{i}' type='continuous'><origin xyz='0 0 0.2'/><parent link='l{}'/>\
-                 <child link='l{i}'/><axis xyz='0 1 0'/></joint>",
+                "<link name='l{i}'><inertial><origin xyz='0 0 0.1'/><mass value='1'/><inertia \
+                 ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link><joint \
+                 name='j{i}' type='continuous'><origin xyz='0 0 0.2'/><parent link='l{}'/><child \
+                 link='l{i}'/><axis xyz='0 1 0'/></joint>",
                 i - 1
             );
         }

@@ -40,8 +40,8 @@ pub enum ProjectError {
     },
     /// The robot has more joints than a board has encoders and drives for.
     #[error(
-        "the robot has {joints} joints, {board} has encoders and drives for {most}: `--tip`, `--joints` or `--lock` leave joints \
-         out, or write the project without `--board`"
+        "the robot has {joints} joints, {board} has encoders and drives for {most}: `--tip`, \
+         `--joints` or `--lock` leave joints out, or write the project without `--board`"
     )]
     TooManyJoints {
         /// The number of joints of the robot.

@@ -150,8 +150,8 @@ pub struct Created {
 pub enum RobotOnly {
     /// A floating base, spherical or planar joints.
     #[error(
-        "a project needs joints of one degree of freedom on a fixed base; this robot has {b} bodies, {q} position and \
-         {v} velocity coordinates: only its file was written"
+        "a project needs joints of one degree of freedom on a fixed base; this robot has {b} \
+         bodies, {q} position and {v} velocity coordinates: only its file was written"
     )]
     Coordinates {
         /// The number of bodies.
@@ -163,14 +163,15 @@ pub enum RobotOnly {
     },
     /// More joints than the engine takes.
     #[error(
-        "a project has at most {MOST_JOINTS_OF_PROJECT} joints, this robot has {0}: only its file was written"
+        "a project has at most {MOST_JOINTS_OF_PROJECT} joints, this robot has {0}: only its file \
+         was written"
     )]
     Joints(usize),
 }
 
 /// The sentence about coupled joints.
-const COUPLED: &str = "the joints coupled by `COUPLING` are driven each by itself in this project: use the \
-                       Transmission in src/robot.rs where a motor moves several of them";
+const COUPLED: &str = "the joints coupled by `COUPLING` are driven each by itself in this project: \
+                       use the Transmission in src/robot.rs where a motor moves several of them";
 
 /// Fails if a folder has files, or a project cannot have its name: what can be said before the
 /// robot is read.
@@ -231,8 +232,9 @@ fn notes(project: &Project) -> Vec<String> {
             "`OMEGA_N` in src/scene.rs is that"
         };
         notes.push(format!(
-            "the links of this file have little inertia for their weight, and a feedback of {OMEGA_N} rad/s does not hold them against \
-             gravity within the joints' limits; {omega_n:.1} rad/s does: {taken}, or state the rotors' inertia (armature) in the file"
+            "the links of this file have little inertia for their weight, and a feedback of \
+             {OMEGA_N} rad/s does not hold them against gravity within the joints' limits; \
+             {omega_n:.1} rad/s does: {taken}, or state the rotors' inertia (armature) in the file"
         ));
     }
     if !is_c {

@@ -282,7 +282,8 @@ fn sizes(robot: &Description) -> Result<()> {
             None if inertial.mass < 0.0 => format!("its mass is {} kg", inertial.mass),
             None if 0.0 < inertial.mass && inertial.mass < LEAST => {
                 format!(
-                    "its mass is {:e} kg, which f32 does not compute with: at least {LEAST:e} kg, or 0",
+                    "its mass is {:e} kg, which f32 does not compute with: at least {LEAST:e} kg, \
+                     or 0",
                     inertial.mass
                 )
             }

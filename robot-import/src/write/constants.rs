@@ -56,12 +56,13 @@ pub fn effects(tree: &Tree, type_name: &str) -> String {
         false => String::new(),
     };
     format!(
-        "\n/// Viscous friction, N·m·s/rad or N·s/m.\npub const VISCOUS: Viscous<f32, V> = Viscous({});\n\
+        "\n/// Viscous friction, N·m·s/rad or N·s/m.\npub const VISCOUS: Viscous<f32, V> = \
+         Viscous({});\n\
          /// Coulomb friction, N·m or N, full beyond 0.02 rad/s or m/s.\n\
          pub const COULOMB: Coulomb<f32, V> = Coulomb {{ torque: {}, width: Width::f32(0.02) }};\n\
          /// Inertia of the rotors at the joints, kg·m² or kg.\n\
-         pub const ARMATURE: Armature<f32, V> = Armature({});\n{spring}\
-         \n/// The rigid body, and the effects that the description states.\n\
+         pub const ARMATURE: Armature<f32, V> = Armature({});\n{spring}\n/// The rigid body, and \
+         the effects that the description states.\n\
          pub const SCENE: ({}) = ::dynamics_core::Core::<{type_name}>::scene_f32(({}));\n",
         text(&viscous),
         text(&coulomb),

@@ -122,7 +122,8 @@ pub fn line(view: &View) -> String {
         .map_or(String::new(), |fault| format!(" ({fault})"));
     let counts = view.counts;
     format!(
-        "tick {}: {}{fault}, error {:.3} mrad or mm at most{cost}; {} bad frames, {} dropped, {} lost",
+        "tick {}: {}{fault}, error {:.3} mrad or mm at most{cost}; {} bad frames, {} dropped, {} \
+         lost",
         last.number,
         mode(last.status.mode),
         1e3 * error,

@@ -262,8 +262,8 @@ fn verdict(heard: &[Sample], alone: &[Sample], full: &[Sample]) -> Result<String
     let is_stated = kept.is_some_and(|kept| kept <= KEPT);
     refuse_if!(
         !is_stated || dropped > kept || record(heard) != kept,
-        "recording a tick takes {kept:?} instructions ({KEPT} are stated), with a listener {:?}, with a full queue \
-         {dropped:?}",
+        "recording a tick takes {kept:?} instructions ({KEPT} are stated), with a listener {:?}, \
+         with a full queue {dropped:?}",
         record(heard)
     );
     let masked = [heard, alone, full].map(|samples| most(samples, |region| region == MASKED));
@@ -273,7 +273,8 @@ fn verdict(heard: &[Sample], alone: &[Sample], full: &[Sample]) -> Result<String
         "interrupts are masked for {longest} instructions, {LONGEST} are stated"
     );
     Ok(format!(
-        "{TICKS} ticks the same; a record takes {} instructions at most; interrupts are masked for {longest}",
+        "{TICKS} ticks the same; a record takes {} instructions at most; interrupts are masked for \
+         {longest}",
         kept.unwrap_or_default()
     ))
 }

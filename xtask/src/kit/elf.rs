@@ -152,8 +152,8 @@ fn functions(file: &object::File<'_>) -> Vec<Function> {
 
 /// Whether a symbol is one of those that a failed check of `core`'s ends in.
 pub fn is_panic(symbol: &str) -> bool {
-    let parts = "4core9panicking unwrap_failed expect_failed index_fail index_len_fail index_order_fail \
-                 len_mismatch_fail panic_already_ rust_begin_unwind";
+    let parts = "4core9panicking unwrap_failed expect_failed index_fail index_len_fail \
+                 index_order_fail len_mismatch_fail panic_already_ rust_begin_unwind";
     parts.split(' ').any(|part| symbol.contains(part))
 }
 

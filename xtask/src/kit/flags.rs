@@ -20,8 +20,8 @@ impl Sifted {
         }
         let names: Vec<&str> = self.features.iter().map(String::as_str).collect();
         Some(format!(
-            "note: rustc does not know these target features and forwards them to LLVM, which does ({}); \
-             docs/decisions/0001-cpu-flags.md says what those of .cargo/config.toml are for",
+            "note: rustc does not know these target features and forwards them to LLVM, which does \
+             ({}); docs/decisions/0001-cpu-flags.md says what those of .cargo/config.toml are for",
             names.join(", ")
         ))
     }
@@ -108,7 +108,8 @@ warning: the following packages contain code that will be rejected: old v0.1.0
 
     #[test]
     fn a_warning_that_mentions_a_feature_is_shown() {
-        let text = "warning: dead feature specified for `-Ctarget-feature`: `x`\n\nwarning: unused import: `unknown and unstable feature specified`\n";
+        let text = "warning: dead feature specified for `-Ctarget-feature`: `x`\n\nwarning: unused \
+            import: `unknown and unstable feature specified`\n";
         let warnings = sifted(text);
         assert_eq!((warnings.others.len(), warnings.sentence()), (2, None));
     }

@@ -23,19 +23,22 @@ pub struct Together {
 
 /// All but those that simulate. xtask is there already, with features of its own.
 pub const SHARED: Together = Together {
-    packages: "--workspace --exclude xtask --exclude telemetry-watch --exclude firmware-demo --exclude lab-target \
-         --exclude identification --exclude identify --exclude simulation-tests --exclude play",
+    packages: "--workspace --exclude xtask --exclude telemetry-watch --exclude firmware-demo \
+         --exclude lab-target --exclude identification --exclude identify --exclude \
+         simulation-tests --exclude play",
     programs: "",
     // Cases that compute for minutes are optimised, which would take the compiler longer than the
     // parts of an everyday run.
-    full: "--features guide/full,host-tests/full,robot-import/full,specialised-tests/full \
-         --config profile.dev.package.long-cases.opt-level=2 --config profile.dev.package.flexible-tests.opt-level=2",
+    full: "--features guide/full,host-tests/full,robot-import/full,specialised-tests/full --config \
+         profile.dev.package.long-cases.opt-level=2 --config \
+         profile.dev.package.flexible-tests.opt-level=2",
     folder: "debug",
 };
 
 /// The packages that simulate, and the profile that inlines the library into them.
 pub const SIMULATED: Together = Together {
-    packages: "--profile simulated --package identification --package identify --package simulation-tests",
+    packages: "--profile simulated --package identification --package identify --package \
+        simulation-tests",
     programs: "--package certification",
     full: "--features simulation-tests/full",
     folder: "simulated",

@@ -82,14 +82,14 @@ fn refusal(report: &Value, most: u64) -> Option<String> {
     let [bodies, q, v] = [0, 1, 2].map(|i| report["sizes"][i].as_u64().unwrap_or_default());
     if bodies != v || q != v {
         return Some(format!(
-            "{bodies} bodies have {q} position and {v} velocity coordinates, but the measured firmware takes joints of \
-             one coordinate only, and no free base"
+            "{bodies} bodies have {q} position and {v} velocity coordinates, but the measured \
+             firmware takes joints of one coordinate only, and no free base"
         ));
     }
     (v > most).then(|| {
         format!(
-            "{v} joints are more than the {most} that fit into the RAM of the measured firmware: --tip, --joints or \
-             --lock leave some out"
+            "{v} joints are more than the {most} that fit into the RAM of the measured firmware: \
+             --tip, --joints or --lock leave some out"
         )
     })
 }

@@ -71,8 +71,10 @@ mod tests {
 
     #[test]
     fn blanks_comments_and_tests_are_not_counted() {
-        let source = "//! A module.\n\nuse a::B;\n#[cfg(test)]\nuse c::D;\n\n/// A function.\nfn f() {\n    // Why.\n    \
-                      g(); // so\n}\n\n#[cfg(test)]\n#[derive(Debug)]\nstruct S {\n    a: u8,\n}\n#[cfg(test)]\nmod tests \
+        let source = "//! A module.\n\nuse a::B;\n#[cfg(test)]\nuse c::D;\n\n/// A function.\nfn \
+                      f() \
+                      {\n    // Why.\n    g(); // so\n}\n\n#[cfg(test)]\n#[derive(Debug)]\nstruct \
+                      S {\n    a: u8,\n}\n#[cfg(test)]\nmod tests \
                       {\n    #[test]\n    fn t() {\n    }\n}\nfn last() {}\n";
         let lines: Vec<(usize, &str)> = code(source).collect();
         let expected = [

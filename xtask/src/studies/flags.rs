@@ -70,7 +70,8 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
         }
     }
     let text = format!(
-        "{}\nInstructions / cycles of the longest call ({}); in brackets cycles as multiples of those of the fast line.\n\n{}\nMeasured with {}.",
+        "{}\nInstructions / cycles of the longest call ({}); in brackets cycles as multiples of \
+         those of the fast line.\n\n{}\nMeasured with {}.",
         table(&lines)?.markdown(),
         meter::MODEL,
         listed(&core),

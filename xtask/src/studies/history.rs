@@ -97,7 +97,8 @@ impl Report {
 
     /// All ancestors, then the core and the engine.
     fn comparison(&self) -> Result<Table> {
-        let head = "year|authors|form|published: products + sums|counted|flops executed|cycles|to the core";
+        let head = "year|authors|form|published: products + sums|counted|flops executed|cycles|to \
+            the core";
         let mut table = Table::new(&head.split('|').collect::<Vec<_>>());
         for line in self.ancestors.lines() {
             let mut cells = line.split('|').map(str::to_owned);
@@ -141,10 +142,12 @@ impl Report {
         let names = self.fewer_at(COMPARED);
         let compared = match names.is_empty() {
             true => format!(
-                "No ancestor takes fewer cycles for it\nthan {core}, although each prepares constants of the links beforehand."
+                "No ancestor takes fewer cycles for it\nthan {core}, although each prepares \
+                 constants of the links beforehand."
             ),
             false => format!(
-                "Of the ancestors, which prepare constants of the links\nbeforehand, fewer cycles than {core} are taken by: {}.",
+                "Of the ancestors, which prepare constants of the links\nbeforehand, fewer cycles \
+                 than {core} are taken by: {}.",
                 names.join("; ")
             ),
         };
@@ -157,7 +160,8 @@ impl Report {
                 format!("{compared} Nor does one for shorter or longer chains.")
             }
             others => format!(
-                "{compared} Over chains of\nother lengths an ancestor takes fewer, as a share of the core's: {others}."
+                "{compared} Over chains of\nother lengths an ancestor takes fewer, as a share of \
+                 the core's: {others}."
             ),
         }
     }

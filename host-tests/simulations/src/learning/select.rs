@@ -132,8 +132,10 @@ pub fn source() -> String {
          use motion_control::SelectedParameters;\n\nuse super::parameters::Known;\n\n\
          /// A nominal model whose parameters are off by 30 %, and the base parameters of the \
          motion by it.\n\
-         pub const KNOWN: Known = Known {{\n    nominal: [\n{}    ],\n    base: SelectedParameters {{\n\
-         \x20       columns: {:?},\n        prior: [{}],\n        spread: [\n{spread}        ],\n    }},\n}};\n",
+         pub const KNOWN: Known = Known \
+         {{\n    nominal: [\n{}    ],\n    base: SelectedParameters {{\n\
+         \x20       columns: {:?},\n        prior: [{}],\n        spread: \
+         [\n{spread}        ],\n    }},\n}};\n",
         lines(&nominal),
         base.columns,
         words(&base.prior),

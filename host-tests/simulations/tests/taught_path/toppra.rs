@@ -112,7 +112,8 @@ fn least(x: &[f64]) -> f64 {
 #[test]
 fn durations_agree_with_toppra_within_the_limits() {
     let mut rows = String::from(
-        "| grid points | duration against toppra, mean | worst | greatest share of a torque's limit | of a speed's | of an acceleration's |\n\
+        "| grid points | duration against toppra, mean | worst | greatest share of a torque's \
+         limit | of a speed's | of an acceleration's |\n\
          |---:|---:|---:|---:|---:|---:|\n",
     );
     let compared = [
@@ -130,7 +131,8 @@ fn durations_agree_with_toppra_within_the_limits() {
         } = all.most;
         let [torque, speed, acceleration] = [torque, speed, acceleration].map(|x| 100.0 * x);
         rows += &format!(
-            "| {points} | {mean:+.2} % | {worst:+.2} % | {torque:.2} % | {speed:.2} % | {acceleration:.2} % |\n"
+            "| {points} | {mean:+.2} % | {worst:+.2} % | {torque:.2} % | {speed:.2} % | \
+             {acceleration:.2} % |\n"
         );
         println!("{points}: {:.4?} {:?}", all.durations, all.most);
     }

@@ -149,7 +149,8 @@ impl<'e> Tree<'e> {
         let placement = around.frame.then(&Placement::read(view, self.compiler)?);
         if view.number("gravcomp")? != 0.0 {
             self.notes.push(format!(
-                "body `{name}`: gravcomp is a force of the simulation and left out; its weight acts in full"
+                "body `{name}`: gravcomp is a force of the simulation and left out; its weight \
+                 acts in full"
             ));
         }
         if view.flag("mocap")? == Some(true) {
@@ -200,7 +201,8 @@ impl<'e> Tree<'e> {
                     let name = body.words();
                     self.links[inside.link].of_mesh = true;
                     self.notes.push(format!(
-                        "{name}: its mass is that of a mesh, which is not read; the body is fixed to the world"
+                        "{name}: its mass is that of a mesh, which is not read; the body is fixed \
+                         to the world"
                     ));
                     return Ok(Vec::new());
                 }
@@ -209,8 +211,8 @@ impl<'e> Tree<'e> {
                         .name()
                         .or_else(|| element.get("mesh"))
                         .unwrap_or("mesh");
-                    let reason = "the mass of its body would be that of a mesh, and meshes are not read: give the body \
-                        an <inertial>, or the geom mass=\"0\"";
+                    let reason = "the mass of its body would be that of a mesh, and meshes are not \
+                        read: give the body an <inertial>, or the geom mass=\"0\"";
                     return Err(element.unsupported("geom", word, reason));
                 }
             }

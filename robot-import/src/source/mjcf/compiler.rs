@@ -4,9 +4,10 @@ use super::defaults::View;
 use super::element::Element;
 use crate::error::Result;
 
-const KNOWN: &str = "alignfree angle assetdir autolimits balanceinertia boundinertia boundmass conflict coordinate \
-    discardvisual eulerseq fitaabb fusestatic inertiafromgeom inertiagrouprange meshdir passthrough savecanonical \
-    savecompiled saveinertial settotalmass strippath texturedir usethread";
+const KNOWN: &str = "alignfree angle assetdir autolimits balanceinertia boundinertia boundmass \
+    conflict coordinate discardvisual eulerseq fitaabb fusestatic inertiafromgeom \
+    inertiagrouprange meshdir passthrough savecanonical savecompiled saveinertial settotalmass \
+    strippath texturedir usethread";
 
 /// The source of inertias.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,7 +87,8 @@ impl Compiler {
             }
         };
         if let Some(word) = section.get("coordinate").filter(|word| *word != "local") {
-            let reason = "MuJoCo has dropped it, too: save the model with MuJoCo 2.3.3, which writes local coordinates";
+            let reason = "MuJoCo has dropped it, too: save the model with MuJoCo 2.3.3, which \
+                writes local coordinates";
             return Err(section.unsupported("coordinate", word, reason));
         }
         if let Some(word) = section.get("eulerseq") {

@@ -97,8 +97,9 @@ impl<'e> Contents<'e> {
                 }
                 tag if IGNORED.contains(&tag) => {}
                 tag => {
-                    let reason = "it is not in the subset of MJCF that is read: let MuJoCo write the compiled model by \
-                        mj_saveLastXML, which has bodies in its place, or remove it";
+                    let reason = "it is not in the subset of MJCF that is read: let MuJoCo write \
+                        the compiled model by mj_saveLastXML, which has bodies in its place, or \
+                        remove it";
                     return Err(child.unsupported("element", tag, reason));
                 }
             }

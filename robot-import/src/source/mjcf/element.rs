@@ -304,7 +304,8 @@ impl Loader<'_> {
         };
         let outside = || {
             let reason = format!(
-                "it is not below the folder of the model{named}: `--include-root FOLDER` names a folder below which files are read"
+                "it is not below the folder of the model{named}: `--include-root FOLDER` names a \
+                 folder below which files are read"
             );
             element.unsupported("include", file, &reason)
         };

@@ -68,8 +68,10 @@ mod tests {
     #[test]
     fn a_test_behind_the_gate_is_named_and_nothing_else() {
         let source = format!(
-            "#[test]\nfn always() {{\n}}\n\n{GATE}\n#[test]\nfn on_every_robot() {{\n}}\n{GATE}\nfn no_test() {{\n}}\n\
-             {GATE}\nconst X: u8 = 1;\n#[test]\nfn in_part() {{\n    a();\n    {GATE}\n    {{\n        b();\n    }}\n}}\n"
+            "#[test]\nfn always() {{\n}}\n\n{GATE}\n#[test]\nfn on_every_robot() \
+             {{\n}}\n{GATE}\nfn no_test() {{\n}}\n\
+             {GATE}\nconst X: u8 = 1;\n#[test]\nfn in_part() \
+             {{\n    a();\n    {GATE}\n    {{\n        b();\n    }}\n}}\n"
         );
         let expected = ["on_every_robot", "in_part: further robots"];
         assert_eq!(gated(&source), expected);

@@ -186,7 +186,8 @@ mod tests {
         let f64s =
             "__aeabi_dadd __muldf3 __extendsfdf2 __fixdfsi sinf rem_pio2 _ZN4libm4math5k_cosf17hE";
         assert!(f64s.split(' ').all(is_f64));
-        let others = "_ZN4libm4math5atanf5atanf17hE __aeabi_fadd __aeabi_memcpy _ZN13dynamics_core4trig7sin_cosE";
+        let others = "_ZN4libm4math5atanf5atanf17hE __aeabi_fadd __aeabi_memcpy \
+            _ZN13dynamics_core4trig7sin_cosE";
         assert!(!others.split(' ').any(is_f64));
     }
 

@@ -126,7 +126,8 @@ pub fn measure(workspace: &Workspace, core: &Core) -> Result<Row> {
             .map_err(|e| check!("{}, {}: {e}", core.name, torques.scene))?;
         refuse_if!(
             bound < stack,
-            "{}, {}: a tick wrote to {stack} B of stack, more than the bound of its code, {bound} B",
+            "{}, {}: a tick wrote to {stack} B of stack, more than the bound of its code, {bound} \
+             B",
             core.name,
             torques.scene
         );

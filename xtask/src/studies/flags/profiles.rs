@@ -47,7 +47,8 @@ const PROFILES: [(&str, &str, bool); 10] = [
     ("dev at s", "--config profile.dev.opt-level='s'", true),
     ("dev at 1, `package.\"*\"` at 3", "--config profile.dev.package.\"*\".opt-level=3", true),
     ("dev at 0", "--config profile.dev.opt-level=0", true),
-    ("dev at 0, `package.\"*\"` at 3", "--config profile.dev.opt-level=0 --config profile.dev.package.\"*\".opt-level=3", true),
+    ("dev at 0, `package.\"*\"` at 3", "--config profile.dev.opt-level=0 --config \
+        profile.dev.package.\"*\".opt-level=3", true),
 ];
 pub const WITHOUT_FLAGS: &str = "release without the compiler flags";
 
@@ -147,7 +148,8 @@ pub fn markdown(profiles: &[Profile], rustc: &str) -> String {
         ("code, bytes", &|one| thousands(one.code_bytes)),
     ];
     format!(
-        "{}\nThe project that `cargo xtask new` writes for an SO-101, of six joints, with its simulation ({MODEL}). Measured with {rustc}.",
+        "{}\nThe project that `cargo xtask new` writes for an SO-101, of six joints, with its \
+         simulation ({MODEL}). Measured with {rustc}.",
         Table::of(profiles, &columns).markdown()
     )
 }

@@ -39,8 +39,8 @@ const BUILDS: [[&str; 4]; 3] = [
     ],
     ["clang", "casadi clang", "clang", CLANG],
 ];
-const CLANG: &str = "--target=thumbv7em-none-eabihf -mcpu=cortex-m7 -ffp-contract=off -Xclang -target-feature \
-    -Xclang +slowfpvmlx";
+const CLANG: &str = "--target=thumbv7em-none-eabihf -mcpu=cortex-m7 -ffp-contract=off -Xclang \
+    -target-feature -Xclang +slowfpvmlx";
 const COMMON: &str = "-c -O3 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard";
 
 /// Whether the compiler may know that inputs and output do not overlap, with what it adds to the

@@ -104,9 +104,10 @@ fn the_advice_on_a_configuration_says_number_reason_and_remedy() {
     assert_eq!(
         words[..2],
         [
-            "a tick of 1 s means 1 ticks a second, where control loops have 50 to 10000: the tick is in s, 1 ms is 0.001",
-            "a restart distance of 15 rad or m allows a start 859° from the trajectory: it is in rad, and looks like \
-             degrees; 0.15 is usual",
+            "a tick of 1 s means 1 ticks a second, where control loops have 50 to 10000: the tick \
+             is in s, 1 ms is 0.001",
+            "a restart distance of 15 rad or m allows a start 859° from the trajectory: it is in \
+             rad, and looks like degrees; 0.15 is usual",
         ]
     );
     assert!(

@@ -96,10 +96,11 @@ impl JointMapping {
     /// where it is.
     ///
     /// # Errors
-    /// [`MappingError::Range`]: not a number, the ends in the wrong order, or more than 16,000 turns of the encoder away.
-    /// [`MappingError::Turns`]: the range is longer than a turn of the encoder. [`MappingError::Circle`]: a turn of the
-    /// encoder is not a whole number of turns of a continuous joint. [`MappingError::Step`]: the
-    /// step is not above zero, or half a turn of the encoder.
+    /// [`MappingError::Range`]: not a number, the ends in the wrong order, or more than 16,000
+    /// turns of the encoder away. [`MappingError::Turns`]: the range is longer than a turn of the
+    /// encoder. [`MappingError::Circle`]: a turn of the encoder is not a whole number of turns of a
+    /// continuous joint. [`MappingError::Step`]: the step is not above zero, or half a turn of the
+    /// encoder.
     ///
     /// ```
     /// use joint_drivers::{Direction, JointMapping, JointRange, MappingError};

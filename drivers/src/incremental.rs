@@ -52,8 +52,8 @@ pub enum IncrementalError<E> {
     Counter(E),
     /// The index has not been passed since power-up, or since the counter lost counts.
     NotReferenced,
-    /// The counts between two indices are not whole turns, but this many more or fewer. The position
-    /// is referenced to the new index.
+    /// The counts between two indices are not whole turns, but this many more or fewer. The
+    /// position is referenced to the new index.
     Index {
         /// Counts that were added (above zero) or lost.
         excess: i32,

@@ -29,7 +29,8 @@ pub trait EncoderType {
     /// The age of the positions: of this tick, or of the one before.
     type Age: MeasurementAge;
 
-    /// Notes this many ticks without a reading: an encoder whose count wraps may have lost its turn.
+    /// Notes this many ticks without a reading: an encoder whose count wraps may have lost its
+    /// turn.
     fn missed(&mut self, ticks: u32) {
         let _ = ticks;
     }

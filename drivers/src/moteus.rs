@@ -174,8 +174,8 @@ impl Moteus {
     /// order. In the first one the joint is where the mapping says that it can be.
     ///
     /// # Errors
-    /// [`CanError`]: another node or host, a remote frame, a frame that is short or has an unknown subframe, a register
-    /// that was refused or is missing, a quantity that is not finite.
+    /// [`CanError`]: another node or host, a remote frame, a frame that is short or has an unknown
+    /// subframe, a register that was refused or is missing, a quantity that is not finite.
     pub fn reply<F: Frame>(&mut self, frame: &F) -> Result<State, CanError> {
         if can::raw(frame.id()) != u32::from(self.id) << 8 | u32::from(self.host) {
             return Err(CanError::Identifier);

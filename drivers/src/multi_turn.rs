@@ -131,7 +131,8 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     /// where it is.
     ///
     /// # Errors
-    /// [`MappingError::Range`]: not finite, or more than 16,000 turns of the encoder away; nothing is changed.
+    /// [`MappingError::Range`]: not finite, or more than 16,000 turns of the encoder away; nothing
+    /// is changed.
     pub fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
         let turns = position / self.per_half / (2_u32 << BITS) as f32;
         // False for NaN, too.

@@ -75,8 +75,8 @@ pub fn motions() -> Vec<(String, f32, Motion)> {
     all
 }
 
-/// The largest error of N joints' sines and cosines that follow a motion for this many ticks: of the
-/// sine, the cosine and the length of the pair, against f64.
+/// The largest error of N joints' sines and cosines that follow a motion for this many ticks: of
+/// the sine, the cosine and the length of the pair, against f64.
 pub fn worst_error<const N: usize>(ticks: u64, first: f32, motion: &mut Motion) -> f64 {
     let (mut carried, mut q, mut worst) = (IncrementalTrig::at([first; N]), first, 0.0_f64);
     for tick in 0..ticks {

@@ -48,8 +48,8 @@ impl Selection {
     /// Applies the selection to a description.
     ///
     /// # Errors
-    /// Names that the description lacks, a tip that is not below the base, a joint that cannot be locked at
-    /// a position.
+    /// Names that the description lacks, a tip that is not below the base, a joint that cannot be
+    /// locked at a position.
     pub fn of(&self, robot: &Description) -> Result<Selected> {
         let mut joint_of = vec![None; robot.links.len()];
         for (j, joint) in robot.joints.iter().enumerate() {

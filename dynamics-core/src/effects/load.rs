@@ -1,7 +1,7 @@
 //! Friction of gears that grows with the torque they transmit, in inverse and in forward dynamics.
 //!
-//! The motor supplies x = τ + a |τ| + b τ, where τ is the torque for all else at the joint. With |a| < 1 + b, τ has the sign
-//! of x, and τ = x / (1 + b + a sgn x).
+//! The motor supplies x = τ + a |τ| + b τ, where τ is the torque for all else at the joint. With
+//! |a| < 1 + b, τ has the sign of x, and τ = x / (1 + b + a sgn x).
 
 use super::{Declared, Effect, JointState, LoadFactors, TorqueDerivatives, call_hook, joint_state};
 use crate::model::LinkView;

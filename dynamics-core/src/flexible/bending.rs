@@ -1,4 +1,5 @@
-//! [`Bending`]: links that bend of a robot known at compile time, by the textbook and by the engine.
+//! [`Bending`]: links that bend of a robot known at compile time, by the textbook and by the
+//! engine.
 
 use core::borrow::Borrow;
 use core::marker::PhantomData;

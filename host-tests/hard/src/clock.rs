@@ -162,8 +162,8 @@ fn disturbed<R: Real>(
     measured
 }
 
-/// 200 ticks, each late by up to this many ticks; a timer that counts tells how many were missed, or
-/// nobody does.
+/// 200 ticks, each late by up to this many ticks; a timer that counts tells how many were missed,
+/// or nobody does.
 fn lates<R: Real>(bench: &mut Bench<R>, see: &mut dyn FnMut(&Bench<R>), late: f64, counted: bool) {
     // Marsaglia's xorshift32, 2003.
     let (mut random, mut time, mut count) = (0x5eed_1234_u32, 0.0_f64, 0);

@@ -46,7 +46,8 @@ pub struct Rod {
 /// the motors at q₂ and q₅ follow by
 /// [`Driven::actuated`](crate::clusters::Driven::actuated)`([2, 5])`.
 ///
-/// [`Branch::Positive`]: the crank turns towards positive angles as the end of its rod on the foot moves away from it.
+/// [`Branch::Positive`]: the crank turns towards positive angles as the end of its rod on the foot
+/// moves away from it.
 ///
 /// # Cost
 /// Some 400 flops, two divisions and six reciprocal roots; sines and cosines of y only. Where an

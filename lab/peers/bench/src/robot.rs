@@ -88,8 +88,8 @@ fn one<R: Real, const Q: usize, const V: usize>(
     )
 }
 
-/// Times subjects on this many states, and prints robot, algorithm and precision with their times and
-/// errors.
+/// Times subjects on this many states, and prints robot, algorithm and precision with their times
+/// and errors.
 pub fn print<R: Real>(
     [robot, algorithm, precision]: [&str; 3],
     mut subjects: Vec<Subject<R>>,

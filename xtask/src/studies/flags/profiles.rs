@@ -35,7 +35,8 @@ const LIMIT: Duration = Duration::from_secs(600);
 /// The period of the project's tick, µs.
 const PERIOD: f64 = 1e3;
 
-/// Profiles: the name in the table, cargo's arguments, and whether the project's compiler flags act.
+/// Profiles: the name in the table, cargo's arguments, and whether the project's compiler flags
+/// act.
 #[rustfmt::skip]
 const PROFILES: [(&str, &str, bool); 10] = [
     ("release as written: 3, fat LTO", "--release", true),
@@ -105,7 +106,8 @@ fn measured(tools: &Tools, meter: &Path, name: &'static str, elf: &Path) -> Resu
     let regions = elf.with_extension("regions");
     workspace::write(&regions, "")?;
     let run = Run::logging(PROJECT, elf, Some((meter, &regions)));
-    // A run fails if a tick takes longer than its period; all of its ticks are measured nevertheless, and counted above.
+    // A run fails if a tick takes longer than its period; all of its ticks are measured
+    // nevertheless, and counted above.
     let _ = tools.qemu.run_for(MACHINE, &run, LIMIT);
     let samples = meter::read(&regions)?;
     let longest = |region| {

@@ -31,9 +31,9 @@ pub const CASES: &[Case] = &[
             50 missed ticks",
         source: "interrupts delayed by a busy bus; laws that divide by a measured interval",
         oracle: "the limits; the tracking error without jitter",
-        reason: "nothing is divided by an interval, and the limits hold. Missed ticks are counted, \
-            and the observer continues without measurement: less than a tick and the delay remain, \
-            and decay with the poles of the loop (a tenth after 196 ticks, a hundredth after 306)",
+        reason: "no interval divides anything. Missed ticks are counted, and the observer \
+            continues without measurement: less than a tick and the delay remain, and decay with \
+            the poles of the loop (a tenth after 196 ticks, a hundredth after 306)",
         run: jitter,
     },
     Case {

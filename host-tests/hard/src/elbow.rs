@@ -19,7 +19,7 @@ pub const CASES: &[Case] = &[
             σ_min(J) = 0, 10⁻⁶, 10⁻³; damping below 10⁻³ of the trace of Λ⁻¹",
         source: "Khatib (1987); Chiaverini (1997)",
         oracle: "closed forms of M, J and torques in f64; the eigenvalues of Λ⁻¹ from its trace \
-            and its determinant sin²q₂/det M, in which nothing cancels",
+            and determinant sin²q₂/det M, without cancellation",
         reason: "the error of Λ⁻¹ is ε of its trace; damping below ρ = 10⁻³ of the trace divides \
             it by ρ: 4 ε/ρ of the largest inertia that damping allows, 1/(ρ tr Λ⁻¹)",
         run: poses,

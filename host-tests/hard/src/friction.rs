@@ -19,7 +19,7 @@ pub const CASES: &[Case] = &[
         name: "friction at rest, 0.9 of break-away",
         parameters: "2 kg, a force of 3.6 N and friction of 4 N, widths 1e-2 … 1e-6 m/s, 2 s in \
             steps of 1 ms; the LuGre model of Canudas de Wit (1995), loaded within 1 s, then 10 s",
-        source: "brakes and wrists that creep or chatter in simulators with a regularised sign",
+        source: "brakes and wrists that creep or chatter under a regularised sign",
         oracle: "closed form: the smooth sign u (3 − u²)/2 is 0.9 at u = 2 sin(asin(0.9)/3); the \
             deflection of LuGre is −ln(0.1) F_s/σ₀",
         reason: "speed: the balance of two forces rounds by 30 ε, and without chatter the speed \

@@ -19,8 +19,8 @@ pub const CASES: &[Case] = &[
             rad about (1, 2, 3); three bodies in free motion, rooted at either end",
         source: "errors in frames that cancel when gravity is along z",
         oracle: "50 digits for the wall; the arm that is not rotated; the other root",
-        reason: "a quarter turn exchanges and negates numbers: the same bits. Another rotation \
-            rounds the base's placement once: some ε of full scale",
+        reason: "a quarter turn keeps the bits. Another rotation rounds the base's placement once: \
+            some ε of full scale",
         run: turned,
     },
     Case {
@@ -38,8 +38,8 @@ pub const CASES: &[Case] = &[
         name: "rotations rounded to 24 bits",
         parameters: "six links with general axes, placements and inertias; arithmetic in f64, \
             rotations as f32 rounds them, then orthonormal; four states",
-        source: "Eᵀ is not E⁻¹ of a rounded rotation: CRBA transforms inertias by Eᵀ, ABA uses E \
-            outward and Eᵀ inward",
+        source: "Eᵀ is not E⁻¹ of a rounded rotation: CRBA uses Eᵀ, ABA uses E outward and Eᵀ \
+            inward",
         oracle: "50 digits for the orthonormal arm; for the rounded one, ABA against CRBA + LᵀDL",
         reason: "each of n rotations errs by ε/2, which is another arm, and forward dynamics \
             multiplies this by κ: n κ ε/2 with n = 6, κ = 360",

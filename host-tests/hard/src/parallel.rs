@@ -22,7 +22,7 @@ pub const CASES: &[Case] = &[
         number: 20,
         name: "coincident axes, no link between",
         parameters: "UR5e, wrist 2 massless and wrist 3 on its axis, four states; 1000 chains of \
-            four links, one of them massless between two joints on one axis of any direction",
+            four links, one massless between two joints on one axis of any direction",
         source: "a roll joint after a continuous joint, a dummy link between them",
         oracle: ORACLE,
         reason: "RNEA has no inverse. A pivot of at most 32 times the rounding error of M's \

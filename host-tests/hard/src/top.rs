@@ -21,8 +21,8 @@ pub const CASES: &[Case] = &[Case {
     source: "Klein & Sommerfeld (1897-1910), steady precession; Goldstein, section 5.7",
     oracle: "closed form: C s Ω = m g l + (A − C) Ω² cos θ; the axis rotates about the vertical by \
         Ω t",
-    reason: "one acceleration: 4 ε. Axis: measured, and the order in h confirmed with half the \
-        step; in f32 the fourth order's error is the rounding of 2000 steps",
+    reason: "one acceleration: 4 ε. Axis: measured, the order confirmed with half the step; in f32 \
+        the fourth order's error is the rounding of 2000 steps",
     run: top,
 }];
 

@@ -8,11 +8,13 @@ use serde::{Deserialize, Serialize};
 use crate::kit::docs::cells;
 use crate::kit::error::{Result, check};
 use crate::kit::host_bin;
-use crate::kit::table::Table;
 use crate::kit::workspace::{self, Workspace};
 use crate::studies::study::{Bench, Found};
 
 const BIN: &str = "hard_cases";
+
+const OVERVIEW: &str = "case | f32: error / bound | f64: error / bound | a naive way beyond the \
+                        bound: its error / bound\n--- | ---: | ---: | ---\n";
 
 #[derive(Deserialize)]
 struct Suite {
@@ -84,33 +86,24 @@ impl Suite {
     }
 
     /// A row for each case.
-    fn overview(&self) -> Table {
-        let share = |which: &'static str| {
-            move |case: &Case| match self.worst(case, which).map(Row::share) {
-                None => String::new(),
-                Some(share) if share > 1e-3 && share < 1e4 => format!("{share:.2}"),
-                Some(share) if share == 0.0 => "0".into(),
-                Some(share) if share.is_finite() => format!("{share:.1e}"),
-                Some(_) => "∞".into(),
-            }
+    fn overview(&self) -> String {
+        let share = |row: Option<&Row>| match row.map(Row::share) {
+            None => String::new(),
+            Some(share) if share > 1e-3 && share < 1e4 => format!("{share:.2}"),
+            Some(share) if share == 0.0 => "0".into(),
+            Some(share) if share.is_finite() => format!("{share:.1e}"),
+            Some(_) => "∞".into(),
         };
-        Table::of(
-            &self.cases,
-            &[
-                ("case", &|case| {
-                    format!("[{0}. {1}](#case-{0})", case.number, case.name)
-                }),
-                ("f32: error / bound", &share("f32")),
-                ("f64: error / bound", &share("f64")),
-                ("a naive way that breaks the bound", &|case| {
-                    let row = self.worst(case, "naive");
-                    row.map_or(String::new(), |row| {
-                        row.quantity.trim_start_matches("naive: ").into()
-                    })
-                }),
-                ("its error / bound", &share("naive")),
-            ],
-        )
+        let rows = self.cases.iter().map(|case| {
+            let Case { number, name, .. } = case;
+            let [single, double] = ["f32", "f64"].map(|which| share(self.worst(case, which)));
+            let naive = self.worst(case, "naive").map_or(String::new(), |row| {
+                let way = row.quantity.trim_start_matches("naive: ");
+                format!("{way}: {}", share(Some(row)))
+            });
+            format!("[{number}. {name}](#case-{number}) | {single} | {double} | {naive}\n")
+        });
+        format!("{OVERVIEW}{}", rows.collect::<String>())
     }
 }
 
@@ -158,7 +151,7 @@ fn brief(suite: &Suite, known: &str) -> String {
 
 /// The text between the markers.
 fn page(suite: &Suite) -> String {
-    let (summary, overview) = (summary(suite), suite.overview().markdown());
+    let (summary, overview) = (summary(suite), suite.overview());
     let reference = reference::text(suite);
     format!("{summary}.\n\n{overview}\n## Reference\n{reference}")
 }

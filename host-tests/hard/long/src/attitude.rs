@@ -17,8 +17,7 @@ pub const CASES: &[Case] = &[
         number: 25,
         name: "quaternion after 1e7 steps",
         parameters: "10⁷ steps of 7/2¹³ rad about (2, 3, 6)/7, only by `integrate`",
-        source: "floating bases that are integrated for hours; quaternions that are rarely \
-            normalised",
+        source: "floating bases over hours; quaternions that are rarely normalised",
         oracle: "closed form: the angle 10⁷·7/2¹³ is exact in f64",
         reason: "length: the rounding error of one step, which corrects the length of the step \
             before. Attitude: each step rounds alike, so that up to ε/2 of 8545 rad accumulate \
@@ -30,8 +29,8 @@ pub const CASES: &[Case] = &[
         name: "Dzhanibekov body (1, 2, 3)",
         parameters: "moments 1, 2, 3 kg·m², 5 rad/s about the middle axis and 0.01 about another, \
             60 s of 1 ms",
-        source: "Poinsot (1834); Ashbaugh, Chicone & Cushman (1991); a drift of energy lets it \
-            flip too early",
+        source: "Poinsot (1834); Ashbaugh, Chicone & Cushman (1991); energy drift flips it too \
+            early",
         oracle: "conserved energy and momentum in the inertial frame; the order of each \
             integrator, with half the step",
         reason: "first order: the energy grows by h²/2 ω̇·Iω̇ per step, momentum in proportion to h; \

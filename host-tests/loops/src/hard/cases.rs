@@ -60,8 +60,8 @@ const SINGULAR: &[Case] = &[
         number: 50,
         name: "parallelogram near flat",
         parameters: "sides of 0.25 and 0.5 m, 2⁻³ to 2⁻¹⁷ rad from flat, and flat; two states each",
-        source: "the parallelogram of a palletiser at the end of its stroke; flat, coupler and \
-            rocker may turn either way",
+        source: "a palletiser's parallelogram at the end of its stroke; flat, coupler and rocker \
+            may turn either way",
         oracle: ORACLE,
         reason: "general loops: torques are damped and named below the default distance of 5·10⁻³, \
             and exact above; inverse dynamics is measured with the least damping, which f64 is \
@@ -82,9 +82,9 @@ const SINGULAR: &[Case] = &[
             either branch",
         oracle: ORACLE,
         reason: "as case 50; a cluster's status begins at 2·10⁻² (f32) and 1.2·10⁻⁴ rad (f64). At \
-            2⁻¹⁷ rad, where it has no digit of the acceleration left, it is damped and named; \
-            general loops have eleven digits of the torque there, with the least damping. The \
-            guess decides on the branch of a loop, a constant on that of a cluster",
+            2⁻¹⁷ rad it has no digit of the acceleration left, and is damped and named; general \
+            loops have eleven digits of the torque there. The guess decides on a loop's branch, a \
+            constant on a cluster's",
         run: || of_case(51),
     },
     Case {
@@ -115,7 +115,7 @@ const SINGULAR: &[Case] = &[
         oracle: ORACLE,
         reason: "inverse dynamics: ε over the angle with the least damping, and named where the \
             legs do not determine the platform's motion; with the default damping named from 2⁻⁵ \
-            rad. Forward dynamics is regular: K has full rank in all coordinates",
+            rad. Forward dynamics is regular",
         run: || robots::stewarts().iter().flat_map(Setup::rows).collect(),
     },
     Case {
@@ -125,8 +125,8 @@ const SINGULAR: &[Case] = &[
             the dead point, and there; two states each",
         source: "a piston engine at its top: the piston's force has no lever",
         oracle: ORACLE,
-        reason: "the crank's rate is the piston's over the angle, of which the piston's position \
-            knows the square: at most ε over the square of the angle with the least damping; with \
+        reason: "the crank's rate is the piston's over the angle, whose square the piston's \
+            position knows: at most ε over the square of the angle with the least damping; with \
             the default damping named from 2⁻⁵ rad. Forward dynamics is regular",
         run: || of_case(60),
     },
@@ -142,8 +142,7 @@ const MASSES: &[Case] = &[
         oracle: ORACLE,
         reason: "a light rod costs nothing. With the heavy rocker the torque would accelerate the \
             crank alone 10⁷ times as much as the linkage; forward dynamics of general loops solves \
-            for the motion that the loops allow and keeps four digits in f32, as a cluster does, \
-            which has the inertia of the whole",
+            for the motion that the loops allow and keeps four digits in f32, as a cluster does",
         run: || of_case(55),
     },
     Case {
@@ -153,8 +152,7 @@ const MASSES: &[Case] = &[
         source: "rods that a description models as distances",
         oracle: ORACLE,
         reason: "inverse dynamics needs no inverse. Forward dynamics of general loops factors the \
-            tree's M and names the coupler's joint, since the coupler alone has no inertia; the \
-            cluster has inertia",
+            tree's M and names the coupler's joint, since the coupler alone has no inertia",
         run: || of_case(57),
     },
     Case {

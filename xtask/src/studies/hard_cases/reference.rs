@@ -38,7 +38,10 @@ pub fn text(suite: &Suite) -> String {
             "\n<a id=\"case-{number}\"></a>\n\n### {number}. {name}\n\n{paragraph}{condition}\n\n{HEAD}{table}"
         )
     });
-    let qemu = suite.in_qemu.iter().map(u32::to_string);
+    // A case has as many arms or linkages there as it needs.
+    let mut qemu = suite.in_qemu.clone();
+    qemu.dedup();
+    let qemu = qemu.iter().map(u32::to_string);
     format!(
         "\nIn QEMU every algorithm gives the same bits in f32 in the cases {}.\n{}",
         qemu.collect::<Vec<_>>().join(", "),

@@ -18,7 +18,7 @@ fn lacks(name: &str, page: &str) -> Vec<String> {
         .unwrap_or_default();
     let overview = page.split("\n## Reference").next().unwrap_or_default();
     let words = |text: &str| {
-        let prose = text.lines().filter(|line| !line.starts_with('|'));
+        let prose = text.lines().filter(|line| !line.contains(" | "));
         prose.flat_map(str::split_whitespace).count()
     };
     let is_long = LONG.contains(&name);

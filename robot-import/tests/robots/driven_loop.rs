@@ -2,13 +2,11 @@
 //!
 //! # Source
 //!
-//! `driven_loop_no_ctrlrange.xml`; it states no licence. Imported on 2026-11-23 by robot-import
-//! 0.1.0.
+//! `driven_loop_no_ctrlrange.xml`; it states no licence. Imported on 2026-11-23 by robot-import 0.1.0.
 //!
 //! # Changed
 //!
-//! - Actuators of type position, that of joint `s`: their gains are controllers of the simulation
-//!   and are left out.
+//! - Actuators of type position, that of joint `s`: their gains are controllers of the simulation and are left out.
 
 #![allow(
     dead_code,

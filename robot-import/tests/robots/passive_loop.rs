@@ -6,9 +6,7 @@
 //!
 //! # Changed
 //!
-//! - The file has no motor on a joint of its machine with loops, and at least 1 move freely: every
-//!   joint is taken as driven. `--motors A,B` names those with a motor, or `<motor joint=…/>` in
-//!   the file.
+//! - The file has no motor on a joint of its machine with loops, and at least 1 move freely: every joint is taken as driven. `--motors A,B` names those with a motor, or `<motor joint=…/>` in the file.
 
 #![allow(
     dead_code,

@@ -90,7 +90,7 @@ impl Suite {
         let share = |row: Option<&Row>| match row.map(Row::share) {
             None => String::new(),
             Some(share) if share > 1e-3 && share < 1e4 => format!("{share:.2}"),
-            Some(share) if share == 0.0 => "0".into(),
+            Some(0.0) => "0".into(),
             Some(share) if share.is_finite() => format!("{share:.1e}"),
             Some(_) => "∞".into(),
         };

@@ -7,7 +7,7 @@ use super::{Case, Row, Suite};
 
 const HEAD: &str = "quantity | f32 (bound) | f64 (bound)\n--- | ---: | ---:\n";
 
-/// How the oracles begin that most cases have: the page names them once.
+/// The beginning of the oracles of most cases, which the page names once.
 const USUAL_ORACLE: &str = "computation in 50 digits from the same";
 
 /// Forms of an algorithm, whose names stand before a quantity.
@@ -155,7 +155,7 @@ impl Line {
         self.condition.map(|k| format!("{k:.1e}"))
     }
 
-    /// What this row may have in common with others, each with the rest of the quantity.
+    /// The parts that this row may have in common with others, each with the rest of the quantity.
     fn parts(&self) -> Vec<(&str, String)> {
         if self.is_naive {
             return Vec::new();

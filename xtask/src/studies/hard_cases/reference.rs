@@ -35,7 +35,8 @@ pub fn text(suite: &Suite) -> String {
         }
         let table = table(&lines);
         format!(
-            "\n<a id=\"case-{number}\"></a>\n\n### {number}. {name}\n\n{paragraph}{condition}\n\n{HEAD}{table}"
+            "\n<a id=\"case-{number}\"></a>\n\n### {number}. {name}\n\n\
+             {paragraph}{condition}\n\n{HEAD}{table}"
         )
     });
     // A case has as many arms or linkages there as it needs.

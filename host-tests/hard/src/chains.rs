@@ -13,7 +13,7 @@ pub const CASES: &[Case] = &[
         name: "chain of 8 rods",
         parameters: "8 rods of 1 kg and 0.25 m: straight on parallel axes, and random on crossed \
             axes; four states each",
-        source: "Featherstone, \"An empirical study of the joint-space inertia matrix\"(2004): κ \
+        source: "Featherstone, \"An empirical study of the joint-space inertia matrix\" (2004): κ \
             grows as n⁴ in the worst case",
         oracle: ORACLE,
         reason: "a backward stable elimination errs by about κ ε at worst; the bounds are \

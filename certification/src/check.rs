@@ -270,7 +270,8 @@ pub fn sampled(
     }
 }
 
-/// Nearly the errors of the library's sines; a part is proven of whatever they are.
+/// Errors of sine and cosine near those of the library's; the proof of a part holds for any such
+/// errors.
 const NOMINAL: SineErrors = SineErrors {
     sine: 1.2e-7,
     cosine: 1.2e-7,

@@ -62,7 +62,7 @@ pub enum Declined {
         /// Of the function.
         at: u32,
     },
-    /// What the stack pointer is there, the code does not say.
+    /// The code does not determine the stack pointer at an instruction.
     #[error("the stack pointer at {at:#x} is not known")]
     StackPointer {
         /// Of the instruction.

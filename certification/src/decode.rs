@@ -190,7 +190,7 @@ pub enum Instruction {
 pub struct Access {
     /// The register.
     pub t: u8,
-    /// The one of the next word, [`NOWHERE`] if there is none.
+    /// The register of the next word, or [`NOWHERE`] if only one word is moved.
     pub second: u8,
     /// The base.
     pub n: u8,

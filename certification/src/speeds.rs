@@ -38,7 +38,7 @@ pub struct Speeds {
 /// A bound so little above what was found is not lowered.
 const CLOSE: f64 = 1.002;
 
-/// What of a body is bounded.
+/// The speed of a body that is bounded: its turning, or that of its joint or its centre of mass.
 #[derive(Clone, Copy)]
 enum Of {
     Turning,

@@ -1,4 +1,5 @@
-// The pages link to files of the repository that the book does not contain: here their paths replace these links.
+// The pages link to files of the repository that the book does not contain: here their paths
+// replace these links.
 for (const link of document.querySelectorAll('main a[href^="../"]')) {
   const { pathname } = new URL(link.getAttribute("href"), "file:///docs/guide/src/");
   const path = document.createElement("code");

@@ -19,7 +19,7 @@ use motion_control::{Fault, PreviousTick};
 use crate::multi_turn::Before;
 use crate::{EncoderMapping, EncoderType, JointEncoder, LostTurn, MappingError, MultiTurnEncoder};
 
-/// Counts per turn.
+/// The number of counts in a turn of the shaft.
 pub const COUNTS: u16 = 1 << BITS;
 /// The angle of one count, rad.
 pub const RESOLUTION: f32 = TAU / COUNTS as f32;
@@ -101,7 +101,7 @@ impl<Spi> As5047p<Spi> {
         self.turns.position()
     }
 
-    /// As [`MultiTurnEncoder::place_near`].
+    /// Sets the joint's turn, as [`MultiTurnEncoder::place_near`] does.
     ///
     /// # Errors
     /// [`MappingError::Range`]; nothing is changed.
@@ -109,7 +109,7 @@ impl<Spi> As5047p<Spi> {
         self.turns.place_near(position)
     }
 
-    /// The bus.
+    /// Returns the bus to its owner.
     pub fn release(self) -> Spi {
         self.spi
     }

@@ -26,7 +26,7 @@ pub const ADDRESS: u8 = 0x36;
 pub const STATUS: u8 = 0x0b;
 /// The high byte of the register RAW ANGLE.
 pub const RAW_ANGLE: u8 = 0x0c;
-/// Counts per turn.
+/// The number of counts in a turn of the shaft.
 pub const COUNTS: u16 = 1 << BITS;
 const BITS: u32 = 12;
 
@@ -43,7 +43,7 @@ const MD: u8 = 1 << 5;
 pub enum As5600Error {
     /// The bus reported an error.
     Bus(ErrorKind),
-    /// No magnet was detected.
+    /// The encoder has detected no magnet.
     MagnetAbsent,
     /// The magnet is too weak or too far away.
     MagnetTooWeak,
@@ -103,7 +103,7 @@ impl<Bus> As5600<Bus> {
         self.turns.position()
     }
 
-    /// As [`MultiTurnEncoder::place_near`].
+    /// Sets the joint's turn, as [`MultiTurnEncoder::place_near`] does.
     ///
     /// # Errors
     /// [`MappingError::Range`]; nothing is changed.
@@ -111,7 +111,7 @@ impl<Bus> As5600<Bus> {
         self.turns.place_near(position)
     }
 
-    /// The bus.
+    /// Returns the bus to its owner.
     pub fn release(self) -> Bus {
         self.bus
     }
@@ -193,7 +193,7 @@ impl<Bus: I2c> JointEncoder for As5600<Bus> {
     }
 }
 
-/// What the register STATUS says of the magnet.
+/// The magnet's state according to the register STATUS.
 ///
 /// # Errors
 /// [`As5600Error`].

@@ -83,14 +83,14 @@ impl<Bus: I2c> JointEncoder for As5600<Bus> {
 }
 
 impl<Spi: SpiDevice> As5047p<Spi> {
-    /// As [`Self::start`], over `embedded-hal-async`.
+    /// Does what [`Self::start`] does, over `embedded-hal-async`.
     pub async fn start_async(&mut self) {
         for command in [READ_ERRORS, READ_ANGLE] {
             let _ = self.spi.transfer_in_place(&mut command.to_be_bytes()).await;
         }
     }
 
-    /// As [`Self::read`], over `embedded-hal-async`.
+    /// Does what [`Self::read`] does, over `embedded-hal-async`.
     ///
     /// # Errors
     /// [`FrameError`]; the count of turns is then unchanged.
@@ -109,7 +109,7 @@ impl<Spi: SpiDevice> As5047p<Spi> {
 }
 
 impl<Bus: I2c> As5600<Bus> {
-    /// As [`Self::check_magnet`], over `embedded-hal-async`.
+    /// Does what [`Self::check_magnet`] does, over `embedded-hal-async`.
     ///
     /// # Errors
     /// [`As5600Error`].
@@ -122,7 +122,7 @@ impl<Bus: I2c> As5600<Bus> {
         decode_status(status[0])
     }
 
-    /// As [`Self::read_angle`], over `embedded-hal-async`.
+    /// Does what [`Self::read_angle`] does, over `embedded-hal-async`.
     ///
     /// # Errors
     /// [`As5600Error::Bus`], [`As5600Error::LostTurn`]; the count of turns is then unchanged.
@@ -132,7 +132,7 @@ impl<Bus: I2c> As5600<Bus> {
         self.accept(read, raw)
     }
 
-    /// As [`Self::read`], over `embedded-hal-async`.
+    /// Does what [`Self::read`] does, over `embedded-hal-async`.
     ///
     /// # Errors
     /// [`As5600Error`]; the count of turns is then unchanged.

@@ -14,7 +14,7 @@ pub enum CanError {
     Node,
     /// The greatest torque is not above zero, or not finite.
     Torque,
-    /// The frame type does not hold so many bytes: `embedded_can::Frame::new` returned `None`.
+    /// The frame type does not hold this many bytes: `embedded_can::Frame::new` returned `None`.
     Length(usize),
     /// The identifier is that of another node, another host or another message.
     Identifier,
@@ -40,7 +40,7 @@ pub enum CanError {
     Fault(u32),
     /// The node refused to read or write a register.
     Register {
-        /// Its number.
+        /// The number of the register.
         register: u32,
         /// The node's error number.
         code: u32,

@@ -20,14 +20,14 @@ pub trait CanJoint {
     /// [`CanError::Length`].
     fn command<F: embedded_can::Frame>(&self, torque: f32) -> Result<F, CanError>;
 
-    /// What a frame says of the joint.
+    /// The joint's values from a frame.
     ///
     /// # Errors
     /// [`CanError::Identifier`] for a frame of another joint; else the frame is wrong.
     fn report<F: embedded_can::Frame>(&mut self, frame: &F) -> Result<Report, CanError>;
 }
 
-/// What a frame says of a joint.
+/// A joint's values from a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Report {
     /// The joint's position, rad or m.
@@ -130,7 +130,7 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
         }))
     }
 
-    /// The bus.
+    /// Returns the bus to its owner.
     pub fn release(self) -> Bus {
         self.0.into_inner().bus
     }

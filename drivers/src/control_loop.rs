@@ -147,7 +147,7 @@ where
 {
     encoders: E,
     drives: D,
-    /// High holds the joints.
+    /// A high level holds the joints.
     brake: Brake,
     gains: Gains<f32, V>,
     controller: MotionController<f32, V, A>,

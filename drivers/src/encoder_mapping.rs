@@ -24,9 +24,9 @@ pub enum JointRange {
     /// Between its mechanical ends, rad or m of the joint: of the angles the one in this range. The
     /// range is shorter than one turn of the encoder.
     Within {
-        /// The lower end.
+        /// The lower end of the joint's range.
         lower: f32,
-        /// The upper end.
+        /// The upper end of the joint's range.
         upper: f32,
     },
     /// Within half a turn of the encoder from this position of the joint, rad or m, at the first
@@ -96,10 +96,11 @@ impl JointMapping {
     /// where it is.
     ///
     /// # Errors
-    /// [`MappingError::Range`]: not a number, the ends in the wrong order, or more than 16,000 turns of the encoder away.
-    /// [`MappingError::Turns`]: the range is longer than a turn of the encoder. [`MappingError::Circle`]: a turn of the
-    /// encoder is not a whole number of turns of a continuous joint. [`MappingError::Step`]: the
-    /// step is not above zero, or half a turn of the encoder.
+    /// [`MappingError::Range`]: not a number, the ends in the wrong order, or more than 16,000
+    /// turns of the encoder away. [`MappingError::Turns`]: the range is longer than a turn of the
+    /// encoder. [`MappingError::Circle`]: a turn of the encoder is not a whole number of turns of a
+    /// continuous joint. [`MappingError::Step`]: the step is not above zero, or half a turn of the
+    /// encoder.
     ///
     /// ```
     /// use joint_drivers::{Direction, JointMapping, JointRange, MappingError};
@@ -210,7 +211,7 @@ impl EncoderMapping {
         ticks.saturating_sub(1)
     }
 
-    /// Whether the shaft can turn by `angle` rad or more in so many ticks.
+    /// Whether the shaft can turn by `angle` rad or more in this many ticks.
     pub(crate) const fn can_turn(&self, ticks: u32, angle: f32) -> bool {
         // NaN does not occur; both are above zero.
         ticks as f32 * self.step >= HALF * angle

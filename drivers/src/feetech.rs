@@ -39,7 +39,7 @@ use error::port_error;
 pub use packet::{BROADCAST, Packet, Parser, Reply};
 use reply::{next_reply, parameters};
 
-/// Counts per turn.
+/// The number of counts in a turn of the shaft.
 pub const COUNTS: u16 = 1 << BITS;
 const BITS: u32 = 12;
 /// The address of the torque switch: 1 on, 0 off.
@@ -155,7 +155,7 @@ impl<Port, const N: usize> Servos<Port, N> {
         Ok(())
     }
 
-    /// The port.
+    /// Returns the port to its owner.
     pub fn release(self) -> Port {
         self.port
     }
@@ -281,7 +281,7 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
     /// Sets the duties of the joints, −1 to 1, in one packet that no servo replies to. NaN becomes
     /// zero duty.
     ///
-    /// Of the mapping only the direction applies: a duty is a share of the supply's voltage.
+    /// Only the mapping's direction applies: a duty is a share of the supply's voltage.
     ///
     /// # Errors
     /// [`FeetechError`].

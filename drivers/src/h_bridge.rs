@@ -72,7 +72,7 @@ impl FullScale {
         }
     }
 
-    /// Those of `N` drives.
+    /// The setpoints of `N` drives.
     ///
     /// # Errors
     /// [`DriveError::FullScale`] of any.
@@ -90,7 +90,7 @@ impl FullScale {
 struct Scale {
     /// 2³¹ per full scale, signed.
     slope: f32,
-    /// The greatest duty.
+    /// The greatest duty of the timer.
     max: u16,
 }
 
@@ -165,7 +165,7 @@ impl<Pwm: SetDutyCycle> LockedAntiphase<Pwm> {
         self.set(self.duty(torque))
     }
 
-    /// The PWM channel.
+    /// Returns the PWM channel to its owner.
     pub fn release(self) -> Pwm {
         self.pwm
     }
@@ -173,7 +173,7 @@ impl<Pwm: SetDutyCycle> LockedAntiphase<Pwm> {
 
 impl<Pwm: SetDutyCycle> JointDrive for LockedAntiphase<Pwm> {
     type Error = DriveError;
-    /// The duty.
+    /// The setpoint is the duty.
     type Setpoint = u16;
 
     #[inline(always)]

@@ -23,7 +23,7 @@ const WRAP: i32 = 1 << 15;
 
 pub use decoder::{InvalidTransition, QuadratureDecoder};
 
-/// What counts the edges of A and B: a timer in encoder mode, or [`QuadratureDecoder`].
+/// A counter of the edges of A and B: a timer in encoder mode, or [`QuadratureDecoder`].
 ///
 /// A timer of fewer than 16 bits is extended by its implementation; of a longer one the lower 16
 /// bits are returned. Between two readings it counts less than 2¹⁵: [`IncrementalEncoder`] refuses
@@ -52,8 +52,8 @@ pub enum IncrementalError<E> {
     Counter(E),
     /// The index has not been passed since power-up, or since the counter lost counts.
     NotReferenced,
-    /// The counts between two indices are not whole turns, but so many more or fewer. The position
-    /// is referenced to the new index.
+    /// The counts between two indices are not whole turns, but this many more or fewer. The
+    /// position is referenced to the new index.
     Index {
         /// Counts that were added (above zero) or lost.
         excess: i32,

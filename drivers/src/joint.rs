@@ -29,7 +29,8 @@ pub trait EncoderType {
     /// The age of the positions: of this tick, or of the one before.
     type Age: MeasurementAge;
 
-    /// Notes so many ticks without a reading: an encoder whose count wraps may have lost its turn.
+    /// Notes this many ticks without a reading: an encoder whose count wraps may have lost its
+    /// turn.
     fn missed(&mut self, ticks: u32) {
         let _ = ticks;
     }
@@ -145,7 +146,7 @@ pub trait JointDrive {
     /// for NaN.
     fn setpoint(&self, torque: f32) -> Self::Setpoint;
 
-    /// Sets a torque.
+    /// Sets the torque of the next tick.
     ///
     /// # Errors
     /// The device did not accept it, is not ready, or reports a fault of its own:
@@ -176,7 +177,7 @@ pub trait JointDrives<const V: usize> {
 
 /// The error of a drive, sorted by what a control loop has to do about it.
 pub trait DriveFault: Error {
-    /// What has to be done about it.
+    /// The kind of remedy for the error.
     fn kind(&self) -> DriveFaultKind {
         DriveFaultKind::Failed
     }
@@ -184,7 +185,7 @@ pub trait DriveFault: Error {
 
 impl DriveFault for Infallible {}
 
-/// What has to be done about the error of a drive.
+/// The remedy for the error of a drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DriveFaultKind {
     /// The drive may still apply an older torque: the brake at once, see [`Fault::Drive`].
@@ -203,7 +204,7 @@ pub enum DriveFaultKind {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct JointError<E> {
-    /// The joint, from 0.
+    /// The number of the joint, from 0.
     pub joint: usize,
     /// The device's error.
     pub error: E,

@@ -29,8 +29,8 @@
 //! | ODrive | CAN | torque; position, velocity, torque, state and errors | [`odrive`] |
 //! | STS3215, six in the SO-101 | half-duplex UART | position or duty; position, 4096 counts per turn | [`feetech`] |
 //!
-//! What is common to them: a torque that is not a number becomes zero torque; errors are typed; no
-//! reading is NaN or infinite; input that is wrong leads to an error, never to a panic.
+//! All of them have this in common: a torque that is not a number becomes zero torque; errors are
+//! typed; no reading is NaN or infinite; input that is wrong leads to an error, never to a panic.
 //!
 //! ```
 //! use joint_drivers::{Direction, JointMapping, JointRange, as5600::As5600};

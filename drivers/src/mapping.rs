@@ -13,12 +13,12 @@ pub enum Direction {
     /// The joint's angle increases too.
     #[default]
     Forward,
-    /// The joint's angle decreases.
+    /// The joint's angle decreases while the shaft's grows.
     Reverse,
 }
 
 impl Direction {
-    /// +1 or −1.
+    /// The factor of this direction, +1 or −1.
     pub const fn sign(self) -> f32 {
         match self {
             Self::Forward => 1.0,
@@ -70,7 +70,7 @@ impl fmt::Display for MappingError {
 
 impl core::error::Error for MappingError {}
 
-/// Where a joint is zero, which way it turns, and how many turns of the shaft are one of the joint.
+/// A joint's zero, its direction, and the turns of the shaft for one of the joint.
 ///
 /// With x of the shaft on which a sensor or motor sits, q of the joint, the zero x₀, the sign s and
 /// the ratio N: q = s (x − x₀) / N, q̇ = s ẋ / N, and the torque of the joint is s N times that of
@@ -241,7 +241,7 @@ impl Resolution {
         Self::new(1 << bits)
     }
 
-    /// Counts per turn.
+    /// The number of counts in a turn of the shaft.
     pub const fn counts(&self) -> u32 {
         self.counts
     }

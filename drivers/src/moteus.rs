@@ -50,16 +50,16 @@ pub enum Mode {
     Other(u8),
 }
 
-/// What a controller replies, mapped to the joint.
+/// The reply of a controller, mapped to the joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
-    /// Its mode.
+    /// The mode of the controller.
     pub mode: Mode,
-    /// rad.
+    /// The position of the joint, rad.
     pub position: f32,
-    /// rad/s.
+    /// The velocity of the joint, rad/s.
     pub velocity: f32,
-    /// N·m.
+    /// The torque of the joint, N·m.
     pub torque: f32,
     /// The fault code, 32 and above in [`Mode::Fault`]; in other modes 96 and above name what
     /// limits the output, and 0 is nothing.
@@ -174,8 +174,8 @@ impl Moteus {
     /// order. In the first one the joint is where the mapping says that it can be.
     ///
     /// # Errors
-    /// [`CanError`]: another node or host, a remote frame, a frame that is short or has an unknown subframe, a register
-    /// that was refused or is missing, a quantity that is not finite.
+    /// [`CanError`]: another node or host, a remote frame, a frame that is short or has an unknown
+    /// subframe, a register that was refused or is missing, a quantity that is not finite.
     pub fn reply<F: Frame>(&mut self, frame: &F) -> Result<State, CanError> {
         if can::raw(frame.id()) != u32::from(self.id) << 8 | u32::from(self.host) {
             return Err(CanError::Identifier);

@@ -115,7 +115,7 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         (halves << Self::SHIFT) >> Self::SHIFT
     }
 
-    /// Notes that so many readings failed or were not made, one in each tick: the joint may have
+    /// Notes that this many readings failed or were not made, one in each tick: the joint may have
     /// moved on.
     #[cold]
     pub fn missed(&mut self, readings: u32) {
@@ -131,7 +131,8 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     /// where it is.
     ///
     /// # Errors
-    /// [`MappingError::Range`]: not finite, or more than 16,000 turns of the encoder away; nothing is changed.
+    /// [`MappingError::Range`]: not finite, or more than 16,000 turns of the encoder away; nothing
+    /// is changed.
     pub fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
         let turns = position / self.per_half / (2_u32 << BITS) as f32;
         // False for NaN, too.

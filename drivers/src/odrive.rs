@@ -61,7 +61,7 @@ impl AxisState {
     }
 }
 
-/// What an ODrive sends, mapped to the joint.
+/// The messages of an ODrive, mapped to the joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Reply {
@@ -69,14 +69,14 @@ pub enum Reply {
     Heartbeat {
         /// A bit for each error; zero without one. The bits of firmware 0.5 and 0.6 differ.
         errors: u32,
-        /// Its state.
+        /// The state of the axis.
         state: AxisState,
     },
-    /// Get_Encoder_Estimates.
+    /// The reply to Get_Encoder_Estimates.
     Estimates {
-        /// rad.
+        /// The position of the joint, rad.
         position: f32,
-        /// rad/s.
+        /// The velocity of the joint, rad/s.
         velocity: f32,
     },
     /// Get_Torques, of firmware 0.6; firmware 0.5 has another message of this number, which it
@@ -162,7 +162,7 @@ impl ODrive {
         self.frame(SET_CONTROLLER_MODE, &[1, 0, 0, 0, 1, 0, 0, 0])
     }
 
-    /// Set_Axis_State.
+    /// The frame Set_Axis_State.
     ///
     /// # Errors
     /// [`CanError::Length`].
@@ -178,7 +178,7 @@ impl ODrive {
         self.frame(ESTOP, &[])
     }
 
-    /// Clear_Errors.
+    /// The frame Clear_Errors.
     ///
     /// # Errors
     /// [`CanError::Length`].

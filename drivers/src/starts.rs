@@ -54,7 +54,7 @@ struct Start {
 }
 
 impl Start {
-    /// A start of one of the three kinds, of an encoder of at least so many counts per turn.
+    /// A start of one of the three kinds, of an encoder of at least this many counts per turn.
     fn random(random: &mut Random) -> Self {
         let kind = random.of(&[0, 1, 2]);
         let ratio = match kind {
@@ -102,12 +102,12 @@ impl Start {
         (f64::from(self.zero) + sign * f64::from(self.ratio) * q) / TAU
     }
 
-    /// The count of a turn of so many while the joint is at `q`.
+    /// The count of a turn of this many counts while the joint is at `q`.
     fn count(&self, q: f64, counts: i64) -> u16 {
         ((self.shaft(q) * counts as f64).round() as i64).rem_euclid(counts) as u16
     }
 
-    /// Whether a reading is the joint's position, within half a count of the rounding of so many
+    /// Whether a reading is the joint's position, within half a count of the rounding of this many
     /// per turn.
     fn accepts(&self, read: f32, truth: f64, counts: f64) -> bool {
         let turn = TAU / f64::from(self.ratio);

@@ -41,7 +41,7 @@ const ABSURD: f32 = 1e9;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Duties {
-    /// Of phases a, b and c.
+    /// Duties of the phases a, b and c.
     pub phases: [f32; 3],
     /// Whether the voltage was shortened to the longest that the supply delivers in every
     /// direction.
@@ -197,7 +197,7 @@ impl<Pwm: SetDutyCycle> ThreePhase<Pwm> {
             })
     }
 
-    /// The PWM channels.
+    /// Returns the PWM channels to their owner.
     pub fn release(self) -> [Pwm; 3] {
         self.pwms
     }

@@ -1,4 +1,4 @@
-//! What the absolute encoders promise.
+//! The promises of the absolute encoders.
 
 use core::f32::consts::{FRAC_PI_2, TAU};
 use embedded_hal::i2c::ErrorKind as I2cError;

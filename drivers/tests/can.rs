@@ -1,4 +1,4 @@
-//! What the drivers on CAN promise: golden frames, and a typed error for each wrong reply.
+//! The promises of the drivers on CAN: golden frames, and a typed error for each wrong reply.
 
 use core::f32::consts::{PI, TAU};
 

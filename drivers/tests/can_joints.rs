@@ -1,4 +1,4 @@
-//! What joints on a CAN bus promise as encoders and drives.
+//! The promises of joints on a CAN bus as encoders and drives.
 
 use embedded_can::nb::Can;
 use embedded_can::{ErrorKind, ExtendedId, Frame, StandardId};

@@ -1,4 +1,4 @@
-//! What the control loop promises about devices that fail.
+//! The promises of the control loop about devices that fail.
 
 use std::cell::Cell;
 use std::convert::Infallible;

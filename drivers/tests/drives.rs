@@ -1,4 +1,4 @@
-//! What the bridges promise.
+//! The promises of the bridges.
 
 use core::f64::consts::TAU;
 use std::io::ErrorKind as IoError;

@@ -1,4 +1,4 @@
-//! What the servo bus promises.
+//! The promises of the servo bus.
 
 use core::f32::consts::{FRAC_PI_2, PI};
 
@@ -62,7 +62,7 @@ impl Write for Port {
     }
 }
 
-/// What happens on the port: the mock's transactions cannot be cloned.
+/// The transfers on the port: the mock's transactions cannot be cloned.
 #[derive(Clone)]
 enum Step {
     Sent(Vec<u8>),

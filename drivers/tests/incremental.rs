@@ -1,4 +1,4 @@
-//! What the incremental encoder promises.
+//! The promises of the incremental encoder.
 
 use embedded_hal::digital::InputPin;
 use embedded_hal_mock::eh1::digital::{Mock, State, Transaction};

@@ -1,4 +1,4 @@
-//! What the mapping between shaft and joint promises.
+//! The promises of the mapping between shaft and joint.
 
 use joint_drivers::{Direction, JointMapping, MappingError, Resolution};
 

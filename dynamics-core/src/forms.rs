@@ -110,7 +110,7 @@ where
 /// The joint-space inertia matrix M(q), kg·m² between revolute joints, kg between prismatic ones,
 /// kg·m mixed.
 ///
-/// Of the effects, armatures, rotors and payloads are part of M. A non-finite input gives a
+/// Armatures, rotors and payloads are the effects that are part of M. A non-finite input gives a
 /// non-finite output.
 ///
 /// ```text

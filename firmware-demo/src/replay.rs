@@ -95,7 +95,7 @@ where
         marked_tick::<Full<S, B, Q, V>, _, _, N>(&mut self.control, &self.reference, &environment)
     }
 
-    /// Runs so many ticks, each by `tick` (which calls [`Self::tick`] and may measure it): the
+    /// Runs this many ticks, each by `tick` (which calls [`Self::tick`] and may measure it): the
     /// digest of the bits of every commanded torque.
     ///
     /// # Errors

@@ -23,7 +23,7 @@ const CLOCK: u32 = 168_000_000;
 /// The number of ticks from one sample in the log to the next.
 const SAMPLE: u32 = 20;
 
-/// What the interrupt runs.
+/// The body of the interrupt.
 type Ticked = &'static mut (dyn Tick + Send);
 
 /// Something that the interrupt runs once a tick.

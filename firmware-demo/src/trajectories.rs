@@ -33,7 +33,7 @@ pub const PICK_AND_PLACE: [WayPoint<f32, 6>; 9] = [
     stop(HOME, 1400),
 ];
 
-/// Where the Panda begins and ends, rad.
+/// The Panda's first and last configuration, rad.
 pub const READY: [f32; 7] = [
     0.0,
     -FRAC_PI_4,

@@ -27,7 +27,7 @@ const JOINT: usize = 2;
 pub struct Options {
     /// Ticks that it runs; 0 for no end.
     pub ticks: u32,
-    /// Every so many ticks an encoder reports errors, until the arm is stopped; 0 for never.
+    /// Every this many ticks an encoder reports errors, until the arm is stopped; 0 for never.
     pub faults: u32,
 }
 

@@ -121,7 +121,7 @@ def against_elements():
 
 
 def frequencies(link, kind):
-    """Of 60 elements, held against 40 elements and against the closed form."""
+    """Frequencies of 60 elements, against 40 elements and against the closed form."""
     order, exact = (2, bending(link, 4)) if kind == "bending" else (1, torsion(link, 4))
     coarse, fine = (Elements(link, count, order) for count in (40, 60))
     answer, worst = {"omega": [], "tip_slope": [], "modal_mass": []}, mpf(0)
@@ -175,7 +175,7 @@ def turning():
     rows = {"t": TIMES, "tip": full}
     answer = {"link": "upper", "angle": 1.0, "duration": 0.4, **{key: floats(values) for key, values in rows.items()}}
     answer |= {"tip_of_modes": [floats(x) for x in tips], "torque_of_modes": [floats(x) for x in hubs]}
-    # Of the full model, with 15 in place of 20 modes whose inertia counts.
+    # The full model, with 15 in place of 20 modes whose inertia counts.
     return {**answer, "error_of_modes": rounded(errors), "error_of_tip": rounded(converged[-5:-4])[0]}
 
 

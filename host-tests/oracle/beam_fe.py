@@ -1,9 +1,9 @@
 """Finite elements of a clamped beam with a tip body: bending (order 2 of the strain) or torsion (order 1).
 
-Hermite elements of degree 7: unknowns of a node are w, h w', h² w'' and h³ w''' with the element's length h. Element
-matrices are exact fractions, and systems are solved by L D Lᵀ of banded matrices. Frequencies are bracketed by Sturm's
-count (the number of negative pivots of K - s M is the number of frequencies below the root of s), then refined by
-Rayleigh's quotient.
+Hermite elements of degree 7: unknowns of a node are w, h w', h² w'' and h³ w''' with the element's
+length h. Element matrices are exact fractions, and systems are solved by L D Lᵀ of banded matrices.
+Frequencies are bracketed by Sturm's count (the number of negative pivots of K - s M is the number
+of frequencies below the root of s), then refined by Rayleigh's quotient.
 """
 
 from fractions import Fraction

@@ -1,10 +1,11 @@
 """A flexible link whose hub turns by 1 rad about y, from rest to rest, under gravity and without damping.
 
-Transverse displacements u of the finite elements obey M (u'' - a'² u - a'' x) + K u = -g cos(a) M 1, with the hub's
-angle a, its lever x and uniform displacement 1. Modes of unit mass decouple them: e'' + (w² - a'²) e =
-a'' (e.M x) - g cos(a) (e.M 1), solved by Taylor polynomials step by step, and in closed form once the hub is at rest.
-The full model adds to its first modes the displacement without inertia of all others. The first modes and the hub's
-torque are held against D'Alembert's principle over material points.
+Transverse displacements u of the finite elements obey M (u'' - a'² u - a'' x) + K u = -g cos(a) M
+1, with the hub's angle a, its lever x and uniform displacement 1. Modes of unit mass decouple them:
+e'' + (w² - a'²) e = a'' (e.M x) - g cos(a) (e.M 1), solved by Taylor polynomials step by step, and
+in closed form once the hub is at rest. The full model adds to its first modes the displacement
+without inertia of all others. The first modes and the hub's torque are held against D'Alembert's
+principle over material points.
 """
 
 from beam_fe import Elements, dot
@@ -44,7 +45,7 @@ def motion(t):
 
 
 def coefficient(a, b, n):
-    """Of the product of a short and a long polynomial."""
+    """Coefficients of the product of a short and a long polynomial."""
     return sum(x * b[n - i] for i, x in enumerate(a) if i <= n)
 
 
@@ -81,7 +82,7 @@ def mode(omega, lever, uniform, reach=4):
 
 
 def torque(link, t, states, levers, uniforms):
-    """Of the hub, N·m: inertia of the turned points, Coriolis' force, reaction of the modes and gravity."""
+    """Torque of the hub, N·m: inertia of the turned points, Coriolis' force, reaction of the modes and gravity."""
     e, (angle, rate, acceleration) = link.exact(), motion(t)
     line = e.rho_a * e.length
     inertia = line * e.length**2 / 3 + e.rho_iy * e.length + e.tip_mass * e.length**2 + e.tip_inertia

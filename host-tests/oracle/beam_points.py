@@ -1,8 +1,9 @@
 """Generalised forces of a chain of flexible links from D'Alembert's principle over its material points.
 
-Every point P of a beam, of its sections and of a tip body is a function of joint angles q and amplitudes of modes e:
-the link's frame times r + sum phi_k(r) e_k. Accelerations come from Taylor polynomials in time, derivatives of P with
-respect to a coordinate from a complex step, and no integral of a shape is formed.
+Every point P of a beam, of its sections and of a tip body is a function of joint angles q and
+amplitudes of modes e: the link's frame times r + sum phi_k(r) e_k. Accelerations come from Taylor
+polynomials in time, derivatives of P with respect to a coordinate from a complex step, and no
+integral of a shape is formed.
 """
 
 from beam_shapes import bending, gauss, torsion
@@ -140,7 +141,7 @@ class Chain:
         return answer
 
     def positions(self, coordinates):
-        """Of all points, in the base frame."""
+        """Positions of all points, in the base frame."""
         answer = []
         for i, (origin, attitude) in enumerate(self.frames(coordinates)):
             amplitudes = coordinates[self.first[i] : self.first[i + 1]]

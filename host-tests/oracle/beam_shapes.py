@@ -1,7 +1,8 @@
 """Flexible links of beam.py: data, quadrature, and shapes of clamped-free beams with a tip body in closed form.
 
-Bending: EI w'''' = rhoA w2 w, with EI w''(L) = w2 J w'(L) and EI w'''(L) = -w2 m w(L), where w2 is the squared angular
-frequency. Torsion: GJ t'' = -w2 rhoIp t, with GJ t'(L) = w2 J t(L). Scaled to 1 at L.
+Bending: EI w'''' = rhoA w2 w, with EI w''(L) = w2 J w'(L) and EI w'''(L) = -w2 m w(L), where w2 is
+the squared angular frequency. Torsion: GJ t'' = -w2 rhoIp t, with GJ t'(L) = w2 J t(L). Scaled to 1
+at L.
 """
 
 from dataclasses import dataclass
@@ -60,7 +61,7 @@ def roots(f, count, step):
 
 
 def derivative(beta, x, order):
-    """Of cosh - cos and of sinh - sin, of b x."""
+    """Derivatives of cosh - cos and of sinh - sin, of b x."""
     z, even, odd = beta * x, (cosh, sinh)[order % 2], (sinh, cosh)[order % 2]
     # Derivatives of -cos and of -sin, by a quarter of a turn each.
     c = (-cos(z), sin(z), cos(z), -sin(z))[order % 4]

@@ -1,6 +1,7 @@
 """Machines with kinematic loops in fifty digits, and the linear algebra of loops_precise.py.
 
-Bodies are followed in base coordinates; every coordinate is a screw there, about or along an axis through a place.
+Bodies are followed in base coordinates; every coordinate is a screw there, about or along an axis
+through a place.
 """
 
 import sys
@@ -127,7 +128,8 @@ class Machine:
             for j in self.of(i):
                 turns, u, _ = self.columns[j]
                 if not turns:
-                    # The axes of a free joint turn with the body, those of a slide with its parent: w is either's.
+                    # The axes of a free joint turn with the body, those of a slide with its parent:
+                    # w is either's.
                     factor = 1 if body["joint"] == "free" else 2
                     a = a + u * qdd[j] + cross(w, u) * (factor * qd[j])
                 elif body["joint"] == "free":

@@ -239,7 +239,8 @@ class Machine:
                 pin.initConstraintDynamics(self.model, fresh, self.constraints, cdata)
             else:
                 pin.computeJointMinimalOrdering(self.model, fresh, self.constraints)
-            # Of lcaba rounding errors grow with 1/mu: the least of its errors, 1e-11, are at 1e-2.
+            # The rounding errors of lcaba grow with 1/mu: the least of its errors, 1e-11, are at
+            # 1e-2.
             mu = 1e-10 if solver is pin.constraintDynamics else 1e-2
             settings = pin.ProximalSettings(1e-14, 1e-14, mu, 2000)
             qdd = solver(self.model, fresh, q, g @ yd, on_tree, self.constraints, cdata, settings)

@@ -10,8 +10,8 @@ Ours (dynamics_core::model::JointKind), with velocities of the body in its own f
     planar        q = (θ, x, y), v = (ω, vx, vy)
     free          q = (quaternion, x, y, z), v = (ω, v)
 
-Pinocchio turns a continuous joint by (cos q, sin q), a planar one by (x, y, cos θ, sin θ) with
-v = (vx, vy, ω), and puts position before attitude in a free one, q and v alike. Its Python lets nobody
+Pinocchio turns a continuous joint by (cos q, sin q), a planar one by (x, y, cos θ, sin θ) with v =
+(vx, vy, ω), and puts position before attitude in a free one, q and v alike. Its Python lets nobody
 set the axis of a continuous joint, so that those about other axes than x, y, z are revolute there.
 """
 

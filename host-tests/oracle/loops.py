@@ -49,7 +49,7 @@ class Machine:
         return joint, at * here
 
     def gap(self, q):
-        """How far the ends are apart, in the base's axes; their Jacobian over our velocities."""
+        """The distance of the ends, in the base's axes; its Jacobian over our velocities."""
         theirs = self.order.q(q)
         pin.computeJointJacobians(self.model, self.data, theirs)
         gaps, rows = [], []

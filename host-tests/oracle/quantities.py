@@ -1,4 +1,4 @@
-"""What is recorded of the first states beyond ID, FD and M. "Tip" is the last body listed; every body counts
+"""The quantities that are recorded of the first states beyond ID, FD and M. "Tip" is the last body listed; every body counts
 in masses and momenta, also one that is welded to the base. Layouts: recordings.rs."""
 
 import numpy as np
@@ -215,8 +215,8 @@ def of_state(plant, q, qd, qdd, tau, next_q, more):
     close(robot, "torque of rotors", row["rnea_armature"], plain + rotors * qdd)
     close(robot, "acceleration with rotors", row["aba_armature"], solved, condition * 1e-14)
 
-    # The manifold of configurations. Turns are counted, as Pinocchio's (cos, sin) cannot; but not in a
-    # difference, which goes the shorter way round.
+    # The manifold of configurations. Turns are counted, as Pinocchio's (cos, sin) cannot; but not
+    # in a difference, which goes the shorter way round.
     moved = order.q_back(pin.integrate(model, Q, order.v(more["step"])))
     difference = order.v_back(pin.difference(model, Q, order.q(next_q)))
     for kind, q_at, v_at in order.places():

@@ -6,7 +6,7 @@ use dynamics_core::state::IncrementalTrig;
 /// The next angle of a motion from the tick's number and the angle before.
 type Motion = Box<dyn FnMut(u64, f32) -> f32>;
 
-/// An angle so many representable numbers above this one, or below it.
+/// An angle this many representable numbers above this one, or below it.
 fn moved(q: f32, ulps: i32) -> f32 {
     let next = |q: f32| if ulps > 0 { q.next_up() } else { q.next_down() };
     (0..ulps.abs()).fold(q, |q, _| next(q))
@@ -75,8 +75,8 @@ pub fn motions() -> Vec<(String, f32, Motion)> {
     all
 }
 
-/// The largest error of N joints' sines and cosines that follow a motion for so many ticks: of the
-/// sine, the cosine and the length of the pair, against f64.
+/// The largest error of N joints' sines and cosines that follow a motion for this many ticks: of
+/// the sine, the cosine and the length of the pair, against f64.
 pub fn worst_error<const N: usize>(ticks: u64, first: f32, motion: &mut Motion) -> f64 {
     let (mut carried, mut q, mut worst) = (IncrementalTrig::at([first; N]), first, 0.0_f64);
     for tick in 0..ticks {

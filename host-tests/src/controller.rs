@@ -16,7 +16,7 @@ use motion_control::{
 
 /// A tick, s.
 pub const TICK: f64 = 1e-3;
-/// Where the arm begins, rad.
+/// The arm's first configuration, rad.
 pub const HOME: [f64; 6] = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0];
 /// Greatest torques, N·m; half of each a tick.
 pub const TORQUE: [f64; 6] = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];
@@ -62,11 +62,11 @@ pub struct Bench<R: Real> {
     trajectory: Trajectory<R, 6, 3>,
     gains: Gains<R, 6>,
     controller: MotionController<R, 6, CurrentTick>,
-    /// What went to the drives.
+    /// The commands to the drives.
     pub command: [R; 6],
     /// Whether the brake holds the arm.
     pub brake: bool,
-    /// Where the arm should be.
+    /// The reference of the arm.
     pub aim: State<R, 6, 6>,
     pub arm: State<R, 6, 6>,
 }
@@ -131,7 +131,7 @@ impl<R: Real> Bench<R> {
         self.tick_of(Ok(&q), poison)
     }
 
-    /// A tick that comes after so many missed ones, which a timer has counted: time goes on, and
+    /// A tick that comes after this many missed ones, which a timer has counted: time goes on, and
     /// what is expected.
     pub fn late_tick(&mut self, missed: u32) -> Command<R, 6> {
         self.controller.missed(missed, &self.trajectory);

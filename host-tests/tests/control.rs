@@ -24,7 +24,7 @@ const LIMITS: SafetyLimits<f32, 6> = SafetyLimits {
     upper: [6.3; 6],
 };
 
-/// A controller of an arm within these limits that rides through so many ticks.
+/// A controller of an arm within these limits that rides through this many ticks.
 fn controller(limits: SafetyLimits<f32, 6>, ride_through_ticks: u32) -> MotionController<f32, 6> {
     MotionController::new(MotionControllerConfig {
         supervisor: SupervisorConfig {

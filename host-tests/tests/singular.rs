@@ -152,7 +152,7 @@ const TWO: ArmModel<f64, 3> = Model::new(
 #[test]
 fn damped_results_are_smooth_through_a_singularity() {
     let damping = Damping::relative(DAMPING);
-    // Of the UR5e: the elbow stretched; two axes of the wrist in one line.
+    // Postures of the UR5e: the elbow stretched; two axes of the wrist in one line.
     let elbow = |s: f64| [0.0, -1.2, 0.4 * s, 0.3, 0.7, 0.0];
     let wrist = |s: f64| [0.3, -1.2, 1.5, 0.3, 0.6 * s, 0.2];
     let all = TaskFrame::BASE.turn_and_place(0.3);

@@ -58,7 +58,8 @@
 //! let limits = SafetyLimits { torque, rate: torque, speed: [3.2; 6], lower, upper };
 //!
 //! let (mut controller, gains) = (controller(limits)?, gains(&home));
-//! // Each tick: from positions that the encoders latched in the tick before to commands.
+//! // Each tick: from what the encoders latched in the tick before to what goes to drives and
+//! // brake.
 //! for measured in [Ok(&home), Ok(&home), Err(Fault::Encoder { joint: 2 })] {
 //!     let command = controller.tick(measured, &trajectory, |reference, estimate| {
 //!         law(&gains, reference, estimate)
@@ -90,8 +91,6 @@ mod reference;
 mod safety;
 #[cfg(feature = "serde")]
 mod serde_form;
-#[cfg(test)]
-mod tests;
 
 pub use estimate::{
     ContactDetector, DetectedContact, Estimate, Excitation, ImpossibleParameters, MomentumObserver,

@@ -5,7 +5,7 @@ use dynamics_core::scalar::Real;
 use dynamics_core::serde_form::{Array, Form};
 use dynamics_core::serde_record;
 
-/// What has a record of its own.
+/// Types with a record of their own.
 macro_rules! nested {
     ($($name:ident),+) => {$(
         impl<R: Real, const V: usize> Form<Self> for crate::$name<R, V> {

@@ -8,7 +8,7 @@ use crate::wire::{FrameError, decode};
 /// Room for the longest frame that the decoder takes, bytes.
 const ROOM: usize = 1024;
 
-/// What a [`Decoder`] has counted.
+/// The counts of a [`Decoder`].
 ///
 /// ```
 /// let decoder = telemetry::Decoder::<6>::new();
@@ -23,7 +23,7 @@ pub struct Counts {
     /// Ticks that are missing between those that arrived: dropped by the machine or lost on the
     /// line.
     pub missing: u64,
-    /// Of these, the ones that the machine's queue dropped.
+    /// Those among them that the machine's queue dropped.
     pub dropped: u64,
     /// Restarts of the machine: its numbers of ticks began again.
     pub restarts: u64,
@@ -108,7 +108,7 @@ impl<const N: usize> Decoder<N> {
         Some(found)
     }
 
-    /// What was counted so far.
+    /// The counts so far.
     ///
     /// ```
     /// assert_eq!(telemetry::Decoder::<6>::new().counts().lost(), 0);

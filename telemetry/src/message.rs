@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 /// The phases of a tick whose cost is sent, in their order.
 pub const PHASES: [&str; 5] = ["read", "reference", "dynamics", "safety", "write"];
 
-/// What a machine with up to N joints sends.
+/// A message of a machine with up to N joints.
 ///
 /// ```
 /// use telemetry::{Machine, Message};
@@ -198,7 +198,7 @@ pub struct Tick<const N: usize> {
     pub status: Status,
     /// The joints, from the base outward.
     pub joints: Vec<Joint, N>,
-    /// What each of [`PHASES`] took, in counts of the timer; 0 if there is no timer.
+    /// The time of each of [`PHASES`], in counts of the timer; 0 if there is no timer.
     pub cost: [u32; PHASES.len()],
 }
 

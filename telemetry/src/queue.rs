@@ -10,7 +10,7 @@ use heapless::spsc;
 
 use crate::message::{Sample, Tick};
 
-/// Where the samples of a [`Queue`] are: Q ticks of N joints.
+/// The memory for the samples of a [`Queue`]: Q ticks of N joints.
 #[derive(Debug)]
 pub struct Slots<const N: usize, const Q: usize> {
     /// The one that is written.

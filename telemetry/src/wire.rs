@@ -59,7 +59,7 @@ pub enum FrameError {
     Contents,
 }
 
-/// The bytes that any frame of a machine with so many joints fits into.
+/// The bytes that any frame of a machine with this many joints fits into.
 ///
 /// ```
 /// assert_eq!(telemetry::capacity(6), 166);

@@ -1,4 +1,4 @@
-//! What the crate claims of its queue, its frames and its decoder.
+//! The claims of the crate about its queue, its frames and its decoder.
 
 use dynamics_core::model::JointLimits;
 use motion_control::{Fault, Mode, Status};
@@ -125,7 +125,7 @@ fn a_lost_byte_costs_one_frame_at_most() {
         let hit = (lost / length) as u32;
         let without: Vec<u32> = (0..3).filter(|&n| n != hit).collect();
         let is_all_but_one = left == without;
-        // Of two zeros in a row one is enough.
+        // One of two zeros in a row is enough.
         assert!(is_all_but_one || left == [0, 1, 2], "byte {lost}: {left:?}");
         let is_zero = frames[lost] == 0;
         assert_eq!(is_all_but_one, !is_zero, "byte {lost}: {left:?}");

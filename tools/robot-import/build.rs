@@ -8,7 +8,7 @@ use std::{env, fs};
 
 /// The folders of the crates of the repository that a project may use.
 const CRATES: [&str; 4] = ["drivers", "dynamics-core", "motion-control", "telemetry"];
-/// What of a crate is carried beside its sources.
+/// The files of a crate that are carried beside its sources.
 const BESIDE: [&str; 3] = ["build.rs", "Cargo.toml", "NOTATION.md"];
 
 fn main() -> Result<(), Box<dyn Error>> {

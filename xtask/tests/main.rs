@@ -1,4 +1,5 @@
-//! What a user of `cargo xtask` sees: the tests start it as a process and signal it, as Unix does.
+//! The behaviour of `cargo xtask` for a user: the tests start it as a process and signal it, as
+//! Unix does.
 #![cfg(unix)]
 
 mod manners;

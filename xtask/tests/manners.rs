@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use crate::support::{Dir, EXIT, cargo, outcome, three_passages, xtask};
 
-/// What it says on stderr, and the code that it ends with, where its output goes there.
+/// The text on stderr and the exit code if its output goes there.
 fn printing(arguments: &[&str], to: Stdio) -> (String, Option<i32>) {
     let mut command = xtask(arguments);
     let child = command.stdout(to).stderr(Stdio::piped()).spawn();

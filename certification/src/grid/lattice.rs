@@ -80,7 +80,8 @@ impl Lattice {
     }
 }
 
-/// The number of points of so many angles of each joint; `None` if there are more than so many.
+/// The number of points of a grid with these numbers of angles of each joint; `None` if it exceeds
+/// `most`.
 pub(super) fn counted(sizes: &[usize], most: usize) -> Option<usize> {
     let all = sizes.iter().try_fold(1_usize, |a, b| a.checked_mul(*b));
     all.filter(|all| *all <= most)

@@ -34,7 +34,7 @@ pub fn prose(page: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// What stands between each occurrence of `begin` and the next `end`.
+/// The text between each occurrence of `begin` and the next `end`.
 pub fn between<'a>(text: &'a str, begin: &'a str, end: char) -> impl Iterator<Item = &'a str> {
     text.split(begin)
         .skip(1)

@@ -1,4 +1,4 @@
-//! What the pages show of the programs for microcontrollers is what is compiled.
+//! The programs for microcontrollers that the pages show are those that are compiled.
 
 const PAGE: &str = include_str!("../src/firmware.md");
 

@@ -1,4 +1,4 @@
-//! What every picture in docs/ keeps, whoever wrote it.
+//! The rules that every picture in docs/ keeps, whoever wrote it.
 
 use std::fs::read_to_string;
 
@@ -45,7 +45,7 @@ fn texts(svg: &str) -> Vec<(String, [f64; 4])> {
     each.filter(|(words, _)| !words.is_empty()).collect()
 }
 
-/// What is wrong with a picture.
+/// The mistakes in a picture.
 fn faults(svg: &str) -> Vec<String> {
     let mut faults = Vec::new();
     let [wide, high] = ["width", "height"].map(|name| number(svg, name));
@@ -87,7 +87,8 @@ fn what_cannot_be_read_is_found() {
             "<svg width=\"200\" height=\"{high}\">\n<style>@media ({theme}) {{}}</style>\n\
              <text x=\"150\" y=\"20\" dy=\"0.5ex\" font-size=\"12\">\na legend cut off\n</text>\n\
              <text x=\"20\" y=\"60\" dy=\"0.5ex\" font-size=\"12\">one</text>\n\
-             <text x=\"70\" y=\"{below}\" dy=\"0.5ex\" text-anchor=\"end\" font-size=\"12\">another</text>\n</svg>"
+             <text x=\"70\" y=\"{below}\" dy=\"0.5ex\" text-anchor=\"end\" \
+             font-size=\"12\">another</text>\n</svg>"
         )
     };
     let dark = "prefers-color-scheme: dark";

@@ -151,7 +151,8 @@ fn every_file_and_item_that_the_guide_names_exists() {
     }
     assert!(is_of_project_in_c("MY_ARM_MOST_POINTS"));
     assert!(!is_of_project_in_c("MY_ARM_MOST_PLACES"));
-    let wrong = "`Gravity::VENUS` and `algorithms::Lost<R>` in `lost.rs`, `Gains` in `rnea.rs`, `cargo -E x.rs`";
+    let wrong = "`Gravity::VENUS` and `algorithms::Lost<R>` in `lost.rs`, `Gains` in `rnea.rs`, \
+        `cargo -E x.rs`";
     assert_eq!(
         unknown(wrong, &sources),
         ["Gravity::VENUS", "Lost", "lost.rs"]

@@ -1,4 +1,4 @@
-//! What watches a tick while it runs, and what is kept of it.
+//! Probes watch a tick while it runs and keep a record of it.
 
 use motion_control::Status;
 
@@ -13,13 +13,13 @@ pub enum Phase {
     Reference,
     /// Feed-forward and feedback torque.
     Dynamics,
-    /// Limits and state machine.
+    /// The limits and the state machine.
     Safety,
-    /// Drives and brake.
+    /// The commands to drives and brake.
     Write,
 }
 
-/// What watches a tick while it runs: a pin for an oscilloscope, a counter of cycles, a record.
+/// A probe watches a tick while it runs: a pin for an oscilloscope, a counter of cycles, a record.
 /// `()` watches nothing and is not in the machine code.
 ///
 /// ```
@@ -41,15 +41,15 @@ pub enum Phase {
 /// }
 /// ```
 pub trait Probe<const V: usize> {
-    /// A phase begins.
+    /// Notes that a phase begins.
     #[inline(always)]
     fn begin(&mut self, _: Phase) {}
 
-    /// A phase ends.
+    /// Notes that a phase ends.
     #[inline(always)]
     fn end(&mut self, _: Phase) {}
 
-    /// What is kept of the tick, shortly before its end.
+    /// The record of the tick, shortly before its end.
     #[inline(always)]
     fn record(&mut self, _: &Telemetry<V>) {}
 }

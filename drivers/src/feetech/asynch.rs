@@ -22,7 +22,7 @@ impl<Port: Read + Write + ReadReady, const N: usize> JointEncoders<N> for Servos
 }
 
 impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
-    /// As [`Self::positions`], over `embedded-io-async`.
+    /// Does what [`Self::positions`] does, over `embedded-io-async`.
     ///
     /// # Errors
     /// [`FeetechError`] of the first servo that did not reply as it should.
@@ -47,7 +47,7 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
         Ok(positions)
     }
 
-    /// As [`Self::set_positions`], over `embedded-io-async`.
+    /// Does what [`Self::set_positions`] does, over `embedded-io-async`.
     ///
     /// # Errors
     /// [`FeetechError`]; nothing is sent after [`FeetechError::Goal`].
@@ -55,7 +55,7 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
         self.send_async(&self.goal_positions(positions)?).await
     }
 
-    /// As [`Self::set_duties`], over `embedded-io-async`.
+    /// Does what [`Self::set_duties`] does, over `embedded-io-async`.
     ///
     /// # Errors
     /// [`FeetechError`].
@@ -63,7 +63,7 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
         self.send_async(&self.goal_duties(duties)?).await
     }
 
-    /// As [`Self::enable_torque`], over `embedded-io-async`.
+    /// Does what [`Self::enable_torque`] does, over `embedded-io-async`.
     ///
     /// # Errors
     /// [`FeetechError`] of the first servo that did not; to switch off, the others are tried
@@ -79,7 +79,7 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
         result
     }
 
-    /// As [`Self::write`], over `embedded-io-async`.
+    /// Does what [`Self::write`] does, over `embedded-io-async`.
     ///
     /// # Errors
     /// [`FeetechError`].
@@ -94,7 +94,7 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
         received.map(|[]| ())
     }
 
-    /// As [`Self::read`], over `embedded-io-async`.
+    /// Does what [`Self::read`] does, over `embedded-io-async`.
     ///
     /// # Errors
     /// [`FeetechError`].

@@ -1,4 +1,4 @@
-//! What goes wrong on the servo bus.
+//! Errors of the servo bus.
 
 use core::fmt;
 
@@ -12,7 +12,7 @@ pub enum FeetechError {
     Port(ErrorKind),
     /// The port returned no byte: the servo did not reply within the port's time limit.
     NoReply {
-        /// The servo.
+        /// The number of the servo on the bus.
         id: u8,
     },
     /// No reply, but a packet with a wrong checksum.
@@ -28,12 +28,12 @@ pub enum FeetechError {
     Unexpected {
         /// The servo that should have replied.
         id: u8,
-        /// The servo that did.
+        /// The number of the servo that replied.
         found: u8,
     },
     /// The servo reports errors in its status.
     Servo {
-        /// The servo.
+        /// The number of the servo on the bus.
         id: u8,
         /// Bit 0 voltage, 1 magnetic encoder, 2 temperature, 3 current, 5 load.
         status: u8,

@@ -11,7 +11,7 @@ const HEADER: u8 = 0xff;
 /// The identity that all servos obey and none answers.
 pub const BROADCAST: u8 = 0xfe;
 
-/// What a packet instructs.
+/// The instruction of a packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Instruction {
     Ping = 0x01,
@@ -44,7 +44,7 @@ impl Packet {
         Self::new(id, Instruction::Ping, [])
     }
 
-    /// `length` bytes from `address`.
+    /// Asks for `length` bytes from `address` on.
     ///
     /// # Errors
     /// [`FeetechError::TooLong`]: more than 16 bytes.
@@ -53,7 +53,7 @@ impl Packet {
         Self::new(id, Instruction::Read, [address, length])
     }
 
-    /// Bytes from `address` on.
+    /// Writes bytes from `address` on.
     ///
     /// # Errors
     /// [`FeetechError::TooLong`].
@@ -153,7 +153,7 @@ pub struct Reply {
 }
 
 impl Reply {
-    /// What was read; empty in the reply to a write.
+    /// The bytes that were read; empty in the reply to a write.
     pub fn parameters(&self) -> &[u8] {
         self.parameters.get(..self.length).unwrap_or_default()
     }
@@ -161,8 +161,8 @@ impl Reply {
 
 /// Finds status packets among the bytes that a port receives, byte by byte.
 ///
-/// What is not a packet is skipped: after a false header the search continues at the byte after it,
-/// so that a packet that follows noise is not lost.
+/// Bytes that are no packet are skipped: after a false header the search continues at the byte
+/// after it, so that a packet that follows noise is not lost.
 ///
 /// ```
 /// use joint_drivers::feetech::Parser;
@@ -187,7 +187,7 @@ impl Default for Parser {
     }
 }
 
-/// What the first bytes of a buffer are.
+/// The kind of the first bytes of a buffer.
 enum Start {
     Incomplete,
     Noise,

@@ -8,7 +8,7 @@ use super::QuadratureCounter;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct InvalidTransition {
-    /// How many there have been since power-up.
+    /// The number of edges since power-up.
     pub total: u32,
 }
 

@@ -27,7 +27,7 @@ fn scripted(frames: &[nb::Result<FdFrame, ErrorKind>]) -> CanJoints<Script, Mote
 fn a_tick_takes_what_has_come_and_no_more() {
     let [first, second] = [1, 2].map(|node| Ok(reply(node, 10, 0.0, 0)));
     let later = Ok(reply(1, 10, 0.5, 0));
-    // What comes after a pause is of the next tick.
+    // Frames after a pause belong to the next tick.
     let pause = Err(nb::Error::WouldBlock);
     let joints = scripted(&[first, second, pause, later]);
     assert_eq!((&joints).read(), Ok([0.0; 2]));

@@ -1,4 +1,4 @@
-//! What the loop does at its ends: the law, the detectors, the brake, the clock of a timer.
+//! The loop's ends: the law, the detectors, the brake, the clock of a timer.
 
 use std::cell::RefCell;
 
@@ -6,7 +6,7 @@ use motion_control::{Command, Detect, Reference, Status, StopCategory};
 
 use super::*;
 
-/// What the detectors were asked, and the fault that each of them finds.
+/// The questions to the detectors, and the fault that each of them finds.
 #[derive(Default)]
 struct Watched {
     measured: RefCell<Vec<([f32; 2], [f32; 2])>>,
@@ -146,7 +146,7 @@ fn detectors_see_what_acted_and_what_was_commanded() {
         assert_eq!((command.torque, command.status), (tick.torque, tick.status));
     }
     assert_eq!(watched.commanded.borrow().len(), 2);
-    // What no encoder measured is not examined; the torque is that of every mode.
+    // A position that no encoder measured is not examined; the torque is that of every mode.
     wires.encoders[1].error.set(Some(Broken::Wire));
     arm.tick::<One, _, ()>(&MOVING, &());
     assert_eq!(watched.measured.borrow().len(), 2);

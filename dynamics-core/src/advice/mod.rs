@@ -164,7 +164,8 @@ pub enum Advice {
         joint: AdvisedJoint,
         /// The limit, N·m or N.
         limit: f64,
-        /// What holds all that the joint moves, stretched out horizontally, N·m or N.
+        /// The torque or force that holds all bodies that the joint moves, stretched out
+        /// horizontally, N·m or N.
         needed: f64,
     },
     /// Within the limits of the positions there is a configuration in which the limit of torque

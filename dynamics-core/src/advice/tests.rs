@@ -15,7 +15,7 @@ use crate::scalar::Real;
 const ABOUT_JOINTS: [&str; 6] = ["g1", "g1_free", "gen3", "iiwa14", "so101", "xarm7"];
 const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
-/// What a robot of the library is asked.
+/// The questions to a robot of the library.
 trait Ask {
     fn ask<const B: usize, const Q: usize, const V: usize>(&mut self, model: &Model<f64, B, Q, V>);
 }
@@ -79,7 +79,7 @@ impl Ask for Wrong {
             millimetres(link);
         });
         assert_eq!(both, ["MassesInGrams", "LengthsInMillimetres"], "{name}");
-        // Of lengths in m, as a table of a drawing program has them.
+        // Lengths in m, as a table of a drawing program has them.
         for unit in [1e6, 1e9] {
             let mut changed = *model;
             for link in &mut changed.links {
@@ -185,8 +185,9 @@ fn gravity_advice_states_the_closed_form_torque() {
     assert_eq!(
         text.as_deref(),
         Some(
-            "joint 0 (`upper`): gravity needs 19.6 N·m or N at a configuration within the limits, its torque limit is 19: the motor \
-             does not hold the robot there; check masses and the limit, or narrow the limits of position"
+            "joint 0 (`upper`): gravity needs 19.6 N·m or N at a configuration within the limits, \
+             its torque limit is 19: the motor does not hold the robot there; check masses and the \
+             limit, or narrow the limits of position"
         )
     );
 }

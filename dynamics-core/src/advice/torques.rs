@@ -19,10 +19,10 @@ use core::f64::consts::PI;
 const TIMES: f64 = 20.0;
 /// Standard gravity, m/s².
 const G: f64 = 9.81;
-/// How often each coordinate is improved.
+/// The number of times that each coordinate is improved.
 const SWEEPS: usize = 3;
 
-/// What is remarkable about the limits of torque.
+/// Remarkable limits of torque.
 pub(super) fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
     model: &Model<R, B, Q, V>,
 ) -> impl Iterator<Item = Advice> + '_ {

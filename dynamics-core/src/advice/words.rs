@@ -70,9 +70,10 @@ impl Display for Advice {
                 let (limit, needed) = (Short(limit), Short(needed));
                 write!(
                     out,
-                    "{joint}: its torque limit of {limit} N·m or N is {times} times the {needed} that hold all it moves, \
-                     stretched out horizontally; those of the other joints are even further above their need, so that none \
-                     of them limits anything: take those of the motors and gears"
+                    "{joint}: its torque limit of {limit} N·m or N is {times} times the {needed} \
+                     that hold all it moves, stretched out horizontally; those of the other joints \
+                     are even further above their need, so that none of them limits anything: take \
+                     those of the motors and gears"
                 )
             }
             Self::GravityBeyondTorque {
@@ -83,8 +84,9 @@ impl Display for Advice {
                 let (needed, limit) = (Short(needed), Short(limit));
                 write!(
                     out,
-                    "{joint}: gravity needs {needed} N·m or N at a configuration within the limits, its torque limit is {limit}: the \
-                     motor does not hold the robot there; check masses and the limit, or narrow the limits of position"
+                    "{joint}: gravity needs {needed} N·m or N at a configuration within the \
+                     limits, its torque limit is {limit}: the motor does not hold the robot there; \
+                     check masses and the limit, or narrow the limits of position"
                 )
             }
             _ => self.write_loop(out),
@@ -97,16 +99,17 @@ impl Advice {
         match *self {
             Self::MassesInGrams { robot, mass, reach } => write!(
                 out,
-                "robot `{robot}`: {} kg within a reach of {} m are {} kg for each cubic metre of it, where robots have 3 to \
-                 130: masses are in kg, these look like g; divide them and the inertias by 1000",
+                "robot `{robot}`: {} kg within a reach of {} m are {} kg for each cubic metre of \
+                 it, where robots have 3 to 130: masses are in kg, these look like g; divide them \
+                 and the inertias by 1000",
                 Short(mass),
                 Short(reach),
                 Short(mass / (reach * reach * reach))
             ),
             Self::LengthsInMillimetres { robot, mass, reach } => write!(
                 out,
-                "robot `{robot}`: a reach of {} m with a mass of {} kg: lengths are in m, these look like mm; divide them by \
-                 1000, inertias by 1e6",
+                "robot `{robot}`: a reach of {} m with a mass of {} kg: lengths are in m, these \
+                 look like mm; divide them by 1000, inertias by 1e6",
                 Short(reach),
                 Short(mass)
             ),
@@ -116,8 +119,9 @@ impl Advice {
                 reach,
             } => write!(
                 out,
-                "body `{body}`: its inertia is that of a mass {} m from the centre, and most bodies' are beyond ten times \
-                 the robot's reach of {} m: inertias are in kg·m², these look like kg·mm² or g·mm²; divide them by 1e6 or 1e9",
+                "body `{body}`: its inertia is that of a mass {} m from the centre, and most \
+                 bodies' are beyond ten times the robot's reach of {} m: inertias are in kg·m², \
+                 these look like kg·mm² or g·mm²; divide them by 1e6 or 1e9",
                 Short(gyration),
                 Short(reach)
             ),
@@ -127,9 +131,9 @@ impl Advice {
                 shift,
             } => write!(
                 out,
-                "body `{body}`: of its inertia of {} kg·m² the distance of the centre of mass from the joint would be {}, and \
-                 so of all bodies whose centre is far: inertias are about the centre of mass, these look like those about \
-                 the joint; subtract m d²",
+                "body `{body}`: of its inertia of {} kg·m² the distance of the centre of mass from \
+                 the joint would be {}, and so of all bodies whose centre is far: inertias are \
+                 about the centre of mass, these look like those about the joint; subtract m d²",
                 Short(inertia),
                 Short(shift)
             ),
@@ -139,8 +143,9 @@ impl Advice {
                 reach,
             } => write!(
                 out,
-                "body `{body}`: its inertia is that of a mass {} m from the centre, and the robot's reach is {} m: inertias are in \
-                 kg·m², this one looks like kg·mm² or g·mm²; divide it by 1e6 or 1e9",
+                "body `{body}`: its inertia is that of a mass {} m from the centre, and the \
+                 robot's reach is {} m: inertias are in kg·m², this one looks like kg·mm² or \
+                 g·mm²; divide it by 1e6 or 1e9",
                 Short(gyration),
                 Short(reach)
             ),
@@ -150,9 +155,10 @@ impl Advice {
                 shift,
             } => write!(
                 out,
-                "body `{body}`: its inertia of {} kg·m² is more than masses between its joints have, and without the {} of the \
-                 distance of its centre of mass from the joint it is not: inertias are about the centre of mass, this one looks like \
-                 that about the joint; subtract m d²",
+                "body `{body}`: its inertia of {} kg·m² is more than masses between its joints \
+                 have, and without the {} of the distance of its centre of mass from the joint it \
+                 is not: inertias are about the centre of mass, this one looks like that about the \
+                 joint; subtract m d²",
                 Short(inertia),
                 Short(shift)
             ),
@@ -164,29 +170,31 @@ impl Advice {
         match *self {
             Self::PositionInDegrees { joint, limit } => write!(
                 out,
-                "{joint}: a position limit of {} rad is {} turns, and joints of robots have less than two: limits are in rad, this one \
-                 looks like degrees; divide it by 57.3",
+                "{joint}: a position limit of {} rad is {} turns, and joints of robots have less \
+                 than two: limits are in rad, this one looks like degrees; divide it by 57.3",
                 Short(limit),
                 Short(limit.abs() / (2.0 * PI))
             ),
             Self::SpeedInDegrees { joint, limit } => write!(
                 out,
-                "{joint}: a speed limit of {} rad/s is {} turns a minute, more than 20 times that of every other joint: limits are in rad/s, \
-                 this one looks like degrees/s; divide it by 57.3",
+                "{joint}: a speed limit of {} rad/s is {} turns a minute, more than 20 times that \
+                 of every other joint: limits are in rad/s, this one looks like degrees/s; divide \
+                 it by 57.3",
                 Short(limit),
                 Short(limit * 30.0 / PI)
             ),
             Self::PositionsInDegrees { joint, limit } => write!(
                 out,
-                "{joint}: a position limit of {} rad is {} turns, and most joints of the robot have such: limits are in rad, \
-                 these look like degrees; divide them by 57.3",
+                "{joint}: a position limit of {} rad is {} turns, and most joints of the robot \
+                 have such: limits are in rad, these look like degrees; divide them by 57.3",
                 Short(limit),
                 Short(limit.abs() / (2.0 * PI))
             ),
             Self::SpeedsInDegrees { joint, limit } => write!(
                 out,
-                "{joint}: a speed limit of {} rad/s is {} turns a minute, and most joints of the robot have such: limits are \
-                 in rad/s, these look like degrees/s; divide them by 57.3",
+                "{joint}: a speed limit of {} rad/s is {} turns a minute, and most joints of the \
+                 robot have such: limits are in rad/s, these look like degrees/s; divide them by \
+                 57.3",
                 Short(limit),
                 Short(limit * 30.0 / PI)
             ),
@@ -202,8 +210,8 @@ impl Advice {
                 torque,
             } => write!(
                 out,
-                "{joint}: at {} rad/s or m/s the friction of the scene is {} N·m or N: it drives the joint in place of braking it; no \
-                 coefficient of friction is negative",
+                "{joint}: at {} rad/s or m/s the friction of the scene is {} N·m or N: it drives \
+                 the joint in place of braking it; no coefficient of friction is negative",
                 Short(speed),
                 Short(torque)
             ),
@@ -219,8 +227,9 @@ impl Advice {
             ),
             Self::NoRotorInertia { joint } => write!(
                 out,
-                "{joint}: the scene has the friction of its gear and no inertia of its rotor, which, times the square of the gear's \
-                 ratio, often exceeds that of the links: add `Armature`"
+                "{joint}: the scene has the friction of its gear and no inertia of its rotor, \
+                 which, times the square of the gear's ratio, often exceeds that of the links: add \
+                 `Armature`"
             ),
             _ => Ok(()),
         }
@@ -230,20 +239,22 @@ impl Advice {
         match *self {
             Self::LongTick { tick } => write!(
                 out,
-                "a tick of {} s means {} ticks a second, where control loops have 50 to 10000: the tick is in s, 1 ms is 0.001",
+                "a tick of {} s means {} ticks a second, where control loops have 50 to 10000: the \
+                 tick is in s, 1 ms is 0.001",
                 Short(tick),
                 Short(1.0 / tick)
             ),
             Self::ZeroRate { joint, torque } => write!(
                 out,
-                "{joint}: a rate of zero lets its torque never change, although its limit is {} N·m or N: the joint gets no torque; \
-                 the rate is a change in a tick, such as half of the limit, or infinite",
+                "{joint}: a rate of zero lets its torque never change, although its limit is {} \
+                 N·m or N: the joint gets no torque; the rate is a change in a tick, such as half \
+                 of the limit, or infinite",
                 Short(torque)
             ),
             Self::FarRestart { distance } => write!(
                 out,
-                "a restart distance of {} rad or m allows a start {}° from the trajectory: it is in rad, and looks like \
-                 degrees; 0.15 is usual",
+                "a restart distance of {} rad or m allows a start {}° from the trajectory: it is \
+                 in rad, and looks like degrees; 0.15 is usual",
                 Short(distance),
                 Short(distance * 180.0 / PI)
             ),
@@ -253,8 +264,8 @@ impl Advice {
                 nyquist,
             } => write!(
                 out,
-                "{of} of {} rad/s is above half the frequency of the ticks, {} rad/s: it cannot act; lower it, or shorten \
-                 the tick",
+                "{of} of {} rad/s is above half the frequency of the ticks, {} rad/s: it cannot \
+                 act; lower it, or shorten the tick",
                 Short(frequency),
                 Short(nyquist)
             ),
@@ -264,8 +275,8 @@ impl Advice {
                 bandwidth,
             } => write!(
                 out,
-                "{of} of {} rad/s is not below the observer's bandwidth of {} rad/s: the velocity lags behind the feedback; a \
-                 tenth of the bandwidth is usual",
+                "{of} of {} rad/s is not below the observer's bandwidth of {} rad/s: the velocity \
+                 lags behind the feedback; a tenth of the bandwidth is usual",
                 Short(frequency),
                 Short(bandwidth)
             ),
@@ -274,8 +285,9 @@ impl Advice {
                 bandwidth,
             } => write!(
                 out,
-                "the natural frequency of {} rad/s is not below the drive's bandwidth of {} rad/s: the torque lags behind the \
-                 feedback, which oscillates; a fifth of the bandwidth is usual",
+                "the natural frequency of {} rad/s is not below the drive's bandwidth of {} rad/s: \
+                 the torque lags behind the feedback, which oscillates; a fifth of the bandwidth \
+                 is usual",
                 Short(frequency),
                 Short(bandwidth)
             ),
@@ -286,8 +298,9 @@ impl Advice {
                 speed,
             } => write!(
                 out,
-                "{joint}: a step of {} rad or m of the encoder changes the estimated velocity by {} a second, and its greatest speed is {}: the \
-                 damping becomes noise; lower the observer's bandwidth, or check the unit of the resolution, rad or m",
+                "{joint}: a step of {} rad or m of the encoder changes the estimated velocity by \
+                 {} a second, and its greatest speed is {}: the damping becomes noise; lower the \
+                 observer's bandwidth, or check the unit of the resolution, rad or m",
                 Short(resolution),
                 Short(step),
                 Short(speed)

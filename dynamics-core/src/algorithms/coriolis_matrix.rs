@@ -46,7 +46,7 @@ struct Body<'a, R: Real> {
 ///   free joints, whose q̇ is not a derivative of q. There b is the vector with S b = S x × S y: x
 ///   × y at a spherical joint.
 ///
-/// Where q̇ is the derivative of q, C is thus the matrix of the Christoffel symbols:
+/// If q̇ is the derivative of q, C is thus the matrix of the Christoffel symbols:
 /// C_ij = ½ Σ_k (∂_k M_ij + ∂_j M_ik − ∂_i M_jk) q̇_k.
 ///
 /// M is that of [`crba`](crate::algorithms::crba()) under the same effects; of these, payloads,

@@ -83,7 +83,7 @@ where
     }
 
     let (mut m, mut wanted) = (MassMatrix::ZERO, [Motion::ZERO; V]);
-    // Of each body: the last coordinate that moves it, and its Jacobian.
+    // For each body, the last coordinate that moves it, and its Jacobian.
     let mut jacobians = per_body(robot, (BASE, [Motion::ZERO; V]));
     for (i, Body { link, x, ic }) in bodies.iter().enumerate() {
         let (mut last, mut jacobian) = jacobians.parent(link);

@@ -16,7 +16,8 @@ impl fmt::Display for NotPositiveDefinite {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             out,
-            "joint {} moves no inertia, or a coordinate or an inertia is not a number: M is not positive definite",
+            "joint {} moves no inertia, or a coordinate or an inertia is not a number: M is not \
+             positive definite",
             self.joint
         )
     }

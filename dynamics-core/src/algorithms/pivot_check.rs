@@ -20,8 +20,8 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::MotionSubspace;
 use crate::spatial::{Force, SpatialInertia};
 
-/// How many roundings a pivot must exceed: up to 3.1 were measured for singular M, and no fewer
-/// than 51 for regular ones (a rope of ten light rods with a weight at its end, in f32).
+/// The number of roundings that a pivot must exceed: up to 3.1 were measured for singular M, and no
+/// fewer than 51 for regular ones (a rope of ten light rods with a weight at its end, in f32).
 const ROUNDINGS: f64 = 8.0;
 
 /// The coordinates of a free joint.
@@ -104,7 +104,7 @@ pub(crate) struct PivotCheck<R> {
 }
 
 impl<R: Real> PivotCheck<R> {
-    /// Of a joint that moves bodies of `magnitude`.
+    /// The noise for a joint that moves bodies of `magnitude`.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of(magnitude: Magnitude<R>) -> Self {
         let inherited = [R::ZERO; MOST];

@@ -181,7 +181,7 @@ mod tests {
     /// The sum of each of the G1's bodies: of its own number and of 1.1 times the sums of its
     /// children.
     fn sums(mut add: impl FnMut(usize, &mut [f64; 29])) -> [u64; 29] {
-        // Of the last body −0, which a sum with zero would not leave.
+        // The last body has −0, which a sum with zero would not leave.
         let mut of = core::array::from_fn(|i| {
             if i == 28 {
                 -0.0

@@ -25,7 +25,7 @@ use crate::spatial::inertia::ArticulatedInertia;
 use crate::spatial::{AxialScrews, Force, Motion, MotionSubspace, SpatialInertia, Xform};
 use crate::state::{JointTrig, State, entry};
 
-/// What the first pass leaves of a body: what it keeps of X, c, and pᴬ of the body alone.
+/// The result of the first pass for a body: its part of X, c, and pᴬ of the body alone.
 struct Body<R: Real, X: Across<R>> {
     x: X::Kept,
     c: AcrossZ<R>,

@@ -92,7 +92,7 @@ where
             *entry = ancestor.subspace(turns, 0).dot(f);
             x = X::again(*next, &ancestor, turns);
         }
-        // Of the force on the first link only one component is computed.
+        // Only one component of the force on the first link is computed.
         if let (Some(first), Some(entry)) = (robot.link(0), row.first_mut()) {
             *entry = first.subspace(turns, 0).dot(x.force_back(f));
         }

@@ -24,8 +24,8 @@ pub(super) struct Body<'a, R: Real> {
     pub(super) force: Force<R>,
 }
 
-/// What an independent coordinate's elimination leaves, of D = L Δ Lᵀ: L⁻¹ Uᵀ, 1/Δ, L⁻¹ u, and the
-/// row of L.
+/// The results of eliminating an independent coordinate, from D = L Δ Lᵀ: L⁻¹ Uᵀ, 1/Δ, L⁻¹ u, and
+/// the row of L.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Factor<R: Real> {
     pub(super) z: Force<R>,
@@ -38,7 +38,7 @@ pub(super) struct Factor<R: Real> {
 #[derive(Clone, Copy, Default)]
 pub(super) struct Column<R: Real> {
     pub(super) d: [R; INDEPENDENT],
-    /// What rounding errors of the pivot are relative to.
+    /// The scale of the pivot's rounding errors.
     pub(super) noise: R,
     pub(super) factor: Factor<R>,
 }
@@ -70,7 +70,7 @@ pub(super) struct Group {
     pub(super) end: usize,
     /// The cluster, or `NONE`.
     pub(super) cluster: usize,
-    /// Where its coordinates begin in ẏ, and how many there are.
+    /// The place of its first coordinate in ẏ, and their number.
     pub(super) first: usize,
     pub(super) count: usize,
 }

@@ -157,7 +157,7 @@ pub enum ClusterProblem {
 pub struct ClusterError {
     /// The cluster's name.
     pub cluster: &'static str,
-    /// What is wrong with it.
+    /// The mistake in it.
     pub problem: ClusterProblem,
 }
 

@@ -1,4 +1,4 @@
-//! How a robot with clusters is described: its spanning tree, and what drives its coordinates.
+//! The description of a robot with clusters: its spanning tree, and what drives its coordinates.
 
 use super::motor_torques::MotorTorques;
 use super::{ClusterError, ClusterProblem};
@@ -217,8 +217,8 @@ pub trait ClusteredRobot<
 /// A tuple of clusters: up to eight [`Driven`], of any kinds.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a tuple of clusters",
-    note = "a tuple of up to eight `Driven<C, M, N>` with `C: Cluster<M, N>`, and a comma after a single \
-            one: `(Driven<FourBar, 3, 1>,)`"
+    note = "a tuple of up to eight `Driven<C, M, N>` with `C: Cluster<M, N>`, and a comma after a \
+            single one: `(Driven<FourBar, 3, 1>,)`"
 )]
 pub trait ClusterSet: sealed::Set {}
 
@@ -236,7 +236,7 @@ pub(super) mod sealed {
     use super::{ClusterError, ClusteredRobot, MotorTorques, Real, State, TreeState};
     use crate::trig::Kernel;
 
-    /// What the algorithms do with all clusters of a robot.
+    /// The operations of the algorithms on all clusters of a robot.
     pub trait Set: Copy {
         /// The motions of the clusters.
         type Motions<R: Real>: Copy + Debug + PartialEq;

@@ -17,9 +17,9 @@ use crate::scalar::Real;
 use crate::spatial::{Force, Motion, MotionSubspace};
 use crate::state::entry;
 
-/// How many roundings a pivot must exceed, relative to the largest inertia that the bodies could
-/// have along its motion: twice those of the algorithm without clusters, since a body of a cluster
-/// rotates and translates at once.
+/// The number of roundings that a pivot must exceed, relative to the largest inertia that the
+/// bodies could have along its motion: twice those of the algorithm without clusters, since a body
+/// of a cluster rotates and translates at once.
 const ROUNDINGS: f64 = 16.0;
 
 impl<R, T, E, const B: usize, const Q: usize, const V: usize, const P: usize, const Y: usize>

@@ -2,13 +2,13 @@
 
 use crate::model::{BASE, JointKind, Link, Model};
 
-/// At most so many clusters.
+/// The largest number of clusters.
 pub(super) const CLUSTERS: usize = 8;
 
-/// At most so many independent coordinates of a cluster.
+/// The largest number of independent coordinates of a cluster.
 pub(super) const INDEPENDENT: usize = 6;
 
-/// How often [`for_each_joint`](crate::engine::for_each_joint) expands its block.
+/// The number of blocks that [`for_each_joint`](crate::engine::for_each_joint) expands.
 pub(super) const EXPANDED: usize = 64;
 
 /// No cluster, or no place.
@@ -27,9 +27,9 @@ pub(super) struct Layout<const Q: usize, const V: usize> {
     pub(super) free_q: [usize; Q],
     /// The position that belongs to each velocity coordinate in a cluster.
     pub(super) position: [usize; V],
-    /// Where a cluster's coordinates begin in y and in ẏ.
+    /// The place of a cluster's first coordinate in y and in ẏ.
     pub(super) first: [[usize; 2]; CLUSTERS],
-    /// How many there are.
+    /// Their number.
     pub(super) count: [usize; CLUSTERS],
     /// The first body of each cluster, which is the last that a pass from the tips reaches.
     pub(super) root: [usize; CLUSTERS],
@@ -40,8 +40,8 @@ pub(super) struct Layout<const Q: usize, const V: usize> {
 }
 
 impl<const Q: usize, const V: usize> Layout<Q, V> {
-    /// Of the clusters that drive these coordinates of a model and have these sizes M and N; a
-    /// description that cannot be does not compile.
+    /// The layout of the clusters that drive these coordinates of a model and have these sizes M
+    /// and N; a description that cannot be does not compile.
     pub(super) const fn of<const B: usize>(
         model: &Model<f64, B, Q, V>,
         coordinates: &[&[usize]],
@@ -78,8 +78,8 @@ impl<const Q: usize, const V: usize> Layout<Q, V> {
         }
         assert!(
             next[0] == p && next[1] == y,
-            "P and Y are not the numbers of independent positions and velocities: coordinates in no cluster, and \
-             each cluster's N"
+            "P and Y are not the numbers of independent positions and velocities: coordinates in \
+             no cluster, and each cluster's N"
         );
         layout
     }
@@ -149,8 +149,8 @@ impl<const Q: usize, const V: usize> Layout<Q, V> {
         }
         assert!(
             is_scalar(link.joint.kind),
-            "a cluster drives a joint whose velocities are not the derivatives of its positions: spherical, planar or \
-             free"
+            "a cluster drives a joint whose velocities are not the derivatives of its positions: \
+             spherical, planar or free"
         );
         k = 0;
         while k < nv {

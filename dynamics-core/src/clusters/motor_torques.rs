@@ -42,12 +42,13 @@ pub(super) fn solve<R: Real, const N: usize>(
 
 /// x with A x = b, by elimination with row pivots, and whether ς is more than one for certain.
 ///
-/// Of rows of unit length the sum of squares of A⁻¹ is at most N / det² A, by the inequality of the
-/// means for its singular values; rows of length r divide it by their least r². The determinant is
-/// the product of the pivots.
+/// For rows of unit length the sum of squares of A⁻¹ is at most N / det² A, by the inequality of
+/// the means for its singular values; rows of length r divide it by their least r². The determinant
+/// is the product of the pivots.
 #[allow(
     clippy::needless_range_loop,
-    reason = "iterators that skip entries are not unrolled: 3000 cycles of six motors, in place of 1220"
+    reason = "iterators that skip entries are not unrolled: 3000 cycles of six motors, in place of \
+        1220"
 )]
 #[cfg_attr(optimised, inline(always))]
 fn eliminate<R: Real, const N: usize>(

@@ -21,7 +21,7 @@ use crate::state::State;
 /// that of motors. In f32 the damping of the linkages begins at some 60, in f64 at 30,000.
 pub const NEAR_SINGULAR: f64 = 100.0;
 
-/// How far the joints of the clusters move with y.
+/// The motion of the clusters' joints with y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Conditioning<R> {
@@ -41,7 +41,7 @@ pub struct Conditioning<R> {
 pub struct ClusteredTorque<R, const Y: usize> {
     /// The torque of each coordinate of y, N·m or N.
     pub tau: [R; Y],
-    /// How much the joints of the clusters move.
+    /// The motion of the clusters' joints.
     pub conditioning: Conditioning<R>,
 }
 
@@ -68,12 +68,14 @@ impl fmt::Display for NearSingular {
         if *damped {
             return write!(
                 out,
-                "cluster `{cluster}` is at a singular configuration: its rates are damped and do not close the loop"
+                "cluster `{cluster}` is at a singular configuration: its rates are damped and do \
+                 not close the loop"
             );
         }
         write!(
             out,
-            "cluster `{cluster}` is near a singular configuration: a joint moves {transmission:.1e} times as fast as y"
+            "cluster `{cluster}` is near a singular configuration: a joint moves \
+             {transmission:.1e} times as fast as y"
         )
     }
 }
@@ -181,7 +183,7 @@ where
     R: Real,
     T: ClusteredRobot<B, Q, V, P, Y>,
 {
-    /// How far the joints of the clusters move with y: of [`Clustered::rnea_with_status`], and of
+    /// The motion of the clusters' joints with y: of [`Clustered::rnea_with_status`], and of
     /// every other algorithm that is given this motion.
     pub fn conditioning(&self) -> Conditioning<R> {
         let (mut fastest, mut transmission) = (0, R::ZERO);

@@ -201,7 +201,8 @@ where
     );
     assert!(
         !(E::WRENCH | E::BASE_MOTION | E::GYROSCOPIC_ROTORS),
-        "inverse dynamics of compliant joints allows no wrenches on bodies, moving base or `GyroscopicRotors`"
+        "inverse dynamics of compliant joints allows no wrenches on bodies, moving base or \
+         `GyroscopicRotors`"
     );
 }
 

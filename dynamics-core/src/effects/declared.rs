@@ -1,4 +1,4 @@
-//! What the hooks of an effect declare.
+//! The declarations of an effect's hooks.
 
 use super::Effect;
 use crate::scalar::Real;
@@ -10,7 +10,7 @@ pub(crate) trait Declared<R: Real, const B: usize, const V: usize>: Effect<R, B,
     const FIELD: bool = Self::GRAVITY_FIELD.is_some;
     /// Which base components of the field may differ from zero.
     const FIELD_AXES: [bool; 3] = Self::GRAVITY_FIELD.axes;
-    /// How many fields of gravity there are.
+    /// The number of fields of gravity.
     const GRAVITIES: usize = Self::GRAVITY_FIELD.gravities;
     /// The environment exerts a wrench on some body.
     const WRENCH: bool = Self::EXTERNAL_WRENCH.is_some;
@@ -28,7 +28,7 @@ pub(crate) trait Declared<R: Real, const B: usize, const V: usize>: Effect<R, B,
     const GYROSCOPIC_ROTORS: bool = Self::ROTOR.is_some;
     /// Friction depends on the transmitted torque.
     const LOAD_DEPENDENT: bool = Self::LOAD_FRICTION.is_some;
-    /// How many sets of base parameters are loaded.
+    /// The number of sets of base parameters that are loaded.
     const BASE_PARAMETERS: usize = Self::REGROUPED.sets;
     /// The name of the robot that they belong to; empty if there are none.
     const BASE_PARAMETERS_OF: &'static str = Self::REGROUPED.robot;

@@ -138,7 +138,7 @@ macro_rules! delegate_effect {
             const LOAD_FRICTION: $crate::effects::hook::LoadFriction<Self, $R> = $crate::effects::hook::LoadFriction::NONE
                 $(.with(&<$inner as $crate::effects::Effect<$R, $B, $V>>::LOAD_FRICTION))*
                 .through(
-                    // Of a bias it is no part: forward dynamics solves for it.
+                    // It is no part of a bias: forward dynamics solves for it.
                     ($on) & ($accelerations) & ($joints),
                     <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_load,
                     <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_load_slopes,

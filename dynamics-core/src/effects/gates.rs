@@ -16,7 +16,7 @@ where
     [E::FIELD & x, E::FIELD & y, E::FIELD & z]
 }
 
-/// What holds of every scene, evaluated once for all algorithms.
+/// The facts about a scene that all algorithms need, evaluated once for all algorithms.
 pub(crate) struct Scene<R, E, const B: usize, const V: usize>(PhantomData<(R, E)>);
 
 impl<R: Real, E, const B: usize, const V: usize> Scene<R, E, B, V>
@@ -42,8 +42,8 @@ where
 {
     assert!(
         E::GRAVITIES <= 1,
-        "the scene has several fields of gravity, whose sum would act: instead of (RIGID_BODY, GravityVector(..)) write \
-         (Inertia, Coriolis, GravityVector(..))"
+        "the scene has several fields of gravity, whose sum would act: instead of (RIGID_BODY, \
+         GravityVector(..)) write (Inertia, Coriolis, GravityVector(..))"
     );
     if let Some(problem) = E::ONCE.problem() {
         panic!("{}", problem);
@@ -54,7 +54,10 @@ where
             .number(body)
             .with(" of a robot of ")
             .number(B)
-            .with(" bodies, which are numbered from 0: `Robot::MODEL.body(\"..\")` finds a body by its name")
+            .with(
+                " bodies, which are numbered from 0: `Robot::MODEL.body(\"..\")` finds a body by \
+                its name",
+            )
             .panic();
     }
 }
@@ -89,8 +92,9 @@ where
             | E::ACCELERATIONS
             | E::VELOCITY_PRODUCTS
             | E::ELASTICITY,
-        "this effect has neither a hook among the constants of `Effect` nor the function `torque`: it would do nothing. \
-         One whose only hook is `inertia` or `advance` has an empty `torque` as well"
+        "this effect has neither a hook among the constants of `Effect` nor the function `torque`: \
+         it would do nothing. One whose only hook is `inertia` or `advance` has an empty `torque` \
+         as well"
     );
 }
 
@@ -130,7 +134,7 @@ where
     };
 }
 
-/// How many bodies carry a payload.
+/// The number of bodies that carry a payload.
 pub(crate) const fn loads<R: Real, E, const B: usize, const V: usize>() -> usize
 where
     E: Effect<R, B, V>,

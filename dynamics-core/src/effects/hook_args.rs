@@ -1,4 +1,4 @@
-//! What hooks read.
+//! The arguments of hooks.
 
 use crate::scalar::Real;
 use crate::spatial::{Motion, Xform};

@@ -1,7 +1,7 @@
 //! Friction of gears that grows with the torque they transmit, in inverse and in forward dynamics.
 //!
-//! The motor supplies x = τ + a |τ| + b τ, where τ is the torque for all else at the joint. With |a| < 1 + b, τ has the sign
-//! of x, and τ = x / (1 + b + a sgn x).
+//! The motor supplies x = τ + a |τ| + b τ, where τ is the torque for all else at the joint. With
+//! |a| < 1 + b, τ has the sign of x, and τ = x / (1 + b + a sgn x).
 
 use super::{Declared, Effect, JointState, LoadFactors, TorqueDerivatives, call_hook, joint_state};
 use crate::model::LinkView;
@@ -43,8 +43,8 @@ pub(crate) fn load_frictions<R: Real, E, const B: usize, const Q: usize, const V
     }
 }
 
-/// What of the motor's torque x is left for all else, τ. Where the load drives and cannot turn the
-/// gear, 1 + b + a sgn x ≤ 0, it is not finite: that takes a friction which holds, not one of a
+/// The part τ of the motor's torque x that is left for all else. If the load drives and cannot turn
+/// the gear, 1 + b + a sgn x ≤ 0, it is not finite: that takes a friction which holds, not one of a
 /// smooth sign.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn transmitted<R: Real, E, const B: usize, const V: usize>(
@@ -83,7 +83,7 @@ pub(crate) fn add_load_slope<R: Real, E, const B: usize, const V: usize>(
         call_hook!(E::LOAD_FRICTION.slopes, effects, joint, at, &mut slopes);
         let rise = slopes.magnitude * load.abs() + slopes.torque * load;
         let share = (load.abs() + R::MIN_POSITIVE) / (tau.abs() + R::MIN_POSITIVE);
-        // Where friction falls with speed an implicit step would not be the stabler one.
+        // If friction falls with speed, an implicit step would not be the stabler one.
         derivatives.dqd += positive_part(rise) * share;
     }
 }
@@ -144,8 +144,8 @@ where
     const {
         assert!(
             !E::LOAD_DEPENDENT,
-            "load-dependent friction needs the torque of each gear: it acts on trees without loops, clusters or elastic \
-             joints"
+            "load-dependent friction needs the torque of each gear: it acts on trees without \
+             loops, clusters or elastic joints"
         )
     };
 }

@@ -167,10 +167,12 @@ use crate::scalar::Real;
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an effect on a robot of {B} bodies and {V} joints in `{R}`",
     label = "not an effect of this size and scalar",
-    note = "effects: Gravity, GravityVector, Inertia, Coriolis, Elasticity, Viscous([R; V]), Coulomb {{ .. }}, \
-            AsymmetricCoulomb {{ .. }}, Stribeck {{ .. }}, Lugre {{ .. }}, LoadFriction {{ .. }}, Spring {{ .. }}, EndStops {{ .. }}, \
-            Cogging {{ .. }}, ConstantTorque([R; V]), Armature([R; V]), GyroscopicRotors {{ .. }}, Payload::<_, BODY>, BaseParameters, BodyWrench, WorldWrench, Contact, \
-            MovingBase, tuples of up to 12 of them, and your own through `impl Effect`"
+    note = "effects: Gravity, GravityVector, Inertia, Coriolis, Elasticity, Viscous([R; V]), \
+            Coulomb {{ .. }}, AsymmetricCoulomb {{ .. }}, Stribeck {{ .. }}, Lugre {{ .. }}, \
+            LoadFriction {{ .. }}, Spring {{ .. }}, EndStops {{ .. }}, Cogging {{ .. }}, \
+            ConstantTorque([R; V]), Armature([R; V]), GyroscopicRotors {{ .. }}, Payload::<_, \
+            BODY>, BaseParameters, BodyWrench, WorldWrench, Contact, MovingBase, tuples of up to \
+            12 of them, and your own through `impl Effect`"
 )]
 pub trait Effect<R: Real, const B: usize, const V: usize>: Sized {
     /// A field that accelerates every body.
@@ -193,8 +195,8 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Sized {
     const VELOCITY_PRODUCTS: bool = false;
     /// The scene has the stiffness and damping of links that bend ([`crate::flexible`]).
     const ELASTICITY: bool = false;
-    /// What a scene contains at most once: a scene of two does not compile. Any number of times for
-    /// an effect of one's own, unless it takes this constant from one of the library, such as
+    /// A scene may contain this effect once: a scene with two does not compile. Any number of times
+    /// for an effect of one's own, unless it takes this constant from one of the library, such as
     /// `<Viscous<R, V> as Effect<R, B, V>>::ONCE`.
     const ONCE: Once = Once::NONE;
 

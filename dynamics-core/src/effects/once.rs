@@ -17,7 +17,7 @@
 /// | different kinds of friction | add up: each has its own term |
 /// | your own | add up: how often they may occur is for you to decide |
 ///
-/// Where two of a kind are meant, as in two fits of Stribeck's curve, an effect of one's own calls
+/// If two of a kind are meant, as in two fits of Stribeck's curve, an effect of one's own calls
 /// both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Once {
@@ -65,7 +65,7 @@ impl Once {
         all
     }
 
-    /// What is wrong with a scene that contains one of them twice, and what to write instead.
+    /// The mistake in a scene that contains one of them twice, and its remedy.
     pub(crate) const fn problem(self) -> Option<&'static str> {
         if self.twice == 0 {
             return None;
@@ -76,21 +76,27 @@ impl Once {
 
 /// In the order of [`Kind`].
 const TEXTS: [&str; 12] = [
-    "the scene contains Inertia twice, which changes nothing: leave one out (RIGID_BODY contains it)",
-    "the scene contains Coriolis twice, which changes nothing: leave one out (RIGID_BODY contains it)",
+    "the scene contains Inertia twice, which changes nothing: leave one out (RIGID_BODY contains \
+     it)",
+    "the scene contains Coriolis twice, which changes nothing: leave one out (RIGID_BODY contains \
+     it)",
     "the scene contains Elasticity twice, which changes nothing: leave one out",
-    "the scene contains MovingBase twice, but the base has one motion: write one MovingBase with the sums of the \
-     velocities and of the accelerations",
-    "the scene contains Viscous twice, whose torques would add: write one Viscous([..]) with the sums of the coefficients",
-    "the scene contains Coulomb twice, whose torques would add: write one Coulomb { .. } with the sums of the torques",
-    "the scene contains AsymmetricCoulomb twice, whose torques would add: write one AsymmetricCoulomb { .. } with the \
+    "the scene contains MovingBase twice, but the base has one motion: write one MovingBase with \
+     the sums of the velocities and of the accelerations",
+    "the scene contains Viscous twice, whose torques would add: write one Viscous([..]) with the \
+     sums of the coefficients",
+    "the scene contains Coulomb twice, whose torques would add: write one Coulomb { .. } with the \
      sums of the torques",
-    "the scene contains Stribeck twice, whose torques would add: write one Stribeck { .. } with the sums of the excesses",
-    "the scene contains Lugre twice, but a joint has one set of bristles: write one Lugre { .. } with the sums of the \
-     torques",
-    "the scene contains LoadFriction twice, whose torques would add: write one LoadFriction { .. } with the sums of the \
-     factors",
-    "the scene contains Armature twice, whose inertias would add: write one Armature([..]) with the sums of the inertias",
-    "the scene contains GyroscopicRotors twice, whose inertias would add: write one GyroscopicRotors { .. } with the sums \
-     of the inertias",
+    "the scene contains AsymmetricCoulomb twice, whose torques would add: write one \
+     AsymmetricCoulomb { .. } with the sums of the torques",
+    "the scene contains Stribeck twice, whose torques would add: write one Stribeck { .. } with \
+     the sums of the excesses",
+    "the scene contains Lugre twice, but a joint has one set of bristles: write one Lugre { .. } \
+     with the sums of the torques",
+    "the scene contains LoadFriction twice, whose torques would add: write one LoadFriction { .. } \
+     with the sums of the factors",
+    "the scene contains Armature twice, whose inertias would add: write one Armature([..]) with \
+     the sums of the inertias",
+    "the scene contains GyroscopicRotors twice, whose inertias would add: write one \
+     GyroscopicRotors { .. } with the sums of the inertias",
 ];

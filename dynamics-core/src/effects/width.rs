@@ -23,7 +23,7 @@ pub struct Width<R> {
 }
 
 impl<R: Real> Width<R> {
-    /// Of a speed or depth.
+    /// The width of a speed or depth.
     #[cfg_attr(optimised, inline(always))]
     pub fn new(width: R) -> Self {
         Self {
@@ -44,7 +44,7 @@ impl<R: Real> Width<R> {
 }
 
 impl Width<f32> {
-    /// Of a speed or depth that the compiler knows.
+    /// The width of a speed or depth that the compiler knows.
     pub const fn f32(width: f32) -> Self {
         Self {
             inverse: 1.0 / width.abs(),
@@ -53,7 +53,7 @@ impl Width<f32> {
 }
 
 impl Width<f64> {
-    /// Of a speed or depth that the compiler knows.
+    /// The width of a speed or depth that the compiler knows.
     pub const fn f64(width: f64) -> Self {
         Self {
             inverse: 1.0 / width.abs(),

@@ -74,7 +74,7 @@ pub struct FlexibleLink {
     /// The link's end in its frame, m, undeformed: bodies whose parent this link is stand on the
     /// end and move with it.
     pub end: [f64; 3],
-    /// How many of the modes are used.
+    /// The number of modes that are used.
     pub count: usize,
     /// The modes, N = `count` of them.
     pub modes: [Mode; MODES_PER_LINK],
@@ -119,11 +119,11 @@ pub struct ModeError {
     pub link: &'static str,
     /// The mode's number among those of the link.
     pub mode: usize,
-    /// What is wrong with it.
+    /// The mistake in it.
     pub problem: ModeProblem,
 }
 
-/// What is wrong with the modes of a link.
+/// A mistake in the modes of a link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]

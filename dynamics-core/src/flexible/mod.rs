@@ -61,9 +61,9 @@ use crate::scalar::Real;
 /// A quantity of each joint and of each mode: torques and forces, or accelerations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointsAndModes<R, const V: usize, const M: usize> {
-    /// Of the joints: N·m or N; rad/s² or m/s².
+    /// Values of the joints, N·m or N; rad/s² or m/s².
     pub joints: [R; V],
-    /// Of the modes: N or N·m; m/s² or rad/s².
+    /// Values of the modes, N or N·m; m/s² or rad/s².
     pub modes: [R; M],
 }
 

@@ -157,6 +157,6 @@ where
 struct Body<R: Real> {
     x: Xform<R>,
     f: Force<R>,
-    /// Of the parent, if it has modes.
+    /// The parent's end, if it has modes.
     end: Option<End<R>>,
 }

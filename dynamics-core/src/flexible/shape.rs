@@ -7,7 +7,7 @@
 
 use crate::math::const_eval::{exp, sin_cos};
 
-/// Where the search for roots begins, its step, and how far it goes.
+/// The start of the search for roots, its step, and its end.
 const SCAN: (f64, f64, f64) = (0.01, 0.05, 60.0);
 
 /// A shape over u = x / L, one at u = 1.

@@ -69,7 +69,7 @@ where
     let mut bias = rnea(robot, modes, trig.with(&now), bent, &Bias(effects));
     if E::ELASTICITY {
         modes.add_stiffness(&mut m.modes.rows, [half, quarter]);
-        // What bending by h/2 η̇ more adds to K η.
+        // The increase of K η by bending h/2 η̇ further.
         for (row, force) in modes.stiffness.iter().zip(&mut bias.modes) {
             for (&k, &rate) in row.iter().zip(&bent.qd) {
                 *force += k * (half * rate);

@@ -43,7 +43,7 @@ pub enum Moving {
 pub struct Assembly<R, const Q: usize> {
     /// The configuration.
     pub q: [R; Q],
-    /// How many steps it took.
+    /// The number of steps that it took.
     pub steps: usize,
     /// The largest error that remains, relative to the size of its loop.
     pub error: R,

@@ -155,7 +155,7 @@ impl<R: Real, const B: usize> LoopBodies<R, B> {
         let (mut v, mut a) = (Motion::ZERO, Motion::ZERO);
         for (i, link) in inward(robot, at, ancestor) {
             let joint = frame * link.motion(turns, qd);
-            // Of all joints in their aligned frames only a universal one's axes move.
+            // Only a universal joint's axes move in its aligned frame.
             if link.kind() == JointKind::Universal {
                 let zero = Motion::ZERO;
                 a += frame * link.plus_velocity_product(zero, turns, qd, zero);

@@ -26,7 +26,7 @@ pub enum Drive {
     Determined,
     /// More of them: of all torques that give the motion, those with the least sum of squares.
     LeastNorm {
-        /// How many more.
+        /// The number of further ones.
         redundancy: usize,
     },
     /// It does not, or almost not: the configuration is at a dead point of the motors, or closer to
@@ -211,7 +211,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         }
     }
 
-    /// How many actuated coordinates there are: of robots of run time fewer than A, which is then V
+    /// The number of actuated coordinates: of robots of run time fewer than A, which is then V
     /// at least.
     #[cfg_attr(optimised, inline(always))]
     fn motors(&self) -> usize {
@@ -240,7 +240,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     /// The torques of the actuated coordinates that do what torques of all coordinates would: Gᵀ
     /// τ_a = Gᵀ τ, N·m or N.
     ///
-    /// Of several, that with the least sum of squares, in which an N counts as an N·m.
+    /// Among several, that with the least sum of squares, in which an N counts as an N·m.
     #[cfg_attr(optimised, inline(always))]
     pub fn torque(&self, tau: &[R; V]) -> [R; A] {
         let mut wanted = [R::ZERO; A];

@@ -28,7 +28,7 @@ pub struct Loops<const L: usize, const C: usize, const A: usize> {
     axes: [[Both; 3]; L],
     first_rows: [usize; L],
     pub(super) actuated: [usize; A],
-    /// How many coordinates have no motor.
+    /// The number of coordinates without a motor.
     pub(super) undriven: usize,
     /// ε in f64 and f32.
     pub(super) threshold: (f64, f32),
@@ -276,12 +276,12 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
         &self.actuated
     }
 
-    /// How many directions the loops constrain: C where they are not filled up.
+    /// The number of directions that the loops constrain: C if they are not filled up.
     pub(super) const fn constrained(&self) -> usize {
         self.rows(L.saturating_sub(1)).end
     }
 
-    /// The rows of loop `i` in K; none of a loop that there is not.
+    /// The rows of loop `i` in K, or an empty range if the machine has no loop of this number.
     pub const fn rows(&self, i: usize) -> Range<usize> {
         if i >= L {
             return C..C;
@@ -347,7 +347,7 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     }
 }
 
-/// What is wrong with the robot as a whole: C, and the actuated coordinates.
+/// The mistake in the robot as a whole: C, and the actuated coordinates.
 const fn whole(
     coordinates: usize,
     [given, expected]: [usize; 2],

@@ -5,7 +5,7 @@
 //! their loops, so that neither the unit of length nor rounding errors of a direction in which
 //! nothing moves decide.
 //!
-//! Where several loops share coordinates, those that move one loop only come first, while their
+//! If several loops share coordinates, those that move one loop only come first, while their
 //! pivots are large: their columns are zero in the rows of all other loops, and so is the transform
 //! of a loop's rows. Duff, Erisman & Reid, *Direct Methods for Sparse Matrices* (1986), chapter 7.
 

@@ -1,4 +1,4 @@
-//! What can be wrong with loops: with their description, and at one configuration.
+//! Errors of loops: of their description, and at one configuration.
 
 use core::fmt;
 
@@ -12,11 +12,11 @@ use crate::model::{Problem, Text};
 pub struct LoopModelError {
     /// The loop's name (the robot's, where the whole is concerned).
     pub name: &'static str,
-    /// What is wrong with it.
+    /// The mistake in it.
     pub problem: LoopProblem,
 }
 
-/// What is wrong with the description of a loop.
+/// A mistake in the description of a loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -39,7 +39,7 @@ pub enum LoopProblem {
     OutOfReach,
     /// The joints constrain another number of directions than C.
     Rows {
-        /// How many directions they constrain: what C has to be.
+        /// The number of directions that they constrain, which C has to be.
         expected: usize,
         /// The C of the description.
         given: usize,
@@ -52,7 +52,7 @@ pub enum LoopProblem {
     TooFewActuated {
         /// V − C.
         needed: usize,
-        /// How many there are.
+        /// Their number.
         given: usize,
     },
 }
@@ -77,7 +77,7 @@ impl LoopProblem {
         }
     }
 
-    /// What the name is one of.
+    /// The kind of thing that has the name.
     const fn subject(self) -> &'static str {
         match self {
             Self::Rows { .. }

@@ -151,7 +151,7 @@ where
     let motions = factors.free().rev();
     orthogonal.set(&metric, motions.map(|free| factors.motion(free)));
     orthogonal.approach(&mut apart, &mut qdd);
-    // What M q̈ lacks of the torques is what the motion lacks of its own without loops.
+    // M q̈ differs from the torques as the motion differs from its own without loops.
     let lambda = factors.force(metric.to_torque(&apart.map(|x| -x)));
     if !(all_finite(&qdd) & all_finite(&lambda)) {
         let name = loops.robot;

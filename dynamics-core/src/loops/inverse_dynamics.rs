@@ -144,7 +144,7 @@ where
 }
 
 impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
-    /// Of numbers of all coordinates those of the actuated ones.
+    /// Picks the values of the actuated coordinates out of those of all coordinates.
     #[cfg_attr(optimised, inline(always))]
     fn of_actuated<R: Real, const V: usize>(&self, all: &[R; V]) -> [R; A] {
         self.actuated.map(|joint| entry(all, joint))

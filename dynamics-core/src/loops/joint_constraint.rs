@@ -17,7 +17,7 @@ const OPPOSITE: f64 = 0.01;
 /// The error in its place, 2 tan(θ/2) of somewhat more.
 const LARGE: f64 = 30.0;
 
-/// How many of the constrained directions are rotations, and how many translations.
+/// The numbers of rotations and of translations among the constrained directions.
 pub(super) const fn counts(kind: JointKind) -> [usize; 2] {
     match kind {
         Fixed => [3, 3],
@@ -81,8 +81,8 @@ impl<R: Real> JointConstraint<R> {
     /// φ: rotations as 2 tan(θ/2) about their axis, rad for small errors, and m.
     pub(super) fn position(&self) -> [R; MOST] {
         let ([x, y, z], o) = ((self.x.rot * self.x.pos).array(), R::ZERO);
-        // Of a joint that slides, the error across the predecessor's axis, or along it: that across
-        // the successor's would change with its tilt as much as it has slid.
+        // For a joint that slides, the error across the predecessor's axis, or along it: that
+        // across the successor's would change with its tilt as much as it has slid.
         let [across, away, along] = self.x.pos.array();
         let [u, w, _] = (self.x.rot * R::Vec3::new(across, away, o)).array();
         let turned = |x, y, z| {
@@ -153,7 +153,7 @@ impl<R: Real> JointConstraint<R> {
         [zy - yz, xz - zx, yx - xy].map(|sine| sine * scale)
     }
 
-    /// How far a place along the axis of a screw is from the nearest thread at this turn.
+    /// The distance of a place along the axis of a screw from the nearest thread at this turn.
     fn thread(&self, z: R) -> R {
         let [[cos, minus_sin, _], ..] = self.x.rot.cols().map(Vector::array);
         let lead = self.pitch * R::from_f64(core::f64::consts::TAU);

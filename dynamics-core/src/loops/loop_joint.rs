@@ -117,7 +117,7 @@ impl LoopJoint {
         [self.ends[0].body, self.ends[1].body]
     }
 
-    /// What is wrong with it in a model of so many bodies, whatever their sizes.
+    /// The mistake in it in a model of this many bodies, whatever their sizes.
     pub(super) const fn problem(&self, bodies: usize) -> Option<LoopProblem> {
         let mut end = 0;
         while end < 2 {

@@ -80,7 +80,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         driven && squares * (threshold * threshold) < R::ONE
     }
 
-    /// Of `rows` the damped map in place of the eliminated one, and the passive coordinate that is
+    /// The damped map of `rows` in place of the eliminated one, and the passive coordinate that is
     /// damped most; nothing changes where ς is at least ε.
     #[cold]
     #[inline(never)]

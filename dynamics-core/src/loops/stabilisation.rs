@@ -1,11 +1,11 @@
-//! How fast errors of closed loops decay in a simulation.
+//! The decay of errors of closed loops in a simulation.
 
 use crate::scalar::Real;
 
 /// The time constant of [`Stabilisation::for_step`], in steps.
 pub const TIME_CONSTANT: f64 = 20.0;
 
-/// How fast errors of the loops decay in a simulation: K q̈ = k − velocity · K q̇ − position · φ.
+/// The decay of errors of the loops in a simulation: K q̈ = k − velocity · K q̇ − position · φ.
 ///
 /// Baumgarte (1972); RBDA (2008), section 8.3.
 #[derive(Clone, Copy, Debug, PartialEq)]

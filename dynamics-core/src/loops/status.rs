@@ -1,4 +1,4 @@
-//! What the result of forward dynamics says of its loops: by how much they are open, and whether
+//! The state of the loops in a result of forward dynamics: by how much they are open, and whether
 //! the rank of K dropped.
 //!
 //! Both are computed where they are asked for, from what the result carries:
@@ -20,7 +20,7 @@ use crate::state::manifold::integrate;
 /// ([`Constraints::size`]), thus about the length of its links.
 pub const OPEN: f64 = 1e-2;
 
-/// How far [`mobility`] goes from a configuration to find the usual rank, rad or m.
+/// The distance that [`mobility`] goes from a configuration to find the usual rank, rad or m.
 const NEARBY: [f64; 4] = [0.05, -0.05, 0.005, -0.005];
 
 /// By how much the loops are open in one state.
@@ -36,7 +36,7 @@ pub struct Closure<R> {
     pub velocity: R,
 }
 
-/// How many ways a machine with loops has to move.
+/// The number of ways in which a machine with loops can move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Mobility {
@@ -58,7 +58,7 @@ pub enum LoopRank {
     /// the accelerations are those of a machine with more degrees of freedom, with a jump to those
     /// next to it.
     Dropped {
-        /// How many degrees of freedom more there are.
+        /// The number of further degrees of freedom.
         gained: usize,
     },
 }
@@ -226,7 +226,7 @@ where
         for way in NEARBY {
             let step = motion.map(|x| x * (R::from_f64(way) / largest));
             let guess = integrate(robot, q, &step);
-            // Where the loops do not close there, another way leads on.
+            // If the loops do not close there, another way leads on.
             if let Ok(next) = assemble(robot, loops, &guess, Moving::All) {
                 usual = usual.min(freedoms(&at(&next.q)));
             }

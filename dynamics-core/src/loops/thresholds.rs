@@ -5,9 +5,9 @@ use crate::math::const_eval as m;
 /// The pivot, relative to the size of a loop, below which a row of K depends on those before it, in
 /// f64 and in f32.
 ///
-/// Of the order of the root of the rounding error: a pivot p multiplies rounding errors by 1/p, and
-/// where the product exceeds p itself, the rank is that of the rounding errors. Closer than this to
-/// a singular configuration, in rad, a machine is treated as singular.
+/// This is of the order of the root of the rounding error: a pivot p multiplies rounding errors by
+/// 1/p, and where the product exceeds p itself, the rank is that of the rounding errors. Closer
+/// than this to a singular configuration, in rad, a machine is treated as singular.
 pub const RANK_TOLERANCE: (f64, f32) = (1e-7, 2e-3);
 
 /// The distance ς from a singular configuration of the motors below which the passive coordinates

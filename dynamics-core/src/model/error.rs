@@ -90,10 +90,12 @@ impl Problem {
             Self::Mass(_) => "its mass is negative or not finite",
             Self::NotFinite => "a length, an angle or an inertia is not finite",
             Self::Limits => {
-                "a limit is not a number, lower exceeds upper, or a speed or torque limit is negative"
+                "a limit is not a number, lower exceeds upper, or a speed or torque limit is \
+                 negative"
             }
             Self::Placement => {
-                "the placement of its joint differs from the description, whose geometry is constant in the engine"
+                "the placement of its joint differs from the description, whose geometry is \
+                 constant in the engine"
             }
             Self::NoBody(_) => "the robot has no body of this number",
             Self::RightAngles => "the two axes of its joint are not at right angles",
@@ -105,8 +107,8 @@ impl Problem {
             Self::Name => "a body before it has the same name",
             Self::NegativeMoment(_) => "a principal moment of its inertia is negative",
             Self::InertiaOrder(_) => {
-                "in the order xx, xy, xz, yy, yz, zz its inertia has a negative principal moment, in the order xx, yy, zz, xy, xz, yz \
-                 it has none"
+                "in the order xx, xy, xz, yy, yz, zz its inertia has a negative principal moment, \
+                 in the order xx, yy, zz, xy, xz, yz it has none"
             }
             Self::Triangle(_) => "its moments of inertia break the triangle inequality",
             Self::Asymmetric(_) => "its inertia matrix is not symmetric",
@@ -121,7 +123,8 @@ impl fmt::Display for ModelError {
             let name = self.body;
             return write!(
                 out,
-                "robot `{name}`: its joints make Q = {q} and V = {v}, not Q = {given_q} and V = {given_v}"
+                "robot `{name}`: its joints make Q = {q} and V = {v}, not Q = {given_q} and V = \
+                 {given_v}"
             );
         }
         if let Problem::Bodies { expected, given } = self.problem {

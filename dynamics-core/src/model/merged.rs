@@ -65,8 +65,8 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// numbers, which effects must name: [`Merged::places`] has them by the numbers of the
     /// description.
     ///
-    /// What is fixed to the base is not in the robot: it moves no joint, but mass, momentum and
-    /// energy are without it.
+    /// A body that is fixed to the base is not in the robot: it moves no joint, but mass, momentum
+    /// and energy are without it.
     ///
     /// ```
     /// use dynamics_core::algorithms::{poses, rnea};

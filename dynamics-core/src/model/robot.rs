@@ -7,7 +7,8 @@ use crate::scalar::Real;
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a robot of these sizes",
     label = "not a robot",
-    note = "describe it by `impl Robot<B, Q, V> for {Self}` with `const MODEL: Model<f64, B, Q, V> = Model::new(..)`",
+    note = "describe it by `impl Robot<B, Q, V> for {Self}` with `const MODEL: Model<f64, B, Q, V> \
+        = Model::new(..)`",
     note = "or write that from a URDF or MJCF: `cargo xtask import robot.urdf --out robot.rs`"
 )]
 pub trait Robot<const B: usize, const Q: usize, const V: usize> {

@@ -10,7 +10,7 @@ use crate::trig::{Kernel, VECTORS};
 /// A robot of B bodies, Q position and V velocity coordinates, with the properties that are known
 /// at compile time: the machine code contains only the kinds of joint that it has.
 ///
-/// Of a [`Model`] nothing is known at compile time; of a [`Robot`] as [`Static`], everything is.
+/// Nothing of a [`Model`] is known at compile time; all of a [`Robot`] as [`Static`] is.
 pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     /// The kernel that computes its sines and cosines.
     type Kernel: Kernel<R>;
@@ -229,7 +229,7 @@ where
 #[derive(Clone, Copy, Debug)]
 pub struct Calibrated<T, R: Real, const B: usize, const Q: usize, const V: usize> {
     pub(super) model: Model<R, B, Q, V>,
-    // Of a function: the type contains no T.
+    // A function, so that the type contains no T.
     robot: PhantomData<fn() -> T>,
 }
 

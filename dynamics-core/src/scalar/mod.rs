@@ -114,7 +114,7 @@ pub trait Real:
         T: Robot<B, Q, V>;
     /// `yes` if `condition`, else `no`, without a branch.
     fn either(condition: bool, yes: Self, no: Self) -> Self;
-    /// The one of two values, for f64 and for f32, that is for this type.
+    /// Selects this type's value from two, the first for f64 and the second for f32.
     fn select(double: f64, single: f32) -> Self;
 }
 

@@ -30,7 +30,7 @@ pub trait Dynamics<R, const Q: usize, const V: usize> {
     /// Kinetic and potential energy, J.
     fn energies(&self, at: &State<R, Q, V>) -> (R, R);
 
-    /// Where q is after h seconds at these rates: [`StepIncrement::configuration_after`].
+    /// The configuration after h seconds at these rates: [`StepIncrement::configuration_after`].
     fn configuration_after(&self, q: &[R; Q], at: &StepIncrement<R, V>, h: R) -> [R; Q];
 }
 

@@ -19,8 +19,8 @@ pub(crate) struct AccelerationField<R: Real> {
 }
 
 impl<R: Real> AccelerationField<R> {
-    /// Of the angular velocity ω, the angular acceleration α and the acceleration a of the origin.
-    /// 15 flops.
+    /// The field of the angular velocity ω, the angular acceleration α and the acceleration a of
+    /// the origin. 15 flops.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn new(w: R::Vec3, at_origin: Motion<R>) -> Self {
         let ([wx, wy, wz], [x, y, z]) = (w.array(), at_origin.ang.array());
@@ -70,7 +70,7 @@ impl<R: Real> SpatialInertia<R> {
     /// I a + v ×* I v of a body that moves with a field: m a + U h, and ∫ r × U r dm + h × a. 66
     /// flops beyond the products of ω.
     ///
-    /// Of 867 orders of these sums 14 keep every hard case within its bounds; this one runs from
+    /// Among 867 orders of these sums 14 keep every hard case within its bounds; this one runs from
     /// left to right.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn force_in(&self, field: &AccelerationField<R>, w: R::Vec3) -> Force<R> {

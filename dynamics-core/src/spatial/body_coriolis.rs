@@ -27,7 +27,7 @@ pub(crate) struct BodyCoriolis<R: Real> {
 }
 
 impl<R: Real> BodyCoriolis<R> {
-    /// Of a body of velocity v. 83 flops.
+    /// The matrix of a body of velocity v. 83 flops.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn new(inertia: &SpatialInertia<R>, v: Motion<R>) -> Self {
         let (h, [hx, hy, hz]) = (inertia.first_moment, inertia.first_moment.array());

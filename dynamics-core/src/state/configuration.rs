@@ -99,8 +99,9 @@ where
     message = "`{Self}` is not a state of {Q} positions and {V} velocities in `{R}`",
     label = "not a state of this size and scalar",
     note = "a state is `&State<R, Q, V>`, or `trig.with(&state)` with its sines and cosines",
-    note = "a robot that is known at run time only is the first argument of a function of `algorithms`, such as \
-            `algorithms::rnea(&model, &state, &effects)`; `Engine` and `Core` take a type, `Engine::<Ur5e>::rnea(&state, &effects)`"
+    note = "a robot that is known at run time only is the first argument of a function of \
+            `algorithms`, such as `algorithms::rnea(&model, &state, &effects)`; `Engine` and \
+            `Core` take a type, `Engine::<Ur5e>::rnea(&state, &effects)`"
 )]
 pub trait RobotState<R, const Q: usize, const V: usize>: Copy + sealed::Sealed {
     /// The type of its configuration.

@@ -21,7 +21,7 @@ use JointKind::*;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct NoAttitude {
-    /// Where the joint's coordinates begin in q.
+    /// The place of the joint's first coordinate in q.
     pub at: usize,
 }
 

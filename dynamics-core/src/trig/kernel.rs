@@ -1,4 +1,4 @@
-//! What every approximation of sine and cosine has.
+//! The interface of every approximation of sine and cosine.
 
 /// An approximation of sine and cosine, selected as a type.
 ///

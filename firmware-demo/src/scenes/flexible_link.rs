@@ -37,7 +37,7 @@ pub const EFFECTS: Effects = (
 
 /// The start and end of the arm, rad: q₀ > 0 is below the horizontal.
 pub const START: [f32; 2] = [0.3, 0.9];
-/// Where it swings to.
+/// The ends of its swing.
 pub const END: [f32; 2] = [-0.6, 0.6];
 /// Ticks of a swing.
 pub const SWING: u32 = 400;

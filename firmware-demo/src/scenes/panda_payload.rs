@@ -208,7 +208,7 @@ const SPRING: ImpedanceConfig<f32, 6> = ImpedanceConfig {
 /// The law between ticks, with the modes of the last one; none if [`SPRING`] were no spring.
 type Spring = Cell<Option<CartesianImpedance<f32, 6>>>;
 
-/// What the law reads beside the reference: the load in the hand, and its own memory.
+/// The law's inputs beside the reference: the load in the hand, and its own memory.
 struct Held<'a> {
     borne: &'a Load,
     spring: &'a Spring,

@@ -5,50 +5,56 @@ use super::setup::list::{Stance, arm, chain};
 use host_tests::hard::{Case, Row};
 
 const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/hard.py)";
-const SOURCE: &str = "Featherstone, \"An empirical study of the joint-space inertia matrix\" (2004): κ grows as n⁴ in the worst case";
-const REASON: &str = "the error of a backward stable elimination is about κ ε in the worst case; the bounds are measured, and smaller. Torques and inverse operational-space inertias do not depend on κ";
+const AS_CASE_7: &str = "as case 7";
 
 pub const CASES: &[Case] = &[
     Case {
         number: 7,
         name: "chain of 8 rods",
-        parameters: "8 rods of 1 kg and 0.25 m: straight on parallel axes, and in random configurations on crossed axes; four states each",
-        source: SOURCE,
+        parameters: "8 rods of 1 kg and 0.25 m: straight on parallel axes, and random on crossed \
+            axes; four states each",
+        source: "Featherstone, \"An empirical study of the joint-space inertia matrix\" (2004): κ \
+            grows as n⁴ in the worst case",
         oracle: ORACLE,
-        reason: REASON,
+        reason: "a backward stable elimination errs by about κ ε at worst; the bounds are \
+            measured, and smaller. Torques and Λ⁻¹ do not depend on κ",
         run: || rods::<8>(7, &[STRAIGHT_8, RANDOM_8]),
     },
     Case {
         number: 8,
         name: "chain of 16 rods",
         parameters: "as case 7, 16 rods",
-        source: SOURCE,
+        source: AS_CASE_7,
         oracle: ORACLE,
-        reason: REASON,
+        reason: AS_CASE_7,
         run: || rods::<16>(8, &[STRAIGHT_16, RANDOM_16]),
     },
     Case {
         number: 9,
         name: "chain of 32 rods",
         parameters: "as case 7, 32 rods",
-        source: SOURCE,
+        source: AS_CASE_7,
         oracle: ORACLE,
-        reason: REASON,
+        reason: AS_CASE_7,
         run: || rods::<32>(9, &[STRAIGHT_32, RANDOM_32]),
     },
     Case {
         number: 10,
         name: "chain of 64 rods",
         parameters: "as case 7, 64 rods",
-        source: SOURCE,
+        source: AS_CASE_7,
         oracle: ORACLE,
-        reason: "f32 keeps two digits of the accelerations of such a chain in random configurations, and none where it is straight: there κ ε = 8, and the errors of LᵀDL and ABA are 1.1 and 0.1 of full scale. The cause is the rounding of M: refinement with torques of RNEA in f32 does not improve on the error of ABA. Torques and inverse operational-space inertias do not depend on κ",
+        reason: "f32 keeps two digits of the accelerations of random chains, and none of straight \
+            ones: there κ ε = 8, and the errors of LᵀDL and ABA are 1.1 and 0.1 of full scale. The \
+            cause is the rounding of M: refinement with torques of RNEA in f32 does not improve on \
+            ABA. Torques and Λ⁻¹ do not depend on κ",
         run: || rods::<64>(10, &[STRAIGHT_64, RANDOM_64]),
     },
     Case {
         number: 11,
         name: "six links in a zigzag",
-        parameters: "six rods of 1 kg and 1 m on parallel axes, joints alternately at ±75°, and the mirrored chain",
+        parameters: "six rods of 1 kg and 1 m on parallel axes, joints alternately at ±75°, and \
+            the mirrored chain",
         source: "Featherstone (2004): κ depends on how a chain is folded; here it is 725",
         oracle: ORACLE,
         reason: "κ ε = 9·10⁻⁵ in f32",

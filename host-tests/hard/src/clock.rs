@@ -17,21 +17,23 @@ pub const CASES: &[Case] = &[
     Case {
         number: 38,
         name: "encoder wrap 2π → 0",
-        parameters: "14 bits, 2 rad/s, 10 s in steps of 1 ms in both directions, observer of 250 rad/s",
-        source: "single-turn absolute encoders; a velocity of −6283 rad/s if it is computed as a difference",
+        parameters: "14 bits, 2 rad/s, 10 s in steps of 1 ms in both directions, observer of 250 \
+            rad/s",
+        source: "single-turn encoders; their difference would be a velocity of −6283 rad/s",
         oracle: "the true velocity",
-        reason: "a step Δ of the encoder changes the velocity by ω² h Δ, 0.024 rad/s: twice that",
+        reason: "an encoder's step Δ changes the velocity by ω² h Δ, 0.024 rad/s: twice that",
         run: wrap,
     },
     Case {
         number: 39,
         name: "tick jitter and missed ticks",
-        parameters: "UR5e in motion; 200 ticks that are late by up to this multiple of a tick; 1, 2, 5, 10, 50 missed ticks",
-        source: "interrupts delayed by a busy bus; control laws that divide by a measured interval",
+        parameters: "UR5e in motion; 200 ticks late by up to this multiple of a tick; 1, 2, 5, 10, \
+            50 missed ticks",
+        source: "interrupts delayed by a busy bus; laws that divide by a measured interval",
         oracle: "the limits; the tracking error without jitter",
-        reason: "nothing is divided by an interval, and the limits hold. Missed ticks are counted, and the observer \
-            continues without measurement: the remaining error is less than a tick and the delay, which decays \
-            with the poles of the loop (a tenth after 196 ticks, a hundredth after 306)",
+        reason: "no interval divides anything. Missed ticks are counted, and the observer \
+            continues without measurement: less than a tick and the delay remain, and decay with \
+            the poles of the loop (a tenth after 196 ticks, a hundredth after 306)",
         run: jitter,
     },
     Case {
@@ -39,8 +41,9 @@ pub const CASES: &[Case] = &[
         name: "24 h of ticks",
         parameters: "a motion after 86.4 million ticks of rest; 86.4 million ticks of an observer",
         source: "t += 0.001 in f32 stops at 32,768 s",
-        oracle: "the same motion without the rest; an observer that has just started",
-        reason: "time is counted in integers: the same bits. The error of an observer is the rounding error of its last ticks, ε and ω ε",
+        oracle: "the motion without the rest; an observer that has just started",
+        reason: "integers count the time: the same bits. An observer has the rounding error of its \
+            last ticks, ε and ω ε",
         run: day,
     },
 ];
@@ -119,7 +122,7 @@ fn wrap() -> Vec<Row> {
     rows
 }
 
-/// Of an arm in motion, of which something goes wrong with the ticks from 300 on: the greatest
+/// An arm in motion whose ticks go wrong from 300 on: the greatest
 /// share of the torque allowed, the worst tracking error, and how many ticks after it was over the
 /// error was beyond `settled` for the last time.
 fn disturbed<R: Real>(
@@ -159,8 +162,8 @@ fn disturbed<R: Real>(
     measured
 }
 
-/// 200 ticks, each late by up to so many ticks; a timer that counts tells how many were missed, or
-/// nobody does.
+/// 200 ticks, each late by up to this many ticks; a timer that counts tells how many were missed,
+/// or nobody does.
 fn lates<R: Real>(bench: &mut Bench<R>, see: &mut dyn FnMut(&Bench<R>), late: f64, counted: bool) {
     // Marsaglia's xorshift32, 2003.
     let (mut random, mut time, mut count) = (0x5eed_1234_u32, 0.0_f64, 0);

@@ -9,17 +9,20 @@ use host_tests::measured::larger;
 pub const CASES: &[Case] = &[Case {
     number: 41,
     name: "saturation without wind-up",
-    parameters: "UR5e blocked for 100 … 6400 ticks, 0.11 rad from its reference, torques at their limits; then released",
-    source: "integrators that wind up behind a limit: Åström & Hägglund (1995), section 3.5",
-    oracle: "the same recovery after any time at the limit; no overshoot, because the poles are critically damped",
-    reason: "there is no integrator: the same bits after any time in which the observer has settled (400 ticks)",
+    parameters: "UR5e blocked for 100 … 6400 ticks, 0.11 rad from its reference, torques at their \
+        limits; then released",
+    source: "integrators that wind up at a limit: Åström & Hägglund (1995), section 3.5",
+    oracle: "the same recovery after any time at the limit, without overshoot: the poles are \
+        critically damped",
+    reason: "no integrator: the same bits after any time in which the observer has settled (400 \
+        ticks)",
     run: saturation,
 }];
 
 /// The distance from the reference, rad.
 const HELD_OFF: f64 = 0.11;
 
-/// An arm that was held fast for so many ticks: the greatest share of its torque while it was,
+/// An arm that was held fast for this many ticks: the greatest share of its torque while it was,
 /// ticks till it is within 1 mrad for good, overshoot of the return, and where it is a second
 /// after.
 fn recover<R: Real>(held: u32) -> ([f64; 3], [R; 6]) {

@@ -16,28 +16,33 @@ pub const CASES: &[Case] = &[
     Case {
         number: 22,
         name: "impossible inertias; point masses",
-        parameters: "UR5e, I_zz of the last link exceeds I_xx + I_yy by 0.087 of itself, as that of a link of the PUMA 560; six point masses of 1.5 kg beside their axes",
-        source: "the PUMA 560 as published; estimated inertias; URDF files with point masses",
+        parameters: "UR5e, I_zz of the last link beyond I_xx + I_yy by 0.087 of itself, as of a \
+            link of the PUMA 560; six point masses of 1.5 kg beside their axes",
+        source: "the PUMA 560 as published; estimated inertias; point masses in URDF files",
         oracle: "50 digits from the same f32 bits; the stated excess",
-        reason: "no algorithm needs the inequality: a check names the body and the amount, and all algorithms run as with any body",
+        reason: "no algorithm needs the inequality; a check names the body and the amount",
         run: impossible,
     },
     Case {
         number: 23,
         name: "asymmetric or indefinite inertia",
-        parameters: "a rod whose identified I_xy and I_yx differ by a tenth; a rod with a negative principal moment about its axis",
+        parameters: "a rod whose identified I_xy and I_yx differ by a tenth; a rod with a negative \
+            principal moment about its axis",
         source: "least-squares identification without constraints",
         oracle: "the typed errors; M from its definition",
-        reason: "six numbers cannot be asymmetric; only inertias set at run time can, and `check` names them; an indefinite M is rejected because of its pivot",
+        reason: "six numbers cannot be asymmetric; inertias of run time can, and `check` names \
+            them; an indefinite M fails by its pivot",
         run: unsound,
     },
     Case {
         number: 24,
         name: "joint axis of length 2, of length 0",
         parameters: "axes (0, 0, 2), (0, 1.2, 1.6), (0, 0, 0)",
-        source: "URDF files with axes that are not normalised; a missing <axis> that is read as zeros",
+        source: "URDF files with axes that are not normalised; a missing <axis> that is read as \
+            zeros",
         oracle: "the same arm with axes of length 1; the typed error",
-        reason: "axes are normalised once, in f64: a length of two does not change any bit, and a direction is rounded as before; an axis without length has no direction",
+        reason: "axes are normalised once, in f64: a length of two changes no bit, and an axis \
+            without length has no direction",
         run: axes,
     },
 ];

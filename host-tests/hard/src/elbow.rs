@@ -15,19 +15,24 @@ pub const CASES: &[Case] = &[
     Case {
         number: 18,
         name: "operational space, stretched elbow",
-        parameters: "two links of 1 m, 1 kg and 1/16 kg·m² in a plane; angles of the elbow with σ_min(J) = 0, 10⁻⁶, 10⁻³; damping below 10⁻³ of the trace of Λ⁻¹",
+        parameters: "two links of 1 m, 1 kg and 1/16 kg·m² in a plane; angles of the elbow with \
+            σ_min(J) = 0, 10⁻⁶, 10⁻³; damping below 10⁻³ of the trace of Λ⁻¹",
         source: "Khatib (1987); Chiaverini (1997)",
-        oracle: "closed forms of M, J and torques in f64; the eigenvalues of Λ⁻¹ from its trace and its determinant sin²q₂/det M, in which nothing cancels",
-        reason: "the error of Λ⁻¹ is ε of its trace; damping below ρ = 10⁻³ of the trace divides it by ρ: 4 ε/ρ of the largest inertia that damping allows, 1/(ρ tr Λ⁻¹)",
+        oracle: "closed forms of M, J and torques in f64; the eigenvalues of Λ⁻¹ from its trace \
+            and determinant sin²q₂/det M, without cancellation",
+        reason: "the error of Λ⁻¹ is ε of its trace; damping below ρ = 10⁻³ of the trace divides \
+            it by ρ: 4 ε/ρ of the largest inertia that damping allows, 1/(ρ tr Λ⁻¹)",
         run: poses,
     },
     Case {
         number: 19,
         name: "sweep through the singularity",
-        parameters: "the same arm, elbow from −0.05 to 0.05 rad in 4001 steps; the force of 1 m/s² along the arm",
+        parameters: "the same arm, elbow from −0.05 to 0.05 rad in 4001 steps; the force of 1 m/s² \
+            along the arm",
         source: "pseudo-inverses with a threshold jump where an eigenvalue crosses it",
         oracle: "the same closed forms",
-        reason: "as case 18 at every step; adjacent steps then differ by at most the true slope and twice that bound",
+        reason: "as case 18 at every step; adjacent steps differ by the true slope and twice that \
+            bound at most",
         run: sweep,
     },
 ];

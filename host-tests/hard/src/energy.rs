@@ -1,4 +1,4 @@
-//! What moves by itself, and what does not: a double pendulum for an hour, a tree in free fall,
+//! Free motion, and rest: a double pendulum for an hour, a tree in free fall,
 //! rest without gravity.
 
 use super::name;
@@ -20,28 +20,32 @@ pub const CASES: &[Case] = &[
     Case {
         number: 28,
         name: "energy of a double pendulum",
-        parameters: "two points of 1 kg on rods of 1 m, from rest at (2, 2.5) rad, steps of 1 ms, 10 s and 1 h",
-        source: "the demo of every simulator; the motion is chaotic, so that only the energy can be compared with a law",
-        oracle: "the energy from the textbook's formula, in f64 from the state; the order of each integrator",
-        reason: "of first order in h, measured. Fourth order: 1.5e-11 per second in f64; in f32 the random walk of \
-            the rounding errors of two sums per step, √N ε",
+        parameters: "two points of 1 kg on rods of 1 m, from rest at (2, 2.5) rad, steps of 1 ms, \
+            10 s and 1 h",
+        source: "the demo of every simulator; its motion is chaotic, so that only the energy \
+            follows a law",
+        oracle: "the energy by the textbook's formula in f64; the order of each integrator",
+        reason: "first order in h, measured. Fourth order: 1.5e-11 per second in f64; in f32 the \
+            random walk of two sums per step, √N ε",
         run: pendulum,
     },
     Case {
         number: 29,
         name: "free fall of a floating tree",
-        parameters: "A1 and G1 on a free base, released at rest in 50 random configurations; 1 s of fall",
-        source: "quadrupeds and humanoids in MuJoCo and Brax that move their joints while they fall",
+        parameters: "A1 and G1 on a free base, released at rest in 50 random configurations; 1 s \
+            of fall",
+        source: "quadrupeds and humanoids in MuJoCo and Brax that move their joints while they \
+            fall",
         oracle: "the base accelerates by g, no joint moves, and every motor torque is zero",
-        reason: "inverse dynamics: the rounding error of one sum. Articulated bodies: a free joint decouples the \
-            robot from the acceleration of its base, so that the other joints have none. By M and its factors: κ \
-            ε",
+        reason: "inverse dynamics: one sum's rounding. Articulated bodies: a free joint decouples \
+            the robot from its base's acceleration. By M and its factors: κ ε",
         run: fall,
     },
     Case {
         number: 30,
         name: "at rest without gravity",
-        parameters: "UR5e, Panda, G1 and A1 on a free base, G1 on a free base in 50 random configurations; without gravity, and with gravity of 0",
+        parameters: "UR5e, Panda, G1 and A1 on a free base, G1 on a free base in 50 random \
+            configurations; without gravity, and with gravity of 0",
         source: "the drift of an idle simulation",
         oracle: "zero",
         reason: "only products with zeros are computed: exactly zero",

@@ -13,13 +13,13 @@ use host_tests::measured::larger;
 pub const CASES: &[Case] = &[Case {
     number: 47,
     name: "engine = core",
-    parameters: "the arms of cases 1 to 6, 11, 13, 15 to 17, 20 to 22, 42, 44 to 46, 48 in all their states; f32, and f64 on six \
-                 arms; forward dynamics on four",
+    parameters: "the arms of cases 1 to 6, 11, 13, 15 to 17, 20 to 22, 42, 44 to 46, 48 in all \
+        their states; f32, and f64 on six arms; forward dynamics on four",
     source: "a code generator that folds and regroups the textbook's operations",
-    oracle: "the core on the same description, which the cases themselves compare with 50 digits",
-    reason: "inverse dynamics: both forms round equally often, 8 ε of the largest torque of a joint; 64 ε for the \
-            tiny arm, whose weight is 50 times the force of its acceleration and cancels on the vertical axis. \
-            Forward dynamics: κ ε, measured",
+    oracle: "the core, which the cases compare with 50 digits",
+    reason: "inverse dynamics: both forms round equally often, 8 ε of a joint's largest torque; 64 \
+        ε for the tiny arm, whose weight is 50 times its force of acceleration and cancels on the \
+        vertical axis. Forward dynamics: κ ε, measured",
     run: engine,
 }];
 

@@ -15,10 +15,13 @@ use host_tests::measured::larger;
 pub const CASES: &[Case] = &[Case {
     number: 14,
     name: "slide 10⁴ m out, stroke of mm",
-    parameters: "a turntable of 2 kg·m²; 10⁴ m from its axis a prismatic joint along x with 0.5 kg, 0.25 kg·m² and a spring of 10⁶ N/m; q = 0.5, 1, 3, −2 mm",
-    source: "gantries whose q is measured from a distant datum: the resolution of f32 is 1 mm there",
-    oracle: "polar coordinates: τ = (J + m r²) θ̈ + 2 m r ṙ θ̇, F = m (r̈ − r θ̇²) + k s with r = L + s, in f64",
-    reason: "L + s is rounded once, by ε of L; the spring uses s itself. If q contained L, the spring would use a stroke rounded to 1 mm",
+    parameters: "a turntable of 2 kg·m²; 10⁴ m from its axis a slide along x with 0.5 kg, 0.25 \
+        kg·m² and a spring of 10⁶ N/m; q = 0.5, 1, 3, −2 mm",
+    source: "gantries whose q counts from a distant datum, where f32 resolves 1 mm",
+    oracle: "polar coordinates in f64: τ = (J + m r²) θ̈ + 2 m r ṙ θ̇, F = m (r̈ − r θ̇²) + k s with r \
+        = L + s",
+    reason: "L + s is rounded once, by ε of L; the spring uses s itself, which a q that contains L \
+        would round to 1 mm",
     run: slide,
 }];
 

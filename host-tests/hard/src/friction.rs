@@ -17,19 +17,20 @@ pub const CASES: &[Case] = &[
     Case {
         number: 33,
         name: "friction at rest, 0.9 of break-away",
-        parameters: "2 kg, a force of 3.6 N and friction of 4 N, widths 1e-2 … 1e-6 m/s, 2 s in steps of 1 ms; the LuGre \
-            model of Canudas de Wit (1995), loaded within 1 s, then 10 s",
-        source: "brakes and wrists that slip_tolerance or chatter in simulators with a regularised sign",
-        oracle: "closed form: the smooth sign u (3 − u²)/2 is 0.9 at u = 2 sin(asin(0.9)/3); the deflection of LuGre is −ln(0.1) F_s/σ₀",
-        reason: "speed: the rounding error of the balance of two forces, 30 ε. No chatter: the speed never decreases \
-            by more than the rounding error. LuGre: the requirement is 2.5 F_s/σ₀ and 1 %",
+        parameters: "2 kg, a force of 3.6 N and friction of 4 N, widths 1e-2 … 1e-6 m/s, 2 s in \
+            steps of 1 ms; the LuGre model of Canudas de Wit (1995), loaded within 1 s, then 10 s",
+        source: "brakes and wrists that creep or chatter under a regularised sign",
+        oracle: "closed form: the smooth sign u (3 − u²)/2 is 0.9 at u = 2 sin(asin(0.9)/3); the \
+            deflection of LuGre is −ln(0.1) F_s/σ₀",
+        reason: "speed: the balance of two forces rounds by 30 ε, and without chatter the speed \
+            decreases by no more. LuGre: the requirement is 2.5 F_s/σ₀ and 1 %",
         run: rest,
     },
     Case {
         number: 35,
         name: "friction through zero",
         parameters: "every power of two in f32 and f64 with 16 mantissas, both signs",
-        source: "signs that jump at zero; friction from tables with an offset, which drives the joint",
+        source: "signs that jump at zero; friction tables with an offset, which drives the joint",
         oracle: "τ(−v) = −τ(v) bit by bit, τ v ≥ 0",
         reason: "a claim: no rounding error depends on a sign",
         run: through_zero,
@@ -46,8 +47,8 @@ fn torque<R: Real, E: Effect<R, 1, 1>>(effect: &E, qd: R) -> R {
 fn rest() -> Vec<Row> {
     let mut rows = Vec::new();
     for width in [1e-2, 1e-4, 1e-6] {
-        slip_tolerance::<f32>(&mut rows, width);
-        slip_tolerance::<f64>(&mut rows, width);
+        creep::<f32>(&mut rows, width);
+        creep::<f64>(&mut rows, width);
     }
     holds::<f64>(&mut rows, 1e-4);
     holds::<f64>(&mut rows, 1e-3);
@@ -56,7 +57,7 @@ fn rest() -> Vec<Row> {
 }
 
 /// Smooth Coulomb friction creeps.
-fn slip_tolerance<R: Real>(rows: &mut Vec<Row>, width: f64) {
+fn creep<R: Real>(rows: &mut Vec<Row>, width: f64) {
     let of = R::from_f64;
     let dry = Coulomb {
         torque: [of(4.0)],
@@ -81,13 +82,13 @@ fn slip_tolerance<R: Real>(rows: &mut Vec<Row>, width: f64) {
         30.0 * R::EPSILON.to_f64(),
     );
     rows.push(Row::stated(
-        format!("width {width:.0e}: slip_tolerance"),
+        format!("width {width:.0e}: creep"),
         name::<R>(),
         error.abs(),
         bound,
     ));
     rows.push(Row::stated(
-        format!("width {width:.0e}: chatter, of the slip_tolerance"),
+        format!("width {width:.0e}: chatter, of the creep"),
         name::<R>(),
         back / want,
         bound,
@@ -126,7 +127,7 @@ fn holds<R: Real>(rows: &mut Vec<Row>, h: f64) {
         0.06,
     ));
     rows.push(Row::stated(
-        what("slip_tolerance in 10 s, of the presliding"),
+        what("creep in 10 s, of the presliding"),
         name::<R>(),
         crept,
         0.01,

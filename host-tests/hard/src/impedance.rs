@@ -16,10 +16,14 @@ use motion_control::{CartesianImpedance, ImpedanceConfig, TaskDeviation, TaskFra
 pub const CASES: &[Case] = &[Case {
     number: 70,
     name: "impedance, goal out of reach",
-    parameters: "UR5e with 150 N/m and 30 N·m/rad, ζ = 0.7 above 2 rad/s; the goal moves 0.7 m out of reach within a second, stays for five, returns, and stays for five; ticks of 1 ms",
-    source: "Chiaverini (1997); a spring has a singular posture as its equilibrium when its goal is out of reach",
-    oracle: "the limits of the drives, rest in the singular posture, and the goal after the return",
-    reason: "the spring's torque is below 150 N/m · 0.7 m · 0.9 m, so that with gravity the limits of the drives hold; nothing feeds energy into a passive law, so that the arm comes to rest; the residual error is what its slowest damping leaves after five seconds",
+    parameters: "UR5e with 150 N/m and 30 N·m/rad, ζ = 0.7 above 2 rad/s; the goal moves 0.7 m out \
+        of reach within a second and returns after five, then stays for five; ticks of 1 ms",
+    source: "Chiaverini (1997); a spring with its goal out of reach has a singular posture as its \
+        equilibrium",
+    oracle: "the limits of the drives, rest in the singular posture, the goal after the return",
+    reason: "the spring's torque stays below 150 N/m · 0.7 m · 0.9 m, with gravity within the \
+        drives' limits; a passive law gets no energy, so that the arm comes to rest; its slowest \
+        damping leaves the error after five seconds",
     run,
 }];
 

@@ -15,28 +15,34 @@ pub const CASES: &[Case] = &[
     Case {
         number: 44,
         name: "frame, gravity, root do not matter",
-        parameters: "UR5e on a wall; rotated together with gravity by a quarter turn about x, and by 0.7 rad about (1, 2, 3); three bodies in free motion with the root at either end",
+        parameters: "UR5e on a wall; rotated with gravity by a quarter turn about x, and by 0.7 \
+            rad about (1, 2, 3); three bodies in free motion, rooted at either end",
         source: "errors in frames that cancel when gravity is along z",
-        oracle: "50 digits for the wall; the arm that is not rotated, and the other root",
-        reason: "a quarter turn exchanges and negates numbers: the same bits. Any other rotation rounds the placement of the base once: some ε of full scale",
+        oracle: "50 digits for the wall; the arm that is not rotated; the other root",
+        reason: "a quarter turn keeps the bits. Another rotation rounds the base's placement once: \
+            some ε of full scale",
         run: turned,
     },
     Case {
         number: 45,
         name: "two numberings of one tree",
-        parameters: "a trunk with two limbs, one of which forks, its six bodies listed in two orders; four states",
-        source: "errors of index arithmetic that chains do not reveal",
-        oracle: "50 digits for each, and each compared with the other",
-        reason: "only the order of the sum over the children of a parent differs: one or two ulp of full scale",
+        parameters: "a trunk with two limbs, one of them forked, its six bodies in two orders; \
+            four states",
+        source: "index arithmetic that chains do not reveal",
+        oracle: "50 digits for each, and one against the other",
+        reason: "only the order of a sum over children differs: one or two ulp of full scale",
         run: renumbered,
     },
     Case {
         number: 48,
         name: "rotations rounded to 24 bits",
-        parameters: "six links with general axes, placements and inertias; all arithmetic in f64, rotations as f32 rounds them, then made orthonormal; four states",
-        source: "Eᵀ is not E⁻¹ for a rotation that is rounded to f32: CRBA transforms inertias by Eᵀ, ABA uses E outward and Eᵀ inward",
-        oracle: "50 digits for the orthonormal arm; ABA compared with CRBA + LᵀDL for the rounded one",
-        reason: "each of n rotations has an error of ε/2, which amounts to another arm, and forward dynamics multiplies this error by κ: n κ ε/2 with n = 6, κ = 360",
+        parameters: "six links with general axes, placements and inertias; arithmetic in f64, \
+            rotations as f32 rounds them, then orthonormal; four states",
+        source: "Eᵀ is not E⁻¹ of a rounded rotation: CRBA uses Eᵀ, ABA uses E outward and Eᵀ \
+            inward",
+        oracle: "50 digits for the orthonormal arm; for the rounded one, ABA against CRBA + LᵀDL",
+        reason: "each of n rotations errs by ε/2, which is another arm, and forward dynamics \
+            multiplies this by κ: n κ ε/2 with n = 6, κ = 360",
         run: rounded,
     },
 ];

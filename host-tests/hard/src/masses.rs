@@ -14,18 +14,22 @@ pub const CASES: &[Case] = &[
         number: 1,
         name: "tip mass × 10⁶",
         parameters: "UR5e, mass and inertia of the last link × 10⁶, four states",
-        source: "a crane's hook; Featherstone, RBDA (2008), chapter 10: M is ill-conditioned when a heavy body is outward of light ones",
+        source: "a crane's hook; Featherstone, RBDA (2008), chapter 10: M is ill-conditioned if a \
+            heavy body is outward of light ones",
         oracle: ORACLE,
-        reason: "torques are rounded as in any other arm; accelerations of light links between heavy ones are differences, whose errors stay below κ ε / 10",
+        reason: "torques are rounded as in any other arm; accelerations of light links between \
+            heavy ones are differences, with errors below κ ε / 10",
         run: || against_oracle(&arm(1, "tip × 10⁶"), &TIP_HEAVY),
     },
     Case {
         number: 2,
         name: "tip mass × 10⁻⁶",
         parameters: "UR5e, mass and inertia of the last link × 10⁻⁶, four states",
-        source: "a needle on an arm; solvers that add 10⁻⁶ to every pivot treat it as thousands of times heavier",
+        source: "a needle on an arm; solvers that add 10⁻⁶ to every pivot make it thousands of \
+            times heavier",
         oracle: ORACLE,
-        reason: "κ is 10¹⁰ only because of units: elimination does not depend on the scale of rows and columns (van der Sluis, 1969), and errors stay near ε",
+        reason: "κ is 10¹⁰ by its units alone: elimination does not depend on the scale of rows \
+            and columns (van der Sluis, 1969)",
         run: || against_oracle(&arm(2, "tip × 10⁻⁶"), &TIP_LIGHT),
     },
     Case {
@@ -34,52 +38,59 @@ pub const CASES: &[Case] = &[
         parameters: "UR5e, mass and inertia of the first link × 10⁶, four states",
         source: "an arm on a turret",
         oracle: ORACLE,
-        reason: "as case 2: one row and one column are scaled; the error of each torque is relative to the largest torque of its joint",
+        reason: "as case 2: one row and one column are scaled",
         run: || against_oracle(&arm(3, "base link × 10⁶"), &BASE_HEAVY),
     },
     Case {
         number: 4,
         name: "massless wrist links in between",
-        parameters: "UR5e, mass and inertia of the first two wrist links are zero, four states",
+        parameters: "UR5e, the first two wrist links without mass and inertia, four states",
         source: "URDF files whose intermediate links are frames without <inertial>",
         oracle: ORACLE,
-        reason: "no algorithm divides by the inertia of a single link, only by the inertia of all bodies that a joint moves",
+        reason: "no algorithm divides by the inertia of one link, only by that of all bodies that \
+            a joint moves",
         run: || against_oracle(&arm(4, "massless wrist links"), &WRIST),
     },
     Case {
         number: 5,
         name: "massless last link, no armature",
-        parameters: "UR5e, mass and inertia of the last link are zero, four states",
+        parameters: "UR5e, the last link without mass and inertia, four states",
         source: "a tool frame modelled as a moving body; ABA then divides zero by zero",
-        oracle: "the same; M has a row of zeros, so that the acceleration does not exist",
-        reason: "RNEA needs no inverse; every algorithm of forward dynamics names joint 5 in its error, in f32 and f64",
+        oracle: "a row of M is zero, so that no acceleration exists",
+        reason: "RNEA needs no inverse; every algorithm of forward dynamics names joint 5",
         run: massless_tip,
     },
     Case {
         number: 6,
         name: "the same with armature 10⁻⁸ … 10⁻²",
-        parameters: "rotor inertias of 10⁻⁸, 10⁻⁶, 10⁻⁴ and 10⁻² kg·m² at joint 5, four states each",
-        source: "the reflected rotor inertias of fingers are 10⁻⁸ to 10⁻⁵ kg·m²; libraries with a lower bound of 10⁻⁶ on inertias enlarge them",
+        parameters: "rotor inertias of 10⁻⁸, 10⁻⁶, 10⁻⁴ and 10⁻² kg·m² at joint 5, four states \
+            each",
+        source: "rotors of fingers reflect 10⁻⁸ to 10⁻⁵ kg·m²; libraries with a lower bound of \
+            10⁻⁶ on inertias enlarge them",
         oracle: ORACLE,
-        reason: "κ = 3·10³ … 4·10⁸ is due to scaling only: the error must not depend on the armature",
+        reason: "κ = 3·10³ … 4·10⁸ comes from scaling alone: the error must not depend on the \
+            armature",
         run: armature,
     },
     Case {
         number: 12,
         name: "1 kg on ten links of 1 g",
-        parameters: "ten rods of 1 g and 0.1 m, axes alternately transverse and vertical, and a rod of 1 kg; four states",
+        parameters: "ten rods of 1 g and 0.1 m, their axes transverse and vertical in turn, and a \
+            rod of 1 kg; four states",
         source: "ropes and cables as chains of small links",
         oracle: ORACLE,
-        reason: "κ ε = 2·10⁻² in f32: the pivots of the light links are the remainder after the share of the heavy link is subtracted",
+        reason: "κ ε = 2·10⁻² in f32: the pivots of the light links are remainders after the heavy \
+            link's share is subtracted",
         run: || against_oracle(&light_links(), &LIGHT_LINKS),
     },
     Case {
         number: 46,
         name: "payload from 0 to 10 times the arm",
-        parameters: "UR5e with 0, 1.77, 17.7, 177 kg at (0.02, −0.01, 0.08) m in its last frame, four states each",
+        parameters: "UR5e with 0, 1.77, 17.7, 177 kg at (0.02, −0.01, 0.08) m in its last frame, \
+            four states each",
         source: "identification and overload tests; the library's `Payload` effect",
         oracle: ORACLE,
-        reason: "as case 1, with a ratio that is a thousand times smaller",
+        reason: "as case 1, with a ratio a thousand times smaller",
         run: payload,
     },
 ];

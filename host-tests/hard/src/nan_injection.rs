@@ -14,13 +14,13 @@ use motion_control::{Fault, Mode};
 pub const CASES: &[Case] = &[Case {
     number: 37,
     name: "NaN, ±Inf, ±10³⁸ in each input",
-    parameters: "UR5e; every component of q, q̇, q̈, τ of rnea, crba, aba, crba + ltdl; during a motion, the measured \
-            position, reference and torque of every joint for one tick",
+    parameters: "UR5e; every component of q, q̇, q̈, τ of rnea, crba, aba, crba + ltdl; in motion, \
+        position, reference and torque of every joint for one tick",
     source: "damaged frames, uninitialised references; drives that read NaN as \"no limit\"",
-    oracle: "the same bits as without the injected value; the limits",
-    reason: "dynamics and control law have no state: the same bits at once. The ride-through covers a tick with \
-            NaN or infinity. A very large number is limited to the rate of one tick, a disturbance that decays \
-            with the poles of the loop: ω t e^(1 − ω t) is a tenth after 196 ticks",
+    oracle: "the bits without the injected value; the limits",
+    reason: "dynamics and law have no state: the same bits at once. The ride-through covers a tick \
+        with NaN or infinity. The rate of one tick limits a very large number, and the disturbance \
+        decays with the poles of the loop: ω t e^(1 − ω t) is a tenth after 196 ticks",
     run: poisoned,
 }];
 
@@ -62,7 +62,7 @@ fn outputs<R: Real>(state: &State<R, 6, 6>, tau: &[R; 6]) -> Vec<u64> {
     all.into_iter().map(|x| x.to_f64().to_bits()).collect()
 }
 
-/// Of the dynamics: that nothing stays behind, that what is no number never comes out as one, that
+/// The dynamics: nothing stays behind, a value that is no number never comes out as one, and
 /// a subnormal is a zero.
 fn functions<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
     let clean = State {
@@ -113,7 +113,7 @@ fn functions<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
     ));
 }
 
-/// Of the controller: that each command is within limits, that the fault is named, and how soon all
+/// The controller: each command is within limits, that the fault is named, and how soon all
 /// is as if nothing had been.
 fn controller<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
     const AT: u32 = 400;

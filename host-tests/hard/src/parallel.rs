@@ -21,17 +21,20 @@ pub const CASES: &[Case] = &[
     Case {
         number: 20,
         name: "coincident axes, no link between",
-        parameters: "UR5e, wrist 2 massless and wrist 3 on its axis, four states; and 1000 chains of four links with a massless link between two joints on one axis of any direction",
-        source: "a roll joint after a continuous joint with a dummy link between them",
+        parameters: "UR5e, wrist 2 massless and wrist 3 on its axis, four states; 1000 chains of \
+            four links, one massless between two joints on one axis of any direction",
+        source: "a roll joint after a continuous joint, a dummy link between them",
         oracle: ORACLE,
-        reason: "RNEA has no inverse. A pivot that does not exceed 32 times the rounding error of M's diagonal entry, or eight times that of the largest inertia that its joint could move, is a rounding error of zero; the criterion is relative, for robots of any size",
+        reason: "RNEA has no inverse. A pivot of at most 32 times the rounding error of M's \
+            diagonal entry, or eight times that of the largest inertia that its joint could move, \
+            is a rounding error of zero, whatever the robot's size",
         run: coincident,
     },
     Case {
         number: 21,
         name: "parallel axes",
         parameters: "six rods of 1 kg and 1 m on parallel axes in a vertical plane, four states",
-        source: "planar arms, which use every spatial inertia in one plane only",
+        source: "planar arms use every spatial inertia in one plane only",
         oracle: "50 digits, and the planar closed form in absolute angles, in f64",
         reason: "κ ε = 2·10⁻⁴ in f32 for accelerations; torques are rounded as in any other arm",
         run: planar,

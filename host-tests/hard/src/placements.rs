@@ -14,7 +14,8 @@ pub const CASES: &[Case] = &[
         number: 13,
         name: "base 10⁴ m from the origin",
         parameters: "UR5e, its base at (10⁴, −10⁴, 10⁴) m, four states",
-        source: "libraries that compute in base or world coordinates: the spatial inertia about a distant origin is dominated by m r²",
+        source: "libraries that compute in base or world coordinates: m r² of a distant origin \
+            dominates the inertia",
         oracle: "50 digits, and the bits at the origin",
         reason: "in link coordinates no number depends on the position of the base",
         run: far_base,
@@ -22,19 +23,23 @@ pub const CASES: &[Case] = &[
     Case {
         number: 42,
         name: "tiny and giant robots",
-        parameters: "UR5e scaled to 2⁻⁴ of its length and 17 g (upper arm 1.3·10⁻⁶ kg·m²), and to 2⁴ of its length and 9 t, in motions that are scaled in time",
-        source: "fingers and excavators; lower bounds on pivots (10⁻⁶) that suit neither",
-        oracle: "50 digits, and the same significands as those of the UR5e, because scaling by powers of two is exact",
-        reason: "dimensional analysis: the algorithms contain no absolute number, so that every bit except the exponents is the same",
+        parameters: "UR5e scaled to 2⁻⁴ of its length and 17 g (upper arm 1.3·10⁻⁶ kg·m²), and to \
+            2⁴ of its length and 9 t, in motions scaled in time",
+        source: "fingers and excavators; lower bounds on pivots (10⁻⁶) suit neither",
+        oracle: "50 digits, and the significands of the UR5e: powers of two scale exactly",
+        reason: "the algorithms contain no absolute number, so that every bit but the exponents is \
+            the same",
         run: tiny_and_giant,
     },
     Case {
         number: 43,
         name: "signed permutations, general frames",
-        parameters: "UR5e, whose placements are quarter turns, and the same arm with the frame of every link rotated about its joint by 0.4 + 0.7 i rad",
-        source: "libraries that round axis-aligned placements or treat them as special cases",
+        parameters: "UR5e, whose placements are quarter turns, and the same arm with each link's \
+            frame rotated about its joint by 0.4 + 0.7 i rad",
+        source: "libraries that round axis-aligned placements or treat them as special",
         oracle: "50 digits, and each compared with the other",
-        reason: "rotations rounded to f32 move the arm by ε of its size: torques agree within 4 ulp of the full scale of each joint",
+        reason: "rotations rounded to f32 move the arm by ε of its size: torques agree within 4 \
+            ulp of a joint's full scale",
         run: frames,
     },
 ];

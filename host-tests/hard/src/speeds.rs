@@ -22,25 +22,29 @@ pub const CASES: &[Case] = &[
         parameters: "UR5e, every joint at ±1000 rad/s, accelerations up to 10⁶ rad/s²",
         source: "spindles and rotors as joints; a simulation that diverges",
         oracle: ORACLE,
-        reason: "velocity products are homogeneous of degree two: no magnitude of q̇ loses digits unless a number overflows",
+        reason: "velocity products are homogeneous of degree two: no magnitude of q̇ loses digits \
+            short of an overflow",
         run: || against_oracle(&arm(15, "1000 rad/s"), &FAST),
     },
     Case {
         number: 16,
         name: "a million rad",
-        parameters: "UR5e, every joint at ±10⁶ rad (6.5·10⁸ counts of a 12-bit encoder), where adjacent f32 numbers differ by 1/16 rad",
-        source: "a continuous joint that has rotated for a day",
+        parameters: "UR5e, every joint at ±10⁶ rad (6.5·10⁸ counts of 12 bits), where adjacent f32 \
+            numbers differ by 1/16 rad",
+        source: "a continuous joint that has turned for a day",
         oracle: "50 digits at the counts modulo whole turns",
-        reason: "a supervisor without position limits rejects angles that f32 cannot reduce; subtracting whole turns in integers costs no digit",
+        reason: "a supervisor without position limits rejects angles that f32 cannot reduce; \
+            integers subtract whole turns without losing a digit",
         run: million,
     },
     Case {
         number: 17,
         name: "quarter turns ± 1 ulp",
-        parameters: "UR5e, joints at k π/2 rounded to f32 and at the two adjacent f32 numbers, |k| ≤ 5",
+        parameters: "UR5e, joints at k π/2 rounded to f32 and at the two adjacent f32 numbers, |k| \
+            ≤ 5",
         source: "Cody & Waite (1980): argument reduction loses all digits there if π/2 has too few",
         oracle: ORACLE,
-        reason: "the error of sine and cosine is at most 10⁻⁷, as at any other angle",
+        reason: "the error of sine and cosine is at most 10⁻⁷, as at any angle",
         run: || against_oracle(&arm(17, "k π/2 ± 1 ulp"), &QUARTERS),
     },
 ];

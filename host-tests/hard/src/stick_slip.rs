@@ -6,13 +6,13 @@ use host_tests::hard::{Case, Row};
 pub const CASES: &[Case] = &[Case {
     number: 34,
     name: "stick-slip period on a belt",
-    parameters: "2 kg on a spring of 300 N/m, a belt with 0.1 m/s, static friction of 7 N and sliding friction of 4 \
-            N, Stribeck velocity 1e-4 m/s, width 2e-6 m/s, steps of 50 µs",
-    source: "stick-slip as in the textbook; Armstrong-Hélouvry (1991), chapter 2",
-    oracle: "closed form for friction that drops at once: 2A/V + (2/ω)(π − atan(A ω/V)), A = (F_s − F_c)/k; the \
-            largest extension F_c/k + √(A² + V²/ω²)",
-    reason: "friction does not drop at once, but within the Stribeck velocity, 1e-3 of the belt's speed, and a \
-            step is 1e-4 of the period: measured",
+    parameters: "2 kg on a spring of 300 N/m, a belt with 0.1 m/s, static friction of 7 N and \
+        sliding friction of 4 N, Stribeck velocity 1e-4 m/s, width 2e-6 m/s, steps of 50 µs",
+    source: "textbook stick-slip; Armstrong-Hélouvry (1991), chapter 2",
+    oracle: "closed form for friction that drops at once: 2A/V + (2/ω)(π − atan(A ω/V)), A = (F_s \
+        − F_c)/k; the largest extension F_c/k + √(A² + V²/ω²)",
+    reason: "friction drops within the Stribeck velocity, 1e-3 of the belt's speed, and a step is \
+        1e-4 of the period: measured",
     run: belt,
 }];
 

@@ -19,30 +19,33 @@ pub const CASES: &[Case] = &[
     Case {
         number: 31,
         name: "spring of 10⁶ N·m/rad at 1 ms",
-        parameters: "h ω = 31.6, released 0.1 rad from equilibrium; then a load of 1 N·m",
-        source: "contact and cable stiffness in game engines: explicit steps diverge beyond h ω = 2",
-        oracle: "closed form of backward Euler's method: 0.1 Re (1 + i h ω)⁻ⁿ; equilibrium at τ/k",
-        reason: "relative to the present amplitude: q̇ + h q̈ cancels to 1/(1 + h²ω²) of q̇, that is 8 (1 + h²ω²) ε; \
-            in equilibrium 4 ε",
+        parameters: "released 0.1 rad from equilibrium, h ω = 31.6; then a load of 1 N·m",
+        source: "stiff contacts and cables in game engines: explicit steps diverge beyond h ω = 2",
+        oracle: "backward Euler in closed form: 0.1 Re (1 + i h ω)⁻ⁿ; equilibrium at τ/k",
+        reason: "relative to the present amplitude: q̇ + h q̈ cancels to 1/(1 + h²ω²) of q̇: 8 (1 + \
+            h²ω²) ε; in equilibrium 4 ε",
         run: spring,
     },
     Case {
         number: 32,
         name: "damping c·h/M = 1.9, 2.1, 150",
         parameters: "2 kg, steps of 1 ms, 10 steps",
-        source: "identified joint damping of gears, thousands of N·m·s/rad, in explicit simulators",
-        oracle: "closed form of backward Euler's method: (1 + c h/M)⁻ⁿ",
-        reason: "relative to the present speed: q̇ + h q̈ cancels to 1/(1 + c h/M) of q̇, ten times: 10 (1 + c h/M) ε",
+        source: "identified damping of gears, thousands of N·m·s/rad, in explicit simulators",
+        oracle: "backward Euler in closed form: (1 + c h/M)⁻ⁿ",
+        reason: "relative to the present speed: q̇ + h q̈ cancels to 1/(1 + c h/M) of q̇, ten times: \
+            10 (1 + c h/M) ε",
         run: damper,
     },
     Case {
         number: 36,
         name: "flexible joint, 10⁵ … 10⁷ N·m/rad",
-        parameters: "a motor of 0.5 kg drives a carriage of 2 kg through the joint with 5 N for 1 s in steps of 1 ms; UR5e at rest",
-        source: "Spong (1987); harmonic drives: an explicit step has to be short if the joint is stiff",
-        oracle: "closed form: the centre of mass moves by a h² n (n + 1)/2, and the force of the spring is M a",
-        reason: "position: the random walk of the rounding errors of 1000 sums, 2 √1000 ε. Force: k times the \
-            rounding error of the two angles, 6e-8 of 1 in f32: no method that stores angles can be better",
+        parameters: "a motor of 0.5 kg drives a carriage of 2 kg through the joint with 5 N for 1 \
+            s in steps of 1 ms; UR5e at rest",
+        source: "Spong (1987); harmonic drives: a stiff joint needs short explicit steps",
+        oracle: "closed form: the centre of mass moves by a h² n (n + 1)/2, the spring's force is \
+            M a",
+        reason: "position: the random walk of 1000 sums, 2 √1000 ε. Force: k times the rounding of \
+            the two angles, 6e-8 of 1 in f32, for any method that stores angles",
         run: flexible,
     },
 ];

@@ -56,7 +56,7 @@ pub struct Answers {
     pub tau: Vec<String>,
     /// None if M is singular: forward dynamics is to be refused.
     pub qdd: Option<Vec<String>>,
-    /// Of robots with few joints.
+    /// The matrix, for robots with few joints.
     #[serde(rename = "M")]
     pub matrix: Option<Vec<Vec<String>>>,
 }
@@ -207,7 +207,7 @@ impl SuiteCase {
     }
 }
 
-/// What a scalar is allowed.
+/// The error that a scalar is allowed.
 struct Allowed {
     relative: f64,
     underflow: Underflow,
@@ -225,8 +225,8 @@ impl Allowed {
         worst
     }
 
-    /// Of accelerations, with those that are known and their scales. A refusal is right where there
-    /// is no answer or the bound leaves it no digit.
+    /// The error of accelerations, against those that are known and their scales. A refusal is
+    /// right where there is no answer or the bound leaves it no digit.
     fn of_accelerations<R: Real, const N: usize>(
         &self,
         found: Option<[R; N]>,

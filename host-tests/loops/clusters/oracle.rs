@@ -1,4 +1,4 @@
-//! What Pinocchio says of robots with loops (`host-tests/oracle/clusters.py`), by core and engine,
+//! Pinocchio's results for robots with loops (`host-tests/oracle/clusters.py`), by core and engine,
 //! in f64 and f32; and that the engine gives what the core gives.
 
 use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};

@@ -1,5 +1,5 @@
-//! What Pinocchio recorded of the machines (`host-tests/oracle/loops.py`), and how far inverse and
-//! forward dynamics with loops are from it.
+//! The records of Pinocchio for the machines (`host-tests/oracle/loops.py`), and how far inverse
+//! and forward dynamics with loops are from it.
 
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::loops::{Stabilisation, forward_dynamics, inverse_dynamics};

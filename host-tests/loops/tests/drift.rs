@@ -77,7 +77,7 @@ fn a_stabilised_loop_stays_closed() {
     let (error, energy) = opened(Stabilisation::for_step(1e-3_f64));
     let (drift, _) = opened(Stabilisation::<f64>::NONE);
     let (single, single_energy) = opened(Stabilisation::for_step(1e-3_f32));
-    // What grows with time, in ten seconds and in a minute.
+    // The errors that grow with time, after ten seconds and after a minute.
     let [energy_bound, drift_bound] = everyday_or_full([8e-7, 8e-7], [8e-6, 4e-5]);
     within("opening in f64, stabilised, m", error, 1e-8);
     within("energy in f64, stabilised, J", energy, energy_bound);

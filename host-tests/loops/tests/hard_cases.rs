@@ -87,7 +87,7 @@ fn refused(rows: &[host_tests::hard::Row]) -> Vec<String> {
     rows.iter().filter_map(|row| row.demand().err()).collect()
 }
 
-/// What makes a result wrong.
+/// The reasons for which a result is wrong.
 type Change = fn(&mut Truth);
 
 /// A torque, an acceleration and a position that are wrong by some roundings of f64 are found, each
@@ -119,7 +119,7 @@ fn a_wrong_value_is_refused() {
     }
 }
 
-/// Where a status is demanded, a number without one is refused, and so is an unbounded number with
+/// If a status is demanded, a number without one is refused, and so is an unbounded number with
 /// one.
 #[test]
 fn a_number_without_its_status_is_refused() {

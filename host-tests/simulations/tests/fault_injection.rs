@@ -88,12 +88,14 @@ fn row(kind: Kind, observed: &[Observed]) -> String {
     let stopped = count(|one| one.stopped);
     let (all, reported) = (of.len(), latencies().count());
     format!(
-        "| {fault} | {detection} | `{name}` | {reaction} | {recovery} | {reported} of {all} | {latency} | {bridged} | {held} | {stopped} |\n"
+        "| {fault} | {detection} | `{name}` | {reaction} | {recovery} | {reported} of {all} | \
+         {latency} | {bridged} | {held} | {stopped} |\n"
     )
 }
 
 fn table(observed: &[Observed]) -> String {
-    let head = "| fault | detected by | reported as | reaction | recovery | reported | latency, ticks | bridged | held | stopped |\n\
+    let head = "| fault | detected by | reported as | reaction | recovery | reported | latency, \
+        ticks | bridged | held | stopped |\n\
         |---|---|---|---|---|---:|---:|---:|---:|---:|\n";
     let rows: String = Kind::ALL.iter().map(|&kind| row(kind, observed)).collect();
     format!("{head}{rows}")

@@ -16,7 +16,7 @@ use host_tests::everyday_or_full;
 use host_tests::measured::{largest, within};
 use host_tests::tolerances::check;
 
-/// Where the double pendulum is after a second in so many steps, all of which `see` is shown;
+/// The double pendulum's state after a second in this many steps, all of which `see` is shown;
 /// nothing if some acceleration has become none.
 fn watched<I, R, E, const COMPENSATED: bool>(
     steps: u32,

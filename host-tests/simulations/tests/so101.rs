@@ -1,4 +1,4 @@
-//! What the scene `so101_teach` promises: with the servos' duty computed from the model the arm
+//! The promises of the scene `so101_teach`: with the servos' duty computed from the model the arm
 //! follows the taught path at a fraction of the error of the servos' own position loops, and a hand
 //! that teaches it moves it with less effort.
 

@@ -146,7 +146,7 @@ fn push<R: Real>(body: usize) -> R::Vec3 {
 }
 
 std::thread_local! {
-    /// What `advance` was called with.
+    /// The arguments of `advance`.
     static ADVANCED: Cell<f64> = const { Cell::new(0.0) };
     /// The joint whose base parameters were loaded last.
     static LOADED: Cell<usize> = const { Cell::new(0) };
@@ -160,7 +160,7 @@ fn vec3<R: Real>(x: f64, y: f64, z: f64) -> R::Vec3 {
     R::Vec3::new(of(x), of(y), of(z))
 }
 
-/// What joint hooks alone add.
+/// The terms of joint hooks alone.
 fn at_joints() -> [f64; 3] {
     let State { q, qd, qdd } = MOVING;
     std::array::from_fn(|i| (2.0 + i as f64) * q[i] + 0.3 * qd[i] + (0.1 + i as f64) * qdd[i])
@@ -272,8 +272,8 @@ fn each_hook_counts_among_all_others() {
     assert!((spinning[0] - all[0]).abs() > 0.01);
 }
 
-/// What hooks declare, in numbers, from their text: flags, counts and the lengths of names, without
-/// the addresses of functions.
+/// The declarations of hooks, in numbers, from their text: flags, counts and the lengths of names,
+/// without the addresses of functions.
 fn declarations(hooks: &str) -> Vec<f64> {
     hooks
         .split(|c: char| " ,()[]{}".contains(c))
@@ -309,7 +309,7 @@ fn observed<R: Real, E: Effect<R, 6, 3> + Debug>(scene: &E) -> Vec<f64> {
     numbers
 }
 
-/// What the hooks of a scene add.
+/// The terms of a scene's hooks.
 fn added<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<R> {
     let mut numbers = Vec::new();
     let mut load = SpatialInertia::ZERO;

@@ -1,6 +1,6 @@
-//! What effects and descriptions promise their users: a load acts on the body that it names, a hook
-//! under the constant that announces it, a calibration in the frames of the description; small
-//! robots, few instances.
+//! The promises of effects and descriptions to their users: a load acts on the body that it names,
+//! a hook under the constant that announces it, a calibration in the frames of the description;
+//! small robots, few instances.
 
 mod hooks;
 mod payload;

@@ -1,4 +1,4 @@
-//! What the engine computes of named bodies and of all bodies together: against Pinocchio's
+//! The engine's results for named bodies and for all bodies together: against Pinocchio's
 //! recorded states, and on an odd tree against the core.
 
 use std::collections::BTreeMap;
@@ -339,7 +339,7 @@ fn recorded(r: &Recording, i: usize) -> Quantities {
     ]
     .map(|(name, rows)| (name, rows[i].clone()))
     .to_vec();
-    // Of fewer states.
+    // Fewer states suffice here.
     if let Some(row) = r.regressor.get(i) {
         let of = |k: usize| row.chunks(10).map(|body| body[k]).collect();
         all.extend((0..10).map(|k| (PARAMETERS[k], of(k))));

@@ -34,7 +34,7 @@ fn numbers<const M: usize, const V: usize>(task: &OperationalSpace<f64, M, V>) -
     ]
 }
 
-/// Of one body, and of two bodies on branches of the tree.
+/// The task of one body, and that of two bodies on branches of the tree.
 #[test]
 fn operational_spaces_are_those_of_the_core() {
     type Odd = StressRobot;

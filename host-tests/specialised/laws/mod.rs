@@ -208,8 +208,8 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Drag {
     });
 }
 
-/// What positions and velocities in base coordinates say: kinetic energy, potential energy and
-/// Σ |ω|² + |v|² of the bodies' origins.
+/// The energies and momenta from positions and velocities in base coordinates: kinetic energy,
+/// potential energy and Σ |ω|² + |v|² of the bodies' origins.
 fn energies<const B: usize, const N: usize>(
     model: &Model<f64, B, N, N>,
     q: &[f64; N],

@@ -14,7 +14,7 @@ pub struct Case {
     pub parameters: &'static str,
     /// The source of the case.
     pub source: &'static str,
-    /// What knows the right answer.
+    /// The source of the right answer.
     pub oracle: &'static str,
     /// Why the bounds are what they are.
     pub reason: &'static str,

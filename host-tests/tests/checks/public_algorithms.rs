@@ -11,7 +11,7 @@ use std::path::Path;
 /// replaces: sines and cosines computed before, another kernel.
 const VARIANTS: [&str; 2] = ["_at", "_by"];
 
-/// What an item at the left margin contains.
+/// The contents of an item at the left margin.
 #[derive(Clone, Copy, PartialEq)]
 enum Block {
     /// The methods of `Core`, `Engine` or `Clustered`.
@@ -67,7 +67,7 @@ fn algorithms(source: &str) -> Vec<String> {
     found
 }
 
-/// What speaks against these names.
+/// The objections to these names.
 fn objections(names: &[String]) -> Vec<String> {
     names
         .iter()

@@ -112,7 +112,8 @@ fn a_hoist_accelerates_by_the_efficiency_of_its_gear() {
 
 #[test]
 fn between_the_two_efficiencies_the_load_is_held_without_chatter() {
-    // m g (1 − μ₂) < x < m g (1 + μ₁): it creeps at a speed below the width, where x = m g (1 + m s + d s²).
+    // m g (1 − μ₂) < x < m g (1 + μ₁): it creeps at a speed below the width, where x = m g (1 + m s
+    // + d s²).
     let (even, odd, width) = (0.225, 0.025, 1e-4);
     for share in [0.85, 0.95, 1.05, 1.2] {
         let mut scene = (RIGID_BODY, gears::<f64, 1>(0.25, 0.2, width));

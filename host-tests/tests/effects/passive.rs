@@ -6,7 +6,7 @@ use dynamics_core::effects::{Armature, Coulomb, RIGID_BODY, Spring, Viscous, Wid
 use dynamics_core::robots::Ur5e;
 use host_tests::recordings::{read, row};
 
-/// What `host-tests/oracle/passive.py` wrote.
+/// The output of `host-tests/oracle/passive.py`.
 #[derive(serde::Deserialize)]
 struct Passive {
     damping: [f64; 6],

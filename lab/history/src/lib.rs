@@ -5,7 +5,7 @@
 //! They run on the host and on the target, in any [`Number`], and are never inlined, so that a call
 //! is what is measured.
 //!
-//! What counts as an operation is what Hollerbach (1980) counted: a product of 4 × 4 matrices is 64
+//! Operations are those that Hollerbach (1980) counted: a product of 4 × 4 matrices is 64
 //! products and 48 sums and one of 3 × 3 matrices 27 and 18, with all their zeros and ones; Q A,
 //! the derivative of a matrix A, costs nothing; changes of sign and what the robot's constants
 //! allow to compute beforehand cost nothing.

@@ -23,7 +23,7 @@ impl Tally {
         }
     }
 
-    /// What has been added since it was `then`.
+    /// The count that has been added since it was `then`.
     pub fn since(self, then: Self) -> Self {
         Self {
             instructions: self.instructions - then.instructions,

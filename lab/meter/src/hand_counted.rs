@@ -54,8 +54,9 @@ mod tests {
         assert!(check_hand_counted(&samples[..samples.len() - 1]).is_err());
         assert!(check_hand_counted(&[&*samples, &samples[..1]].concat()).is_err());
         samples[1].cycles += 1;
-        let said = "divide: by hand Sample { region: 0, instructions: 2, cycles: 13, flops: 0, at: 0 }, \
-                    by the meter Sample { region: 0, instructions: 2, cycles: 14, flops: 0, at: 0 }";
+        let said = "divide: by hand Sample \
+                    { region: 0, instructions: 2, cycles: 13, flops: 0, at: 0 }, by the meter \
+                    Sample { region: 0, instructions: 2, cycles: 14, flops: 0, at: 0 }";
         assert_eq!(check_hand_counted(&samples), Err(said.into()));
     }
 }

@@ -49,7 +49,7 @@
 //! | result of a sum, product, quotient, conversion … used by the next instruction | 1 more |
 //! | `VDIV`, `VSQRT` | 1, and 13 more which the next floating-point instruction waits for |
 //!
-//! Where the manual leaves room, these are the choices:
+//! The manual leaves room, and these are the choices:
 //!
 //! - The manual charges the address interlock after data processing; we charge it after a load too.
 //!   A base register that is only updated (`[r0], #4`, `PUSH`) interlocks nothing.

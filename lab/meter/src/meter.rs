@@ -31,7 +31,7 @@ impl<'b> Meter<'b> {
         }
     }
 
-    /// A block starts; the one before it passed so many of its checkpoints.
+    /// A block starts; the one before it passed this many of its checkpoints.
     pub fn enter(&mut self, block: &'b Block, passed: usize) {
         if let Some(last) = self.current.replace(block) {
             self.settle(last, passed, block.start());

@@ -142,7 +142,7 @@ fn load(path: &Path) -> Result<&'static Library, Box<dyn Error>> {
 }
 
 /// A function of Pinocchio's dynamics of robots with loops, which gives `outputs` numbers for each
-/// of so many states.
+/// of this many states.
 pub fn loops(
     library: &Path,
     function: &str,

@@ -19,7 +19,7 @@ use serde::Deserialize;
 
 use foreign::Foreign;
 
-/// What xtask has built.
+/// The library that xtask has built.
 #[derive(Deserialize)]
 struct Manifest {
     foreign: Vec<Foreign>,

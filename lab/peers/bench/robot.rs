@@ -11,7 +11,7 @@ use crate::ours::Merged;
 use crate::subject::{Row, Subject, interleaved};
 use crate::{Manifest, foreign, ours};
 
-/// States in a timed batch; the recording is gone through again until there are so many. The
+/// States in a timed batch; the recording is gone through again until there are enough of them. The
 /// matrices of a G1 then fit into a cache of 1 MiB, as the one of a control loop does; those of 256
 /// states did not, and times differed by a fifth between starts.
 const BATCH: usize = 64;
@@ -88,8 +88,8 @@ fn one<R: Real, const Q: usize, const V: usize>(
     )
 }
 
-/// Times subjects on so many states, and prints robot, algorithm and precision with their times and
-/// errors.
+/// Times subjects on this many states, and prints robot, algorithm and precision with their times
+/// and errors.
 pub fn print<R: Real>(
     [robot, algorithm, precision]: [&str; 3],
     mut subjects: Vec<Subject<R>>,

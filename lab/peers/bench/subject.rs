@@ -94,8 +94,8 @@ impl<R: Real> Subject<R> {
     }
 }
 
-/// The order of a square matrix by columns, of which the upper triangle is looked at and was
-/// recorded by rows. `ours` says which of our coordinates each of its own is.
+/// The order of the entries of a peer's square matrix, by columns, in our recording, which has the
+/// upper triangle by rows. `ours[i]` is our number of the peer's coordinate `i`.
 pub fn square(ours: &[usize]) -> Vec<Option<usize>> {
     let n = ours.len();
     let recorded = |i: usize, j: usize| {

@@ -1,4 +1,4 @@
-//! What is known of the arm: velocities, external torques, loads, parameters.
+//! Estimates of the arm: velocities, external torques, loads, parameters.
 
 pub(crate) mod contact_detector;
 pub(crate) mod momentum_observer;

@@ -1,7 +1,7 @@
 //! The parameters of an arm from the torques of its joints: a recursive estimator of constant work,
 //! one row in each update.
 //!
-//! Of a row yᵀ θ = z + noise of the standard deviation 1 and the covariance P:
+//! With a row yᵀ θ = z + noise of the standard deviation 1 and the covariance P:
 //!
 //! ```text
 //! r = yᵀ P y      e = z − yᵀ θ

@@ -200,7 +200,7 @@ pub struct PayloadEstimator<R, const V: usize> {
     forgetting: R,
     /// The square of the limit.
     most: R,
-    /// Of this tick and of the next one.
+    /// The factors of this tick and of the next one.
     factors: [Factors<R>; 2],
     /// Those of this tick are the second ones.
     second: bool,

@@ -1,8 +1,8 @@
 //! Hand guiding of an arm without torque sensors: friction compensation that stays passive, virtual
 //! walls, locked joints.
 //!
-//! Of the modelled friction F̂, which exceeds the true friction F at most by the share ε, and of
-//! the errors e of the torques that this one is added to:
+//! The torque follows from the modelled friction F̂, which exceeds the true friction F at most by
+//! the share ε, and from the errors e of the torques that this one is added to:
 //!
 //! ```text
 //! τ_c = s max(σ |F̂| − e, 0) sgn F̂      σ (1 + ε) ≤ 1      ⟹  |τ_c| + e ≤ |F| wherever e ≤ σ |F̂|
@@ -80,7 +80,7 @@ pub struct HandGuiding<R, const V: usize, const CIRCLES: u128 = 0> {
     config: HandGuidingConfig<R, V>,
     /// 1/v₀.
     rest_inv: [R; V],
-    /// Where joints are locked.
+    /// The places of locked joints.
     held: [Option<R>; V],
 }
 

@@ -83,7 +83,7 @@ pub struct CartesianImpedance<R, const M: usize> {
     modes: Modes<R, M>,
 }
 
-/// How far a body is from its goal, along the directions of a task.
+/// The distance of a body from its goal, along the directions of a task.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TaskDeviation<R, const M: usize> {
@@ -102,11 +102,11 @@ pub struct ImpedanceTorque<R, const V: usize> {
     /// Regular if all modes are faster than ω_min; else the square of the slowest one's frequency
     /// over ω_min².
     pub conditioning: Conditioning<R>,
-    /// How the modes were found.
+    /// The way in which the modes were found.
     pub modes: ModeSearch,
 }
 
-/// How the modes of a tick were found.
+/// The way in which the modes of a tick were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum ModeSearch {
@@ -115,7 +115,7 @@ pub enum ModeSearch {
     /// By more passes, at most eight: at the start, after a jump of the posture, after numbers that
     /// were not finite.
     Searched {
-        /// How many.
+        /// Their number.
         passes: usize,
     },
     /// Eight passes left some of them coupled: the damping is positive, but its ratio is not ζ to

@@ -145,7 +145,8 @@ impl fmt::Display for ConfigError {
             }
             ConfigParameter::FrictionError => "the error of the friction is negative or not finite",
             ConfigParameter::CompensatedShare => {
-                "the compensated share of the friction is negative, or exceeds it at its stated error"
+                "the compensated share of the friction is negative, or exceeds it at its stated \
+                 error"
             }
             ConfigParameter::RestSpeed => "a speed of rest is not a positive number",
             ConfigParameter::Compensation => {

@@ -1,4 +1,4 @@
-//! What a command may be: limits, faults and what follows from them, the command itself, errors of
+//! The bounds of a command: limits, faults and their reactions, the command itself, errors of
 //! configurations.
 
 pub(crate) mod circles;

@@ -291,7 +291,8 @@ impl SafetyLimitsError {
                 let (lower, upper) = (lower as f32, upper as f32);
                 write!(
                     out,
-                    "its range, {lower} to {upper}, counts turns, but its position is a point on a circle"
+                    "its range, {lower} to {upper}, counts turns, but its position is a point on a \
+                     circle"
                 )
             }
         }

@@ -342,8 +342,8 @@ pub(crate) fn path<R: Real, const V: usize>(
     tick: R,
     limits: &[MotionLimits<R>; V],
 ) -> Result<Trajectory<R, V, 2>, ApproachError> {
-    // What rounding may add to a peak in f32; and a path of no distance takes a tick. A time that
-    // cannot be counted becomes the greatest count.
+    // The amount that rounding may add to a peak in f32; and a path of no distance takes a tick. A
+    // time that cannot be counted becomes the greatest count.
     let ticks = seconds / tick * R::from_f64(1.0 + 1e-5);
     let ticks = ticks.to_u32().saturating_add(1);
     let stop = |q, ticks| WayPoint {

@@ -19,13 +19,13 @@ mod tests;
 pub struct BackOffConfig<R> {
     /// Greatest speed and acceleration of the path back, of all joints.
     pub limits: MotionLimits<R>,
-    /// How far within its bound a joint ends, rad or m.
+    /// The distance from its bound at which a joint ends, rad or m.
     pub margin: R,
 }
 
 /// Leads an arm that stands beyond its bounds back, at a low speed.
 ///
-/// Of a joint beyond its bound:
+/// While a joint is beyond its bound:
 ///
 /// - positions are accepted up to the innermost one so far and the plausible step of one tick;
 ///   further out, the arm is stopped in the same tick by [`Fault::Position`], without ride-through;
@@ -69,7 +69,7 @@ pub struct BackOffConfig<R> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BackOff<R, const V: usize> {
     path: Trajectory<R, V, 2>,
-    /// Where each joint ends, and where it is accepted.
+    /// The goal of each joint, and the range in which it is accepted.
     goal: [R; V],
     bounds: [[R; 2]; V],
     configured: [[R; 2]; V],

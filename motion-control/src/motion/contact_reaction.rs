@@ -26,7 +26,7 @@ mod travelled_path;
 
 use travelled_path::TravelledPath;
 
-/// How an arm reacts to a contact. Each ends with the arm held by a stop of category 2.
+/// The reaction of an arm to a contact. Each ends with the arm held by a stop of category 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -36,8 +36,8 @@ pub enum ContactResponse<R> {
     /// The reference stops and goes back along its path, from rest where the arm is. The gap from
     /// there to the newest point of the path fades over the whole retraction.
     Retract {
-        /// How far from the newest point of the path, rad or m: the sum over the path of the steps
-        /// of the joint that moves most. The points are apart by a fraction 1/(N − 1) of it.
+        /// The distance from the newest point of the path, rad or m: the sum over the path of the
+        /// steps of the joint that moves most. The points are apart by a fraction 1/(N − 1) of it.
         distance: R,
         /// Greatest speed and acceleration of the reference in the retraction, of all joints.
         limits: MotionLimits<R>,
@@ -91,7 +91,7 @@ impl<R: Real> ContactReactionConfig<R> {
     }
 }
 
-/// What a [`ContactReaction`] does in a tick.
+/// The action of a [`ContactReaction`] in a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -195,7 +195,7 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
         })
     }
 
-    /// What the arm does in reaction to a contact, as of the last tick.
+    /// The arm's reaction to a contact, as of the last tick.
     #[inline(always)]
     pub fn phase(&self) -> ContactPhase {
         self.phase

@@ -52,7 +52,8 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
             tick,
             decay,
             half,
-            // What is not a number of ticks becomes none or very many: the end of the trajectory.
+            // A value that is no number of ticks becomes none or very many: the end of the
+            // trajectory.
             lead: (R::ONE / (decay * tick)).to_u32(),
             ticks_inv,
             seconds_inv: ticks_inv / tick,

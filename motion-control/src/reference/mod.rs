@@ -1,4 +1,4 @@
-//! Where the arm should be: trajectories, paths, and their timing.
+//! The motion that the arm should follow: trajectories, paths, and their timing.
 
 pub(crate) mod geometric_path;
 pub(crate) mod path_spline;

@@ -260,11 +260,11 @@ pub struct ShaperError {
     pub link: &'static str,
     /// Its mode.
     pub mode: usize,
-    /// What is wrong with it.
+    /// The mistake in it.
     pub problem: ShaperProblem,
 }
 
-/// What is wrong with a vibration.
+/// A mistake in a vibration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]

@@ -46,7 +46,7 @@ pub struct TaughtPath<R, const V: usize, const N: usize, const CIRCLES: u128 = 0
     spacing_inv: [R; V],
 }
 
-/// What became of the positions of a tick.
+/// The fate of the positions of a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]

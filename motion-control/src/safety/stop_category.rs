@@ -5,8 +5,8 @@ use crate::limits::Fault;
 use crate::limits::Mode;
 use dynamics_core::scalar::Real;
 
-/// How an arm is stopped: the stop categories of IEC 60204-1 (2016), 9.2.2, and the lowering of an
-/// arm without brakes.
+/// The ways to stop an arm: the stop categories of IEC 60204-1 (2016), 9.2.2, and the lowering of
+/// an arm without brakes.
 ///
 /// A fault that outlasts the ride-through and a [`stop_by`](crate::MotionController::stop_by)
 /// choose among them; [`stop`](crate::MotionController::stop) is at once, for faults that leave no
@@ -64,7 +64,7 @@ pub enum StopCategory<R, const V: usize> {
     },
 }
 
-/// What follows the deceleration of a controlled stop.
+/// The action after the deceleration of a controlled stop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ending {
     /// Category 1.
@@ -86,7 +86,7 @@ pub(crate) struct Required {
 /// The configured category.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Stopping<R, const V: usize> {
-    /// What follows the deceleration; none for category 0.
+    /// The action after the deceleration; none for category 0.
     pub(crate) configured: Option<Ending>,
     pub(crate) damping: [R; V],
 }

@@ -103,7 +103,7 @@ impl<R: Real, const V: usize> SupervisorConfig<R, V> {
     }
 }
 
-/// What the supervisor does with the arm, from tick to tick.
+/// The supervisor's action on the arm, from tick to tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum State {
     /// The torque of the law was not finite: the arm is held in the next tick, whatever is

@@ -1,6 +1,6 @@
 //! Base parameters: the combinations of parameters that the torques of an arm depend on.
 //!
-//! Of the columns Y = [Y_s Y_d] with Y_d = Y_s K, torques need those of the selection alone, and
+//! With columns Y = [Y_s Y_d] and Y_d = Y_s K, torques need those of the selection alone, and
 //! what they multiply are the base parameters β = θ_s + K θ_d: Gautier, "Numerical calculation of
 //! the base inertial parameters of robots" (1991). The selection takes columns in their order, so
 //! that a parameter that cannot be distinguished is a part of those of bodies nearer to the base.

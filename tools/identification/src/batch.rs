@@ -21,7 +21,7 @@ use crate::{BaseModel, FourierMotion, IdentificationError, Identified, Recording
 const PASSES: usize = 30;
 /// Noise that changes by less than this share is final.
 const FINAL: f64 = 1e-4;
-/// How a recording is evaluated.
+/// The evaluation of a recording.
 ///
 /// # Example
 /// An identification of the pendulum's friction, offset and inertias is in the documentation of

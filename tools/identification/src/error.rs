@@ -38,7 +38,8 @@ pub enum IdentificationError {
     },
     /// The harmonics are fewer than the parameters need, or a period has too few samples for them.
     #[error(
-        "{harmonics} harmonics: at least {least} for the parameters, at most {most} for the samples of a period"
+        "{harmonics} harmonics: at least {least} for the parameters, at most {most} for the \
+         samples of a period"
     )]
     Harmonics {
         /// Those that were given.
@@ -61,7 +62,8 @@ pub enum IdentificationError {
     },
     /// The frequency up to which torques are compared is not positive, or too high for the ticks.
     #[error(
-        "torques cannot be compared up to {cutoff} Hz: the ticks of the recording allow at most {most:.1} Hz"
+        "torques cannot be compared up to {cutoff} Hz: the ticks of the recording allow at most \
+         {most:.1} Hz"
     )]
     Cutoff {
         /// The frequency, Hz.

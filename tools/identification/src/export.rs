@@ -65,7 +65,7 @@ const PERIOD: u32 = {ticks};
 /// 2π/PERIOD, and the angular velocity, rad/s.
 const ANGLE: f32 = {angle:?};
 const RATE: f32 = {rate:?};
-/// Of the positions, rad or m.
+/// The centre of the positions, rad or m.
 #[rustfmt::skip]
 pub const CENTRE: [f32; {V}] = {centre};
 /// Amplitudes of the sines by harmonics, rad or m.

@@ -33,7 +33,7 @@ const CORRELATED: f64 = 0.5;
 /// A parameter whose deviation is more than this share of that of its prior is not determined.
 const DETERMINED: f64 = 0.1;
 
-/// How a recording of ticks is evaluated.
+/// The evaluation of a recording of ticks.
 ///
 /// # Example
 /// Of a motion that does not repeat, the friction of a pendulum:
@@ -379,7 +379,7 @@ impl Equations {
         })
     }
 
-    /// Of the measured rows, N·m or N.
+    /// Residuals of the measured rows, N·m or N.
     fn residuals(&self, estimate: &nalgebra::DVector<f64>) -> Vec<f64> {
         let measured = self.rows.nrows() - self.rows.ncols();
         let all = &self.right - &self.rows * estimate;

@@ -50,7 +50,7 @@ impl<const V: usize> FourierMotion<V> {
     #[must_use]
     pub fn at(&self, t: f64) -> State<f64, V, V> {
         let rate = TAU / self.period;
-        // Of the time within the period: exact after many of them.
+        // It takes the time within the period: exact after many of them.
         let (sine, cosine) = (rate * (t % self.period)).sin_cos();
         let (mut s, mut c) = (sine, cosine);
         let mut state = State::at(self.centre);

@@ -1,4 +1,4 @@
-//! What an identification has found.
+//! The result of an identification.
 
 use nalgebra::DMatrix;
 

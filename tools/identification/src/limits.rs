@@ -95,7 +95,8 @@ impl<const V: usize> ExcitationLimits<V> {
     }
 }
 
-/// The nearest amplitudes with Σ hᵖ a_h = 0, of which the velocity (p = 1) or the acceleration (p = 2) is zero at the start.
+/// The nearest amplitudes with Σ hᵖ a_h = 0, of which the velocity (p = 1) or the acceleration (p =
+/// 2) is zero at the start.
 fn start_at_rest<const V: usize>(amplitudes: &mut [[f64; V]], joint: usize, power: i32) {
     let weight = |h: usize| ((h + 1) as f64).powi(power);
     let all = || amplitudes.iter().enumerate();

@@ -49,7 +49,7 @@ impl LowPass {
         }
     }
 
-    /// The weight of a sample so many ticks from the start of the window.
+    /// The weight of a sample this many ticks from the start of the window.
     pub fn weight(&self, place: usize) -> f64 {
         self.weights[place][0]
     }

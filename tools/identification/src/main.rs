@@ -79,7 +79,7 @@ fn main() -> ExitCode {
     ExitCode::FAILURE
 }
 
-/// What is printed, and why nothing is offered to paste.
+/// The output, and the reason if nothing is offered to paste.
 fn run(args: &Args) -> Result<(String, Option<Error>)> {
     let beside = || args.recording.with_extension("torques.svg");
     let picture = args.picture.clone().unwrap_or_else(beside);

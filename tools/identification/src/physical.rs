@@ -48,9 +48,9 @@ impl<const V: usize> Identified<V> {
     /// The possible parameters that agree best with the estimate and with nominal ones, if each
     /// nominal number has this relative standard deviation: the most probable set.
     ///
-    /// What the motion does not distinguish remains as near to the nominal numbers as the estimate
-    /// allows. A body without mass and a viscous friction, a Coulomb friction or an armature of
-    /// zero remains so; an offset is free.
+    /// Parameters that the motion does not distinguish remain as near to the nominal numbers as the
+    /// estimate allows. A body without mass and a viscous friction, a Coulomb friction or an
+    /// armature of zero remains so; an offset is free.
     ///
     /// # Errors
     /// [`IdentificationError::ImpossibleBody`] names a nominal body without a positive definite

@@ -1,4 +1,4 @@
-//! What was measured during whole periods of an excitation.
+//! Measurements during whole periods of an excitation.
 
 use crate::IdentificationError;
 
@@ -17,7 +17,7 @@ use crate::IdentificationError;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording<const V: usize> {
-    /// Of the mean period.
+    /// The positions of the mean period.
     pub(crate) positions: Vec<[f64; V]>,
     pub(crate) torques: Vec<[f64; V]>,
     interval: f64,

@@ -15,10 +15,10 @@ const NARROWEST: f64 = 1.5;
 
 /// Columns of a model and the measured torque, both through the same filter.
 pub(crate) struct Reduced<const V: usize> {
-    /// Of each row, s.
+    /// The time of each row, s.
     pub times: Vec<f64>,
     pub states: Vec<State<f64, V, V>>,
-    /// Of each joint row by row: the columns, then the torque.
+    /// The rows of each joint: the columns, then the torque.
     pub rows: [Vec<f64>; V],
 }
 
@@ -31,7 +31,7 @@ pub(crate) struct Filters {
 }
 
 impl Filters {
-    /// Of torques that belong `delay` after their positions, s, up to this frequency, Hz.
+    /// For torques that belong `delay` after their positions, s, up to this frequency, Hz.
     pub fn new(cutoff: f64, delay: f64, tick: f64) -> Result<Self, IdentificationError> {
         let width = LowPass::width(POSITIONS * cutoff * tick);
         if !(width >= NARROWEST && width.is_finite()) {

@@ -7,7 +7,7 @@ use dynamics_core::model::RobotModel;
 
 use crate::{BaseModel, FourierMotion};
 
-/// How an excitation is searched.
+/// The search for an excitation.
 ///
 /// From the best of some random series of each start, random changes of all amplitudes that reduce
 /// the condition number are kept; their size follows the one-fifth rule. Every motion that is tried
@@ -57,7 +57,7 @@ pub struct Search {
     pub seed: u64,
 }
 
-/// What a search has found so far.
+/// The best result of a search so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// The start, from zero.

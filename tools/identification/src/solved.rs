@@ -17,14 +17,14 @@ pub(crate) struct Solved {
     /// The weighted rows are Q R.
     q: DMatrix<f64>,
     factor: DMatrix<f64>,
-    /// Of each row, the diagonal of Q Qᵀ.
+    /// The diagonal of Q Qᵀ, for each row.
     pub(crate) leverages: DVector<f64>,
     /// The squares of the weighted residuals.
     pub(crate) squares: DVector<f64>,
 }
 
 impl Solved {
-    /// Of rows with these variances.
+    /// Solves rows with these variances.
     pub(crate) fn of(
         rows: &DMatrix<f64>,
         torques: &DMatrix<f64>,

@@ -1,4 +1,4 @@
-//! What was recorded in the ticks of a motion of any kind.
+//! Recorded ticks of a motion of any kind.
 
 use crate::IdentificationError;
 
@@ -31,7 +31,7 @@ pub type Samples<const V: usize> = (Vec<[f64; V]>, Vec<[f64; V]>);
 pub(crate) struct Stretch<const V: usize> {
     pub positions: Vec<[f64; V]>,
     pub torques: Vec<[f64; V]>,
-    /// Of its first tick, s since the start of the recording without its gaps.
+    /// The time of its first tick, s since the start of the recording without its gaps.
     pub start: f64,
 }
 

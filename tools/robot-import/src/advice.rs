@@ -1,4 +1,4 @@
-//! What a description has that its user should know: each with its place and a reason.
+//! Facts about a description that its user should know, each with its place and a reason.
 
 use std::f64::consts::PI;
 
@@ -35,7 +35,7 @@ pub enum Topic {
     Units,
     /// Limits of torque that gravity exceeds, or that are far above every need.
     Torque,
-    /// What the file states and the import leaves out.
+    /// A statement of the file that the import leaves out.
     LeftOut,
     /// A type with another name than the robot.
     Renamed,
@@ -46,11 +46,11 @@ pub enum Topic {
 /// A piece of advice.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Advice {
-    /// Its kind.
+    /// The kind of the advice.
     pub topic: Topic,
     /// The line of the file; 0 if none is concerned.
     pub line: u32,
-    /// The link or joint.
+    /// The link or joint that it is about.
     pub name: String,
     /// A sentence with the reason.
     pub text: String,
@@ -62,8 +62,8 @@ pub const FAR_GYRATION: f64 = 2.0;
 /// The longest time for a joint's range at its limit of speed without a word, s.
 const SLOWEST: f64 = 600.0;
 
-/// How many times the torque that a robot needs a limit may be without a word: legs that carry a
-/// body need more than when they hang from it.
+/// The largest ratio of a limit to the torque that a robot needs that passes without a word: legs
+/// that carry a body need more than when they hang from it.
 const MOST_LIMIT: f64 = 30.0;
 
 /// The advice on limits of torque that are far above what the robot needs at the states of a check,
@@ -102,10 +102,11 @@ pub fn needless_torque(tree: &Tree, checked: &Checked) -> Option<Advice> {
         line: body.line,
         name: body.joint.clone(),
         text: format!(
-            "Its limit is {limit} {unit}, {ratio:.0} times the {needed:.2} {unit} that it needs at most at {} random states of up to \
-             {speed:.0} rad/s and {acceleration:.0} rad/s²; no joint's limit is nearer to its need, so that a safety gate with these \
-             limits never acts. State what the drive can do, or may, in `effort` of <limit> (`forcerange` or `ctrlrange` of an MJCF), \
-             or in `torque` of the written file.",
+            "Its limit is {limit} {unit}, {ratio:.0} times the {needed:.2} {unit} that it needs at \
+             most at {} random states of up to {speed:.0} rad/s and {acceleration:.0} rad/s²; no \
+             joint's limit is nearer to its need, so that a safety gate with these limits never \
+             acts. State what the drive can do, or may, in `effort` of <limit> (`forcerange` or \
+             `ctrlrange` of an MJCF), or in `torque` of the written file.",
             checked.samples.len(),
         ),
     })
@@ -165,7 +166,8 @@ fn links(robot: &Description, tree: &Tree, all: &mut Vec<Advice>) {
             add(
                 Topic::Placeholder,
                 format!(
-                    "{} kg with a radius of gyration of {gyration:.1} m: the inertia may be in other units.",
+                    "{} kg with a radius of gyration of {gyration:.1} m: the inertia may be in \
+                     other units.",
                     own.mass
                 ),
             );
@@ -201,7 +203,8 @@ fn bodies(tree: &Tree, all: &mut Vec<Advice>) {
                 topic: Topic::Massless,
                 line: body.line,
                 name: body.joint.clone(),
-                text: "Neither the body nor what it carries has mass: M is singular, and forward dynamics needs an armature."
+                text: "Neither the body nor what it carries has mass: M is singular, and forward \
+                    dynamics needs an armature."
                     .to_owned(),
             });
         }
@@ -256,8 +259,9 @@ fn joint(robot: &Description, joint: &Joint, selected: &Selected, all: &mut Vec<
         add(
             Topic::Limits,
             format!(
-                "At its limit of speed, {speed} {unit}/s, it takes {:.1} hours for its range of {range:.3} {unit}. The motion of a \
-                 project moves it as far as it comes in 4 s; its safety gate may take the last digit of an encoder for more speed.",
+                "At its limit of speed, {speed} {unit}/s, it takes {:.1} hours for its range of \
+                 {range:.3} {unit}. The motion of a project moves it as far as it comes in 4 s; \
+                 its safety gate may take the last digit of an encoder for more speed.",
                 range / speed / 3_600.0
             ),
         );
@@ -334,7 +338,8 @@ fn locked(
         Role::Moves if selected.order.contains(&leader) => add(
             Topic::Mimic,
             format!(
-                "It stands still at {position}, although it follows `{name}`, which moves: their coupling is left out."
+                "It stands still at {position}, although it follows `{name}`, which moves: their \
+                 coupling is left out."
             ),
         ),
         Role::Moves => {}
@@ -343,11 +348,12 @@ fn locked(
             let text = match follows == position {
                 true if position == 0.0 => return,
                 true => format!(
-                    "It follows `{name}`, which stands still at {at}: it stands still at {position}."
+                    "It follows `{name}`, which stands still at {at}: it stands still at \
+                     {position}."
                 ),
                 false => format!(
-                    "It stands still at {position}, and `{name}`, which it follows, at {at}, where it would be at {follows}: \
-                     the lock is taken."
+                    "It stands still at {position}, and `{name}`, which it follows, at {at}, where \
+                     it would be at {follows}: the lock is taken."
                 ),
             };
             add(Topic::Mimic, text);
@@ -396,7 +402,8 @@ fn mimic(
         add(
             Topic::Mimic,
             format!(
-                "Where `{}` is within its limits, it goes from {least:.4} to {most:.4}, beyond its own {lower} to {upper}.",
+                "Where `{}` is within its limits, it goes from {least:.4} to {most:.4}, beyond its \
+                 own {lower} to {upper}.",
                 mimic.joint
             ),
         );

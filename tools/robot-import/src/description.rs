@@ -40,7 +40,7 @@ pub struct Description {
 /// A link.
 #[derive(Clone, Debug)]
 pub struct Link {
-    /// Its name.
+    /// The name of the link.
     pub name: String,
     /// The line of the file.
     pub line: u32,
@@ -68,20 +68,20 @@ pub struct Inertial {
 /// A frame's position and attitude in another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// The origin, m.
+    /// The place of the frame's origin, m.
     pub position: DVec3,
-    /// The axes, as columns.
+    /// The axes of the frame, as columns.
     pub rotation: DMat3,
 }
 
 /// A joint.
 #[derive(Clone, Debug)]
 pub struct Joint {
-    /// Its name.
+    /// The name of the joint.
     pub name: String,
     /// The line of the file.
     pub line: u32,
-    /// Its kind.
+    /// The kind of the joint.
     pub kind: Kind,
     /// The index of the parent link.
     pub parent: usize,
@@ -114,19 +114,19 @@ pub struct Joint {
 /// A kind of joint, in URDF's words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// No motion.
+    /// The joint does not move.
     Fixed,
-    /// A rotation within limits.
+    /// The joint rotates within limits.
     Revolute,
-    /// A rotation without end.
+    /// The joint rotates without end.
     Continuous,
-    /// A translation.
+    /// The joint slides.
     Prismatic,
-    /// A ball joint.
+    /// The joint is a ball joint.
     Spherical,
     /// Motion in the plane of x and y.
     Planar,
-    /// Any motion.
+    /// The body moves freely.
     Free,
 }
 
@@ -146,7 +146,7 @@ pub struct Limits {
 pub struct Mimic {
     /// The name of the joint that it follows.
     pub joint: String,
-    /// The ratio.
+    /// The ratio of follower and leader.
     pub multiplier: f64,
     /// The offset, rad or m.
     pub offset: f64,
@@ -168,13 +168,13 @@ pub struct Snap {
 /// A constraint that closes a loop between two links.
 #[derive(Clone, Debug)]
 pub struct Loop {
-    /// Its name.
+    /// The name of the loop.
     pub name: String,
     /// The line of the file.
     pub line: u32,
     /// `Spherical` for a common point, `Fixed` for a common frame, or the joint that closes it.
     pub kind: Kind,
-    /// The two links.
+    /// The two links that it connects.
     pub links: [usize; 2],
     /// The frames of the closing joint in the two links.
     pub frames: [Pose; 2],
@@ -183,13 +183,13 @@ pub struct Loop {
 }
 
 impl Pose {
-    /// No displacement.
+    /// The pose without a displacement.
     pub const IDENTITY: Self = Self {
         position: DVec3::ZERO,
         rotation: DMat3::IDENTITY,
     };
 
-    /// A translation.
+    /// Makes a pose that only translates.
     pub const fn translation(position: DVec3) -> Self {
         Self {
             position,
@@ -205,7 +205,7 @@ impl Pose {
         }
     }
 
-    /// The reverse pose.
+    /// The inverse of the pose.
     pub fn inverse(&self) -> Self {
         let rotation = self.rotation.transpose();
         Self {
@@ -216,7 +216,7 @@ impl Pose {
 }
 
 impl Kind {
-    /// How many numbers q and q̇ have of it.
+    /// The numbers of coordinates that it has in q and in q̇.
     pub const fn coordinates(self) -> [usize; 2] {
         match self {
             Self::Fixed => [0, 0],
@@ -327,7 +327,7 @@ pub(crate) fn shortened(text: &str) -> String {
     cut(text, MOST_SHOWN)
 }
 
-/// The beginning of a text that is longer than so many characters.
+/// The beginning of a text that is longer than this many characters.
 pub(crate) fn cut(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
         Some((end, _)) => format!("{}…", &text[..end]),

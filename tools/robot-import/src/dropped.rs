@@ -100,8 +100,8 @@ fn gravity(robot: &Description, selected: &Selected, joint_of: &[Option<usize>])
         .map(|x| format!("{:.4}", x + 0.0).replace("-0.0000", "0.0000"));
     (down.distance(-DVec3::Z) > 1e-6).then(|| {
         format!(
-            "The base `{}` is turned in the file at zero positions: on a root that stands upright, gravity is along ({x}, {y}, {z}) of \
-             the base, and that of SCENE is along its −z.",
+            "The base `{}` is turned in the file at zero positions: on a root that stands upright, \
+             gravity is along ({x}, {y}, {z}) of the base, and that of SCENE is along its −z.",
             shortened(&robot.links[selected.base].name)
         )
     })

@@ -38,7 +38,7 @@ pub enum Problem {
     /// The file cannot be read.
     #[error("cannot read {path}: {reason}")]
     File {
-        /// Its path.
+        /// The path of the file.
         path: String,
         /// The error of the operating system.
         reason: String,
@@ -46,7 +46,7 @@ pub enum Problem {
     /// The file cannot be written.
     #[error("cannot write {path}: {reason}")]
     Write {
-        /// Its path.
+        /// The path of the file.
         path: String,
         /// The error of the operating system, or why it must not be written.
         reason: String,
@@ -57,11 +57,11 @@ pub enum Problem {
     /// The file, or its number of elements, is larger than any robot's.
     #[error("{what}: {found}, at most {most}")]
     TooLarge {
-        /// What there is too much of.
+        /// The thing of which the file has too many.
         what: &'static str,
-        /// How much there is.
+        /// The amount in the file.
         found: usize,
-        /// How much there may be.
+        /// The amount that is allowed.
         most: usize,
     },
     /// The text is not well-formed XML.
@@ -81,17 +81,17 @@ pub enum Problem {
     Number {
         /// The attribute.
         attribute: String,
-        /// Its text, shortened.
+        /// The text of the attribute, shortened.
         text: String,
-        /// What is expected.
+        /// The values that are expected.
         expected: String,
     },
     /// A word is none of those that the format knows, or one that cannot be imported.
     #[error("{what} `{word}` cannot be imported: {reason}")]
     Unsupported {
-        /// What it is.
+        /// The kind of the thing that is named.
         what: &'static str,
-        /// The word.
+        /// The word in the file.
         word: String,
         /// Why, and what to do.
         reason: String,
@@ -102,7 +102,7 @@ pub enum Problem {
     /// No link or joint has this name.
     #[error("there is no {what} `{name}`{suggestion}")]
     NoSuch {
-        /// Link or joint.
+        /// Whether it is a link or a joint.
         what: &'static str,
         /// The name.
         name: String,
@@ -127,7 +127,7 @@ pub enum Problem {
 }
 
 impl ImportError {
-    /// Of an element on a line.
+    /// Makes the error of an element on a line.
     pub fn at(line: u32, element: impl Into<String>, problem: Problem) -> Self {
         let element = element.into();
         Self {

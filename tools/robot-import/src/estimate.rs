@@ -32,7 +32,7 @@ pub struct Saved {
     pub joint: String,
     /// The attributes with the file's text and the exact value.
     pub numbers: Vec<(String, String, String)>,
-    /// Cycles, estimated.
+    /// The estimated number of cycles.
     pub cycles: i64,
 }
 
@@ -47,7 +47,7 @@ pub fn cycles(tree: &Tree) -> Option<u64> {
     known(tree).map(|cycles| cycles as u64)
 }
 
-/// Bytes of its code.
+/// The number of bytes of its code.
 pub fn flash(tree: &Tree) -> Option<u64> {
     known(tree).map(|cycles| (FLASH * cycles) as u64)
 }
@@ -71,7 +71,7 @@ fn estimated(tree: &Tree) -> f64 {
     each.sum()
 }
 
-/// How many entries of a placement's rotation are neither 0 nor ±1.
+/// The number of entries of a placement's rotation that are neither 0 nor ±1.
 fn general_entries(body: &Body, parent: &Body) -> usize {
     let to_parent = match body.attitude {
         Attitude::QuarterTurns(turns) => snap::rpy(turns.map(snap::sin_cos)),
@@ -96,7 +96,7 @@ fn aligned(body: &Body) -> DMat3 {
     }
 }
 
-/// What each joint's exact values save.
+/// The cycles that each joint's exact values save.
 pub fn savings(robot: &Description, selected: &Selected, tree: &Tree) -> Vec<Saved> {
     let mut all = Vec::new();
     for body in tree.bodies.iter().filter(|body| !body.snapped.is_empty()) {

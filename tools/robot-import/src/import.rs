@@ -29,7 +29,7 @@ pub struct Args {
     /// The description: URDF or MJCF
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// Which robot it becomes.
+    /// The selection of the robot's joints.
     #[command(flatten)]
     pub options: Options,
     /// The robot's name; that of the file if not given
@@ -89,7 +89,7 @@ pub struct Options {
     /// isolated
     #[arg(long)]
     pub python_environment: bool,
-    /// How long the comparison may take, s
+    /// The time that the comparison may take, s
     #[arg(long, value_name = "SECONDS", default_value_t = PEER_TIME.as_secs_f64())]
     pub peer_time: f64,
     /// Let an MJCF include files below this folder, too; otherwise those below its own
@@ -98,7 +98,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// How long a comparison may take: a minute where none or an impossible time is given.
+    /// The time that a comparison may take: a minute if none or an impossible one is given.
     fn peer_time(&self) -> Duration {
         let given = Duration::try_from_secs_f64(self.peer_time).ok();
         given
@@ -187,13 +187,13 @@ pub struct Imported {
     pub selected: Selected,
     /// The robot's bodies.
     pub tree: Tree,
-    /// Its name.
+    /// The name of the robot.
     pub name: String,
-    /// Its Rust file.
+    /// The text of its Rust file.
     pub source: String,
     /// The words after `import` that write its file again, without where to.
     pub again: String,
-    /// What its user should know.
+    /// The facts that its user should know.
     pub report: Report,
 }
 
@@ -229,7 +229,9 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
             link.line,
             format!("body `{}`", link.name),
             Problem::Value(
-                "its mass is that of a mesh, which is not read, and a free base needs it: give it an <inertial>".to_owned(),
+                "its mass is that of a mesh, which is not read, and a free base needs it: give it \
+                 an <inertial>"
+                    .to_owned(),
             ),
         ));
     }
@@ -258,15 +260,16 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
     if !checked.holds() {
         let difference = checked.energy.max(checked.loops.unwrap_or_default());
         return Err(Problem::Value(format!(
-            "the import differs from the file by {difference:.1e} of full scale, at most {:.0e}: this is a defect of robot-import",
+            "the import differs from the file by {difference:.1e} of full scale, at most {:.0e}: \
+             this is a defect of robot-import",
             check::MOST
         ))
         .into());
     }
     if checked.full_scale > 0.0 && checked.full_scale < LEAST {
         return Err(Problem::Value(format!(
-            "its torques are at most {:.0e} N·m or N, and f32 computes with none below {LEAST:e}: its masses and inertias are too small, \
-             maybe by their unit",
+            "its torques are at most {:.0e} N·m or N, and f32 computes with none below {LEAST:e}: \
+             its masses and inertias are too small, maybe by their unit",
             checked.full_scale
         ))
         .into());
@@ -312,7 +315,10 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
     let renamed = match (&args.type_name, kept) {
         (Some(_), _) => None,
         (None, Some(kept)) => (kept != write::type_name(&name)).then(|| {
-            format!("The type is called `{kept}` as in the file that this import replaces; --type NAME calls it otherwise.")
+            format!(
+                "The type is called `{kept}` as in the file that this import replaces; --type \
+                NAME calls it otherwise."
+            )
         }),
         (None, None) => write::renamed(&name),
     };
@@ -402,14 +408,13 @@ fn compared(
         }
     };
     match &peer {
-        Err(no_peer) if options.check => Err(Problem::Value(format!(
-            "no peer to compare with: {}",
-            no_peer.reason()
-        ))
-        .into()),
+        Err(no_peer) if options.check => {
+            Err(Problem::Value(format!("no peer to compare with: {}", no_peer.reason())).into())
+        }
         Ok(peer) if peer.difference > check::MOST => Err(Problem::Value(format!(
-            "the import differs from {} by {:.1e} of full scale, at most {:.0e}, most at joint `{}`: nothing that the import leaves \
-             out explains it, so that one of the two misreads the file{}; with `--python none` the import is compared with no peer",
+            "the import differs from {} by {:.1e} of full scale, at most {:.0e}, most at joint \
+             `{}`: nothing that the import leaves out explains it, so that one of the two misreads \
+             the file{}; with `--python none` the import is compared with no peer",
             peer.name,
             peer.difference,
             check::MOST,
@@ -428,9 +433,10 @@ fn compared(
 /// no blanks around them.
 fn misread(peer: &check::Peer) -> String {
     format!(
-        "{} misreads the file and says: \"{}\". Its torques then differ by {:.1e} of full scale, most at joint `{}`. Where the numbers of \
-         the file have no blanks and line ends around them, which XML allows, it has the torques of the import. Programs that read the \
-         file as it does leave that out: remove them.",
+        "{} misreads the file and says: \"{}\". Its torques then differ by {:.1e} of full scale, \
+         most at joint `{}`. Where the numbers of the file have no blanks and line ends around \
+         them, which XML allows, it has the torques of the import. Programs that read the file as \
+         it does leave that out: remove them.",
         peer.name, peer.complaint, peer.difference, peer.joint
     )
 }
@@ -481,7 +487,8 @@ fn repair(robot: &mut Description, notes: &mut Vec<String>) {
         if let Some(found) = impossible(inertial.inertia, 0.0) {
             inertial.inertia = ImpossibleInertia::nearest(inertial.inertia);
             notes.push(format!(
-                "The inertia of link `{}` was not physical by {:.1e} of its largest moment: the nearest physical one is taken.",
+                "The inertia of link `{}` was not physical by {:.1e} of its largest moment: the \
+                 nearest physical one is taken.",
                 link.name, found.excess
             ));
         }

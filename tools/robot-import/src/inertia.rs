@@ -17,7 +17,7 @@ pub struct MassProperties {
 }
 
 impl MassProperties {
-    /// Of an inertia along the axes of a frame whose origin is the centre of mass.
+    /// From an inertia along the axes of a frame whose origin is the centre of mass.
     pub fn in_frame(mass: f64, frame: &Pose, inertia: [f64; 6]) -> Self {
         let turned = match frame.rotation == DMat3::IDENTITY {
             true => inertia,
@@ -36,12 +36,12 @@ impl MassProperties {
         Self::in_frame(self.mass, &frame.then(&com), self.inertia)
     }
 
-    /// Whether there is nothing.
+    /// Whether it has neither mass nor inertia.
     pub fn is_none(&self) -> bool {
         self.mass == 0.0 && self.inertia == [0.0; 6]
     }
 
-    /// Both together.
+    /// The mass properties of two bodies together.
     pub fn plus(&self, other: &Self) -> Self {
         if self.is_none() || other.is_none() {
             return if self.is_none() { *other } else { *self };

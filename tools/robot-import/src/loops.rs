@@ -14,7 +14,7 @@ use crate::write::placed;
 pub struct Closed {
     /// Its index in the description.
     pub source: usize,
-    /// Its name.
+    /// The name of the loop.
     pub name: String,
     /// `Spherical` for a common point, `Fixed` for a common frame.
     pub kind: Kind,
@@ -56,11 +56,11 @@ pub fn closed(robot: &Description, tree: &Tree) -> (Vec<Closed>, Vec<String>) {
 /// The actuated coordinates of a machine with loops.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Motors {
-    /// Their indices in q̇.
+    /// The indices of the actuated coordinates in q̇.
     pub actuated: Vec<usize>,
     /// Which they are, a sentence.
     pub which: &'static str,
-    /// What its user should know, if the file does not say which they are.
+    /// A note for its user, if the file does not say which they are.
     pub advice: Option<String>,
 }
 
@@ -84,8 +84,8 @@ impl Motors {
             return Err(Problem::Value(problem).into());
         }
         if let (false, true) = (names.is_empty(), loops.is_empty()) {
-            let problem = "`--motors`: the robot has no loop, and its torques are those of all joints: that of a joint without a motor \
-                           is zero";
+            let problem = "`--motors`: the robot has no loop, and its torques are those of all \
+                           joints: that of a joint without a motor is zero";
             return Err(Problem::Value(problem.to_owned()).into());
         }
         let of = |driven: &dyn Fn(&Body) -> bool| {
@@ -107,20 +107,22 @@ impl Motors {
             });
         }
         let [_, v] = tree.coordinates();
-        // At least so many coordinates move freely; the library asks for as many motors.
+        // At least this many coordinates move freely; the library asks for as many motors.
         let least = v.saturating_sub(rows(loops)).max(1);
         if !names.is_empty() {
             let actuated = of(&|body| names.contains(&body.joint));
             if actuated.len() < least {
                 let given = actuated.len();
                 let problem = format!(
-                    "`--motors` has {given} coordinates, and at least {least} move freely: name more joints"
+                    "`--motors` has {given} coordinates, and at least {least} move freely: name \
+                     more joints"
                 );
                 return Err(Problem::Value(problem).into());
             }
             return Ok(Self {
                 actuated,
-                which: "The actuated coordinates are those of the joints that were named as driven.",
+                which: "The actuated coordinates are those of the joints that were named as \
+                    driven.",
                 advice: None,
             });
         }
@@ -140,14 +142,14 @@ impl Motors {
             actuated: of(&|_| true),
             which: "The file has too few motors: every coordinate is taken as actuated.",
             advice: Some(format!(
-                "{driven}, and at least {least} move freely: every joint is taken as driven. `--motors A,B` names those with a \
-                 motor, or `<motor joint=…/>` in the file."
+                "{driven}, and at least {least} move freely: every joint is taken as driven. \
+                 `--motors A,B` names those with a motor, or `<motor joint=…/>` in the file."
             )),
         })
     }
 }
 
-/// How many directions the loops constrain.
+/// The number of directions that the loops constrain.
 fn rows(loops: &[Closed]) -> usize {
     let each = loops.iter();
     each.map(|one| if one.kind == Kind::Fixed { 6 } else { 3 })
@@ -181,7 +183,8 @@ pub fn source(tree: &Tree, type_name: &str, loops: &[Closed], motors: &Motors) -
         "\nuse ::dynamics_core::loops::{{BodyFrame, LoopJoint, LoopRobot, Loops}};\n\n\
          impl LoopRobot<{b}, {q}, {v}, {sizes}> for {type_name} {{\n\
          /// {which}\n\
-         const LOOPS: Loops<{sizes}> = Loops::new(&{type_name}::MODEL, [{joints}], [{actuated}]);\n}}\n\n\
+         const LOOPS: Loops<{sizes}> = Loops::new(&{type_name}::MODEL, [{joints}], \
+         [{actuated}]);\n}}\n\n\
          const _: Loops<{sizes}> = {type_name}::LOOPS;\n",
         b = tree.bodies.len(),
         actuated = actuated.join(", "),

@@ -22,22 +22,22 @@ use crate::tree::{self, Tree};
 /// A state: q, q̇ and q̈.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
-    /// Position.
+    /// The position coordinates.
     pub q: Vec<f64>,
-    /// Velocity.
+    /// The velocity coordinates.
     pub qd: Vec<f64>,
-    /// Acceleration.
+    /// The acceleration coordinates.
     pub qdd: Vec<f64>,
 }
 
 /// A tree as a model.
 #[derive(Debug)]
 pub enum AnyModel {
-    /// Of up to 16 velocity coordinates.
+    /// A model of up to 16 velocity coordinates.
     Small(Box<Sized<28, 32>>),
-    /// Of up to 64.
+    /// A model of up to 64.
     Middle(Box<Sized<76, 80>>),
-    /// Of up to 136.
+    /// A model of up to 136.
     Large(Box<Sized<MOST_BODIES, 168>>),
 }
 
@@ -46,7 +46,7 @@ pub enum AnyModel {
 pub struct Sized<const N: usize, const Q: usize> {
     exact: Model<f64, N, Q, N>,
     rounded: Model<f32, N, Q, N>,
-    /// How many ball joints fill it up.
+    /// The number of ball joints that fill it up.
     balls: usize,
 }
 
@@ -90,7 +90,7 @@ impl AnyModel {
         }
     }
 
-    /// What of its numbers looks like another unit, or asks more of the motors than they have.
+    /// The numbers that look like another unit, or ask more of the motors than they have.
     pub fn advice(&self) -> Vec<Advice> {
         match self {
             Self::Small(model) => model.exact.advice().collect(),
@@ -117,7 +117,7 @@ impl AnyModel {
         }
     }
 
-    /// The same in f32.
+    /// The torques, computed in f32.
     pub fn torque_f32(&self, motion: &Motion) -> Vec<f64> {
         match self {
             Self::Small(model) => model.torque_f32(motion),

@@ -36,7 +36,7 @@ pub enum Attitude {
 }
 
 impl Attitude {
-    /// Of a rotation matrix.
+    /// Makes the angles of a rotation matrix.
     pub fn of(rotation: &DMat3) -> Self {
         if let Some(turns) = snap::as_quarter_turns(rotation) {
             return Self::QuarterTurns(turns);

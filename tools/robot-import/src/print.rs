@@ -63,8 +63,8 @@ impl Report {
         if let Some(motors) = self.coupled_motors {
             let _ = writeln!(
                 out,
-                "\nCoupled: {motors} motors drive {v} joints through `COUPLING`, a `Transmission`; its `torque` makes the motors' torques \
-                 of the joints'."
+                "\nCoupled: {motors} motors drive {v} joints through `COUPLING`, a `Transmission`; \
+                 its `torque` makes the motors' torques of the joints'."
             );
         }
         if !self.exact.is_empty() || !self.exact_inertias.is_empty() {
@@ -188,7 +188,8 @@ impl Report {
         if let (Some(cycles), Some(flash)) = (self.estimated_cycles, self.estimated_flash) {
             let _ = writeln!(
                 out,
-                "\nInverse dynamics by the engine: about {cycles} cycles on a Cortex-M4F and {flash} B of code (estimated)."
+                "\nInverse dynamics by the engine: about {cycles} cycles on a Cortex-M4F and \
+                 {flash} B of code (estimated)."
             );
         }
         out

@@ -14,7 +14,7 @@ pub struct Report {
     pub name: String,
     /// The type's name.
     pub type_name: String,
-    /// The file.
+    /// The path of the file.
     pub file: String,
     /// The licence that its comments state.
     pub licence: Option<String>,
@@ -28,17 +28,17 @@ pub struct Report {
     pub coupled_motors: Option<usize>,
     /// The numbers of bodies, position and velocity coordinates.
     pub sizes: [usize; 3],
-    /// What to look at.
+    /// The advice on numbers that are worth a look.
     pub advice: Vec<Advice>,
     /// The roundings that were made exact.
     pub exact: Vec<estimate::Saved>,
     /// Those in the frames of inertias, a sentence each.
     pub exact_inertias: Vec<String>,
-    /// The check.
+    /// The results of the check.
     pub check: Checked,
     /// The comparison with a peer.
     pub peer: Option<Peer>,
-    /// Why there is none.
+    /// The reason if there is no peer.
     pub no_peer: Option<String>,
     /// Cycles of inverse dynamics by the engine, estimated.
     pub estimated_cycles: Option<u64>,
@@ -49,9 +49,9 @@ pub struct Report {
 /// A body in the report.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// The joint.
+    /// The name of the joint.
     pub joint: String,
-    /// The body.
+    /// The name of the body.
     pub body: String,
     /// The parent body's name.
     pub parent: String,

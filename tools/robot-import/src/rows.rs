@@ -1,11 +1,11 @@
-//! Poses as matrices.
+//! Poses are written as matrices here.
 
 use crate::description::Pose;
 
 /// A pose: the upper three rows of a 4 × 4 matrix.
 pub type Rows<T> = [[T; 4]; 3];
 
-/// A pose as rows.
+/// The matrix of a pose, by rows.
 pub fn rows(pose: &Pose) -> Rows<f64> {
     std::array::from_fn(|i| {
         std::array::from_fn(|k| match k {

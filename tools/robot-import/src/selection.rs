@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use crate::description::{Description, Kind};
 use crate::error::{ImportError, Problem, Result};
 
-/// What a user selects.
+/// The selection of a user.
 #[derive(Clone, Debug, Default)]
 pub struct Selection {
     /// The link that stands still; the root if none.
@@ -22,10 +22,10 @@ pub struct Selection {
     pub free_base: bool,
 }
 
-/// What a joint does.
+/// The role of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Role {
-    /// It moves.
+    /// The joint moves.
     Moves,
     /// It stands still at a position, rad or m.
     Locked(f64),
@@ -38,18 +38,18 @@ pub struct Selected {
     pub base: usize,
     /// The joints below the base, parents first, by index.
     pub order: Vec<usize>,
-    /// What each joint of the description does.
+    /// The role of each joint of the description.
     pub roles: Vec<Role>,
     /// Whether the base moves freely.
     pub free_base: bool,
 }
 
 impl Selection {
-    /// What the selection is in a description.
+    /// Applies the selection to a description.
     ///
     /// # Errors
-    /// Names that there are not, a tip that is not below the base, a joint that cannot be locked at
-    /// a position.
+    /// Names that the description lacks, a tip that is not below the base, a joint that cannot be
+    /// locked at a position.
     pub fn of(&self, robot: &Description) -> Result<Selected> {
         let mut joint_of = vec![None; robot.links.len()];
         for (j, joint) in robot.joints.iter().enumerate() {

@@ -123,7 +123,7 @@ mod tests {
         assert_eq!(turns("0"), Some(0));
         assert_eq!(turns("3.141"), Some(2));
         assert_eq!(turns("4.71239"), Some(3));
-        // What is small is stated: zero is written as 0.
+        // Small values are stated: zero is written as 0.
         for text in ["0.001", "-0.0001", "0.00001", "0.01", "1e-5"] {
             assert_eq!(turns(text), None, "{text}");
         }

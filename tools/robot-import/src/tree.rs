@@ -17,10 +17,10 @@ pub struct Tree {
     pub name: String,
     /// The base's name.
     pub base: String,
-    /// The bodies.
+    /// The bodies of the robot.
     pub bodies: Vec<Body>,
-    /// Of each link the body that it is part of, and its frame in that body's; none is the base, or
-    /// not part of the robot.
+    /// For each link, the body that it is part of, and its frame in that body's; none is the base,
+    /// or not part of the robot.
     pub links: Vec<Option<(Option<usize>, Pose)>>,
 }
 
@@ -43,7 +43,7 @@ pub struct Body {
     pub attitude: Attitude,
     /// The joint's axis in its frame.
     pub axis: [f64; 3],
-    /// Its mass and inertia.
+    /// The mass and the inertia of the body.
     pub inertia: MassProperties,
     /// The joint's limits, where they are stated and possible.
     pub limits: Limits,
@@ -70,7 +70,7 @@ pub struct Body {
 /// Which numbers of the file a tree has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Numbers {
-    /// As they are.
+    /// The numbers stay as they are.
     AsGiven,
     /// With exact values in place of roundings.
     Exact,

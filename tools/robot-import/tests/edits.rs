@@ -15,7 +15,7 @@ const FILES: [&str; 3] = [
     include_str!("mjcf/default_classes.xml"),
     include_str!("mjcf/joints_of_a_body.xml"),
 ];
-/// What is put in.
+/// The text that is put in.
 const WORDS: [&str; 20] = [
     "",
     "<",

@@ -1,4 +1,4 @@
-//! What an import makes of a file, and that its check fails where the import is wrong.
+//! The result of an import, and a check that fails if the import is wrong.
 
 mod changes;
 mod extensions;

@@ -139,7 +139,7 @@ fn differences(robot: &Description, model: &Model) -> Vec<String> {
         }
         for (name, residual) in &state.residuals {
             let ours = walked.residual(robot, state, name);
-            // Of a rotation only the absolute value is the same for all conventions.
+            // Only the absolute value of a rotation is the same for all conventions.
             let theirs: Vec<f64> = match residual.as_slice() {
                 [x, y, z, rotation @ ..] if rotation.len() == 3 => {
                     let square: f64 = rotation.iter().map(|x| x * x).sum();

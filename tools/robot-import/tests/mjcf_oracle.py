@@ -1,11 +1,12 @@
-"""What MuJoCo makes of the fixtures: the recording that the test of the reader of MJCF compares with.
+"""MuJoCo's reading of the fixtures: the recording that the test of the reader of MJCF compares with.
 
     python tools/robot-import/tests/mjcf_oracle.py                      writes tools/robot-import/tests/mjcf/recorded.json
     python tools/robot-import/tests/mjcf_oracle.py OUT.json FILE...     other models
 
-At q = 0 and at a second configuration: mass, centre of mass and inertia of each body, anchor and axis of each joint,
-the residual of each constraint, all in the world's frame. Damping, armature and effort are measured, not read from the
-model: as a force at unit speed, as the difference of the mass matrix, and as the force under a very large control.
+At q = 0 and at a second configuration: mass, centre of mass and inertia of each body, anchor and
+axis of each joint, the residual of each constraint, all in the world's frame. Damping, armature and
+effort are measured, not read from the model: as a force at unit speed, as the difference of the
+mass matrix, and as the force under a very large control.
 """
 
 import json

@@ -109,7 +109,7 @@ impl Trial {
         command
     }
 
-    /// What a command prints; it has to succeed.
+    /// The output of a command, which has to succeed.
     fn run(&self, command: &str, arguments: &[&str]) -> String {
         let start = Instant::now();
         let output = self.command(command, arguments).output();
@@ -208,7 +208,7 @@ impl Drop for Trial {
     }
 }
 
-/// How many random inputs each function of a library for C gets.
+/// The number of random inputs that each function of a library for C gets.
 const SAMPLES: &str = "1000000";
 const PROBE: &str = "inverse dynamics of the probe";
 const FIRST: &str = "torques of the first tick";
@@ -358,7 +358,7 @@ fn the_boards() {
     trial.on_host();
 }
 
-/// What is wrong with a call is said before the robot is read, and nothing else is.
+/// A mistake in a call is named before the robot is read, and nothing else is.
 #[test]
 fn a_project_that_cannot_be_written_is_refused_at_once() {
     let folder = env::temp_dir().join(format!("refused-{}", std::process::id()));

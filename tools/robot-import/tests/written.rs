@@ -28,7 +28,7 @@ const DRIVEN: &str = include_str!("robots/driven_loop.rs");
 const PASSIVE: &str = include_str!("robots/passive_loop.rs");
 const PARALLELOGRAM: &str = include_str!("robots/parallelogram.rs");
 
-/// What the importer makes of a file of these tests, on the day on which `written` was.
+/// The importer's result for a file of these tests, on the day on which `written` was.
 fn imported(file: &str, name: &str, without: &[&str], written: &str) -> (String, Tree) {
     let day = written.split_once("Imported on ").expect("a day").1;
     let day = day.split_once(' ').expect("a sentence").0;

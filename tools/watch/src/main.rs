@@ -28,7 +28,8 @@ struct Args {
     /// Record the ticks; the ending .csv or .mcap names the form
     #[arg(long, value_name = "FILE", value_parser = record::named)]
     record: Option<PathBuf>,
-    /// End after so many seconds of this computer, in which an emulated machine may have had fewer
+    /// End after this many seconds of this computer, in which an emulated machine may have had
+    /// fewer
     #[arg(long, value_name = "S")]
     seconds: Option<f64>,
     /// Show nothing, and print a summary as JSON at the end

@@ -179,7 +179,8 @@ impl Session {
         let hint = match (self.bytes, self.view.counts.bad) {
             (0, _) => "nothing was received; is the machine on, and its line connected?".to_owned(),
             (bytes, bad) => format!(
-                "of {bytes} bytes {bad} were ends of bad frames and {} of good ones; is the rate of the port right?",
+                "of {bytes} bytes {bad} were ends of bad frames and {} of good ones; is the rate \
+                 of the port right?",
                 self.view.counts.frames
             ),
         };

@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 /// The placeholder in a program's arguments for the number of the TCP port that it connects to.
 pub const TCP_PORT: &str = "{port}";
 
-/// Where the bytes come from.
+/// The source of the bytes.
 #[derive(Clone, Debug)]
 pub enum Place {
     /// A serial port and its rate, bit/s.

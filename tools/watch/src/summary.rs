@@ -88,7 +88,7 @@ impl Summary {
     }
 }
 
-/// How long the machine ran, by its ticks and by this computer's clock.
+/// The time that the machine ran, by its ticks and by this computer's clock.
 #[must_use]
 pub fn duration(view: &View, took: Duration) -> String {
     let took = took.as_secs_f64();
@@ -122,7 +122,8 @@ pub fn line(view: &View) -> String {
         .map_or(String::new(), |fault| format!(" ({fault})"));
     let counts = view.counts;
     format!(
-        "tick {}: {}{fault}, error {:.3} mrad or mm at most{cost}; {} bad frames, {} dropped, {} lost",
+        "tick {}: {}{fault}, error {:.3} mrad or mm at most{cost}; {} bad frames, {} dropped, {} \
+         lost",
         last.number,
         mode(last.status.mode),
         1e3 * error,

@@ -21,7 +21,7 @@ pub struct Event {
     /// The number of the tick in which it came first, and last.
     pub first: u32,
     pub last: u32,
-    /// How often it came.
+    /// The number of times that it came.
     pub count: u32,
     pub text: String,
 }

@@ -221,8 +221,8 @@ fn the_last_line_tells_the_machines_time_from_the_computers() {
 #[test]
 fn a_line_of_text_says_the_same() {
     let line = summary::line(&view(&recorded()));
-    let expected = "tick 24: stopped (joint 1: its encoder reports an error), error 2.000 mrad or mm at most, 38.0 µs; \
-                    1 bad frames, 1 dropped, 1 lost";
+    let expected = "tick 24: stopped (joint 1: its encoder reports an error), error 2.000 mrad or \
+                    mm at most, 38.0 µs; 1 bad frames, 1 dropped, 1 lost";
     assert_eq!(line, expected);
 }
 

@@ -22,7 +22,7 @@ use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, firmware, meter, output};
 use crate::studies::scenes::report::{Report, feedforward_costs};
 use crate::studies::scenes::{first_screen, plot};
-use crate::studies::{budgets, drawn, scenes};
+use crate::studies::{budgets, scenes};
 
 /// The picture of the default scene.
 pub const PICTURE: &str = "docs/ur5e.svg";
@@ -85,7 +85,6 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         write_docs(&workspace, &tools, &built.meter, &measured)?;
         if args.all {
             scenes::PAGE.write(&workspace, &scenes::markdown(&reports))?;
-            drawn::write(&workspace, scenes::PAGE.file)?;
         }
     }
     match reports.as_slice() {

@@ -19,7 +19,8 @@ pub fn fuzz(seconds: u64) -> Result<ExitCode> {
     command.env("CARGO_TARGET_DIR", workspace.target.join("fuzz"));
     command.env("BOLERO_RANDOM_TEST_TIME_MS", (1000 * seconds).to_string());
     output::note(&format!(
-        "each target for {seconds} s; a failure names its input and BOLERO_RANDOM_SEED, which repeats it"
+        "each target for {seconds} s; a failure names its input and BOLERO_RANDOM_SEED, which \
+         repeats it"
     ));
     shell::run(&mut command).map(|()| ExitCode::SUCCESS)
 }
@@ -46,7 +47,8 @@ pub fn miri() -> Result<ExitCode> {
     };
     if !shell::succeeds(&mut nightly("--version")) {
         output::line(
-            "skipped: no nightly toolchain with Miri (rustup toolchain install nightly --component miri,rust-src)",
+            "skipped: no nightly toolchain with Miri (rustup toolchain install nightly --component \
+             miri,rust-src)",
         )?;
         return Ok(ExitCode::SUCCESS);
     }

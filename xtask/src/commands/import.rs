@@ -117,7 +117,8 @@ mod tests {
 
     #[test]
     fn no_estimate_stands_beside_a_measurement() {
-        let report = "Advice:\n  none\n\nInverse dynamics by the engine: about 740 cycles on a Cortex-M4F and 2664 B of code (estimated).\n";
+        let report = "Advice:\n  none\n\nInverse dynamics by the engine: about 740 cycles on a \
+            Cortex-M4F and 2664 B of code (estimated).\n";
         assert_eq!(without_estimate(report), "Advice:\n  none\n");
         assert_eq!(without_estimate("Advice:\n  none\n"), "Advice:\n  none\n");
     }

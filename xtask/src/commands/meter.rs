@@ -28,7 +28,7 @@ pub struct Args {
     /// The board that QEMU emulates
     #[arg(long, default_value = MACHINE, value_name = "NAME")]
     machine: String,
-    /// Stop it after so many seconds
+    /// Stop it after this many seconds
     #[arg(long, default_value_t = 10, value_name = "N")]
     seconds: u64,
     /// The measurements as JSON on stdout; progress stays on stderr
@@ -94,8 +94,9 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
         let when = ["in its time", "before it ended"][usize::from(ended)];
         let seconds = args.seconds;
         bail!(
-            "{name} has markers, but closed no region {when}: is it built for a board with flash at 0x08000000, does \
-             it wait for a device that QEMU lacks, or does it need more than --seconds {seconds}?"
+            "{name} has markers, but closed no region {when}: is it built for a board with flash \
+             at 0x08000000, does it wait for a device that QEMU lacks, or does it need more than \
+             --seconds {seconds}?"
         );
     }
     if args.json {
@@ -107,8 +108,9 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     match report.foreign.first() {
         None => Ok(ExitCode::SUCCESS),
         Some(Foreign { function, address }) => Err(check!(
-            "{number} instructions are none of a Cortex-M4F, the first at {address} in `{function}`: build with \
-             --target thumbv7em-none-eabihf and the flags of docs/guide/src/firmware.md"
+            "{number} instructions are none of a Cortex-M4F, the first at {address} in \
+             `{function}`: build with --target thumbv7em-none-eabihf and the flags of \
+             docs/guide/src/firmware.md"
         )),
     }
 }
@@ -119,8 +121,8 @@ fn image(elf: &Path) -> Result<Image> {
     let bytes = std::fs::read(elf).map_err(Error::file("read", elf))?;
     if !bytes.starts_with(b"\x7fELF") {
         return wrong(
-            "this is no ELF file: give the one that cargo builds, target/thumbv7em-none-eabihf/release/NAME, \
-             not a .bin or .hex made of it",
+            "this is no ELF file: give the one that cargo builds, \
+             target/thumbv7em-none-eabihf/release/NAME, not a .bin or .hex made of it",
         );
     }
     let image = Image::read(elf)?;

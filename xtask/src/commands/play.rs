@@ -9,7 +9,7 @@ use crate::kit::{host_bin::SHARED, shell, toolchain, workspace};
 
 /// The target of the library in a browser.
 const WASM: &str = "wasm32-unknown-unknown";
-/// What builds the page, and what tests it besides, with Debian's packages.
+/// The tools that build the page, and those that test it besides, with Debian's packages.
 const BUILD: [(&str, &str); 2] = [("node", "nodejs"), ("wasm-opt", "binaryen")];
 const TEST: [(&str, &str); 2] = [("npm", "npm"), ("chromium", "chromium")];
 

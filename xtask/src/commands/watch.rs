@@ -39,7 +39,7 @@ pub struct Args {
     /// Run this scene in QEMU
     #[arg(long, default_value = SCENES[0], value_parser = SCENES, conflicts_with = "port")]
     scene: String,
-    /// Every so many ticks an encoder of the scene reports errors
+    /// Every this many ticks an encoder of the scene reports errors
     #[arg(long, value_name = "TICKS", conflicts_with = "port")]
     faults: Option<u32>,
     /// Run the project of `cargo xtask new` in this folder in QEMU
@@ -49,7 +49,7 @@ pub struct Args {
     /// `cargo xtask identify`
     #[arg(long, requires = "project")]
     excite: bool,
-    /// End the project's program after so many ticks
+    /// End the project's program after this many ticks
     #[arg(long, value_name = "N", requires = "project")]
     ticks: Option<u32>,
     /// Listen to the machine on this serial port
@@ -61,7 +61,7 @@ pub struct Args {
     /// Record the ticks; the ending .csv or .mcap names the form
     #[arg(long, value_name = "FILE", value_parser = recorded)]
     record: Option<PathBuf>,
-    /// End after so many seconds of this computer, in which QEMU may have emulated fewer
+    /// End after this many seconds of this computer, in which QEMU may have emulated fewer
     #[arg(long, value_name = "S")]
     seconds: Option<f64>,
     /// Show nothing, and print a summary as JSON at the end
@@ -262,8 +262,8 @@ fn verdict(heard: &[Sample], alone: &[Sample], full: &[Sample]) -> Result<String
     let is_stated = kept.is_some_and(|kept| kept <= KEPT);
     refuse_if!(
         !is_stated || dropped > kept || record(heard) != kept,
-        "recording a tick takes {kept:?} instructions ({KEPT} are stated), with a listener {:?}, with a full queue \
-         {dropped:?}",
+        "recording a tick takes {kept:?} instructions ({KEPT} are stated), with a listener {:?}, \
+         with a full queue {dropped:?}",
         record(heard)
     );
     let masked = [heard, alone, full].map(|samples| most(samples, |region| region == MASKED));
@@ -273,7 +273,8 @@ fn verdict(heard: &[Sample], alone: &[Sample], full: &[Sample]) -> Result<String
         "interrupts are masked for {longest} instructions, {LONGEST} are stated"
     );
     Ok(format!(
-        "{TICKS} ticks the same; a record takes {} instructions at most; interrupts are masked for {longest}",
+        "{TICKS} ticks the same; a record takes {} instructions at most; interrupts are masked for \
+         {longest}",
         kept.unwrap_or_default()
     ))
 }

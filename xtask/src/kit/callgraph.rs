@@ -106,7 +106,7 @@ impl Function {
         instructions
     }
 
-    /// Where it jumps or calls through a register, if what it reaches is not known.
+    /// The place of a jump or call through a register whose target is not known.
     ///
     /// A jump into a table of branches is known: LLVM writes the table behind the jump, where its
     /// entries are instructions of the function like any other.

@@ -19,7 +19,7 @@ pub use plotters::style::text_anchor::HPos;
 const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
 pub const INK: RGBColor = RGBColor(45, 50, 58);
 pub const FAINT: RGBColor = RGBColor(228, 231, 235);
-/// Of what stands behind: leader lines, unnamed dots.
+/// The colour of the background: leader lines, unnamed dots.
 pub const MUTED: RGBColor = RGBColor(140, 150, 163);
 pub const BLUE: RGBColor = RGBColor(27, 80, 162);
 pub const ORANGE: RGBColor = RGBColor(230, 145, 0);
@@ -89,7 +89,7 @@ fn themed(svg: &str) -> Result<String> {
 }
 
 fn font(size: i32) -> FontDesc<'static> {
-    // What the backend divides sizes by.
+    // The backend divides sizes by this factor.
     (FONT, 1.24 * f64::from(size)).into_font()
 }
 
@@ -347,48 +347,6 @@ pub fn rows(area: &Area<'_>, top: u32, (x, room): (&Axis, u32), rows: &[Row]) ->
         }
     }
     Ok(plot)
-}
-
-/// A name and its costs by number of bodies.
-pub type Curve = (&'static str, Vec<(usize, u64)>);
-/// A number of bodies to mark, with a text at one of its sides.
-type Mark = (f64, String, HPos);
-
-/// Curves of some costs as an SVG, under a legend.
-pub fn curves(title: &str, cost: &'static str, curves: &[Curve], marks: &[Mark]) -> Result<String> {
-    let drawn = curves.iter().zip(COLOURS).map(|((_, costs), colour)| Line {
-        points: costs.iter().map(|(n, y)| (*n as f64, *y as f64)).collect(),
-        colour,
-        width: 2,
-        // One alone is no line.
-        dots: if costs.len() == 1 { 6 } else { 3 },
-    });
-    let drawn: Vec<Line> = drawn.collect();
-    let longest = drawn.iter().max_by_key(|line| line.points.len());
-    let lengths = longest.map_or_else(Vec::new, |line| {
-        line.points.iter().map(|(n, _)| *n).collect()
-    });
-    let all = || drawn.iter().flat_map(|line| &line.points);
-    let ends = |of: fn(&(f64, f64)) -> f64| {
-        let [low, high] = [f64::min, f64::max].map(|pick| all().map(of).reduce(pick));
-        [low.unwrap_or(1.0), high.unwrap_or(10.0)]
-    };
-    let [first, last] = ends(|(n, _)| *n);
-    let [low, high] = ends(|(_, y)| *y);
-    let mut x = Axis::decades("bodies n", [0.9 * first, 1.1 * last], 48);
-    x.ticks = lengths;
-    let y = Axis::decades(cost, [0.7 * low, 1.4 * high], 84);
-    svg((960, 640), |root| {
-        label(root, title, (28, 24), TITLE, HPos::Left)?;
-        let names = curves.iter().zip(COLOURS);
-        let names = names.map(|((name, _), colour)| ((*name).to_owned(), colour, 4));
-        let below = legend(root, names, (98, 56))?;
-        let plot = lines(root, below + 22, [&x, &y], &drawn)?;
-        for (at, text, side) in marks {
-            plot.mark(root, (*at, text, *side))?;
-        }
-        Ok(())
-    })
 }
 
 #[cfg(test)]

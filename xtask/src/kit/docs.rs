@@ -24,7 +24,7 @@ pub struct Page<'a> {
     pub command: &'a str,
 }
 
-/// What a tick of the default scene costs.
+/// The cost of a tick of the default scene.
 pub const TICK: Page<'_> = Page {
     file: "docs/scenes.md",
     name: "demo",

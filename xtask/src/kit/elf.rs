@@ -83,8 +83,8 @@ impl Image {
     }
 }
 
-/// What of a section lies in flash: initial values do, and are copied to RAM at start-up. Constants
-/// that the linker has merged are in sections of strings.
+/// The part of a section that lies in flash: initial values do, and are copied to RAM at start-up.
+/// Constants that the linker has merged are in sections of strings.
 fn is_in_flash(section: &object::Section<'_, '_>) -> bool {
     use SectionKind::{Data, ReadOnlyData, ReadOnlyString, Text};
     matches!(section.kind(), Text | ReadOnlyData | ReadOnlyString | Data)
@@ -152,8 +152,8 @@ fn functions(file: &object::File<'_>) -> Vec<Function> {
 
 /// Whether a symbol is one of those that a failed check of `core`'s ends in.
 pub fn is_panic(symbol: &str) -> bool {
-    let parts = "4core9panicking unwrap_failed expect_failed index_fail index_len_fail index_order_fail \
-                 len_mismatch_fail panic_already_ rust_begin_unwind";
+    let parts = "4core9panicking unwrap_failed expect_failed index_fail index_len_fail \
+                 index_order_fail len_mismatch_fail panic_already_ rust_begin_unwind";
     parts.split(' ').any(|part| symbol.contains(part))
 }
 

@@ -15,7 +15,7 @@ pub struct Together {
     packages: &'static str,
     /// Those of which programs are built with the same crates, but no tests.
     programs: &'static str,
-    /// What the tests of a full run have besides: further robots, scalars and hours of claims that
+    /// The further tests of a full run: further robots, scalars and hours of claims that
     /// are tested without.
     pub full: &'static str,
     folder: &'static str,
@@ -23,19 +23,21 @@ pub struct Together {
 
 /// All but those that simulate. xtask is there already, with features of its own.
 pub const SHARED: Together = Together {
-    packages: "--workspace --exclude xtask --exclude telemetry-watch --exclude firmware-demo --exclude lab-firmware \
-         --exclude identification --exclude simulation-tests --exclude play",
+    packages: "--workspace --exclude xtask --exclude telemetry-watch --exclude firmware-demo \
+         --exclude lab-firmware --exclude identification --exclude simulation-tests --exclude play",
     programs: "",
-    // What computes for minutes is optimised, which would take the compiler longer than the parts
-    // of an everyday run.
+    // Cases that compute for minutes are optimised, which would take the compiler longer than the
+    // parts of an everyday run.
     full: "--features guide/full,host-tests/full,robot-import/full \
-         --config profile.dev.package.simulation-tests.opt-level=2 --config profile.dev.package.flexible-tests.opt-level=2",
+         --config profile.dev.package.simulation-tests.opt-level=2 \
+         --config profile.dev.package.flexible-tests.opt-level=2",
     folder: "debug",
 };
 
 /// The packages that simulate, and the profile that inlines the library into them.
 pub const SIMULATED: Together = Together {
-    packages: "--profile simulated --package identification --package simulation-tests --features identification/files",
+    packages: "--profile simulated --package identification --package simulation-tests \
+         --features identification/files",
     programs: "--package certification",
     full: "--features simulation-tests/full",
     folder: "simulated",
@@ -67,7 +69,7 @@ impl Together {
         Ok(self.built(workspace, bin))
     }
 
-    /// What a bin prints.
+    /// The output of a bin.
     pub fn text(&self, workspace: &Workspace, bin: &str) -> Result<String> {
         shell::capture(&mut self.program(workspace, bin)?)
     }

@@ -1,4 +1,4 @@
-//! What the user reads. `println!` panics where a pipe is closed or a disk is full; here the first
+//! Output to the user. `println!` panics where a pipe is closed or a disk is full; here the first
 //! is the end of a run, the second an error, and notes on stderr that nobody can read are lost.
 
 use std::io::Write;

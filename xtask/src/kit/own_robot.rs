@@ -14,7 +14,7 @@ use crate::kit::workspace::{self, Workspace};
 #[derive(clap::Args)]
 #[group(skip)]
 pub struct Args {
-    /// Of the robot of this file, URDF or MJCF, alone; nothing is written
+    /// Measure the robot of this file, URDF or MJCF, alone; nothing is written
     #[arg(long, value_name = "FILE")]
     file: Option<PathBuf>,
     #[command(flatten)]
@@ -38,7 +38,7 @@ impl Args {
             .collect()
     }
 
-    /// The robot, if there is a file; fails if the firmware does not take it, or not so many
+    /// The robot, if there is a file; fails if the firmware does not take it, or not this many
     /// joints.
     pub fn robot(&self, workspace: &Workspace, most: u64) -> Result<Option<OwnRobot>> {
         let Some(file) = &self.file else {
@@ -82,14 +82,14 @@ fn refusal(report: &Value, most: u64) -> Option<String> {
     let [bodies, q, v] = [0, 1, 2].map(|i| report["sizes"][i].as_u64().unwrap_or_default());
     if bodies != v || q != v {
         return Some(format!(
-            "{bodies} bodies have {q} position and {v} velocity coordinates, but the measured firmware takes joints of \
-             one coordinate only, and no free base"
+            "{bodies} bodies have {q} position and {v} velocity coordinates, but the measured \
+             firmware takes joints of one coordinate only, and no free base"
         ));
     }
     (v > most).then(|| {
         format!(
-            "{v} joints are more than the {most} that fit into the RAM of the measured firmware: --tip, --joints or \
-             --lock leave some out"
+            "{v} joints are more than the {most} that fit into the RAM of the measured firmware: \
+             --tip, --joints or --lock leave some out"
         )
     })
 }

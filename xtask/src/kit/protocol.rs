@@ -33,7 +33,7 @@ pub struct Trajectory {
     /// One of [`PLANTS`].
     pub plant: String,
     pub law: String,
-    /// Tick, reference and true joint angles, every so many ticks.
+    /// Tick, reference and true joint angles, every this many ticks.
     pub samples: Vec<Sample>,
     /// RMS of the tracking error of each joint in rad.
     pub rms: Vec<f64>,

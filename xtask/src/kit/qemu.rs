@@ -83,10 +83,10 @@ impl<'a> Run<'a> {
 }
 
 /// Advice for a user whose QEMU does not load the meter.
-pub const ANOTHER_QEMU: &str = "\
-    either work in a container of Debian 12 or 13, whose `qemu-system-arm` takes it: `docker run -it -v \
-    \"$PWD\":/work -w /work debian:12`, and in it `apt-get update && apt-get install -y cargo-web rustc-web`; or build \
-    QEMU 10.0 from https://download.qemu.org with `./configure --target-list=arm-softmmu --enable-plugins && \
+pub const ANOTHER_QEMU: &str = "either work in a container of Debian 12 or 13, whose \
+    `qemu-system-arm` takes it: `docker run -it -v \"$PWD\":/work -w /work debian:12`, and in it \
+    `apt-get update && apt-get install -y cargo-web rustc-web`; or build QEMU 10.0 from \
+    https://download.qemu.org with `./configure --target-list=arm-softmmu --enable-plugins && \
     make`, and put its build directory first on the PATH";
 
 impl Qemu {
@@ -139,10 +139,12 @@ impl Qemu {
             }
         });
         tried.clone().map_err(|why| {
-            check!("{} does not take the cycle meter, which speaks versions 1 to {} of QEMU's plugin interface \
-                 ({why}); {ANOTHER_QEMU}",
+            check!(
+                "{} does not take the cycle meter, which speaks versions 1 to {} of QEMU's \
+                 plugin interface ({why}); {ANOTHER_QEMU}",
                 self.version,
-                cycle_meter::NEWEST_INTERFACE)
+                cycle_meter::NEWEST_INTERFACE
+            )
         })
     }
 

@@ -28,7 +28,8 @@ const SYSTEMS: [(System, &[&str], &str); 7] = [
     (System::Arch, &["arch"], "sudo pacman -S --needed qemu-system-arm"),
     (System::Suse, &["suse", "opensuse"], "sudo zypper install -y qemu-arm"),
     (System::MacOs, &[], "brew install qemu"),
-    (System::Windows, &[], "winget install SoftwareFreedomConservancy.QEMU    # and put qemu-system-arm on the PATH"),
+    (System::Windows, &[], "winget install SoftwareFreedomConservancy.QEMU    # and put \
+        qemu-system-arm on the PATH"),
     (System::Other, &[], "# install QEMU's `qemu-system-arm` with your system's package manager"),
 ];
 

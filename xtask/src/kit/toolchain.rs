@@ -67,7 +67,7 @@ impl Toolchain {
         command
     }
 
-    /// Where this compiler's artefacts go: two compilers in one directory would rebuild
+    /// The folder of this compiler's artefacts: two compilers in one directory would rebuild
     /// everything at each change of hands.
     fn target_dir(self, workspace: &Workspace) -> PathBuf {
         match self {
@@ -92,7 +92,7 @@ impl Toolchain {
     }
 }
 
-/// What [`recorded_paths`] gives for the compiler that runs xtask.
+/// The result of [`recorded_paths`] for the compiler that runs xtask.
 fn native_paths() -> Option<&'static str> {
     static PATHS: OnceLock<Option<String>> = OnceLock::new();
     let paths = PATHS.get_or_init(|| {

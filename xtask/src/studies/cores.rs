@@ -131,7 +131,8 @@ fn same_bits(core: &str, torques: &[&Torques], host: &[Torques]) -> Result<()> {
     for (there, here) in std::iter::zip(torques, host) {
         if *there != here {
             bail!(
-                "{core} computes other torques than the host:\n  {core}: {there:?}\n  host: {here:?}"
+                "{core} computes other torques than the host:\n  {core}: {there:?}\n  host: \
+                 {here:?}"
             );
         }
     }

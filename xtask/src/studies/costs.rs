@@ -14,8 +14,8 @@ use crate::kit::setup::{self, Options, Tools};
 use crate::kit::toolchain::{RELEASE, SMALL};
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, firmware, output};
+use crate::studies::budgets;
 use crate::studies::study::Bench;
-use crate::studies::{budgets, drawn};
 
 pub use report::Report;
 
@@ -65,7 +65,6 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let report = measure(&workspace, &tools)?;
     let page = report.markdown();
     workspace::write(&workspace.report(PAGE), docs::seal::sealed(&page))?;
-    drawn::write(&workspace, PAGE)?;
     docs::show(args.json, &report.rows, &page)
 }
 

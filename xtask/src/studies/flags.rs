@@ -70,7 +70,8 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
         }
     }
     let text = format!(
-        "{}\nInstructions / cycles of the longest call ({}); in brackets cycles as multiples of those of the fast line.\n\n{}\nMeasured with {}.",
+        "{}\nInstructions / cycles of the longest call ({}); in brackets cycles as multiples of \
+         those of the fast line.\n\n{}\nMeasured with {}.",
         table(&lines)?.markdown(),
         meter::MODEL,
         listed(&core),
@@ -138,7 +139,7 @@ fn functions_of_rust(elf: &Path) -> Result<BTreeMap<String, BTreeSet<String>>> {
                 continue;
             };
             let name = function.demangle().map_err(wrong)?;
-            // Where the compiler has merged instructions, a function of another crate may have a
+            // If the compiler has merged instructions, a function of another crate may have a
             // line of this one.
             let is_core = name.starts_with("core::") || name.starts_with('<');
             if is_core || !path.starts_with("core/") {

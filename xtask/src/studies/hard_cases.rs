@@ -1,22 +1,20 @@
 //! Situations in which dynamics libraries fail, measured on the host.
 
 mod picture;
+mod reference;
 
 use serde::{Deserialize, Serialize};
 
 use crate::kit::docs::cells;
 use crate::kit::error::{Result, check};
 use crate::kit::host_bin;
-use crate::kit::table::Table;
 use crate::kit::workspace::{self, Workspace};
 use crate::studies::study::{Bench, Found};
 
 const BIN: &str = "hard_cases";
 
-const HEAD: &str = "
-| quantity | κ | error, f32 | bound | error, f64 | bound | verdict |
-| --- | ---: | ---: | ---: | ---: | ---: | --- |
-";
+const OVERVIEW: &str = "case | f32: error / bound | f64: error / bound | a naive way beyond the \
+                        bound: its error / bound\n--- | ---: | ---: | ---\n";
 
 #[derive(Deserialize)]
 struct Suite {
@@ -24,7 +22,7 @@ struct Suite {
     /// The numbers of the cases that the step `bits` runs in QEMU.
     in_qemu: Vec<u32>,
     rows: Vec<Row>,
-    /// What is not as demanded.
+    /// The rows that are not as demanded.
     wrong: Vec<String>,
 }
 
@@ -88,38 +86,32 @@ impl Suite {
     }
 
     /// A row for each case.
-    fn overview(&self) -> Table {
-        let share = |which: &'static str| {
-            move |case: &Case| match self.worst(case, which).map(Row::share) {
-                None => String::new(),
-                Some(share) if share > 1e-3 && share < 1e4 => format!("{share:.2}"),
-                Some(share) => figure(Some(share).filter(|share| share.is_finite()), "∞"),
-            }
+    fn overview(&self) -> String {
+        let share = |row: Option<&Row>| match row.map(Row::share) {
+            None => String::new(),
+            Some(share) if share > 1e-3 && share < 1e4 => format!("{share:.2}"),
+            Some(0.0) => "0".into(),
+            Some(share) if share.is_finite() => format!("{share:.1e}"),
+            Some(_) => "∞".into(),
         };
-        Table::of(
-            &self.cases,
-            &[
-                ("case", &|case| {
-                    format!("[{0}. {1}](#case-{0})", case.number, case.name)
-                }),
-                ("f32: error / bound", &share("f32")),
-                ("f64: error / bound", &share("f64")),
-                ("a naive way that breaks the bound", &|case| {
-                    let row = self.worst(case, "naive");
-                    row.map_or(String::new(), |row| {
-                        row.quantity.trim_start_matches("naive: ").into()
-                    })
-                }),
-                ("its error / bound", &share("naive")),
-            ],
-        )
+        let rows = self.cases.iter().map(|case| {
+            let Case { number, name, .. } = case;
+            let [single, double] = ["f32", "f64"].map(|which| share(self.worst(case, which)));
+            let naive = self.worst(case, "naive").map_or(String::new(), |row| {
+                let way = row.quantity.trim_start_matches("naive: ");
+                format!("{way}: {}", share(Some(row)))
+            });
+            format!("[{number}. {name}](#case-{number}) | {single} | {double} | {naive}\n")
+        });
+        format!("{OVERVIEW}{}", rows.collect::<String>())
     }
 }
 
 fn summary(suite: &Suite) -> String {
     let count = |verdict: &str| suite.rows.iter().filter(|r| r.verdict == verdict).count();
     format!(
-        "{} cases: {} figures within their bounds, {} beyond; {} failures of naive alternatives shown",
+        "{} cases: {} figures within their bounds, {} beyond; {} failures of naive alternatives \
+         shown",
         suite.cases.len(),
         count("pass"),
         count("fail"),
@@ -127,12 +119,12 @@ fn summary(suite: &Suite) -> String {
     )
 }
 
-/// The page with the figures that are known to be beyond the bounds of the suite, and the first
-/// words of their row.
+/// The page with the figures that are known to be beyond their bounds, and the first words of
+/// their row.
 const DECISION: &str = "docs/decisions/0002-bars.md";
-const KNOWN: &str = "`aba` in f32, case 87 of the [suite]";
+const KNOWN: &str = "`aba` in f32, case 87,";
 
-/// The reason of the figure of the suite that the page to try shows beyond its bound.
+/// The reason of the figure that is beyond its bound.
 fn known(workspace: &Workspace) -> Result<String> {
     let page = workspace::read(&workspace.root.join(DECISION))?;
     let mut rows = page.lines().filter_map(cells);
@@ -145,9 +137,11 @@ fn known(workspace: &Workspace) -> Result<String> {
 fn brief(suite: &Suite, known: &str) -> String {
     let count = |verdict: &str| suite.rows.iter().filter(|r| r.verdict == verdict).count();
     format!(
-        "{} cases in f32 and f64, against computations in 50 digits and closed forms: {} figures are within their bounds, {} beyond,\n\
-         and {} naive methods are shown to fail ([each case](docs/hard-cases.md)). The page to try shows one figure of its\n\
-         [suite](host-tests/suite/README.md) of files beyond its bound, `aba` of case 87 in f32: {known} ([decision 2]({DECISION})).",
+        "{} cases in f32 and f64, against computations in 50 digits and closed forms: {} figures are \
+         within their bounds, {} beyond,\n\
+         and {} naive methods are shown to fail ([each case](docs/hard-cases.md)). One figure of a \
+         further case\n\
+         is beyond its bound, `aba` of case 87 in f32: {known} ([decision 2]({DECISION})).",
         suite.cases.len(),
         count("pass"),
         count("fail"),
@@ -157,64 +151,7 @@ fn brief(suite: &Suite, known: &str) -> String {
 
 /// The text between the markers.
 fn page(suite: &Suite) -> String {
-    let (summary, overview) = (summary(suite), suite.overview().markdown());
-    let mut text = format!("{summary}.\n\n{overview}\n## Reference\n");
-    for case in &suite.cases {
-        let rows: Vec<&Row> = (suite.rows.iter())
-            .filter(|row| row.number == case.number)
-            .collect();
-        let Case { number, name, .. } = case;
-        text += &format!("\n<a id=\"case-{number}\"></a>\n\n### {number}. {name}\n\n");
-        for (label, text_of_case) in [
-            ("Parameters", &case.parameters),
-            ("Source", &case.source),
-            ("Oracle", &case.oracle),
-            ("Bound", &case.reason),
-        ] {
-            text += &format!("- {label}: {text_of_case}.\n");
-        }
-        if suite.in_qemu.contains(number) {
-            text += "- In QEMU: every algorithm gives the same bits in f32.\n";
-        }
-        text += HEAD;
-        let mut written: Vec<&str> = Vec::new();
-        for row in &rows {
-            if !written.contains(&&*row.quantity) {
-                written.push(&row.quantity);
-                text += &line(&rows, &row.quantity);
-            }
-        }
-    }
-    text.trim_end().to_owned()
-}
-
-/// The measurements of one quantity, in f32 and in f64.
-fn line(rows: &[&Row], quantity: &str) -> String {
-    let of_quantity = || rows.iter().filter(|row| row.quantity == quantity);
-    let figures = |scalar: &str| match of_quantity().find(|row| row.scalar == scalar) {
-        Some(row) => format!(
-            "{} | {}",
-            figure(row.error, "no number"),
-            figure(row.bound, "none")
-        ),
-        None => " | ".into(),
-    };
-    let condition = of_quantity().find_map(|row| row.condition);
-    let condition = condition.map_or(String::new(), |k| format!("{k:.1e}"));
-    let has = |verdict: &str| of_quantity().any(|row| row.verdict == verdict);
-    let verdict = match (has("fail"), has("shown")) {
-        (true, _) => "fails",
-        (false, true) => "breaks, as shown",
-        (false, false) => "pass",
-    };
-    let (single, double) = (figures("f32"), figures("f64"));
-    format!("| {quantity} | {condition} | {single} | {double} | {verdict} |\n")
-}
-
-fn figure(x: Option<f64>, none: &str) -> String {
-    match x {
-        None => none.into(),
-        Some(0.0) => "0".into(),
-        Some(x) => format!("{x:.1e}"),
-    }
+    let (summary, overview) = (summary(suite), suite.overview());
+    let reference = reference::text(suite);
+    format!("{summary}.\n\n{overview}\n## Reference\n{reference}")
 }

@@ -5,7 +5,7 @@ use crate::kit::meter::MODEL;
 use crate::kit::rows::{self, Row};
 use crate::kit::table::{Table, thousands};
 use crate::kit::toolchain::RELEASE;
-use crate::kit::{chart, firmware, host_bin::SHARED};
+use crate::kit::{firmware, host_bin::SHARED};
 use crate::studies::study::{Bench, Found};
 
 /// The bin, and the feature that it is built for.
@@ -63,7 +63,6 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
         rustc: bench.rustc()?,
     };
     Ok(Found {
-        picture: Some(report.picture()?),
         rustc: Some(report.rustc.clone()),
         ..Found::new(report.markdown()?, &report.rows)?
     })
@@ -98,7 +97,8 @@ impl Report {
 
     /// All ancestors, then the core and the engine.
     fn comparison(&self) -> Result<Table> {
-        let head = "year|authors|form|published: products + sums|counted|flops executed|cycles|to the core";
+        let head = "year|authors|form|published: products + sums|counted|flops executed|cycles|to \
+            the core";
         let mut table = Table::new(&head.split('|').collect::<Vec<_>>());
         for line in self.ancestors.lines() {
             let mut cells = line.split('|').map(str::to_owned);
@@ -142,10 +142,12 @@ impl Report {
         let names = self.fewer_at(COMPARED);
         let compared = match names.is_empty() {
             true => format!(
-                "No ancestor takes fewer cycles for it\nthan {core}, although each prepares constants of the links beforehand."
+                "No ancestor takes fewer cycles for it\nthan {core}, although each prepares \
+                 constants of the links beforehand."
             ),
             false => format!(
-                "Of the ancestors, which prepare constants of the links\nbeforehand, fewer cycles than {core} are taken by: {}.",
+                "Of the ancestors, which prepare constants of the links\nbeforehand, fewer cycles \
+                 than {core} are taken by: {}.",
                 names.join("; ")
             ),
         };
@@ -158,18 +160,10 @@ impl Report {
                 format!("{compared} Nor does one for shorter or longer chains.")
             }
             others => format!(
-                "{compared} Over chains of\nother lengths an ancestor takes fewer, as a share of the core's: {others}."
+                "{compared} Over chains of\nother lengths an ancestor takes fewer, as a share of \
+                 the core's: {others}."
             ),
         }
-    }
-
-    fn picture(&self) -> Result<String> {
-        let curves = TORQUES.map(|(key, name)| {
-            let costs = self.of(key).map(|row| (row.joints, row.cycles.max));
-            (name, costs.collect())
-        });
-        let title = "Inverse dynamics from 1965 on: cycles of a call against bodies of a chain (Cortex-M4F)";
-        chart::curves(title, "cycles", &curves, &[])
     }
 
     fn markdown(&self) -> Result<String> {

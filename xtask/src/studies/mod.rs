@@ -6,7 +6,6 @@ pub mod accuracy;
 pub mod budgets;
 pub mod cores;
 pub mod costs;
-pub mod drawn;
 pub mod effects;
 pub mod flags;
 pub mod hard_cases;
@@ -34,7 +33,7 @@ const NO_STEP: fn(&study::Bench<'_>) -> Result<String> = |_| Ok(String::new());
 pub const STUDIES: &[Study] = &[
     Study {
         name: "costs", about: "Measure what each algorithm costs on each robot, rewrite docs/costs.md",
-        files: &["docs/costs.md", "docs/costs.svg"],
+        files: &["docs/costs.md"],
         held: Step(Target, Everyday, "every function costs what docs/costs.md says, and is within its bar"),
         form: Own(costs::Args::augment_args, |options, matches| costs::run(options, given(matches)?), costs::check),
     },
@@ -46,7 +45,7 @@ pub const STUDIES: &[Study] = &[
     },
     Study {
         name: "history", about: "Measure what today's algorithms replaced, and the two eliminations of forward dynamics, rewrite docs/history.md",
-        files: &["docs/history.md", "docs/history.svg"],
+        files: &["docs/history.md"],
         held: Step(Target, Full, "docs/history.md has today's costs of the algorithms that today's replaced"),
         form: Whole(history::measure),
     },
@@ -102,13 +101,13 @@ pub const STUDIES: &[Study] = &[
     },
     Study {
         name: "robots", about: "Import, check and measure the robots of published packages, rewrite docs/robots.md: takes minutes",
-        files: &["docs/robots.md", "docs/robots.svg"],
+        files: &["docs/robots.md"],
         held: Step(Target, Full, "an imported robot is checked, and costs what docs/robots.md says"),
         form: Own(robots::Args::augment_args, |options, matches| robots::run(options, given(matches)?), robots::check),
     },
     Study {
         name: "peers", about: "Measure other libraries and this one side by side, rewrite docs/peers.md: takes minutes",
-        files: &["docs/peers.md", "docs/peers.svg"],
+        files: &["docs/peers.md"],
         held: Bars("the other libraries are not installed for a test, and times are those of one machine"),
         form: Own(peers::Args::augment_args, |options, matches| peers::run(options, given(matches)?), NO_STEP),
     },
@@ -133,16 +132,12 @@ mod tests {
     use super::study::Held;
     use crate::kit::docs::repository::{read, root};
 
-    /// The files that no study writes: those of the demo, which the step `readme` compares, and two
-    /// pictures.
-    const OF_THE_DEMO: [&str; 6] = [
+    /// The files that no study writes: those of the demo, which the step `readme` compares, and the
+    /// film, which a test of its program compares.
+    const OF_THE_DEMO: [&str; 4] = [
         "README.md",
         "docs/scenes.md",
-        "docs/scenes.svg",
-        // A test of its program compares it.
         "docs/film.svg",
-        // Measured once: its picture is drawn from the page.
-        "docs/silicon.svg",
         "docs/ur5e.svg",
     ];
 

@@ -19,11 +19,11 @@ use crate::kit::error::{Result, bail, check};
 use crate::kit::setup::{Options, Tools};
 use crate::kit::shell;
 use crate::kit::workspace::{self, Workspace};
+use crate::studies::budgets;
 use crate::studies::peers::build::Workshop;
 use crate::studies::peers::report::Report;
 use crate::studies::peers::tools::Peers;
 use crate::studies::scenes::first_screen;
-use crate::studies::{budgets, drawn};
 
 /// ID(q, q̇, q̈), ID(q, q̇, 0), ID(q, 0, 0), the mass matrix, FD(q, q̇, τ), and Λ⁻¹ of the tip of
 /// an arm.
@@ -90,7 +90,6 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     };
     let page = report.markdown();
     workspace::write(&workspace.report(PAGE), docs::seal::sealed(&page))?;
-    drawn::write(&workspace, PAGE)?;
     first_screen::write_why(&workspace)?;
     let code = docs::show(args.json, &report.rows, &page)?;
     if !unmet.is_empty() {

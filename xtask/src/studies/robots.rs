@@ -16,7 +16,6 @@ use crate::kit::rows::Row;
 use crate::kit::setup::{self, Options, Tools};
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, output, shell};
-use crate::studies::drawn;
 use crate::studies::study::Bench;
 use page::{compare, page};
 
@@ -104,7 +103,6 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     measure(&workspace, &tools, &folder, &mut lines)?;
     let page = page(&lines, &tools.toolchain.rustc_version()?);
     workspace::write(&workspace.report(PAGE), docs::seal::sealed(&page))?;
-    drawn::write(&workspace, PAGE)?;
     docs::show(args.json, &lines, &page)
 }
 

@@ -37,8 +37,8 @@ fn foot(reports: &[&Report]) -> String {
 /// A row per scene, set off from those below it: one per effect, with what is saved and lost
 /// without it, and one per other law that the scene compares.
 fn table(reports: &[&Report], set_off: impl Fn(&str) -> String) -> Table {
-    let head = "scene, − effect, other law|tick, cycles|of its period|tick's code, B|flash, B|RAM, B|\
-                error RMS, mrad|max|bound|of PD's|safety gate";
+    let head = "scene, − effect, other law|tick, cycles|of its period|tick's code, B|flash, B|RAM, \
+                B|error RMS, mrad|max|bound|of PD's|safety gate";
     let mut table = Table::new(&head.split('|').collect::<Vec<_>>());
     for report in reports {
         let dash = || "–".to_owned();

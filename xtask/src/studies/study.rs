@@ -13,7 +13,6 @@ use crate::kit::output;
 use crate::kit::setup::{self, Options, Tools};
 use crate::kit::table::plain;
 use crate::kit::workspace::{self, Workspace};
-use crate::studies::drawn;
 use crate::studies::scenes::first_screen;
 
 pub struct Study {
@@ -207,7 +206,6 @@ impl Study {
                 first_screen::write_why(workspace)?;
             }
         }
-        drawn::write(workspace, self.files[0])?;
         for (file, picture) in self.files[1..].iter().zip(&found.picture) {
             workspace::write(&workspace.report(file), picture)?;
         }

@@ -9,8 +9,8 @@ use crate::model::{BASE, RobotModel};
 use crate::scalar::Real;
 use crate::state::entry;
 
-/// How many roundings of M_ii a pivot must exceed: less is a rounding error of zero. Up to 30 were
-/// measured for singular M; a straight chain of 64 rods, in f32, has 61.
+/// The number of roundings of M_ii that a pivot must exceed: less is a rounding error of zero. Up
+/// to 30 were measured for singular M; a straight chain of 64 rods, in f32, has 61.
 pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 
 /// The factors L and D of M = Lᵀ D L, with the reciprocals of D, for [`solve`] and [`inverse`].

@@ -47,7 +47,7 @@ impl<R: Real> Damping<R> {
     }
 }
 
-/// How close a configuration is to a singularity of a task.
+/// The distance of a configuration from a singularity of a task.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Conditioning<R> {

@@ -97,7 +97,7 @@ pub fn jacobian_rows<R: Real, const V: usize>(jacobian: &[Motion<R>; V]) -> [[R;
 /// The operational-space inertia of a task on `body` along some directions, expressed in a
 /// [`Frame`], by J, M and its factors.
 ///
-/// Of the effects, armatures and payloads are part of M.
+/// Armatures and payloads are the effects that are part of M.
 ///
 /// ```text
 /// Λ = (J M⁻¹ Jᵀ)⁻¹      J̄ = M⁻¹ Jᵀ Λ      τ = Jᵀ F + (1 − Jᵀ J̄ᵀ) τ₀
@@ -246,7 +246,7 @@ impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
     /// (1 − Jᵀ J̄ᵀ) τ₀: the part of torques τ₀ that does not accelerate the task. Khatib (1987),
     /// (53).
     ///
-    /// Where Λ is damped, some acceleration along the damped direction remains. 4 M V + 2 M² flops.
+    /// If Λ is damped, some acceleration along the damped direction remains. 4 M V + 2 M² flops.
     #[cfg_attr(optimised, inline(always))]
     #[doc(alias = "null space")]
     #[doc(alias = "nullspace")]

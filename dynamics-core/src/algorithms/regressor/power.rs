@@ -16,7 +16,7 @@ pub(super) struct BodyPower<R: Real> {
 }
 
 impl<R: Real> BodyPower<R> {
-    /// Of the spatial velocity and acceleration in the link's aligned frame. 90 flops.
+    /// From the spatial velocity and acceleration in the link's aligned frame. 90 flops.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(link: &LinkView<'_, R>, v: Motion<R>, a: Motion<R>) -> Self {
         let own = |x| link.to_joint_frame.transpose_mul(x);

@@ -39,7 +39,7 @@ pub struct Belt<const C: usize> {
 }
 
 impl<const C: usize> Belt<C> {
-    /// Of the coefficients c₀, c₁, …
+    /// A belt with the coefficients c₀, c₁, …
     ///
     /// # Panics
     /// If a coefficient is not finite; in a `const` this does not compile.

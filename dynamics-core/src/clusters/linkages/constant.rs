@@ -80,7 +80,7 @@ pub struct Differential {
 }
 
 impl Differential {
-    /// Of these gear ratios of pitch and roll.
+    /// A differential with these gear ratios of pitch and roll.
     ///
     /// # Panics
     /// If a ratio is zero or not finite; in a `const` this does not compile.

@@ -69,11 +69,11 @@ use crate::trig::Kernel;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Delta {
-    /// Of the cranks' joints less that of the rods' ends, m.
+    /// The radius of the cranks' joints less that of the rods' ends, m.
     radius: f64,
     crank: f64,
     rod: f64,
-    /// What rounding errors are relative to, m².
+    /// The scale of the rounding errors, m².
     scale: f64,
 }
 

@@ -26,7 +26,7 @@ pub(super) fn dot<R: Real>(a: Vec2<R>, b: Vec2<R>) -> R {
 /// range would have to be four times as wide.
 const SINGULAR: (f64, f32) = (1e-9, 256.0 * f32::EPSILON);
 
-/// How far below zero h² may be by rounding, relative to the same: 256 roundings.
+/// The amount by which rounding may bring h² below zero, relative to the same: 256 roundings.
 const ROUNDING: (f64, f32) = (256.0 * f64::EPSILON, 256.0 * f32::EPSILON);
 
 /// The second over the first: exactly 1 in f32, where they are one constant.
@@ -103,7 +103,7 @@ pub(super) struct Lengths {
     pub(super) b2: f64,
     half_inv: f64,
     difference: f64,
-    /// What rounding errors of h² are relative to, m².
+    /// The scale of the rounding errors of h², m².
     scale: f64,
 }
 

@@ -25,7 +25,8 @@ use crate::trig::Kernel;
 /// each less its [`FiveBar::zeros`]. The loop is cut between the rods' ends. The ground may be 0:
 /// cranks on one axis.
 ///
-/// [`Branch::Positive`]: the second rod's direction is counterclockwise from the first's, by less than π.
+/// [`Branch::Positive`]: the second rod's direction is counterclockwise from the first's, by less
+/// than π.
 ///
 /// # Cost
 /// Some 130 flops, a division and a reciprocal root; sines and cosines of y. Where an effect reads

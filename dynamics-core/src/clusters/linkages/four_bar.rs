@@ -24,8 +24,9 @@ use crate::trig::Kernel;
 /// e₀ + coupler e₁ = ground x + rocker e₂. Any of the links may be the longest; the crank is that
 /// of which y is the angle, and need not be able to turn.
 ///
-/// [`Branch::Positive`]: the rocker's direction is counterclockwise from the coupler's, by less than π. The branch does
-/// not change while y moves, as the linkage itself cannot change it but at a singularity.
+/// [`Branch::Positive`]: the rocker's direction is counterclockwise from the coupler's, by less
+/// than π. The branch does not change while y moves, as the linkage itself cannot change it but at
+/// a singularity.
 ///
 /// # Cost
 /// Some 85 flops, a division and a reciprocal root; sine and cosine of y, and none of q₁ and q₂.

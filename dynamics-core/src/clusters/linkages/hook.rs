@@ -23,7 +23,7 @@ pub(super) struct Hook<R> {
 }
 
 impl<R: Real> Hook<R> {
-    /// Of a body that points along `z`, m, with 1/l and l² of its length.
+    /// For a body that points along `z`, m, with 1/l and l² of its length.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(z: R::Vec3, l_inv: R, l2: R) -> Result<Self, ClusterProblem> {
         let [zx, zy, zz] = z.array();
@@ -42,7 +42,7 @@ impl<R: Real> Hook<R> {
         })
     }
 
-    /// Of a body of almost no length, which is `scale` at most: with rates that are damped as that
+    /// For a body of almost no length, which is `scale` at most: with rates that are damped as that
     /// size has it.
     #[cold]
     #[inline(never)]

@@ -46,7 +46,8 @@ pub struct Rod {
 /// the motors at q₂ and q₅ follow by
 /// [`Driven::actuated`](crate::clusters::Driven::actuated)`([2, 5])`.
 ///
-/// [`Branch::Positive`]: the crank turns towards positive angles as the end of its rod on the foot moves away from it.
+/// [`Branch::Positive`]: the crank turns towards positive angles as the end of its rod on the foot
+/// moves away from it.
 ///
 /// # Cost
 /// Some 400 flops, two divisions and six reciprocal roots; sines and cosines of y only. Where an
@@ -99,7 +100,7 @@ pub struct ParallelAnkle {
 }
 
 impl ParallelAnkle {
-    /// Of these two drives.
+    /// An ankle with these two drives.
     ///
     /// # Panics
     /// If a number is not finite, a rod's length is not positive, or a crank or the foot's point is
@@ -152,7 +153,7 @@ struct Foot<R: Real> {
     alpha: R::Vec3,
 }
 
-/// What a rod adds to the cluster: its three coordinates, their rows of G, and Ġ ẏ.
+/// A rod's part of the cluster: its three coordinates, their rows of G, and Ġ ẏ.
 type RodMotion<R> = ([JointCoordinate<R>; 3], [[R; 2]; 3], [R; 3], bool);
 
 impl Rod {

@@ -84,12 +84,12 @@ pub struct Leg {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stewart {
     legs: [Leg; 6],
-    /// What rounding errors are relative to, m².
+    /// The scale of the rounding errors, m².
     scale: f64,
 }
 
 impl Stewart {
-    /// Of these legs.
+    /// A platform on these legs.
     ///
     /// # Panics
     /// If a number is not finite or a length is negative; in a `const` this does not compile.
@@ -123,7 +123,7 @@ impl Stewart {
     }
 }
 
-/// What a leg adds to the cluster: its three coordinates, their rows of G, and Ġ ẏ.
+/// A leg's part of the cluster: its three coordinates, their rows of G, and Ġ ẏ.
 struct LegMotion<R> {
     q: [JointCoordinate<R>; 3],
     g: [[R; 6]; 3],

@@ -58,7 +58,7 @@ use crate::scalar::Real;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BaseParameters<T, R, const B: usize, const Q: usize, const V: usize> {
     pub(crate) joints: [RegroupedInertia<R>; V],
-    // Of a function: the type contains no T.
+    // A function, so that the type contains no T.
     pub(crate) robot: PhantomData<fn() -> T>,
 }
 
@@ -77,7 +77,7 @@ delegate_effect! {
 }
 
 impl<T, R: Real, const B: usize, const Q: usize, const V: usize> BaseParameters<T, R, B, Q, V> {
-    /// What is left to the body behind `joint`.
+    /// The parameters that are left to the body behind `joint`.
     #[cfg_attr(optimised, inline(always))]
     fn load(&self, joint: usize, body: &mut RegroupedInertia<R>) {
         if let Some(loaded) = self.joints.get(joint) {

@@ -60,7 +60,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for AsymmetricCoul
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         let ((even, odd), u) = (self.halves(joint), at.qd * self.width.inverse());
         let rise = even + (odd + odd) * smooth_sign(u);
-        // Where friction falls with speed an implicit step would not be the stabler one.
+        // If friction falls with speed, an implicit step would not be the stabler one.
         derivatives.dqd +=
             crate::scalar::positive_part(rise) * smooth_sign_slope(u) * self.width.inverse();
     }

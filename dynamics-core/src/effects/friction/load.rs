@@ -65,7 +65,7 @@ pub struct LoadFriction<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> LoadFriction<R, V> {
-    /// Of the efficiencies 0 < η ≤ 1 of the gears while the motors drive, and η′ while the loads
+    /// From the efficiencies 0 < η ≤ 1 of the gears while the motors drive, and η′ while the loads
     /// drive.
     ///
     /// ```
@@ -81,7 +81,7 @@ impl<R: Real, const V: usize> LoadFriction<R, V> {
         }
     }
 
-    /// Of friction |k_m τ_m + k_e τ|, of the motor's torque τ_m and the torque τ of all else, with
+    /// Friction of |k_m τ_m + k_e τ|, of the motor's torque τ_m and the torque τ of all else, with
     /// k_m < 1: the directional models of Duclusaud et al., whose external torque is −τ. With k_m =
     /// k_e it is their model M3.
     ///

@@ -1,6 +1,7 @@
 //! Base parameters that replace those of the robot's description.
 
-/// What regrouping leaves to the body behind one joint, in the engine's frames and units.
+/// The parameters that regrouping leaves to the body behind one joint, in the engine's frames and
+/// units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[doc(hidden)]
 pub struct RegroupedInertia<R> {

@@ -63,7 +63,7 @@ impl<R: Real, const H: usize, const B: usize, const V: usize> Effect<R, B, V> fo
 
     #[cfg_attr(optimised, inline(always))]
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
-        // Where it pushes away from a slot an implicit step would not be the stabler one.
+        // If it pushes away from a slot, an implicit step would not be the stabler one.
         derivatives.dq += positive_part(self.at(joint, at.q).1);
     }
 }

@@ -8,24 +8,14 @@
 //!
 //! - Part of body `panda_link7`: `panda_link8`.
 //! - Link `panda_hand` and all that it carries are left out: 0.76 kg.
-//! - The soft limits -2.8973 to 2.8973 of joint `panda_joint1` are left out; its limits are those
-//!   of its \<limit>.
-//! - The soft limits -1.7628 to 1.7628 of joint `panda_joint2` are left out; its limits are those
-//!   of its \<limit>.
-//! - The soft limits -2.8973 to 2.8973 of joint `panda_joint3` are left out; its limits are those
-//!   of its \<limit>.
-//! - The soft limits -3.0718 to -0.0698 of joint `panda_joint4` are left out; its limits are those
-//!   of its \<limit>.
-//! - The soft limits -2.8973 to 2.8973 of joint `panda_joint5` are left out; its limits are those
-//!   of its \<limit>.
-//! - The soft limits -0.0175 to 3.7525 of joint `panda_joint6` are left out; its limits are those
-//!   of its \<limit>.
-//! - The soft limits -2.8973 to 2.8973 of joint `panda_joint7` are left out; its limits are those
-//!   of its \<limit>.
-//! - Left out, as no part of URDF whose meaning is known here: `dynamics D`, `dynamics K`,
-//!   `dynamics mu_coulomb`, `dynamics mu_viscous` of joint `panda_joint1`, joint `panda_joint2`,
-//!   joint `panda_joint3`, joint `panda_joint4`, joint `panda_joint5`, joint `panda_joint6`, joint
-//!   `panda_joint7`.
+//! - The soft limits -2.8973 to 2.8973 of joint `panda_joint1` are left out; its limits are those of its \<limit>.
+//! - The soft limits -1.7628 to 1.7628 of joint `panda_joint2` are left out; its limits are those of its \<limit>.
+//! - The soft limits -2.8973 to 2.8973 of joint `panda_joint3` are left out; its limits are those of its \<limit>.
+//! - The soft limits -3.0718 to -0.0698 of joint `panda_joint4` are left out; its limits are those of its \<limit>.
+//! - The soft limits -2.8973 to 2.8973 of joint `panda_joint5` are left out; its limits are those of its \<limit>.
+//! - The soft limits -0.0175 to 3.7525 of joint `panda_joint6` are left out; its limits are those of its \<limit>.
+//! - The soft limits -2.8973 to 2.8973 of joint `panda_joint7` are left out; its limits are those of its \<limit>.
+//! - Left out, as no part of URDF whose meaning is known here: `dynamics D`, `dynamics K`, `dynamics mu_coulomb`, `dynamics mu_viscous` of joint `panda_joint1`, joint `panda_joint2`, joint `panda_joint3`, joint `panda_joint4`, joint `panda_joint5`, joint `panda_joint6`, joint `panda_joint7`.
 
 #![allow(
     dead_code,

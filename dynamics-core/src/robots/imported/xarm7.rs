@@ -13,11 +13,8 @@
 //! - Joint `joint5`: roll `1.5708` is π/2.
 //! - Joint `joint6`: roll `1.5708` is π/2.
 //! - Joint `joint7`: roll `-1.5708` is -π/2.
-//! - A gear of 100 on `joint1`, `joint2`, `joint3`, `joint4`, `joint5`, `joint6`, `joint7`, and the
-//!   file has no inertia of the motor's rotor: J·N² of it is not in ARMATURE; state it by
-//!   `armature` of \<dynamics>, kg·m².
-//! - The \<ros2_control> `uf_robot_hardware/UFRobotSystemHardware`: the parameters
-//!   `default_gripper_baud`, `dof`, `max`, `min` are left out.
+//! - A gear of 100 on `joint1`, `joint2`, `joint3`, `joint4`, `joint5`, `joint6`, `joint7`, and the file has no inertia of the motor's rotor: J·N² of it is not in ARMATURE; state it by `armature` of \<dynamics>, kg·m².
+//! - The \<ros2_control> `uf_robot_hardware/UFRobotSystemHardware`: the parameters `default_gripper_baud`, `dof`, `max`, `min` are left out.
 
 #![allow(
     dead_code,

@@ -1,4 +1,4 @@
-//! What of the firmware of a Pico 2 needs no chip: the template's, tested on the host.
+//! The part of a Pico 2's firmware that needs no chip: the template's, tested on the host.
 #![no_std]
 
 #[path = "../../../../tools/robot-import/template/board/pico2/src/periods.rs"]

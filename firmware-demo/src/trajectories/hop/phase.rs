@@ -13,7 +13,7 @@ pub(super) struct Phase {
     /// T and 1/T, s.
     pub time: f32,
     pub time_inv: f32,
-    /// Of f, m/s².
+    /// The acceleration f at rest and its change, m/s².
     pub rest: f32,
     pub change: f32,
     pub push: f32,

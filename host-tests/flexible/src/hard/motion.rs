@@ -59,7 +59,7 @@ pub(super) fn energy() -> Vec<Row> {
     energy_for(60)
 }
 
-/// The energy of the bending arm for so many seconds, with the bounds in proportion to them.
+/// The energy of the bending arm for this many seconds, with the bounds in proportion to them.
 pub fn energy_for(seconds: u32) -> Vec<Row> {
     fn run<R: Scalar>(seconds: u32, rows: &mut Vec<Row>, bound: f64) {
         let (robot, modes) = two::<R, 1, 2>(&[UPPER, LOWER]);

@@ -1,4 +1,4 @@
-//! What Pinocchio recorded of robots with clusters (`host-tests/oracle/clusters.py`), and how far
+//! The records of Pinocchio for robots with clusters (`host-tests/oracle/clusters.py`), and how far
 //! core and engine are from it and from each other.
 
 use dynamics_core::clusters::{Clustered, ClusteredRobot};

@@ -17,21 +17,25 @@ pub const CASES: &[Case] = &[
         number: 25,
         name: "quaternion after 1e7 steps",
         parameters: "10⁷ steps of 7/2¹³ rad about (2, 3, 6)/7, only by `integrate`",
-        source: "floating bases that are integrated for hours; quaternions that are normalised rarely or never",
+        source: "floating bases over hours; quaternions that are rarely normalised",
         oracle: "closed form: the angle 10⁷·7/2¹³ is exact in f64",
-        reason: "length: the rounding error of one step, because each step corrects the length of the previous one. \
-            Attitude: the rounding error of the step is the same each time, so that up to ε/2 of 8545 rad \
-            accumulate (5e-4 in f32, 9e-13 in f64), and the random walk of the errors of 10⁷ sums is as large",
+        reason: "length: the rounding error of one step, which corrects the length of the step \
+            before. Attitude: each step rounds alike, so that up to ε/2 of 8545 rad accumulate \
+            (5e-4 in f32, 9e-13 in f64); the random walk of 10⁷ sums is as large",
         run: quaternion,
     },
     Case {
         number: 26,
         name: "Dzhanibekov body (1, 2, 3)",
-        parameters: "moments 1, 2, 3 kg·m², 5 rad/s about the middle axis and 0.01 about another, 60 s of 1 ms",
-        source: "Poinsot (1834); Ashbaugh, Chicone & Cushman (1991); a flip that is too early because of energy drift",
-        oracle: "conserved energy and conserved momentum in the inertial frame; the order of each integrator, measured with half the step",
-        reason: "first order: the energy grows by h²/2 ω̇·Iω̇ per step, as the sum of these terms shows, and momentum \
-            in proportion to h; at the mean velocity of the step, the energy in proportion to h². Fourth order: measured in f64; rounding in f32, 6e4 steps of less than ε/2",
+        parameters: "moments 1, 2, 3 kg·m², 5 rad/s about the middle axis and 0.01 about another, \
+            60 s of 1 ms",
+        source: "Poinsot (1834); Ashbaugh, Chicone & Cushman (1991); energy drift flips it too \
+            early",
+        oracle: "conserved energy and momentum in the inertial frame; the order of each \
+            integrator, with half the step",
+        reason: "first order: the energy grows by h²/2 ω̇·Iω̇ per step, momentum in proportion to h; \
+            at the mean velocity of the step, the energy in proportion to h². Fourth order: \
+            measured in f64; rounding in f32, 6e4 steps of less than ε/2",
         run: dzhanibekov,
     },
 ];
@@ -130,8 +134,8 @@ fn turned(steps: u32) -> Vec<Row> {
     rows
 }
 
-/// What 60 s of free motion did: errors of energy and momentum relative to themselves, the sum that
-/// a first-order step adds to the energy by theory, and how often the middle axis turned over.
+/// The effect of 60 s of free motion: errors of energy and momentum relative to themselves, the sum
+/// that a first-order step adds to the energy by theory, and how often the middle axis turned over.
 struct Spun {
     energy: f64,
     momentum: f64,

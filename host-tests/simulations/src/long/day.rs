@@ -18,7 +18,7 @@ pub fn quarter_of_an_hour() -> Vec<Row> {
     observed(DAY / 100)
 }
 
-/// The motion after a day, and an observer after so many ticks.
+/// The motion after a day, and an observer after this many ticks.
 fn observed(ticks: u32) -> Vec<Row> {
     fn run<R: Real>(rows: &mut Vec<Row>) {
         let of = R::from_f64;

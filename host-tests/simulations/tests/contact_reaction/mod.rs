@@ -138,7 +138,8 @@ fn row(stiffness: f64, response: Option<ContactResponse<f64>>, worst: &Crash) ->
 #[test]
 fn a_contacts_peak_is_bounded_and_soon_relieved() {
     let mut table = String::from(
-        "| stiffness | response | contact found after | peak | force 0.5 s later |\n|---|---|---:|---:|---:|\n",
+        "| stiffness | response | contact found after | peak | force 0.5 s later \
+         |\n|---|---|---:|---:|---:|\n",
     );
     for stiffness in STIFFNESSES {
         for response in RESPONSES {

@@ -109,7 +109,7 @@ impl Cell {
         tip(&self.at)[0]
     }
 
-    /// What the hand exerts, N.
+    /// The force of the hand, N.
     pub fn force(&self) -> DVec3 {
         self.hand.force(tip(&self.at))
     }

@@ -99,7 +99,8 @@ fn range(x: &[f64]) -> String {
 #[test]
 fn the_mean_drag_is_at_most_a_quarter() {
     let mut rows = String::from(
-        "| stated error of gravity | the tip moves at | without compensation | model exact | over-estimated by 10 % | under-estimated by 10 % |\n\
+        "| stated error of gravity | the tip moves at | without compensation | model exact | \
+         over-estimated by 10 % | under-estimated by 10 % |\n\
          |---|---|---:|---:|---:|---:|\n",
     );
     for gravity_error in GRAVITY_ERRORS {
@@ -123,7 +124,8 @@ fn the_mean_drag_is_at_most_a_quarter() {
             rows += "\n";
         }
     }
-    rows += "\n| from rest | without compensation | model exact | over-estimated by 10 % | under-estimated by 10 % |\n\
+    rows += "\n| from rest | without compensation | model exact | over-estimated by 10 % | \
+             under-estimated by 10 % |\n\
              |---|---:|---:|---:|---:|\n| breakaway |";
     let forces = [(0.0, 0.0), (SHARE, 0.0), (SHARE, 0.1), (SHARE, -0.1)]
         .map(|(share, over)| all(|q, way| breakaway(q, &setup(share, over), way)));

@@ -60,7 +60,8 @@ fn worst(off: &[Inertias], share: f64, over: f64, gravity_error: f64, speed: f64
 #[test]
 fn a_released_arm_neither_drifts_nor_oscillates() {
     let mut rows = String::from(
-        "| stated error of gravity | released | comes to rest after | drift in the next 10 s | oscillation |\n\
+        "| stated error of gravity | released | comes to rest after | drift in the next 10 s | \
+         oscillation |\n\
          |---|---|---:|---:|---:|\n",
     );
     for (gravity_error, off) in GRAVITY_ERRORS.iter().zip([&OFF[0][..], OFF.as_flattened()]) {

@@ -4,8 +4,8 @@ use crate::common::Rng;
 use crate::parameter_estimator::arm::*;
 use crate::parameter_estimator::learner::*;
 
-/// What ten seconds of a fault make of a learner: the error of its torques and the joint that has
-/// frozen it at their end and 20 s later, and how many rows were accepted meanwhile.
+/// The effect of ten seconds of a fault on a learner: the error of its torques and the joint that
+/// has frozen it at their end and 20 s later, and how many rows were accepted meanwhile.
 struct Outcome {
     errors: [f64; 2],
     frozen: [Option<usize>; 2],

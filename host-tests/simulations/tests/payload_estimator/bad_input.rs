@@ -24,7 +24,7 @@ fn with_fault(faulty: Run) -> Vec<Tick> {
     ticks
 }
 
-/// What is left of a fault in an estimator: the errors at its end, why the last of its ticks was
+/// The trace of a fault in an estimator: the errors at its end, why the last of its ticks was
 /// rejected, how many of them were accepted, and whether the estimate is frozen at the end of the
 /// run.
 struct Outcome {

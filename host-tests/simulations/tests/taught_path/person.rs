@@ -57,7 +57,7 @@ pub fn guide(tremor: f64) -> Vec<Q> {
     positions.collect()
 }
 
-/// What encoders with noise measure.
+/// The measurement of encoders with noise.
 pub fn measured(positions: &[Q]) -> Vec<Q> {
     let mut random = 0x1357_9bdf_u32;
     let mut measure = |q: f64| {

@@ -164,7 +164,8 @@ fn a_taught_path_is_played_within_motor_torques() {
     let measured = measured(&guided);
     let person = guided.len() as f64 * TICK;
     let mut rows = String::from(
-        "| tolerance | way-points | the person | played back | distance from the person's path | torque of the plan | of the drives | ticks with a limited torque | tracking error |\n\
+        "| tolerance | way-points | the person | played back | distance from the person's path | \
+         torque of the plan | of the drives | ticks with a limited torque | tracking error |\n\
          |---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
     );
     let mut last = f64::INFINITY;
@@ -174,7 +175,8 @@ fn a_taught_path_is_played_within_motor_torques() {
         let (played, planned) = (play(&motion), feedforward(&motion));
         let [seconds, off] = [f64::from(played.ticks) * TICK, off(&path, &guided)];
         rows += &format!(
-            "| {:.0} mrad | {points} | {person:.1} s | {seconds:.2} s | {:.1} mrad | {:.1} % | {:.1} % | {} | {:.1} mrad |\n",
+            "| {:.0} mrad | {points} | {person:.1} s | {seconds:.2} s | {:.1} mrad | {:.1} % | \
+             {:.1} % | {} | {:.1} mrad |\n",
             1e3 * tolerance,
             1e3 * off,
             100.0 * planned,
@@ -212,7 +214,8 @@ fn encoder_noise_and_hand_tremor_cost_little_time() {
     let calm = guide(0.0);
     let shaken = shaken(&calm);
     let mut rows = String::from(
-        "| tolerance | without noise and tremor | noise of the encoders | tremor of 1 mrad | both |\n\
+        "| tolerance | without noise and tremor | noise of the encoders | tremor of 1 mrad | both \
+         |\n\
          |---:|---:|---:|---:|---:|\n",
     );
     for tolerance in TOLERANCES {

@@ -13,7 +13,7 @@ use crate::hand_guiding::plant::{Q, ROTORS};
 use crate::taught_path::table;
 use crate::taught_path::ur5e::{Shares, inverse_dynamics, shares};
 
-/// What `host-tests/oracle/toppra_paths.py` wrote.
+/// The output of `host-tests/oracle/toppra_paths.py`.
 #[derive(Deserialize)]
 struct Recording {
     armature: Q,
@@ -110,7 +110,8 @@ fn least(x: &[f64]) -> f64 {
 #[test]
 fn durations_agree_with_toppra_within_the_limits() {
     let mut rows = String::from(
-        "| grid points | duration against toppra, mean | worst | greatest share of a torque's limit | of a speed's | of an acceleration's |\n\
+        "| grid points | duration against toppra, mean | worst | greatest share of a torque's \
+         limit | of a speed's | of an acceleration's |\n\
          |---:|---:|---:|---:|---:|---:|\n",
     );
     let compared = [
@@ -128,7 +129,8 @@ fn durations_agree_with_toppra_within_the_limits() {
         } = all.most;
         let [torque, speed, acceleration] = [torque, speed, acceleration].map(|x| 100.0 * x);
         rows += &format!(
-            "| {points} | {mean:+.2} % | {worst:+.2} % | {torque:.2} % | {speed:.2} % | {acceleration:.2} % |\n"
+            "| {points} | {mean:+.2} % | {worst:+.2} % | {torque:.2} % | {speed:.2} % | \
+             {acceleration:.2} % |\n"
         );
         println!("{points}: {:.4?} {:?}", all.durations, all.most);
     }

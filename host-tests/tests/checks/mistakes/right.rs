@@ -1,4 +1,4 @@
-//! What may occur twice in a scene, and a scene with a tool as a constant in both scalars.
+//! Effects that may occur twice in a scene, and a scene with a tool as a constant in both scalars.
 
 use dynamics_core::effects::*;
 use dynamics_core::model::{BodyInertia, Robot};

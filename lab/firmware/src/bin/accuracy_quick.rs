@@ -1,4 +1,4 @@
-//! What single changes to the default way to compute torques cost, few enough for the tests; and
+//! The cost of single changes to the default way to compute torques, few enough for the tests; and
 //! what is printed to be generated, as it is printed.
 #![no_std]
 #![no_main]

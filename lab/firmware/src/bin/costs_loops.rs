@@ -21,7 +21,7 @@ use firmware_demo::robots::planar_loops::{FiveBar, FourBar};
 
 type Scene = (Gravity, Inertia, Coriolis);
 
-/// What is measured of a robot.
+/// The measurements of a robot.
 struct Of<
     T,
     const B: usize,

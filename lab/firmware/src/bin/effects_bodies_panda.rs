@@ -1,5 +1,5 @@
-//! What a rigid body's own terms, and effects on bodies, cost in the engine's inverse dynamics of
-//! the Panda.
+//! The cost of a rigid body's own terms, and of effects on bodies, in the engine's inverse dynamics
+//! of the Panda.
 #![no_std]
 #![no_main]
 

@@ -1,5 +1,5 @@
-//! What a rigid body's own terms, and effects on bodies, cost in the engine's inverse dynamics of
-//! the UR5e.
+//! The cost of a rigid body's own terms, and of effects on bodies, in the engine's inverse dynamics
+//! of the UR5e.
 #![no_std]
 #![no_main]
 

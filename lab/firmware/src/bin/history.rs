@@ -1,6 +1,6 @@
-//! What the ancestors cost over chains of different lengths, and today's core and engine on the
-//! same chains, between the meter's markers, with precomputed sines and cosines.
-//! `cargo xtask history` reads the log, which ends with `done`.
+//! The cost of the ancestors over chains of different lengths, and of today's core and engine on
+//! the same chains, between the meter's markers, with precomputed sines and cosines. `cargo xtask
+//! history` reads the log, which ends with `done`.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! What single changes to the default way to compute torques cost on the robot of a file: the bin
+//! The cost of single changes to the default way to compute torques on the robot of a file: the bin
 //! of `cargo xtask accuracy --file`.
 #![no_std]
 #![no_main]

@@ -84,7 +84,7 @@ fn asks<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() -> 
             qdd: [(); V].map(|()| number(10.0)),
         };
         let trig = Core::<T>::joint_trig(&state.q);
-        // Of an angle, sine and cosine are not both zero.
+        // Sine and cosine of an angle are not both zero.
         let is_angle = |at: &JointCoordinate<f32>| at.sin != 0.0 || at.cos != 0.0;
         let cos = trig
             .coordinates

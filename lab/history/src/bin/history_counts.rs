@@ -1,5 +1,5 @@
-//! What `cargo xtask history` writes of published and counted operations: a line for each ancestor,
-//! its cells between bars; an empty line; and the list of all differences.
+//! The lines of `cargo xtask history` about published and counted operations: a line for each
+//! ancestor, its cells between bars; an empty line; and the list of all differences.
 
 use history::counts::{ANCESTORS, Both, Polynomial};
 

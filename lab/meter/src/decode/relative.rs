@@ -10,8 +10,8 @@ pub struct Relative {
     pub bits: [u16; 2],
 }
 
-/// What the instruction of these halfwords at an address reaches, if it is a direct branch or loads
-/// literals (ARMv7-M manual, A7.7.12, A7.7.18, A7.7.21, A7.7.44 and A7.7.233).
+/// The target of the instruction of these halfwords at an address, if it is a direct branch or
+/// loads literals (ARMv7-M manual, A7.7.12, A7.7.18, A7.7.21, A7.7.44 and A7.7.233).
 pub fn relative(address: u32, first: u16, second: u16) -> Option<Relative> {
     let (one, two) = (u32::from(first), u32::from(second));
     let reached = |words: u32, bits: [u16; 2], offset: i32| {

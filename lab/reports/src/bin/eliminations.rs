@@ -115,7 +115,8 @@ fn case<const B: usize, const Q: usize, const V: usize>(
     let [[m, m_worst], [b, b_worst]] = numbers;
     let ratio = m_worst / b_worst;
     println!(
-        "| {name} | {V} | {:.0e} | {m:.0e} | {m_worst:.0e} | {b:.0e} | {b_worst:.0e} | {ratio:.1} | {:.0e} |",
+        "| {name} | {V} | {:.0e} | {m:.0e} | {m_worst:.0e} | {b:.0e} | {b_worst:.0e} | {ratio:.1} \
+         | {:.0e} |",
         measured.condition, measured.f64s
     );
 }

@@ -11,7 +11,7 @@ struct Suite {
     /// The numbers of those that the firmware's bin `bits` has too.
     in_qemu: Vec<u32>,
     rows: Vec<Row>,
-    /// What is not as demanded, for each case that has something of the kind.
+    /// The rows that are not as demanded, for each case that has something of the kind.
     wrong: Vec<String>,
 }
 

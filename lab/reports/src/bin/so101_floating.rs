@@ -82,7 +82,7 @@ fn guiding() -> HandGuiding<f32, 6> {
     HandGuiding::try_new(config).expect("a passive share")
 }
 
-/// What the servos should be commanded at this estimate, in N·m at rest: of the scene, and of a
+/// The commands of the servos at this estimate, in N·m at rest: of the scene, and of a
 /// leader that is guided.
 fn commands(estimate: &Estimate<f32, 6>) -> Value {
     let at = State {

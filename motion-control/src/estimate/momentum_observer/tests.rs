@@ -131,7 +131,7 @@ fn a_restart_leaves_an_observer_without_a_measurement() {
     observer.drive(&[1.0; 2]);
     observer.restart();
     let new = self::observer::<1>();
-    // What the first measurement replaces.
+    // The first measurement replaces this.
     (observer.driven, observer.beta) = (new.driven, new.beta);
     assert_eq!(observer, new);
 }

@@ -15,7 +15,7 @@ pub struct ParameterEstimatorConfig<R, const P: usize, const V: usize> {
     pub noise: [R; V],
     /// Standard deviation of each parameter before the first row, about the nominal value.
     pub prior: [R; P],
-    /// How many parameters have an effect on the torque of this joint alone. They are the last
+    /// The number of parameters with an effect on the torque of this joint alone. They are the last
     /// ones, joint by joint, as [`SelectedParameters::own`](super::SelectedParameters::own) counts
     /// them; zeros if all parameters may have an effect on every joint.
     pub own: [u16; V],
@@ -49,7 +49,7 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimatorConfig<R, P, V> 
         ConfigParameter::InnovationLimit.require(within(self.limit, 3.0, 1e3))
     }
 
-    /// Where the rows of each joint have entries.
+    /// The places of the entries in the rows of each joint.
     pub(super) fn places(&self) -> [Places; V] {
         // Their sum is at most P.
         let own = self.own.iter().fold(0, |sum, own| sum + usize::from(*own));

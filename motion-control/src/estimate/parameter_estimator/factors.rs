@@ -26,8 +26,8 @@ use core::ops::Range;
 use crate::entry;
 use dynamics_core::scalar::Real;
 
-/// Where the rows of a joint have entries: at the common parameters, which are the first ones, and
-/// at its own.
+/// The places of the entries in the rows of a joint: at the common parameters, which are the first
+/// ones, and at its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Places {
     pub(super) common: u16,
@@ -62,10 +62,11 @@ impl Places {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Factors<R, const P: usize>([Pivot<R, P>; P]);
 
-/// What belongs to one parameter.
+/// The values of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Pivot<R, const P: usize> {
-    /// Of the line of L what is left of its diagonal, at the places of the rows alone, and zeros.
+    /// The part of the line of L that is left of its diagonal, at the places of the rows alone, and
+    /// zeros.
     line: [R; P],
     /// D.
     variance: R,
@@ -76,7 +77,7 @@ struct Pivot<R, const P: usize> {
 /// A row at its places, and zeros behind them.
 pub(super) struct Row<R, const P: usize> {
     y: [R; P],
-    /// What the pivots before leave of each entry.
+    /// The remainder of each entry after the pivots before.
     f: [R; P],
     /// r = yᵀ P y.
     pub(super) variance: R,
@@ -109,7 +110,7 @@ impl<R: Real, const P: usize> Row<R, P> {
 }
 
 impl<R: Real, const P: usize> Factors<R, P> {
-    /// Of an estimate whose parameters have these variances, without correlation.
+    /// For an estimate whose parameters have these variances, without correlation.
     pub(super) fn new(estimate: &[R; P], variances: &[R; P]) -> Self {
         Self(core::array::from_fn(|k| Pivot {
             line: [R::ZERO; P],

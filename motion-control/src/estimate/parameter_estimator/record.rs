@@ -67,8 +67,8 @@ impl<const B: usize, const N: usize> PhysicalParameters<f32, B, N> {
     /// [`consistency`](super::ParameterEstimator::consistency); returns the bytes of the record.
     /// Not for the tick.
     ///
-    /// Of two places, the one without a record is written, and then the other one is erased:
-    /// whenever the power is lost, one of them has a whole record.
+    /// Write into the place without a record, and then erase the other place: whenever the power
+    /// is lost, one of them has a whole record.
     ///
     /// ```
     /// use motion_control::{PhysicalParameters, RecordError};

@@ -57,7 +57,7 @@ impl<const N: usize> Excitation<N> {
     /// The P base parameters that most change the torques, if each nominal parameter of a joint and
     /// each pseudo-inertia of the B bodies has this relative standard deviation in every direction.
     ///
-    /// Where fewer than all base parameters are selected, the torques of the others remain those of
+    /// If fewer than all base parameters are selected, the torques of the others remain those of
     /// the nominal model. A parameter of a joint that is zero remains zero.
     ///
     /// # Errors
@@ -210,8 +210,9 @@ impl<R: Real, const P: usize, const N: usize> SelectedParameters<R, P, N> {
         bodies
     }
 
-    /// How many of them are parameters of each joint, of `each` that a joint has; the others are of
-    /// the `bodies`: [`ParameterEstimatorConfig::own`](super::ParameterEstimatorConfig::own).
+    /// The number of them that are parameters of each joint, of `each` that a joint has; the others
+    /// are of the `bodies`:
+    /// [`ParameterEstimatorConfig::own`](super::ParameterEstimatorConfig::own).
     ///
     /// ```
     /// use motion_control::SelectedParameters;

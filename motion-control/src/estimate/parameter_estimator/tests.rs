@@ -7,8 +7,8 @@ use crate::limits::ConfigParameter;
 mod config;
 mod freeze;
 
-/// Of all joints, then of the first, then of the second: more than four in a line, and a rest of
-/// those of the first.
+/// Parameters of all joints, then of the first, then of the second: more than four in a line, and a
+/// rest of those of the first.
 const COMMON: usize = 5;
 const OWN: [u16; 2] = [5, 1];
 const P: usize = 11;
@@ -90,7 +90,7 @@ fn near<const N: usize>(got: &[f64; N], expected: &[f64; N]) {
     }
 }
 
-/// Both after so many rows in turn, and compared in each.
+/// Both after this many rows in turn, and compared in each.
 fn compared(estimator: &mut Estimator, whole: &mut Whole, rows: u32) {
     let mut numbers = Numbers(7);
     for k in 0..rows {

@@ -110,7 +110,7 @@ impl Whole {
         }
         self.information = with(&kept);
         let estimate = solved(self.information, right);
-        // What the new estimate leaves of the old information and of the tick.
+        // The remainder of the old information and of the tick after the new estimate.
         let change = core::array::from_fn(|i| estimate[i] - self.estimate[i]);
         let left = rows
             .iter()
@@ -155,7 +155,7 @@ fn each_tick_gives_the_estimate_of_least_squares() {
             whole.update(&[0, 1, 2], &y, &residual);
             agree(&estimator, &whole);
         }
-        // Of two joints alone, and in another order.
+        // Two joints alone, and in another order.
         for joints in [[0, 2], [2, 1], [1, 0]] {
             let (y, residual) = rows(&mut numbers);
             assert_eq!(estimator.update_joints(joints, &y, &residual), Ok(()));

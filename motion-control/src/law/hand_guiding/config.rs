@@ -37,7 +37,7 @@ pub struct HandGuidingConfig<R, const V: usize> {
     pub upper: [R; V],
     /// The walls.
     pub wall: LimitedSpring<R, V>,
-    /// What holds locked joints.
+    /// The spring and damper that hold locked joints.
     pub lock: LimitedSpring<R, V>,
 }
 

@@ -82,7 +82,7 @@ fn compensation_and_true_friction_together_never_have_positive_power() {
         let most = power(config(), over, &WIDTHS);
         assert!(most <= 1e-15, "{most} W, over-estimated by {over}");
     }
-    // Of a model that is further off than stated, or has a steeper sign than the friction, it is
+    // With a model that is further off than stated, or has a steeper sign than the friction, it is
     // positive.
     assert!(power(config(), 0.12, &WIDTHS) > 0.01);
     assert!(power(config(), 0.1, &[0.05]) > 0.01);

@@ -39,7 +39,7 @@ pub(super) struct Modes<R, const M: usize> {
     next: (usize, usize),
 }
 
-/// What the passes find.
+/// The result of the passes.
 pub(super) struct Found<R, const M: usize> {
     /// Ω².
     pub squares: [R; M],
@@ -239,7 +239,7 @@ fn turn<R: Real, const M: usize>(rotations: &Rotations<R, M>, mut x: [R; M]) -> 
 /// Rotates modes p and q until they are hardly coupled, the faster one to p; the cosine and the
 /// sine.
 ///
-/// Of the half angle the tangent is taken by a rational function, whose error is of the fourth
+/// The tangent of the half angle is taken by a rational function, whose error is of the fourth
 /// order: with this cosine and sine the rotation is one, and what it leaves of the coupling is
 /// kept.
 #[cfg_attr(optimised, inline(always))]
@@ -263,7 +263,7 @@ fn rotate<R: Real, const M: usize>(g: &mut [[R; M]; M], p: usize, q: usize) -> (
     g[q][q] = R::either(ordered, gq, gp) - gain;
     g[p][q] = R::either(ordered, left, -left);
     let turned = |x: R, y: R| (c * x + s * y, c * y - s * x);
-    // Of modes before p, the couplings that are left only mix.
+    // The couplings that are left between modes before p only mix.
     for k in (p + 1..M).filter(|&k| k != q) {
         let (row, column) = if k < q { (k, q) } else { (q, k) };
         (g[p][k], g[row][column]) = turned(g[p][k], g[row][column]);

@@ -153,7 +153,7 @@ fn a_margin_makes_a_range_smaller_at_both_ends() {
     assert_eq!((shares.torque, shares.rate), (GOOD.torque, [5.0, 0.0]));
     assert_eq!(shares.speed, [0.5, f32::INFINITY]);
     assert_eq!((shares.lower, shares.upper), (GOOD.lower, GOOD.upper));
-    // What is left of a range may be nothing.
+    // The remainder of a range may be nothing.
     let all = GOOD.with_position_margin(1.0).check();
     assert_eq!(all, Ok(()));
     let more = GOOD.with_position_margin(1.125).check();

@@ -24,7 +24,7 @@ mod tests;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TravelledPath<R, const V: usize, const N: usize> {
     points: [[R; V]; N],
-    /// Where the newest point is.
+    /// The place of the newest point.
     newest: usize,
     count: usize,
     spacing: R,
@@ -119,8 +119,8 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
         // The root is that of the control tick, which has none of zero.
         let square = square / limits.acceleration + R::MIN_POSITIVE;
         let seconds = greater(by_speed, square * square.rsqrt());
-        // What rounding may add to a peak in f32; a time that cannot be counted is the greatest
-        // count.
+        // The amount that rounding may add to a peak in f32; a time that cannot be counted is the
+        // greatest count.
         let ticks = seconds / tick * R::from_f64(1.0 + 1e-5);
         self.ticks = ticks.to_u32().saturating_add(1);
         self.ticks_inv = R::ONE / real(self.ticks);

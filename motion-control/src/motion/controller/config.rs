@@ -59,8 +59,8 @@ impl<R: Real, const V: usize> MotionControllerConfig<R, V> {
         }
     }
 
-    /// What of the configuration looks like another unit, or cannot act: a list of words with
-    /// numbers. Never a refusal: [`MotionControllerConfig::check`] refuses what is impossible.
+    /// The parts of the configuration that look like another unit, or cannot act: a list of words
+    /// with numbers. Never a refusal: [`MotionControllerConfig::check`] refuses what is impossible.
     ///
     /// | advice | given where |
     /// |---|---|

@@ -31,7 +31,7 @@ fn controller<A: MeasurementAge>() -> MotionController<f64, 1, A> {
     MotionController::try_new(CONFIG).expect("every number is in its range")
 }
 
-/// A controller whose joint has followed for so many ticks, measurements being `late` ticks old.
+/// A controller whose joint has followed for this many ticks, measurements being `late` ticks old.
 fn following<A: MeasurementAge>(ticks: u32, late: u32) -> MotionController<f64, 1, A> {
     let mut controller = controller();
     for tick in 0..ticks {

@@ -13,7 +13,7 @@ fn sway(omega: f64, damping_ratio: f64) -> Vibration<f64> {
     }
 }
 
-/// Half a period of so many ticks.
+/// Half a period of this many ticks.
 fn half_of(ticks: f64) -> Vibration<f64> {
     sway(core::f64::consts::PI / (ticks * TICK), 0.0)
 }

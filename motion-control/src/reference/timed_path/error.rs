@@ -99,7 +99,8 @@ impl fmt::Display for TimedPathError {
             }
             Self::Friction { joint } => write!(
                 out,
-                "joint {joint}: its friction is negative or not finite, or more of it is certain than there is"
+                "joint {joint}: its friction is negative or not finite, or more of it is certain \
+                 than there is"
             ),
             Self::NotFinite { point, joint } => write!(
                 out,
@@ -116,8 +117,8 @@ impl fmt::Display for TimedPathError {
                 allowed,
             } => write!(
                 out,
-                "grid point {point}, joint {joint}: gravity and friction need a torque of {needed:.4}, \
-                 {allowed:.4} allowed"
+                "grid point {point}, joint {joint}: gravity and friction need a torque of \
+                 {needed:.4}, {allowed:.4} allowed"
             ),
             Self::Stuck { point } => write!(
                 out,

@@ -87,7 +87,8 @@ impl fmt::Display for TrajectoryError {
                 allowed,
             } => write!(
                 out,
-                "way-point {point}, joint {joint}: needs a speed of {needed:.4}, {allowed:.4} allowed"
+                "way-point {point}, joint {joint}: needs a speed of {needed:.4}, {allowed:.4} \
+                 allowed"
             ),
             Self::Acceleration {
                 point,

@@ -219,7 +219,7 @@ fn jerk_roots<R: Real>(a: R, b: R) -> [R; 2] {
     let (a, b) = (a / scale, b / scale);
     let half = b - a;
     let root = sqrt(a * a + a * b + b * b);
-    // Of the two signs the one that does not cancel; the other root by Vieta.
+    // The sign is the one that does not cancel; the other root by Vieta.
     let k = half + if half < R::ZERO { -root } else { root };
     [k / (R::from_f64(3.0) * b), -a / k]
 }

@@ -80,11 +80,11 @@ impl<R, D: Detect<R, V>, const V: usize> Detect<R, V> for &mut D {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Detectors<R, const V: usize, const CIRCLES: u128 = 0> {
-    /// Of the positions; it is restarted by each command that sets the brake.
+    /// The detector of the positions; it is restarted by each command that sets the brake.
     pub frozen: FrozenEncoder<R, V, CIRCLES>,
-    /// Of the reference, while the arm follows its trajectory.
+    /// The detector of the reference, while the arm follows its trajectory.
     pub steps: ReferenceStep<R, V, CIRCLES>,
-    /// Of the torques.
+    /// The detector of the torques.
     pub saturation: Saturation<R, V>,
 }
 

@@ -21,7 +21,7 @@ fn supervisor() -> Supervisor<f32, 2> {
     Supervisor::new(CONFIG)
 }
 
-/// One that rides through so many ticks.
+/// One that rides through this many ticks.
 fn riding(ticks: u32) -> Supervisor<f32, 2> {
     Supervisor::new(SupervisorConfig {
         ride_through_ticks: ticks,

@@ -14,7 +14,7 @@ use super::delay;
 use super::error::{Error, Result};
 use super::robot::Robot;
 
-/// How far the numbers of a description are believed: a relative standard deviation.
+/// The trust in the numbers of a description: a relative standard deviation.
 const BELIEVED: f64 = 0.3;
 /// The range of a joint without limits, rad, and the least speed and acceleration that are
 /// compared, rad/s and rad/s².
@@ -25,12 +25,12 @@ const SLOWEST_RATE: f64 = 1.0;
 const RESTS: f64 = 1e-3;
 /// By how much a joint may be beyond its limits, rad or m.
 const BEYOND: f64 = 0.2;
-/// An offset is shown by the recording from so many deviations on,
+/// An offset is shown by the recording from this many deviations on,
 const SHOWN: f64 = 4.0;
 /// and from this share of the joint's largest torque on.
 const LEAST_OFFSET: f64 = 0.01;
 
-/// What is identified of joints, and how.
+/// The identified quantities of joints, and the way.
 #[derive(Clone, Debug)]
 pub struct Options {
     pub effects: Vec<JointEffect>,
@@ -60,7 +60,7 @@ pub enum JointEffect {
 pub(crate) type Base<const V: usize> =
     BaseModel<ArmModel<f64, V>, (Gravity, Inertia, Coriolis), V, V>;
 
-/// What a recording and the time of its torques give.
+/// The results from a recording and the time of its torques.
 pub(crate) struct Attempt<const V: usize> {
     pub arm: Base<V>,
     pub joints: [OfOneJoint; V],
@@ -263,7 +263,8 @@ fn believed<const V: usize>(
             let Parameter::Joint { joint, of } = parameter else {
                 continue;
             };
-            // What the motion adds to the description, also to the sum of an armature and inertias.
+            // The knowledge that the motion adds to the description, also to the sum of an armature
+            // and inertias.
             let more = (found.base[base] - nominal) / factor;
             let place = &mut believed[joint][of as usize];
             // One that the recording does not distinguish from none stays none.

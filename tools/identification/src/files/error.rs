@@ -49,8 +49,8 @@ pub enum Error {
     Unsuitable { path: PathBuf, reason: String },
     /// The recording is of another robot.
     #[error(
-        "{} has {recorded} joints, but the robot of {} has {described} ({names}): --tip, --joints, --without or --lock select those \
-         that were recorded",
+        "{} has {recorded} joints, but the robot of {} has {described} ({names}): --tip, --joints, \
+         --without or --lock select those that were recorded",
         recording.display(), robot.display()
     )]
     Joints {
@@ -62,8 +62,8 @@ pub enum Error {
     },
     /// The joint was where the description does not allow it to be.
     #[error(
-        "{}: joint {joint} (`{name}`) was at {position:.3}, its limits in {} are {lower:.3} and {upper:.3}: is the recording of \
-         this robot, with the zeros of its encoders?",
+        "{}: joint {joint} (`{name}`) was at {position:.3}, its limits in {} are {lower:.3} and \
+         {upper:.3}: is the recording of this robot, with the zeros of its encoders?",
         recording.display(), robot.display()
     )]
     Outside {
@@ -76,7 +76,8 @@ pub enum Error {
         upper: f64,
     },
     /// Nothing moves.
-    #[error("{}: no joint moves in this recording, which shows no parameter: record `cargo xtask watch --excite`", path.display())]
+    #[error("{}: no joint moves in this recording, which shows no parameter: record `cargo xtask \
+        watch --excite`", path.display())]
     AtRest { path: PathBuf },
     /// The two recordings have different ticks.
     #[error("{} has ticks of {other:.6} s, the first recording of {own:.6} s", path.display())]
@@ -94,7 +95,7 @@ pub enum Error {
     Json(#[from] serde_json::Error),
 }
 
-/// What is wrong with a recording.
+/// A mistake in a recording.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Problem {
@@ -117,7 +118,8 @@ pub enum Problem {
         expected: &'static str,
     },
     #[error(
-        "column `number`: {number} follows {before}: each tick has a greater number than the one before; two runs are two files"
+        "column `number`: {number} follows {before}: each tick has a greater number than the one \
+         before; two runs are two files"
     )]
     Order { number: u32, before: u32 },
     #[error("column `time_s`: {found} s in place of {expected} s, which the tick of {tick} s says")]
@@ -133,7 +135,8 @@ pub enum Problem {
     #[error("it has no two ticks with a time, from which the length of a tick follows")]
     NoTick,
     #[error(
-        "no tick has the mode `full`, in which the controller makes the torque: the arm was on hold or stopped"
+        "no tick has the mode `full`, in which the controller makes the torque: the arm was on \
+         hold or stopped"
     )]
     NoTicks,
 }

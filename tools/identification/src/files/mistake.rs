@@ -44,7 +44,8 @@ impl std::fmt::Display for Mistake {
             }
             Self::Zero { joint, shift } => write!(
                 out,
-                "the zero of `{joint}` is shifted: its positions are too small by about {shift:.3} rad or m ({:.1}° for a revolute joint)",
+                "the zero of `{joint}` is shifted: its positions are too small by about {shift:.3} \
+                 rad or m ({:.1}° for a revolute joint)",
                 shift * 180.0 / PI
             ),
         }

@@ -129,7 +129,7 @@ fn zero<const V: usize>(
         let [back, ahead] = [shift - SHIFT, shift + SHIFT].map(at);
         let bend = back - 2.0 * left + ahead;
         let change = 0.5 * SHIFT * (back - ahead) / bend;
-        // Where the residuals are no parabola, or one side is beyond the limits, the better side is
+        // If the residuals are no parabola, or one side is beyond the limits, the better side is
         // tried.
         let change = match bend > 0.0 && change.is_finite() {
             true => change.clamp(-2.0 * SHIFT, 2.0 * SHIFT),
@@ -151,7 +151,7 @@ fn zero<const V: usize>(
         .then_some((left, Mistake::Zero { joint, shift }))
 }
 
-/// How many times the description's first moments of mass the estimated ones are, by least squares
+/// The ratio of the estimated first moments of mass to the description's, by least squares
 /// relative to their torques.
 fn unit<const V: usize>(attempt: &Attempt<V>) -> f64 {
     let (mut product, mut square) = (0.0, 0.0);

@@ -49,7 +49,7 @@ fn today() -> String {
     format!("{}-{month:02}-{:02}", today.year(), today.day())
 }
 
-/// Of the file, the lines that differ from the one before: the bodies and the constants of the
+/// The lines of the file that differ from the one before: the bodies and the constants of the
 /// joints.
 pub fn lines(file: &str) -> String {
     let between = |from: &str, to: &str| {
@@ -83,7 +83,8 @@ fn offsets(found: &Found) -> String {
         return String::new();
     }
     format!(
-        "\n/// Torque of each joint in any state, N·m or N: add it to the scene.\npub const OFFSET: ::dynamics_core::effects::ConstantTorque<f32, V> = \
+        "\n/// Torque of each joint in any state, N·m or N: add it to the scene.\npub const \
+         OFFSET: ::dynamics_core::effects::ConstantTorque<f32, V> = \
          ::dynamics_core::effects::ConstantTorque({each:?});\n"
     )
 }
@@ -100,8 +101,10 @@ fn gears(found: &Found, width: &str) -> String {
         numbers.join(", ")
     };
     format!(
-        "\n/// Friction of the gears per transmitted torque: add it to the scene.\npub const GEARS: ::dynamics_core::effects::LoadFriction<f32, V> = \
-         ::dynamics_core::effects::LoadFriction {{ driving: [{}], backdriving: [{}], width: {width} }};\n",
+        "\n/// Friction of the gears per transmitted torque: add it to the scene.\npub const \
+         GEARS: ::dynamics_core::effects::LoadFriction<f32, V> = \
+         ::dynamics_core::effects::LoadFriction \
+         {{ driving: [{}], backdriving: [{}], width: {width} }};\n",
         of(0),
         of(1)
     )
@@ -118,7 +121,8 @@ pub fn c(found: &Found) -> String {
         format!("{{{}}}", each.join(", "))
     };
     let mut text = format!(
-        "/* Bodies in their own frames: kg, m, kg m^2 about the centre of mass (xx, xy, xz, yy, yz, zz). */\n\
+        "/* Bodies in their own frames: kg, m, kg m^2 about the centre of mass (xx, xy, xz, yy, \
+         yz, zz). */\n\
          static const struct {{ float mass; float com[3]; float inertia[6]; }} bodies[{}] = {{\n",
         found.bodies.len()
     );

@@ -31,8 +31,9 @@ pub fn svg(traces: &[Trace]) -> String {
     let high = (MOST / rows as f64).min(HIGH).floor();
     let [width, height] = [WIDTH * columns as f64, high * rows as f64];
     let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\
-         <style>{STYLE}</style><rect class=\"p\" width=\"{width}\" height=\"{height}\"/>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\"><style>{STYLE}</style><rect class=\"p\" \
+         width=\"{width}\" height=\"{height}\"/>\n"
     );
     for (number, trace) in traces.iter().enumerate() {
         let (column, row) = (number % columns, number / columns);

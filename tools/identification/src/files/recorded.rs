@@ -179,7 +179,7 @@ impl Recorded {
             self.left_out += 1;
             return;
         }
-        // Where the trajectory begins again, a simulated arm is put back.
+        // When the trajectory begins again, a simulated arm is put back.
         let follows = before.is_some_and(|before| {
             let taken = before.full && before.time.is_some();
             taken && line.number == before.number + 1 && line.tick == before.tick.wrapping_add(1)

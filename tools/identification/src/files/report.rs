@@ -1,4 +1,4 @@
-//! What was found, as text and as JSON.
+//! The report, as text and as JSON.
 
 use std::fmt::Write as _;
 
@@ -11,7 +11,7 @@ use super::mistakes::{IMPOSSIBLE, Mistake};
 /// The digits of numbers to paste.
 const DIGITS: usize = 6;
 
-/// What a recording says of a robot; its fields are those of the JSON.
+/// The findings about a robot from a recording; its fields are those of the JSON.
 #[derive(Clone, Debug, Serialize)]
 pub struct Found {
     pub robot: String,
@@ -29,7 +29,7 @@ pub struct Found {
     /// The width of the smooth sign of Coulomb friction, rad/s or m/s.
     pub width: f64,
     pub condition: f64,
-    /// Of the physical set from the estimate, in standard deviations.
+    /// The misfit of the physical set to the estimate, in standard deviations.
     pub misfit: f64,
     /// The time to which a torque belongs, after the position of its tick, s: half a tick for a
     /// torque that is held for a tick, less if the torques lag behind.
@@ -48,11 +48,11 @@ pub struct Found {
 #[derive(Clone, Debug, Serialize)]
 pub struct ParameterFound {
     pub name: String,
-    /// Of the description.
+    /// The value of the description.
     pub before: f64,
     pub found: f64,
     pub deviation: f64,
-    /// Of an effect that is not identified.
+    /// Whether it is of an effect that is not identified.
     pub is_known: bool,
     /// Whether the motion shows it.
     pub is_determined: bool,
@@ -65,7 +65,7 @@ pub struct JointFound {
     /// Viscous and Coulomb friction, armature and offset of the description.
     pub before: [f64; 4],
     pub after: [f64; 4],
-    /// Where the number is a base parameter of its own.
+    /// The deviations, if the number is a base parameter of its own.
     pub deviations: [Option<f64>; 4],
     pub gear: Option<Gear>,
     pub fitted: Part,
@@ -83,7 +83,7 @@ pub struct Gear {
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Part {
     pub largest_torque: f64,
-    /// Of the description, and of what was found.
+    /// Residuals of the description, and of the findings.
     pub residuals: [Residuals; 2],
 }
 
@@ -183,7 +183,7 @@ impl Found {
         all.map(|one| one.name.as_str()).collect()
     }
 
-    /// What a person reads.
+    /// The report for a person.
     pub fn text(&self) -> String {
         let mut text = String::new();
         let held = match self.other_path {
@@ -192,7 +192,8 @@ impl Found {
         };
         let _ = writeln!(
             text,
-            "{}: {} ticks of {} ms, {} gaps, {} ticks left out; fitted to {:.1} s, compared with {held}, {:.1} s",
+            "{}: {} ticks of {} ms, {} gaps, {} ticks left out; fitted to {:.1} s, compared with \
+             {held}, {:.1} s",
             self.robot,
             self.ticks,
             short(1e3 * self.tick),
@@ -216,12 +217,13 @@ impl Found {
         let _ = match lag {
             0.0 => writeln!(
                 text,
-                "delay: none; each torque belongs to the middle of its tick, {half} ms after its position"
+                "delay: none; each torque belongs to the middle of its tick, {half} ms after its \
+                 position"
             ),
             _ => writeln!(
                 text,
-                "warning: the torques {} the positions by {ms} ms, relative to a torque that is held for a tick; the fit \
-                 takes this into account",
+                "warning: the torques {} the positions by {ms} ms, relative to a torque that is \
+                 held for a tick; the fit takes this into account",
                 if lag > 0.0 {
                     "lag behind"
                 } else {
@@ -290,15 +292,17 @@ impl Found {
             Some(mistake) => {
                 let _ = writeln!(
                     text,
-                    "warning: no possible robot fits this recording ({:.1} standard deviations away), unless a mistake is corrected: {mistake}",
+                    "warning: no possible robot fits this recording ({:.1} standard deviations \
+                     away), unless a mistake is corrected: {mistake}",
                     self.misfit
                 );
             }
             None if self.misfit > IMPOSSIBLE => {
                 let _ = writeln!(
                     text,
-                    "warning: no possible robot has this estimate: the nearest one is {:.1} standard deviations away; its friction may be \
-                     of another kind (--effects). No single wrong sign, unit or zero explains it",
+                    "warning: no possible robot has this estimate: the nearest one is {:.1} \
+                     standard deviations away; its friction may be of another kind (--effects). No \
+                     single wrong sign, unit or zero explains it",
                     self.misfit
                 );
             }
@@ -370,7 +374,8 @@ impl Found {
         if let Some((joint, share)) = self.worst() {
             let _ = writeln!(
                 text,
-                "\ntorques of {held} within {:.1} % of the largest torque, RMS; the worst joint is {}",
+                "\ntorques of {held} within {:.1} % of the largest torque, RMS; the worst joint is \
+                 {}",
                 100.0 * share,
                 joint.name
             );

@@ -48,12 +48,14 @@ impl Robot {
         };
         if !imported.tree.is_single() {
             return Err(unsuitable(
-                "parameters are identified of robots whose joints have one coordinate each, on a base that stands still",
+                "parameters are identified of robots whose joints have one coordinate each, on a \
+                 base that stands still",
             ));
         }
         if !imported.report.loops.is_empty() {
             return Err(unsuitable(
-                "parameters are identified of trees; this robot has loops: --without leaves out the link that closes one",
+                "parameters are identified of trees; this robot has loops: --without leaves out \
+                 the link that closes one",
             ));
         }
         Ok(Self {

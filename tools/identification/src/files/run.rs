@@ -95,7 +95,7 @@ fn of_size<const V: usize>(
     let compare = |part: &TickRecording<V>| fit.compare(arm, part, &models);
     let own_part = compare(&fitted_part).map_err(|source| task.failed(source))?;
     let validated = match compare(&held) {
-        // Of the recording itself, a part too short for the filter is no error.
+        // A part of the recording itself too short for the filter is no error.
         Err(IdentificationError::TooShort { .. }) if other.is_none() => None,
         validated => Some(validated.map_err(|source| task.failed(source))?),
     };

@@ -13,7 +13,7 @@ const PERIOD: u32 = 2500;
 /// 2π/PERIOD, and the angular velocity, rad/s.
 const ANGLE: f32 = 0.002513274;
 const RATE: f32 = 1.2566371;
-/// Of the positions, rad or m.
+/// The centre of the positions, rad or m.
 #[rustfmt::skip]
 pub const CENTRE: [f32; 6] = [-1.3861748, -1.5413502, -1.4511473, -0.58927673, 1.4392335, 0.046259608];
 /// Amplitudes of the sines by harmonics, rad or m.

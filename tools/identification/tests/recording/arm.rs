@@ -30,7 +30,7 @@ pub const OPTIONS: fn() -> Options = || Options {
 };
 /// A count of an encoder, rad.
 const COUNT: f64 = std::f64::consts::TAU / 16384.0;
-/// Of the measured torque, relative to the largest torques, N·m.
+/// Noise of the measured torque, relative to the largest torques, N·m.
 const NOISE: [f64; 2] = [0.1, 0.03];
 
 pub fn described() -> Robot {
@@ -114,7 +114,7 @@ pub fn read(text: &str) -> Result<Recorded> {
     Recorded::from(Path::new("run.csv"), text.as_bytes())
 }
 
-/// What a record says of the arm whose description is off.
+/// The report about the arm whose description is off.
 pub fn identified(text: &str) -> Result<Found> {
     let recorded = read(text)?;
     run::identify(&off(), (Path::new("run.csv"), &recorded), None, &OPTIONS())

@@ -1,4 +1,4 @@
-//! What is found, and what is said of it.
+//! The findings, and the words for them.
 
 use std::path::Path;
 
@@ -53,7 +53,7 @@ fn torques_of_another_path_are_within_five_per_cent() {
         "{:?}",
         found.undetermined()
     );
-    // Of the part that was not fitted, too: it has the noise of the measurement.
+    // The part that was not fitted has a small error, too: it has the noise of the measurement.
     let (_, share) = found.worst().expect("joints");
     assert!(share < 0.05, "{share}");
     for (joint, truth) in found.joints.iter().zip([[0.8, 0.5], [0.3, 0.2]]) {

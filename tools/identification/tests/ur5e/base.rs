@@ -9,7 +9,7 @@ use identification::{BaseModel, ExcitationLimits, Parameter};
 use crate::plant::arm;
 use crate::setup::*;
 
-/// Of arms that are all different, while `ARM` has the bodies of the nominal one.
+/// The arms are all different, while `ARM` has the bodies of the nominal one.
 #[test]
 fn the_torques_by_base_parameters_are_those_of_inverse_dynamics() {
     for seed in 0..5 {

@@ -1,4 +1,5 @@
-//! What an identification finds: coverage of the stated deviations, and torques on other motions.
+//! The findings of an identification: coverage of the stated deviations, and torques on other
+//! motions.
 
 use std::sync::LazyLock;
 
@@ -16,7 +17,7 @@ const SEEDS: u64 = 100;
 /// Arms with bristles.
 const FEW: u64 = 10;
 
-/// Of one arm.
+/// The outcome for one arm.
 struct Outcome {
     /// Errors of the base parameters in stated deviations.
     errors: Vec<f64>,
@@ -154,8 +155,8 @@ fn most(all: &[Outcome], of: impl Fn(&Outcome) -> f64) -> f64 {
     all.iter().map(of).fold(0.0, f64::max)
 }
 
-/// Of a corner frequency of 5 Hz: the deviations are several times those of white noise of the same
-/// size.
+/// With a corner frequency of 5 Hz the deviations are several times those of white noise of the
+/// same size.
 #[test]
 fn the_deviations_are_those_of_coloured_noise_too() {
     let (mut inside, mut all, mut ratio) = (0, 0, 0.0);
@@ -187,8 +188,8 @@ fn the_deviations_are_those_of_coloured_noise_too() {
 fn identified_torques_are_within_1_percent_of_full_scale() {
     const ESTIMATES: [usize; 2] = [1, 2];
     for k in ESTIMATES {
-        // Of the rated torque at all times, on the pick and place too; in the mean of the largest
-        // torque of the motion.
+        // The error is a share of the rated torque at all times, on the pick and place too; in the
+        // mean of the largest torque of the motion.
         for path in 0..2 {
             let rated = most(&ALL, |outcome| outcome.torques[k][path].rated);
             assert!((0.001..0.01).contains(&rated), "{k}: {rated}");
@@ -229,8 +230,9 @@ fn the_figures_of_the_page_are_those_of_these_arms() {
     let narrow = BaseModel::new(Ur5e::MODEL, RIGID_BODY, Width::new(0.005), LIMITS);
     let (wide, narrow) = (of(&ARM), of(&narrow));
     let mut rows = String::from(
-        "| friction of the arm | arms | parameters within 2σ | torques by | error, RMS | largest error | of the median arm | arms within 1 % | \
-         of the rated torque |\n| --- | ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: |\n",
+        "| friction of the arm | arms | parameters within 2σ | torques by | error, RMS | largest \
+         error | of the median arm | arms within 1 % | of the rated torque |\n| --- | ---: | ---: \
+         | --- | ---: | ---: | ---: | ---: | ---: |\n",
     );
     for (name, all) in [
         ("as modelled, w = 0.05 rad/s", &*ALL),

@@ -160,7 +160,7 @@ fn the_firmware_file_agrees_with_the_motion() {
     assert_eq!(Ur5eExcitation.at(end).qd, [0.0; 6]);
 }
 
-// Where none is clear there is no motion.
+// If none is clear there is no motion.
 #[test]
 fn the_search_keeps_to_clear_configurations() {
     let brief = Search {

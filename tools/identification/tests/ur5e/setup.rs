@@ -18,7 +18,7 @@ pub type Scene = (Gravity, Inertia, Coriolis);
 pub type Arm = BaseModel<ArmModel<f64, 6>, Scene, 6, 6>;
 
 pub const RATED: [f64; 6] = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];
-/// Of the measured torque, N·m.
+/// Noise of the measured torque, N·m.
 pub const NOISE: [f64; 6] = [1.5, 1.5, 1.5, 0.28, 0.28, 0.28];
 pub const COUNT: f64 = std::f64::consts::TAU / 16384.0;
 pub const TICK: f64 = 2e-3;
@@ -50,7 +50,7 @@ pub const SEARCH: Search = Search {
 pub static ARM: LazyLock<Arm> =
     LazyLock::new(|| BaseModel::new(Ur5e::MODEL, RIGID_BODY, WIDTH, LIMITS));
 
-/// What the search has found, as the file for firmware has it.
+/// The result of the search, as the file for firmware has it.
 pub static CHOSEN: LazyLock<FourierMotion<6>> = LazyLock::new(|| {
     let rows = |rows: &[[f32; 6]]| rows.iter().map(|row| row.map(f64::from)).collect();
     FourierMotion {

@@ -17,7 +17,7 @@ pub struct JointMotion {
     pub qd: Vec<f64>,
     /// The derivative of the velocity's components.
     pub qdd: Vec<f64>,
-    /// ∂v/∂u̇.
+    /// The derivatives ∂v/∂u̇.
     pub columns: Vec<Vec<f64>>,
 }
 

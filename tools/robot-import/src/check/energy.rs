@@ -27,9 +27,9 @@ const G: f64 = 9.81;
 /// One-coordinate joints in place of a joint's, each with the component of its axis: turns about x,
 /// y, z are 0 to 2, translations along them 3 to 5.
 pub const BALL: [usize; 3] = [2, 1, 0];
-/// Of a planar joint.
+/// Coordinates of a planar joint.
 pub const PLANE: [usize; 3] = [3, 4, 2];
-/// Of a free joint.
+/// Coordinates of a free joint.
 pub const FREE: [usize; 6] = [3, 4, 5, 2, 1, 0];
 
 /// ∫ r rᵀ dm about the link's origin, m c and m.
@@ -49,7 +49,7 @@ pub struct Energy<'a> {
 }
 
 impl<'a> Energy<'a> {
-    /// Of a selection.
+    /// Makes the energy of a selection.
     pub fn of(robot: &'a Description, selected: &'a Selected) -> Self {
         let mut coordinates = if selected.free_base { FREE.len() } else { 0 };
         let mut first = vec![0; robot.joints.len()];
@@ -281,7 +281,7 @@ fn second_moments(inertial: &Inertial) -> Moments {
     (moments, c.map(|x| own.mass * x), own.mass)
 }
 
-/// No displacement.
+/// The placement without a displacement.
 pub fn identity<T: Number>() -> Rows<T> {
     std::array::from_fn(|i| std::array::from_fn(|k| T::from(if i == k { 1.0 } else { 0.0 })))
 }
@@ -441,9 +441,10 @@ mod tests {
         for i in 1..=joints {
             let _ = write!(
                 text,
-                "<link name='l{i}'><inertial><origin xyz='0 0 0.1'/><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' \
-                 izz='1'/></inertial></link><joint name='j{i}' type='continuous'><origin xyz='0 0 0.2'/><parent link='l{}'/>\
-                 <child link='l{i}'/><axis xyz='0 1 0'/></joint>",
+                "<link name='l{i}'><inertial><origin xyz='0 0 0.1'/><mass value='1'/><inertia \
+                 ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link><joint \
+                 name='j{i}' type='continuous'><origin xyz='0 0 0.2'/><parent link='l{}'/><child \
+                 link='l{i}'/><axis xyz='0 1 0'/></joint>",
                 i - 1
             );
         }

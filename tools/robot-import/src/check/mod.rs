@@ -27,7 +27,7 @@ const SIZE: f64 = 1.2;
 /// The largest difference of torques, of full scale.
 pub const MOST: f64 = 1e-10;
 
-/// What a check found; differences are of the largest torque.
+/// The findings of a check; differences are shares of the largest torque.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Checked {
     /// The number of states.
@@ -36,11 +36,12 @@ pub struct Checked {
     pub full_scale: f64,
     /// From Lagrange's equations of the file's links, in f64.
     pub energy: f64,
-    /// Of the numbers made exact from those of the file: the price of the snaps.
+    /// The difference of the exact numbers from those of the file: the price of the snaps.
     pub snapping: f64,
-    /// Of f32 from f64.
+    /// The difference of f32 from f64.
     pub f32: f64,
-    /// Of the frames of written loops from those on the file's links, m, if there are some.
+    /// The distance of the frames of written loops from those on the file's links, m, if it has
+    /// loops.
     pub loops: Option<f64>,
     /// The logarithm of the condition number of M, the largest of the states, or of the first of
     /// them for a large robot.

@@ -1,8 +1,9 @@
 """Torques by Pinocchio (URDF) or MuJoCo (MJCF) at the motions of a request on stdin, as JSON on stdout.
 
-The request: text of the description, format, joints (name, index, kind, and for a free base the name "floating_base"),
-locked (name, index, position) and motions (q, v, a in the library's order: quaternion before position, angular before
-linear velocity). The text is data: nothing of it is run, and no file that it names is opened.
+The request: text of the description, format, joints (name, index, kind, and for a free base the
+name "floating_base"), locked (name, index, position) and motions (q, v, a in the library's order:
+quaternion before position, angular before linear velocity). The text is data: nothing of it is run,
+and no file that it names is opened.
 """
 
 import sys
@@ -13,7 +14,7 @@ sys.path[:] = [folder for folder in sys.path if folder not in ("", ".")]
 import json
 import os
 
-# What the peers and their libraries print is no answer.
+# The output of the peers and their libraries is no answer.
 answer = os.fdopen(os.dup(1), "w")
 os.dup2(2, 1)
 
@@ -113,7 +114,8 @@ def mujoco(request):
             i, k = model.jnt_dofadr[j], model.jnt_qposadr[j]
             turn = None
             if joint["kind"] == "Free":
-                # There, the linear velocity is in the axes of the world, and before the angular one.
+                # There, the linear velocity is in the axes of the world, and before the angular
+                # one.
                 turn = numpy.zeros(9)
                 mujoco.mju_quat2Mat(turn, numpy.roll(q[:4], 1))
                 turn = turn.reshape(3, 3)
@@ -123,8 +125,8 @@ def mujoco(request):
             data.qvel[i : i + nv] = v
             data.qacc[i : i + nv] = a
             parts.append((i, nv, turn))
-        # The recursion over rigid bodies alone: it has no spring, damper, tendon, actuator, fluid, compensated weight, rotor
-        # or constraint, whatever the file states.
+        # The recursion over rigid bodies alone: it has no spring, damper, tendon, actuator, fluid,
+        # compensated weight, rotor or constraint, whatever the file states.
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
         mujoco.mj_comVel(model, data)

@@ -26,18 +26,18 @@ const NO_PEER: i32 = 3;
 /// The Python that has the peers.
 #[derive(Clone, Debug)]
 pub struct Python {
-    /// The program.
+    /// The program that was called.
     pub program: String,
     /// Whether it sees PYTHONPATH and the packages of the user's own folder.
     pub environment: bool,
-    /// How long a comparison may take.
+    /// The time that a comparison may take.
     pub time: Duration,
 }
 
 /// The comparison with a peer.
 #[derive(Clone, Debug, Serialize)]
 pub struct Peer {
-    /// Its name and version.
+    /// The name and the version of the library.
     pub name: String,
     /// The largest difference of torques, of full scale.
     pub difference: f64,
@@ -59,7 +59,7 @@ pub enum NoPeer {
 }
 
 impl NoPeer {
-    /// The sentence.
+    /// The sentence that gives the reason.
     pub fn reason(&self) -> &str {
         match self {
             Self::Absent(reason) | Self::Failed(reason) => reason,
@@ -89,7 +89,7 @@ struct Moving<'a> {
 struct Locked<'a> {
     name: &'a str,
     index: usize,
-    /// Its q.
+    /// The position coordinates of the state.
     position: Vec<f64>,
 }
 

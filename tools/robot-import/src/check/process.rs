@@ -10,24 +10,24 @@ use crate::limits::MOST_MESSAGES;
 
 /// Between two looks whether a process has ended.
 const PAUSE: Duration = Duration::from_millis(2);
-/// How long messages may take to arrive after the end of a process.
+/// The time that messages may take to arrive after the end of a process.
 const REST: Duration = Duration::from_millis(500);
 
-/// What a process may use.
+/// The resources that a process may use.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     /// Time from its start to its end.
     pub time: Duration,
-    /// Bytes on its stdout.
+    /// The number of bytes on its stdout.
     pub bytes: usize,
 }
 
-/// How a process ended that wrote no more than it may, in time.
+/// The end of a process that wrote no more than it may, in time.
 #[derive(Debug)]
 pub struct Ended {
     /// Its exit status; none after a signal.
     pub code: Option<i32>,
-    /// What it wrote to stdout.
+    /// The output of the process on stdout.
     pub stdout: Vec<u8>,
     /// The end of what it wrote to stderr.
     pub messages: Vec<u8>,
@@ -100,7 +100,7 @@ fn finished(
     }
 }
 
-/// What a thread reads from a pipe, when it has read it.
+/// The bytes that a thread reads from a pipe, when it has read them.
 fn in_thread<P: Read + Send + 'static>(
     pipe: Option<P>,
     read: impl FnOnce(P) -> Vec<u8> + Send + 'static,

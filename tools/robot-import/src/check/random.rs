@@ -4,7 +4,7 @@
 pub struct Random(u64);
 
 impl Random {
-    /// With a seed.
+    /// Makes the generator with a seed.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::templates::{COMMON, File, RTIC, files};
 
-/// What calls the tick.
+/// The framework that calls the tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Framework {
     /// RTIC: the tick is an interrupt's task.
@@ -27,13 +27,13 @@ impl fmt::Display for Framework {
 pub struct Board {
     /// Its name on the command line.
     pub name: &'static str,
-    /// Its name in texts.
+    /// The name of the board in texts.
     pub title: &'static str,
-    /// What calls the tick.
+    /// The framework that calls the tick.
     pub framework: Framework,
     /// So many joints have encoders and drives.
     pub most_joints: usize,
-    /// The target of Rust.
+    /// The name of Rust's target.
     pub target: &'static str,
     /// The chip, for probe-rs.
     chip: &'static str,
@@ -41,7 +41,7 @@ pub struct Board {
     chip_feature: &'static str,
     /// The rate of the encoders' bus.
     spi_rate: &'static str,
-    /// What is connected, in Markdown.
+    /// The connections of the board, in Markdown.
     pub(super) pins: &'static str,
     /// The files beside those of all boards.
     files: [&'static [File]; 2],
@@ -114,8 +114,8 @@ impl Board {
     }
 }
 
-/// The text for so many joints: a line that ends in the number of another joint is left out, and
-/// the mark of a table's row.
+/// The text for a robot with this number of joints. It lacks the lines that are marked with the
+/// number of a joint that the robot does not have, and the marks of a table's rows.
 pub(super) fn of_joints(text: &str, joints: usize) -> String {
     let number = |line: &str, start: &str, end: &str| {
         let (_, marked) = line.rsplit_once(start)?;

@@ -40,11 +40,11 @@ pub enum ProjectError {
     },
     /// The robot has more joints than a board has encoders and drives for.
     #[error(
-        "the robot has {joints} joints, {board} has encoders and drives for {most}: `--tip`, `--joints` or `--lock` leave joints \
-         out, or write the project without `--board`"
+        "the robot has {joints} joints, {board} has encoders and drives for {most}: `--tip`, \
+         `--joints` or `--lock` leave joints out, or write the project without `--board`"
     )]
     TooManyJoints {
-        /// Of the robot.
+        /// The number of joints of the robot.
         joints: usize,
         /// The board.
         board: &'static str,
@@ -54,7 +54,7 @@ pub enum ProjectError {
     /// A file or folder cannot be read or written.
     #[error("cannot {action} {}: {source}", path.display())]
     Io {
-        /// What was tried.
+        /// The attempt that failed.
         action: &'static str,
         /// The file or folder.
         path: PathBuf,

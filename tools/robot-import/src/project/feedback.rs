@@ -73,7 +73,8 @@ impl Feedback {
             Ok(inertia) => inertia,
             Err(joint) => {
                 found.words.push(format!(
-                    "joint `{}` moves no inertia: the simulation cannot run; give its links mass, or the file a rotor inertia",
+                    "joint `{}` moves no inertia: the simulation cannot run; give its links mass, \
+                     or the file a rotor inertia",
                     tree.bodies[joint].joint
                 ));
                 return Ok(found);
@@ -101,9 +102,10 @@ impl Feedback {
         }
         if let Some(joint) = weakest {
             self.words.push(format!(
-                "joint `{}` is not held against gravity everywhere, and `cargo test` may fail: with the inertia of the links alone the \
-                 feedback would need more than {MOST_OMEGA_N} rad/s; the file has no rotor inertia (armature), which geared motors \
-                 have: state it",
+                "joint `{}` is not held against gravity everywhere, and `cargo test` may fail: \
+                 with the inertia of the links alone the feedback would need more than \
+                 {MOST_OMEGA_N} rad/s; the file has no rotor inertia (armature), which geared \
+                 motors have: state it",
                 tree.bodies[joint].joint
             ));
         }
@@ -118,8 +120,9 @@ impl Feedback {
             let (range, step) = (upper - lower, RESOLUTION * ratio(body.kind));
             if range < NARROW * step {
                 self.words.push(format!(
-                    "joint `{}` has a range of {range:.1e}, a step of its encoder is {step:.1e}: it stands still, and the safety gate \
-                     lets it be {NARROW} steps from there; `--lock {}={}` leaves it out",
+                    "joint `{}` has a range of {range:.1e}, a step of its encoder is {step:.1e}: \
+                     it stands still, and the safety gate lets it be {NARROW} steps from there; \
+                     `--lock {}={}` leaves it out",
                     body.joint,
                     body.joint,
                     0.5 * (lower + upper)
@@ -139,8 +142,9 @@ impl Feedback {
             let light = MOST_ACCELERATION * ratio(body.kind) * inertia[joint];
             if body.friction > MOST_STOPPING * ratio(body.kind) * inertia[joint] {
                 self.words.push(format!(
-                    "joint `{name}` has a dry friction of {} on an inertia of {:.1e} alone: no feedback holds it, and `cargo test` may \
-                     fail; the file has no rotor inertia (armature), which a joint with such friction has: state it",
+                    "joint `{name}` has a dry friction of {} on an inertia of {:.1e} alone: no \
+                     feedback holds it, and `cargo test` may fail; the file has no rotor inertia \
+                     (armature), which a joint with such friction has: state it",
                     body.friction, inertia[joint]
                 ));
             }
@@ -148,18 +152,21 @@ impl Feedback {
             let rounding = self.of_rounding(tree, &start.mass[joint]);
             if needed > effort {
                 self.words.push(format!(
-                    "joint `{name}` needs {needed:.3} for the motion of the project, its limit of torque is {effort}: `cargo test` \
-                     fails until `home`, `away` or `limits` in src/scene.rs are changed"
+                    "joint `{name}` needs {needed:.3} for the motion of the project, its limit of \
+                     torque is {effort}: `cargo test` fails until `home`, `away` or `limits` in \
+                     src/scene.rs are changed"
                 ));
             } else if needed + rounding > taken {
                 self.words.push(format!(
-                    "joint `{name}` has a limit of torque of {taken:.3}; the motion of the project needs {needed:.3}, and the feedback asks \
-                     for up to {rounding:.3} more at half a step of the encoders: `cargo test` may fail; see `limits` in src/scene.rs"
+                    "joint `{name}` has a limit of torque of {taken:.3}; the motion of the project \
+                     needs {needed:.3}, and the feedback asks for up to {rounding:.3} more at half \
+                     a step of the encoders: `cargo test` may fail; see `limits` in src/scene.rs"
                 ));
             } else if effort > taken {
                 self.words.push(format!(
-                    "joint `{name}` is light for its limit of torque, {effort}: it would be accelerated by {:.0e} rad/s² or m/s²; the \
-                     project takes a limit of {:.3e}, see `limits` in src/scene.rs",
+                    "joint `{name}` is light for its limit of torque, {effort}: it would be \
+                     accelerated by {:.0e} rad/s² or m/s²; the project takes a limit of {:.3e}, \
+                     see `limits` in src/scene.rs",
                     effort / inertia[joint],
                     taken
                 ));

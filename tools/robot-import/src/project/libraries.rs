@@ -115,14 +115,14 @@ fn beside(value: &str) -> String {
 }
 
 impl Library {
-    /// What the README says of it.
+    /// The words of the README about it.
     pub(super) fn note(&self) -> Result<String, ProjectError> {
         let version = inherited(WORKSPACE, "package", "version").unwrap_or_default();
         Ok(match self {
             Self::Copy => format!(
-                "`{FOLDER}/` has the crates of dynamics-core {} that this project uses, so that it stands alone. To take them from \
-                 their repository\ninstead, replace each `path = \"{FOLDER}/…\"` in `Cargo.toml` by `git = \"ADDRESS\"`, and \
-                 delete the folder.",
+                "`{FOLDER}/` has the crates of dynamics-core {} that this project uses, so that it \
+                 stands alone. To take them from their repository\ninstead, replace each `path \
+                 = \"{FOLDER}/…\"` in `Cargo.toml` by `git = \"ADDRESS\"`, and delete the folder.",
                 version.trim_matches('"')
             ),
             Self::Path(_) | Self::Git(_) => format!(
@@ -139,11 +139,16 @@ mod tests {
 
     #[test]
     fn what_is_inherited_becomes_the_crates_own() {
-        let workspace = "[workspace.package]\nversion = \"1.2.3\"\n\n[workspace.dependencies]\na = { path = \"a\" }\nb = \"2\"\n";
-        let manifest = "[package]\nname = \"c\"\nreadme = \"../README.md\"\nversion.workspace = true\n\n[dependencies]\n\
-                        a.workspace = true\nb = { workspace = true, features = [\"x\"] }\n\n[dev-dependencies]\nd = \"1\"\n\n\
+        let workspace = "[workspace.package]\nversion = \"1.2.3\"\n\n[workspace.dependencies]\na = \
+            { path = \"a\" }\nb = \"2\"\n";
+        let manifest = "[package]\nname = \"c\"\nreadme = \"../README.md\"\nversion.workspace = \
+                        true\n\n[dependencies]\n\
+                        a.workspace = true\nb = \
+                        { workspace = true, features = [\"x\"] }\n\n[dev-dependencies]\nd \
+                        = \"1\"\n\n\
                         [lints]\nworkspace = true\n";
-        let expected = "[package]\nname = \"c\"\nversion = \"1.2.3\"\n\n[dependencies]\na = { path = \"../a\" }\n\
+        let expected = "[package]\nname = \"c\"\nversion = \"1.2.3\"\n\n[dependencies]\na = \
+                        { path = \"../a\" }\n\
                         b = { version = \"2\", features = [\"x\"] }\n\n";
         assert_eq!(stand_alone(manifest, workspace), expected);
     }

@@ -36,13 +36,13 @@ pub struct Project {
     pub name: String,
     /// The robot.
     pub robot: RobotFile,
-    /// Where the library is.
+    /// The place of the library.
     pub library: Library,
-    /// What it is.
+    /// The kind of the project.
     pub kind: Kind,
 }
 
-/// What a project is.
+/// The kinds of projects.
 #[derive(Clone, Copy, Debug)]
 pub enum Kind {
     /// Firmware in Rust on a simulated robot.
@@ -58,7 +58,7 @@ pub enum Kind {
 pub struct RobotFile {
     /// The type that implements `Robot`.
     pub type_name: String,
-    /// The file.
+    /// The text of the file.
     pub text: String,
     /// The words after `robot-import import` that write it again, as a shell takes them.
     pub again: String,
@@ -66,11 +66,11 @@ pub struct RobotFile {
     pub joints: Vec<String>,
     /// The names of the bodies, in their order.
     pub bodies: Vec<String>,
-    /// How many bodies.
+    /// The number of bodies.
     pub b: usize,
-    /// How many position coordinates.
+    /// The number of position coordinates.
     pub q: usize,
-    /// How many velocity coordinates.
+    /// The number of velocity coordinates.
     pub v: usize,
     /// Whether joints are coupled (mimic joints): the projects drive each joint by itself.
     pub coupled: bool,
@@ -84,17 +84,17 @@ pub struct RobotFile {
 /// The effects to which a robot's file gives numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FileEffects {
-    /// `VISCOUS`.
+    /// Whether the file has `VISCOUS`.
     pub viscous: bool,
-    /// `COULOMB`.
+    /// Whether the file has `COULOMB`.
     pub coulomb: bool,
-    /// `ARMATURE`.
+    /// Whether the file has `ARMATURE`.
     pub armature: bool,
-    /// `SPRING`.
+    /// Whether the file has `SPRING`.
     pub spring: bool,
 }
 
-/// Where a project gets dynamics-core and the crates beside it from.
+/// The source from which a project gets dynamics-core and the crates beside it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Library {
     /// A copy in the project.
@@ -133,14 +133,14 @@ impl Library {
     }
 }
 
-/// What was written.
+/// The files that were written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Created {
-    /// The files.
+    /// The paths of the files.
     pub files: Vec<PathBuf>,
     /// Why it is only the robot's file, if it is.
     pub robot_only: Option<RobotOnly>,
-    /// What the user has to know of the project.
+    /// The facts that the user has to know about the project.
     pub notes: Vec<String>,
 }
 
@@ -150,27 +150,28 @@ pub struct Created {
 pub enum RobotOnly {
     /// A floating base, spherical or planar joints.
     #[error(
-        "a project needs joints of one degree of freedom on a fixed base; this robot has {b} bodies, {q} position and \
-         {v} velocity coordinates: only its file was written"
+        "a project needs joints of one degree of freedom on a fixed base; this robot has {b} \
+         bodies, {q} position and {v} velocity coordinates: only its file was written"
     )]
     Coordinates {
-        /// How many bodies.
+        /// The number of bodies.
         b: usize,
-        /// How many position coordinates.
+        /// The number of position coordinates.
         q: usize,
-        /// How many velocity coordinates.
+        /// The number of velocity coordinates.
         v: usize,
     },
     /// More joints than the engine takes.
     #[error(
-        "a project has at most {MOST_JOINTS_OF_PROJECT} joints, this robot has {0}: only its file was written"
+        "a project has at most {MOST_JOINTS_OF_PROJECT} joints, this robot has {0}: only its file \
+         was written"
     )]
     Joints(usize),
 }
 
-/// Said of coupled joints.
-const COUPLED: &str = "the joints coupled by `COUPLING` are driven each by itself in this project: use the \
-                       Transmission in src/robot.rs where a motor moves several of them";
+/// The sentence about coupled joints.
+const COUPLED: &str = "the joints coupled by `COUPLING` are driven each by itself in this project: \
+                       use the Transmission in src/robot.rs where a motor moves several of them";
 
 /// Fails if a folder has files, or a project cannot have its name: what can be said before the
 /// robot is read.
@@ -231,8 +232,9 @@ fn notes(project: &Project) -> Vec<String> {
             "`OMEGA_N` in src/scene.rs is that"
         };
         notes.push(format!(
-            "the links of this file have little inertia for their weight, and a feedback of {OMEGA_N} rad/s does not hold them against \
-             gravity within the joints' limits; {omega_n:.1} rad/s does: {taken}, or state the rotors' inertia (armature) in the file"
+            "the links of this file have little inertia for their weight, and a feedback of \
+             {OMEGA_N} rad/s does not hold them against gravity within the joints' limits; \
+             {omega_n:.1} rad/s does: {taken}, or state the rotors' inertia (armature) in the file"
         ));
     }
     if !is_c {

@@ -6,7 +6,7 @@
 pub(super) struct File {
     /// Its path in the project.
     pub path: &'static str,
-    /// Its text, with placeholders.
+    /// The text of the file, with placeholders.
     pub text: &'static str,
 }
 
@@ -27,7 +27,7 @@ macro_rules! files {
 
 pub(super) use {file, files};
 
-/// Firmware in Rust.
+/// The files of firmware in Rust.
 pub(super) const RUST: &[File] = files!["rust":
     "Cargo.toml" ".liquid",
     "README.md" ".liquid",
@@ -84,7 +84,7 @@ pub(super) const C: &[File] = files!["c":
     "tests/c/fuzz.rs" ".liquid",
 ];
 
-/// What the projects for boards have in common, files of the simulated project among it.
+/// The files that all projects for boards have, some of them from the simulated project.
 pub(super) const COMMON: &[File] = &[
     file!("rust" / "build.rs"),
     file!("rust" / ".gitignore"),

@@ -372,8 +372,8 @@ fn no_two_joints_have_one_constant() {
         let joints: Vec<String> = joints.iter().map(|&joint| joint.to_owned()).collect();
         enumerators("ARM", "JOINT", &joints, &constants(C))
     };
-    let expected = "    ARM_JOINT_A_B_0_0 = 0, /* \"a-b\" */\n    ARM_JOINT_A_B_1 = 1, /* \"a.b\" */\n    \
-                    ARM_JOINT_A_B_0 = 2,\n    ARM_JOINT_C = 3,";
+    let expected = "    ARM_JOINT_A_B_0_0 = 0, /* \"a-b\" */\n    ARM_JOINT_A_B_1 = 1, /* \"a.b\" \
+                    */\n    ARM_JOINT_A_B_0 = 2,\n    ARM_JOINT_C = 3,";
     assert_eq!(lines(&["a-b", "a.b", "a_b_0", "c"]), expected);
     // Names without a letter of ASCII, names that are each other's numbered form, and the header's
     // own.

@@ -36,7 +36,8 @@ pub fn decode(bytes: &[u8]) -> Result<(String, Option<String>)> {
                 // Its declaration is in bytes: it was saved anew since it was written.
                 encoding if encoding == UTF_16LE || encoding == UTF_16BE => {
                     let note = format!(
-                        "The file declares the encoding {label} and is read as UTF-8, which it is of."
+                        "The file declares the encoding {label} and is read as UTF-8, which it is \
+                         of."
                     );
                     (UTF_8, Some(note))
                 }

@@ -142,8 +142,8 @@ pub fn read(root: Node<'_, '_>, joints: &mut [Joint]) -> Result<Vec<String>> {
     });
     let gears = found.gears.into_iter().map(|(gear, joints)| {
         format!(
-            "A gear of {gear} on {}, and the file has no inertia of the motor's rotor: J·N² of it is not in ARMATURE; state it by \
-             `armature` of <dynamics>, kg·m².",
+            "A gear of {gear} on {}, and the file has no inertia of the motor's rotor: J·N² of it \
+             is not in ARMATURE; state it by `armature` of <dynamics>, kg·m².",
             quoted(joints.iter().map(|name| shortened(name)))
         )
     });
@@ -187,7 +187,7 @@ fn listed(names: impl IntoIterator<Item = String>) -> String {
     }
 }
 
-/// Names as code.
+/// The names as code in Markdown.
 fn quoted(names: impl IntoIterator<Item = String>) -> String {
     listed(names.into_iter().map(|name| format!("`{name}`")))
 }
@@ -307,8 +307,9 @@ fn transmission(
                 joint.armature += armature;
                 if ratio.is_none() && reduction.is_some_and(|text| text.parse() != Ok(1.0)) {
                     found.notes.push(format!(
-                        "{what} states the inertia of a rotor without `drake:gear_ratio`: {armature} kg·m² is taken at joint `{}`, as \
-                         Drake does, without its mechanicalReduction of {}.",
+                        "{what} states the inertia of a rotor without `drake:gear_ratio`: \
+                         {armature} kg·m² is taken at joint `{}`, as Drake does, without its \
+                         mechanicalReduction of {}.",
                         shortened(&joint.name),
                         shortened(reduction.unwrap_or_default())
                     ));
@@ -380,7 +381,8 @@ fn gazebo(
             let spring = [stiffness.unwrap_or(stated[0]), rest.unwrap_or(stated[1])];
             if stated[0] != 0.0 && spring != stated {
                 notes.push(format!(
-                    "Joint `{of}` has a spring of {} about {} in <dynamics> and of {} about {} in <gazebo>: the latter is taken.",
+                    "Joint `{of}` has a spring of {} about {} in <dynamics> and of {} about {} in \
+                     <gazebo>: the latter is taken.",
                     stated[0], stated[1], spring[0], spring[1]
                 ));
             }
@@ -403,7 +405,8 @@ fn gazebo(
             "springStiffness" | "springReference" => {}
             name if NOT_DYNAMICS.contains(&name) => {}
             _ if is_weightless(inner) => notes.push(format!(
-                "The <gazebo> of `{of}` switches its gravity off, which is left out: gravity acts on the whole robot."
+                "The <gazebo> of `{of}` switches its gravity off, which is left out: gravity acts \
+                 on the whole robot."
             )),
             "gravity" | "turnGravityOff" | "implicitSpringDamper" => {}
             name if has_numbers(inner) => {
@@ -441,7 +444,8 @@ fn mujoco(node: Node<'_, '_>, notes: &mut Vec<String>) {
         .collect();
     if !stated.is_empty() {
         notes.push(format!(
-            "The <mujoco> section: {}, by which MuJoCo changes inertias, is left out: they are those of the file.",
+            "The <mujoco> section: {}, by which MuJoCo changes inertias, is left out: they are \
+             those of the file.",
             quoted(stated)
         ));
     }

@@ -44,12 +44,14 @@ pub fn without(robot: &mut Description) {
         if let Some((what, x)) = holds.into_iter().find(|(_, x)| *x > MOST) {
             let name = shortened(&joint.name);
             robot.notes.push(format!(
-                "Joint `{name}`: {what} {x:e} holds it where it is; `--lock {name}=0` takes it out of the robot."
+                "Joint `{name}`: {what} {x:e} holds it where it is; `--lock {name}=0` takes it out \
+                 of the robot."
             ));
         }
         if !none.is_empty() {
             robot.notes.push(format!(
-                "Joint `{}`: {} is a number that stands for no limit (beyond {NO_LIMIT:e}), and is taken as none.",
+                "Joint `{}`: {} is a number that stands for no limit (beyond {NO_LIMIT:e}), and is \
+                 taken as none.",
                 shortened(&joint.name),
                 none.join(", ")
             ));

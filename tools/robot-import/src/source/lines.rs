@@ -4,7 +4,7 @@
 pub struct Lines(Vec<u32>);
 
 impl Lines {
-    /// Of a text.
+    /// Finds the lines of a text.
     pub fn of(text: &str) -> Self {
         let ends = text.bytes().enumerate();
         Self(

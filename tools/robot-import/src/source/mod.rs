@@ -129,7 +129,7 @@ fn text(path: &Path) -> Result<(String, Option<String>)> {
     if length > MOST_BYTES as u64 {
         return Err(too_large(length as usize).into());
     }
-    // What is no file, such as a pipe, has no length.
+    // A pipe, for example, is no file and has no length.
     let file = std::fs::File::open(path).map_err(unreadable)?;
     let mut bytes = Vec::new();
     let mut beginning = file.take(MOST_BYTES as u64 + 1);
@@ -206,8 +206,8 @@ fn few_enough(count: usize) -> Result<()> {
     .into())
 }
 
-/// What both formats require: few enough links, different names, numbers of a robot's size, joints
-/// that are a tree.
+/// The requirements of both formats: few enough links, different names, numbers of a robot's size,
+/// joints that are a tree.
 fn check(robot: &Description) -> Result<()> {
     few_enough(robot.links.len().max(robot.joints.len()))?;
     let links = robot.links.iter().map(|link| (&link.name, link.line));
@@ -282,7 +282,8 @@ fn sizes(robot: &Description) -> Result<()> {
             None if inertial.mass < 0.0 => format!("its mass is {} kg", inertial.mass),
             None if 0.0 < inertial.mass && inertial.mass < LEAST => {
                 format!(
-                    "its mass is {:e} kg, which f32 does not compute with: at least {LEAST:e} kg, or 0",
+                    "its mass is {:e} kg, which f32 does not compute with: at least {LEAST:e} kg, \
+                     or 0",
                     inertial.mass
                 )
             }

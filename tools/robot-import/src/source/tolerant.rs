@@ -197,7 +197,8 @@ impl<'t> Tolerant<'t> {
                 _ => "This is not well-formed XML, and",
             };
             format!(
-                "{noun} {}{more}: {}{detail}. {is_xml} is read as TinyXML-2 does, the reader of urdfdom and of MuJoCo.",
+                "{noun} {}{more}: {}{detail}. {is_xml} is read as TinyXML-2 does, the reader of \
+                 urdfdom and of MuJoCo.",
                 shown.join(", "),
                 kind.words(),
             )
@@ -367,8 +368,9 @@ impl<'t> Pass<'t> {
         let text = &self.text[at..end];
         let expands = ["<!ENTITY", "%", "SYSTEM", "PUBLIC"];
         if expands.iter().any(|word| text.contains(word)) {
-            let words = "its document type declares entities or names another file, which are not expanded: put what they stand for \
-                         in their places and remove the <!DOCTYPE>";
+            let words = "its document type declares entities or names another file, which are not \
+                         expanded: put what they stand for in their places and remove the \
+                         <!DOCTYPE>";
             return Err(self.error(at, Problem::Xml(words.to_owned())));
         }
         Ok(end)

@@ -109,7 +109,7 @@ struct Origin {
 }
 
 impl Origin {
-    /// No displacement.
+    /// The placement without a displacement.
     const NONE: Self = Self {
         pose: Pose::IDENTITY,
         exact: Pose::IDENTITY,
@@ -227,15 +227,15 @@ fn ignored_quaternion(node: Node<'_, '_>) -> Option<String> {
         return None;
     }
     Some(format!(
-        "The `quat_xyzw` of the <{}> of {} `{}` is left out, since URDF has it from version 1.1 on: state version=\"1.1\" in <robot>, \
-         or `rpy`.",
+        "The `quat_xyzw` of the <{}> of {} `{}` is left out, since URDF has it from version 1.1 \
+         on: state version=\"1.1\" in <robot>, or `rpy`.",
         xml::tag(node),
         xml::tag(of),
         shortened(of.attribute("name").unwrap_or_default()),
     ))
 }
 
-/// What a joint states and the import leaves out, a sentence each.
+/// The statements of a joint that the import leaves out, a sentence each.
 fn not_read(node: Node<'_, '_>) -> Vec<String> {
     let name = shortened(node.attribute("name").unwrap_or_default());
     let mut notes = Vec::new();
@@ -245,7 +245,8 @@ fn not_read(node: Node<'_, '_>) -> Vec<String> {
         if ends.iter().any(Option::is_some) {
             let [lower, upper] = ends.map(|end| end.unwrap_or("0".to_owned()));
             notes.push(format!(
-                "The soft limits {lower} to {upper} of joint `{name}` are left out; its limits are those of its <limit>."
+                "The soft limits {lower} to {upper} of joint `{name}` are left out; its limits are \
+                 those of its <limit>."
             ));
         }
     }
@@ -254,8 +255,8 @@ fn not_read(node: Node<'_, '_>) -> Vec<String> {
         if ends.iter().any(Option::is_some) {
             let [lower, upper] = ends.map(|end| end.unwrap_or("0".to_owned()));
             notes.push(format!(
-                "The limits of position {lower} to {upper} of joint `{name}` are left out: a continuous joint has none, a revolute one \
-                 has."
+                "The limits of position {lower} to {upper} of joint `{name}` are left out: a \
+                 continuous joint has none, a revolute one has."
             ));
         }
     }
@@ -276,7 +277,9 @@ fn joint(node: Node<'_, '_>, links: &[Link], quaternions: bool) -> Result<Joint>
             let problem = Problem::Unsupported {
                 what: "joint type",
                 word: crate::description::shortened(word),
-                reason: "known are fixed, revolute, continuous, prismatic, spherical, planar and floating".to_owned(),
+                reason: "known are fixed, revolute, continuous, prismatic, spherical, planar and \
+                    floating"
+                    .to_owned(),
             };
             return Err(xml::error(node, problem));
         }

@@ -8,9 +8,9 @@ use super::xml::{self, children};
 use crate::description::shortened;
 use crate::error::{ImportError, Problem, Result};
 
-/// What to do with a file that is not expanded.
-const EXPAND: &str = "expand it first, with `xacro FILE > robot.urdf` (the program of the ROS package xacro, or of `pip install xacro`), \
-    and import robot.urdf";
+/// The advice for a file that is not expanded.
+const EXPAND: &str = "expand it first, with `xacro FILE > robot.urdf` (the program of the ROS \
+    package xacro, or of `pip install xacro`), and import robot.urdf";
 
 /// Elements below the root of a URDF that state nothing of its dynamics, or are read.
 const KNOWN: [&str; 15] = [
@@ -98,7 +98,8 @@ pub fn left_out(root: Node<'_, '_>) -> Vec<String> {
                 false => format!("; if it is a macro of xacro, {EXPAND}"),
             };
             notes.push(format!(
-                "The element <{}> on line {} is none of URDF and is left out with all that is in it{macros}.",
+                "The element <{}> on line {} is none of URDF and is left out with all that is in \
+                 it{macros}.",
                 shortened(tag),
                 line(node)
             ));
@@ -110,7 +111,8 @@ pub fn left_out(root: Node<'_, '_>) -> Vec<String> {
     });
     if let Some(node) = looks {
         notes.push(format!(
-            "The <{}> on line {} has a text of xacro, in a part that is not read: the file may not be expanded; if so, {EXPAND}.",
+            "The <{}> on line {} has a text of xacro, in a part that is not read: the file may not \
+             be expanded; if so, {EXPAND}.",
             shortened(xml::tag(node)),
             line(node)
         ));

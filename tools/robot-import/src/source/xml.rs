@@ -71,7 +71,7 @@ pub fn tag<'a>(node: Node<'a, '_>) -> &'a str {
     &text[..end.unwrap_or(text.len())]
 }
 
-/// Where an element starts, in bytes: a search for its line would take as long as the file is.
+/// The start of an element, in bytes: a search for its line would take as long as the file is.
 pub fn offset(node: Node<'_, '_>) -> u32 {
     node.range().start as u32
 }

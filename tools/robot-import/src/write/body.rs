@@ -43,7 +43,7 @@ pub fn placed(xyz: [f64; 3], attitude: Attitude) -> String {
     out
 }
 
-/// A body's entry.
+/// The entry of a body in the file.
 pub fn entry(body: &Body) -> String {
     let axis = list(body.axis);
     let joint = match body.kind {

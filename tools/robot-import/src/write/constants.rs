@@ -56,7 +56,8 @@ pub fn effects(tree: &Tree, type_name: &str) -> String {
         false => String::new(),
     };
     format!(
-        "\n/// Viscous friction, N·m·s/rad or N·s/m.\npub const VISCOUS: Viscous<f32, V> = Viscous({});\n\
+        "\n/// Viscous friction, N·m·s/rad or N·s/m.\npub const VISCOUS: Viscous<f32, V> = \
+         Viscous({});\n\
          /// Coulomb friction, N·m or N, full beyond 0.02 rad/s or m/s.\n\
          pub const COULOMB: Coulomb<f32, V> = Coulomb {{ torque: {}, width: Width::f32(0.02) }};\n\
          /// Inertia of the rotors at the joints, kg·m² or kg.\n\
@@ -88,7 +89,8 @@ pub fn coupling(tree: &Tree) -> String {
     let m = leaders.len();
     format!(
         "\n/// The number of motors.\npub const M: usize = {m};\n\
-         /// The joints' positions from the motors'.\npub const COUPLING: Transmission<f32, M, V> = \
+         /// The joints' positions from the motors'.\n\
+         pub const COUPLING: Transmission<f32, M, V> = \
          Transmission {{ matrix: [{}], offset: [{}] }};\n",
         rows.join(", "),
         offsets.join(", "),

@@ -16,7 +16,7 @@ use crate::physical::{TOLERANCE, impossible, sentence};
 use crate::text::{code_span, doc_name, doc_sentence, string_literal, visible};
 use crate::tree::{Body, Tree};
 
-/// What the file's head says of its source.
+/// The words of the file's head about its source.
 #[derive(Clone, Debug)]
 pub struct Origin {
     /// The name of the source file.
@@ -25,7 +25,7 @@ pub struct Origin {
     pub licence: Option<String>,
     /// The day of the import.
     pub date: String,
-    /// What was left out or changed besides merged links and roundings, a sentence each.
+    /// The parts that were left out or changed besides merged links and roundings, a sentence each.
     pub notes: Vec<String>,
 }
 

@@ -3,7 +3,7 @@
 use crate::limits::MOST_TYPE_NAME;
 use crate::text::code_span;
 
-/// What the type cannot be called: each constant of the file, each item of the library that it
+/// The names that the type cannot have: each constant of the file, each item of the library that it
 /// imports, the keyword, and what Rust has in scope everywhere, which `use robot::*` would hide.
 const TAKEN: &str = "
     ARMATURE B BODIES COULOMB COUPLING JOINTS M N Q SCENE SPRING V VISCOUS

@@ -1,9 +1,11 @@
 #!/bin/sh
-# isolate.sh IN.a OUT.a PREFIX [TOOLS]: a static library whose only visible symbols begin with PREFIX_.
+# isolate.sh IN.a OUT.a PREFIX [TOOLS]: a static library whose only visible symbols begin with
+# PREFIX_.
 #
-# The library of Rust has functions of its own (memcpy, the panic handler, a standard library on a computer), which the library
-# of another robot has, too. Here one object takes what the functions of PREFIX need, and all other symbols become local.
-# TOOLS is the prefix of the binary utilities, such as arm-none-eabi-.
+# The library of Rust has functions of its own (memcpy, the panic handler, a standard library on a
+# computer), which the library of another robot has, too. Here one object takes what the functions
+# of PREFIX need, and all other symbols become local. TOOLS is the prefix of the binary utilities,
+# such as arm-none-eabi-.
 set -eu
 in=$1 out=$2 prefix=$3 tools=${4-}
 work=$(mktemp -d)

@@ -1,4 +1,4 @@
-//! What of a file is not in the robot, or not as the file has it: said in words.
+//! Parts of a file that are not in the robot, or not as the file has them, are named in words.
 
 use std::path::Path;
 
@@ -76,7 +76,7 @@ fn a_file_of_xacro_is_refused_with_what_to_do() {
         assert!(error.starts_with(words), "{error}");
         assert!(error.contains("`xacro FILE > robot.urdf`"), "{error}");
     }
-    // What a file that was expanded still has.
+    // The traces of xacro in a file that was expanded.
     let expanded = read(&robot(declared, "<gazebo/><material name='m'/>", LIMIT, ""));
     assert_eq!(expanded.notes, [""; 0]);
 }

@@ -38,7 +38,7 @@ fn role(robot: &Description, selected: &Selected, name: &str) -> Role {
     selected.roles[robot.joint(name).expect("a joint")]
 }
 
-/// What the advice says of joints that follow.
+/// The advice about joints that follow.
 fn words(robot: &Description, (selected, tree): &(Selected, Tree)) -> Vec<String> {
     let all = advice(robot, selected, tree).into_iter();
     all.filter(|advice| advice.topic == Topic::Mimic)
@@ -112,7 +112,7 @@ fn a_selection_locks_followers_where_their_leaders_stand() {
     assert_eq!(role(&robot, &found.0, "m1"), Role::Locked(0.0));
     assert_eq!(role(&robot, &found.0, "m2"), Role::Locked(-0.05));
     assert!(words(&robot, &found)[0].contains("although it follows `lead`, which moves"));
-    // Of a leader above the base nothing is known: its follower moves, and leads.
+    // Nothing is known of a leader above the base: its follower moves, and leads.
     for tip in [None, Some("d".to_owned())] {
         let (selected, tree) = of(
             &robot,
@@ -193,7 +193,7 @@ fn chain(random: &mut Random, n: usize) -> (String, Couplings) {
     (text + "</robot>", follows)
 }
 
-/// Where a joint is by its lock, else by what it follows, else by itself.
+/// The position of a joint by its lock, else by its leader, else by itself.
 fn position(j: usize, follows: &Couplings, locks: &[Option<f64>], free: &[f64]) -> f64 {
     match (locks[j], follows[j]) {
         (Some(at), _) => at,

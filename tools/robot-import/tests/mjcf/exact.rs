@@ -92,7 +92,7 @@ fn a_reference_of_a_quarter_turn_is_exact() {
     assert!(robot.joints[0].origin.rotation.abs_diff_eq(given, 1e-15));
 }
 
-/// What the fixtures state is exact already: both placements of each joint are the same.
+/// The numbers of the fixtures are exact already: both placements of each joint are the same.
 #[test]
 fn exact_placements_are_those_of_the_file() {
     for entry in std::fs::read_dir(super::folder()).expect("a folder") {

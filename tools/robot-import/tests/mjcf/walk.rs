@@ -6,7 +6,7 @@ use dynamics_core::glam::{DMat3, DQuat, DVec3};
 use robot_import::description::{Description, Joint, Kind, Pose};
 use serde::Deserialize;
 
-/// What MuJoCo has at some coordinates.
+/// The state of MuJoCo at some coordinates.
 #[derive(Deserialize)]
 pub struct State {
     pub bodies: HashMap<String, Body>,
@@ -69,7 +69,7 @@ impl Walked {
     pub fn joint(&self, robot: &Description, name: &str) -> Option<(Kind, [f64; 3], [f64; 3])> {
         let joint = robot.joints.iter().find(|joint| joint.name == name)?;
         let frame = self.links[joint.parent].then(&joint.origin);
-        // Of several joints with sliding ones among them, the anchor moves with its own joint.
+        // If sliding joints are among several, the anchor moves with its own joint.
         let at = match joint.kind {
             Kind::Prismatic => frame.position,
             _ => self.links[joint.child].position,
@@ -78,7 +78,7 @@ impl Walked {
         Some((joint.kind, at.to_array(), axis.to_array()))
     }
 
-    /// What is not closed of a constraint: position, and sine of half of the angle.
+    /// The open part of a constraint: position, and sine of half of the angle.
     pub fn residual(&self, robot: &Description, state: &State, name: &str) -> Vec<f64> {
         if let Some(closed) = robot.loops.iter().find(|closed| closed.name == name) {
             let end = |i: usize| self.links[closed.links[i]].then(&closed.frames[i]);

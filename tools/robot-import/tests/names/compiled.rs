@@ -65,7 +65,8 @@ fn libraries(name: &str, folder: &str) -> Vec<PathBuf> {
     found.into_iter().rev().map(|(_, path)| path).collect()
 }
 
-/// What written files and projects are compiled against: crates' names and their libraries.
+/// The crates against which written files and projects are compiled: crates' names and their
+/// libraries.
 type Externs = [(&'static str, PathBuf); 4];
 
 /// Compiles against libraries that were built with each other alone.
@@ -146,7 +147,7 @@ fn call(program: &str, externs: &Externs, root: &Path, arguments: &[&str]) -> Ou
         .unwrap_or_else(|error| panic!("{program}: {error}"))
 }
 
-/// What a program that failed says; none if it did not.
+/// The message of a program that failed; none if it did not.
 pub fn failure(output: &Output) -> Option<String> {
     (!output.status.success()).then(|| String::from_utf8_lossy(&output.stderr).into_owned())
 }

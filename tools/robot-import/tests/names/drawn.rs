@@ -60,7 +60,7 @@ pub fn runner() -> TestRunner {
     TestRunner::new_with_rng(Config::default(), rng)
 }
 
-/// The files of so many robots, every third of them with a loop.
+/// The files of this many robots, every third of them with a loop.
 fn draw(count: usize) -> Vec<(Names, RobotFile)> {
     let mut runner = runner();
     let mut drawn = Vec::new();

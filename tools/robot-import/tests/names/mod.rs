@@ -21,7 +21,7 @@ struct Names {
     robot: String,
     /// The base, two links that move, and one that is fixed to the first of them.
     links: [String; 4],
-    /// Of the links, and of what closes a loop where there is one.
+    /// Names of the links, and of the joint or constraint that closes a loop, if there is one.
     joints: [String; 4],
     /// The name of the file and its licence.
     file: [String; 2],

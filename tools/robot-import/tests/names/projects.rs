@@ -126,7 +126,7 @@ fn projects_of_names_that_once_failed_pass_cargo_check() {
     for (name, c) in [
         ("robot", false),
         ("q", false),
-        // Of a dependency of the library, too.
+        // The name of a dependency of the library is refused, too.
         ("glam", false),
         ("robot-c", true),
         ("model", true),

@@ -66,8 +66,8 @@ fn dropped(context: &Context, elves: [&PathBuf; 2]) -> Result<String> {
     let shrunk = with.checked_sub(without).filter(is_its_size);
     let (Some(fewer), Some(less @ 1..), true) = (shrunk, flash, ram == shrunk) else {
         bail!(
-            "LuGre friction takes {LUGRE_BYTES} B; without it the effects shrink from {with} to {without} B, \
-             RAM by {ram:?} and flash by {flash:?}"
+            "LuGre friction takes {LUGRE_BYTES} B; without it the effects shrink from {with} to \
+             {without} B, RAM by {ram:?} and flash by {flash:?}"
         );
     };
     for number in LUGRE_NUMBERS {

@@ -122,7 +122,7 @@ pub fn constant(context: &Context) -> Result<String> {
     Ok(steady(&kinds, &samples)?.join(", "))
 }
 
-/// Work that was done on so many states.
+/// Work that was done on this many states.
 struct Kind {
     name: String,
     states: usize,
@@ -182,7 +182,8 @@ mod tests {
         let f64s =
             "__aeabi_dadd __muldf3 __extendsfdf2 __fixdfsi sinf rem_pio2 _ZN4libm4math5k_cosf17hE";
         assert!(f64s.split(' ').all(is_f64));
-        let others = "_ZN4libm4math5atanf5atanf17hE __aeabi_fadd __aeabi_memcpy _ZN13dynamics_core4trig7sin_cosE";
+        let others = "_ZN4libm4math5atanf5atanf17hE __aeabi_fadd __aeabi_memcpy \
+            _ZN13dynamics_core4trig7sin_cosE";
         assert!(!others.split(' ').any(is_f64));
     }
 

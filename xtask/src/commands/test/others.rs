@@ -24,7 +24,9 @@ pub fn msrv(context: &Context) -> Result<String> {
         shell::capture(Command::new("rustup").args(install).arg(MSRV))
             .or_else(|_| skip(format!("{MSRV} is not there")))?;
     }
-    let check = "check --package dynamics-core --package motion-control --package joint-drivers --package telemetry --all-features --target-dir target/msrv".split(' ');
+    let check = "check --package dynamics-core --package motion-control --package joint-drivers \
+        --package telemetry --all-features --target-dir target/msrv"
+        .split(' ');
     let mut cargo = toolchain::rustup(MSRV, "cargo");
     shell::capture(cargo.current_dir(&context.workspace.root).args(check))?;
     Ok(format!("rustc {MSRV}"))
@@ -59,7 +61,8 @@ pub fn projects(context: &Context) -> Result<String> {
     let _ = lacks().then(|| setup::for_cores(context.options, &[PICO_2], &[]));
     let boards = if lacks() { "" } else { "project::the_boards" };
     context.cargo(&[&format!(
-        "test {} --test import -- --ignored --test-threads 1 project::a_pendulum project::an_arm project::two_robots_in_c {boards}",
+        "test {} --test import -- --ignored --test-threads 1 project::a_pendulum project::an_arm \
+         project::two_robots_in_c {boards}",
         SHARED.words(context.full)
     )])?;
     Ok(boards.to_owned())

@@ -73,8 +73,8 @@ pub fn tracking(context: &Context) -> Result<String> {
         let (max, bound) = (tracking.feedforward.max_rad, report.bound_rad);
         refuse_if!(
             max.is_nan() || max > bound,
-            "{name}, exact plant: feed-forward's largest error is {max:.2e} rad, more than the scene's bound \
-                 of {bound:.2e}"
+            "{name}, exact plant: feed-forward's largest error is {max:.2e} rad, more than the \
+                 scene's bound of {bound:.2e}"
         );
         refuse_if!(
             bound > SLACK * max,
@@ -92,7 +92,8 @@ pub fn tracking(context: &Context) -> Result<String> {
             // A ratio that is not a number fails as well.
             refuse_if!(
                 ratio.is_nan() || ratio > largest,
-                "{name}, {plant} plant: feed-forward's error is {ratio:.4} of PD's, more than {largest}"
+                "{name}, {plant} plant: feed-forward's error is {ratio:.4} of PD's, more than \
+                 {largest}"
             );
             outcomes.push(format!("{plant} {ratio:.4}"));
         }

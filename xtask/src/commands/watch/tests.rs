@@ -8,7 +8,7 @@ use super::{
     KEPT, LONGEST, MASKED, RECORD, TICKS, every_tick_arrived, longest, masked_nowhere_else, verdict,
 };
 
-/// A run whose records take so many instructions.
+/// A run whose records take this many instructions.
 fn run(record: u64) -> Vec<Sample> {
     let sample = |region, instructions| Sample::of(region, [instructions, instructions, 0]);
     let tick =

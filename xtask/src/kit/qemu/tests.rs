@@ -141,7 +141,8 @@ fn qemu(script: &TempDir) -> Qemu {
 /// A QEMU of this version that runs `why` in place of loading the meter.
 fn refusing(version: &str, why: &str) -> TempDir {
     script(&format!(
-        "#!/bin/sh\nif [ \"$1\" = --version ]; then echo 'QEMU emulator version {version}'; exit; fi\n{why}\n"
+        "#!/bin/sh\nif [ \"$1\" = --version ]; then echo 'QEMU emulator version {version}'; exit; \
+         fi\n{why}\n"
     ))
 }
 
@@ -151,8 +152,8 @@ const REFUSES: &str =
 #[test]
 fn a_qemu_that_loads_the_meter_or_names_its_version_takes_it() {
     let newer = format!(
-        "[ \"$CYCLE_METER_INTERFACE\" = 9 ] && exit 0\necho '{REFUSES} 6, but this QEMU supports only a \
-         minimum version of 9' >&2; exit 1"
+        "[ \"$CYCLE_METER_INTERFACE\" = 9 ] && exit 0\necho '{REFUSES} 6, but this QEMU supports \
+         only a minimum version of 9' >&2; exit 1"
     );
     for (version, lines, interface) in [
         ("7.2.22", "read quit; exit 0", None),

@@ -72,7 +72,7 @@ pub fn rust(axis: &str, value: &str) -> Option<&'static str> {
     row(axis, value)?.2
 }
 
-/// The rows of what is not as in the default.
+/// The rows of the values of a point that differ from those of the default.
 fn rows(point: &Point) -> impl Iterator<Item = &'static Row> {
     let changed = point.changes().flat_map(|(axis, value)| match axis {
         // In a simulation they stand first; of the scene a heading speaks.

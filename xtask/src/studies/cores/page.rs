@@ -104,7 +104,8 @@ mod tests {
 
     #[test]
     fn cores_that_did_not_run_are_not_compared() {
-        let page = "Words.\n\n| core        | code |\n| ----------- | ---: |\n| Cortex-M33  |    7 |\n| Cortex-M0   |  512 |\n";
+        let page = "Words.\n\n| core        | code |\n| ----------- | ---: |\n| Cortex-M33  |    7 \
+            |\n| Cortex-M0   |  512 |\n";
         let fresh =
             "Words.\n\n| core       | code |\n| ---------- | ---: |\n| Cortex-M33 |    7 |\n";
         let names = ["Cortex-M33"];

@@ -136,7 +136,8 @@ pub fn measure(workspace: &Workspace, core: &Core) -> Result<Row> {
         };
         refuse_if!(
             bound.is_some_and(|bound| bound < stack),
-            "{}, {}: a tick wrote to {stack} B of stack, more than the bound of its code, {bound:?}",
+            "{}, {}: a tick wrote to {stack} B of stack, more than the bound of its code, \
+             {bound:?}",
             core.name,
             torques.scene
         );

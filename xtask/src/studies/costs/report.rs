@@ -228,7 +228,7 @@ mod tests {
     use super::{Report, Row};
     use crate::kit::bars::{Bar, Bars};
 
-    /// What is missed of rows `tree` and `loop` of these cycles, by a bar of this name.
+    /// The missed bars of rows `tree` and `loop` of these cycles, by a bar of this name.
     fn missed(rows: &[(&str, u64)], key: &str, most: f64) -> Vec<String> {
         let row =
             |(name, cycles): &(&str, u64)| Row::sample(["leg", name, "engine", "full"], *cycles);

@@ -1,4 +1,4 @@
-//! What the profiles of a user's own project cost: the guide's table.
+//! The cost of the profiles of a user's own project: the guide's table.
 
 use std::path::Path;
 use std::time::Duration;
@@ -35,7 +35,8 @@ const LIMIT: Duration = Duration::from_secs(600);
 /// The period of the project's tick, µs.
 const PERIOD: f64 = 1e3;
 
-/// Profiles: the name in the table, cargo's arguments, and whether the project's compiler flags act.
+/// Profiles: the name in the table, cargo's arguments, and whether the project's compiler flags
+/// act.
 #[rustfmt::skip]
 const PROFILES: [(&str, &str, bool); 10] = [
     ("release as written: 3, fat LTO", "--release", true),
@@ -47,11 +48,12 @@ const PROFILES: [(&str, &str, bool); 10] = [
     ("dev at s", "--config profile.dev.opt-level='s'", true),
     ("dev at 1, `package.\"*\"` at 3", "--config profile.dev.package.\"*\".opt-level=3", true),
     ("dev at 0", "--config profile.dev.opt-level=0", true),
-    ("dev at 0, `package.\"*\"` at 3", "--config profile.dev.opt-level=0 --config profile.dev.package.\"*\".opt-level=3", true),
+    ("dev at 0, `package.\"*\"` at 3", "--config profile.dev.opt-level=0 --config \
+        profile.dev.package.\"*\".opt-level=3", true),
 ];
 pub const WITHOUT_FLAGS: &str = "release without the compiler flags";
 
-/// What a project costs in a profile.
+/// The cost of a project in a profile.
 #[derive(Debug, Serialize)]
 pub struct Profile {
     name: &'static str,
@@ -104,7 +106,8 @@ fn measured(tools: &Tools, meter: &Path, name: &'static str, elf: &Path) -> Resu
     let regions = elf.with_extension("regions");
     workspace::write(&regions, "")?;
     let run = Run::logging(PROJECT, elf, Some((meter, &regions)));
-    // A run fails if a tick takes longer than its period; all of its ticks are measured nevertheless, and counted above.
+    // A run fails if a tick takes longer than its period; all of its ticks are measured
+    // nevertheless, and counted above.
     let _ = tools.qemu.run_for(MACHINE, &run, LIMIT);
     let samples = meter::read(&regions)?;
     let longest = |region| {
@@ -147,7 +150,8 @@ pub fn markdown(profiles: &[Profile], rustc: &str) -> String {
         ("code, bytes", &|one| thousands(one.code_bytes)),
     ];
     format!(
-        "{}\nThe project that `cargo xtask new` writes for an SO-101, of six joints, with its simulation ({MODEL}). Measured with {rustc}.",
+        "{}\nThe project that `cargo xtask new` writes for an SO-101, of six joints, with its \
+         simulation ({MODEL}). Measured with {rustc}.",
         Table::of(profiles, &columns).markdown()
     )
 }

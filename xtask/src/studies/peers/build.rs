@@ -15,7 +15,7 @@ use crate::studies::peers::tools::Peers;
 const BOOST: &str = "-DBOOST_MPL_LIMIT_LIST_SIZE=30 -DBOOST_MPL_LIMIT_VECTOR_SIZE=30 \
     -DBOOST_FUSION_INVOKE_MAX_ARITY=12 -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS";
 
-/// How a library for this machine is made, C or C++: as fast as the compiler can without
+/// The build of a library for this machine, C or C++: as fast as the compiler can without
 /// changing results, and with no name to be mistaken for another compiler's.
 const HOST: &str = "-O3 -march=native -DNDEBUG -fPIC -shared -fvisibility=hidden";
 

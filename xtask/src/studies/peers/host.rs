@@ -17,7 +17,7 @@ use crate::studies::peers::robots::Robot;
 
 const C_COMPILERS: [&str; 2] = ["gcc", "clang"];
 const CPP_COMPILERS: [&str; 2] = ["g++", "clang++"];
-/// A time is the median of so many runs, and so is a ratio.
+/// A time is the median of this many runs, and so is a ratio.
 const RUNS: usize = 5;
 
 /// A computation: its robot, algorithm and precision.

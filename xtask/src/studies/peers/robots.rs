@@ -39,7 +39,7 @@ struct Placement {
 /// The library's robots that are compared: of revolute joints, as the peers' form is, and a free
 /// base.
 const COMPARED: [&str; 7] = ["ur5e", "panda", "iiwa14", "a1", "a1_free", "g1", "g1_free"];
-/// What is compared of a free base and of a robot with many joints.
+/// The comparison of a free base and of a robot with many joints.
 const DYNAMICS: [&str; 3] = ["rnea", "crba", "aba"];
 
 /// More joints than a robot has that is compared everywhere and in every precision.
@@ -90,7 +90,7 @@ impl Robot {
         bodies.all(|(before, body)| body.parent == before)
     }
 
-    /// What is compared of it.
+    /// The algorithms that are compared of it.
     pub fn algorithms(&self) -> &'static [&'static str] {
         match self.is_free() || self.has_many_joints() {
             true => &DYNAMICS,

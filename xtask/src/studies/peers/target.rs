@@ -39,8 +39,8 @@ const BUILDS: [[&str; 4]; 3] = [
     ],
     ["clang", "casadi clang", "clang", CLANG],
 ];
-const CLANG: &str = "--target=thumbv7em-none-eabihf -mcpu=cortex-m7 -ffp-contract=off -Xclang -target-feature \
-    -Xclang +slowfpvmlx";
+const CLANG: &str = "--target=thumbv7em-none-eabihf -mcpu=cortex-m7 -ffp-contract=off -Xclang \
+    -target-feature -Xclang +slowfpvmlx";
 const COMMON: &str = "-c -O3 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard";
 
 /// Whether the compiler may know that inputs and output do not overlap, with what it adds to the
@@ -160,7 +160,7 @@ fn compile(
     Ok((objects, path))
 }
 
-/// What a peer is called whose row is of this form.
+/// The name of a peer whose row is of this form.
 fn peer(form: &str) -> &str {
     let build = BUILDS.iter().find(|build| build[0] == form);
     build.map_or(form, |[_, name, ..]| name)

@@ -55,17 +55,21 @@ fn why(peers: &str, readme: &str, scenes: &str) -> Result<String> {
         .and_then(|(_, ratio)| ratio.strip_suffix(')'));
     let ratio = ratio.ok_or_else(|| check!("{} has no share of PD's error", TICK.file))?;
     Ok(format!(
-        "- Inverse dynamics takes **{inverse} of the cycles of the best C** that CasADi generates for the same robot (UR5e, Panda, iiwa 14,\n  \
-         A1; f32, modelled Cortex-M4F), and {free} for the humanoid G1 with its base free. Forward dynamics of the first three takes\n  \
+        "- Inverse dynamics takes **{inverse} of the cycles of the best C** that CasADi generates \
+         for the same robot (UR5e, Panda, iiwa 14,\n  \
+         A1; f32, modelled Cortex-M4F), and {free} for the humanoid G1 with its base free. Forward \
+         dynamics of the first three takes\n  \
          {forward} ([peers]({PEERS})).\n\
-         - On the host, inverse dynamics of the same four robots takes **{host} of the time of Pinocchio's C++**.\n\
-         - A whole tick of a UR5e, from six encoders to six drives, takes {longest:.1} µs at {CLOCK_MHZ} MHz: **{share:.1} % of a millisecond**. The arm\n  \
+         - On the host, inverse dynamics of the same four robots takes **{host} of the time of \
+         Pinocchio's C++**.\n\
+         - A whole tick of a UR5e, from six encoders to six drives, takes {longest:.1} µs at \
+         {CLOCK_MHZ} MHz: **{share:.1} % of a millisecond**. The arm\n  \
          then follows its reference with {ratio} of the error of PD control alone.\n\n\
          {wishes}"
     ))
 }
 
-/// The cells of the row of this name, which has so many.
+/// The cells of the row of this name, which has this number of them.
 fn cell<'a>(page: &'a str, name: &str, count: usize) -> Result<Vec<&'a str>> {
     let mut rows = page.lines().filter_map(cells);
     let row = rows.find(|row| row[0] == name && row.len() == count);
@@ -97,11 +101,14 @@ fn wishes(readme: &str) -> Result<String> {
     let hard = hard.ok_or_else(|| lacks("hard cases"))?;
     Ok(format!(
         "Three questions, with a picture each below:\n\n\
-         1. [What does accuracy cost?](#what-accuracy-costs) Torques of a UR5e within {} N·m take {} cycles, within {} N·m {}.\n\
-         2. [What is each effect worth?](#what-each-effect-is-worth-and-what-it-costs) The tracking error of a UR5e is {},\n   \
+         1. [What does accuracy cost?](#what-accuracy-costs) Torques of a UR5e within {} N·m take \
+         {} cycles, within {} N·m {}.\n\
+         2. [What is each effect worth?](#what-each-effect-is-worth-and-what-it-costs) The \
+         tracking error of a UR5e is {},\n   \
          and {}.\n\
          3. [Do hard cases stay stable?](#hard-cases-stay-stable) {}\n   \
-         and naive methods are shown to fail. One figure of the suite of files is beyond its bound, with its reason below.",
+         and naive methods are shown to fail. One figure of a further case is beyond its bound, \
+         with its reason below.",
         all[3], all[1], pruned[3], pruned[1], gravity?, coriolis?, hard
     ))
 }
@@ -139,7 +146,8 @@ pub fn worth(report: &Report) -> String {
     let table = Table::of(effects, &columns).markdown();
     let rustc = &report.rustc;
     format!(
-        "{table}\nA UR5e's pick and place; its tick takes {longest} cycles with all of them. Measured with {rustc}."
+        "{table}\nA UR5e's pick and place; its tick takes {longest} cycles with all of them. \
+         Measured with {rustc}."
     )
 }
 

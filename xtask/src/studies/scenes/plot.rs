@@ -38,7 +38,8 @@ pub fn svg(recording: &Recording) -> Result<String> {
         self::references(recording, &references)?;
         let what = "the plant is the controller's model";
         errors(recording, PLANTS[0], what, 0, &exact)?;
-        let what = "the plant differs from the controller's model: inertias by up to ±3 %, friction by up to ±10 %";
+        let what = "the plant differs from the controller's model: inertias by up to ±3 %, \
+            friction by up to ±10 %";
         errors(recording, PLANTS[1], what, ROOM[1], &mismatched)
     })
 }
@@ -167,7 +168,7 @@ fn errors(recording: &Recording, plant: &str, what: &str, below: u32, area: &Are
     })
 }
 
-/// Where gravity has no torque, a law of gravity is PD alone: that is the wide line, so that it is
+/// If gravity has no torque, a law of gravity is PD alone: that is the wide line, so that it is
 /// seen below the other.
 fn width(law: &str) -> u32 {
     if law == PD { 5 } else { 2 }

@@ -202,8 +202,8 @@ pub fn signed(number: i64, minus: &str) -> String {
 }
 
 /// The caption of the table of effects.
-const WORTH: &str = "What each effect is worth: saved in the longest tick, in the tick's code and in the plant's RAM \
-     by dropping it, and the error then, exact model";
+const WORTH: &str = "What each effect is worth: saved in the longest tick, in the tick's code and \
+     in the plant's RAM by dropping it, and the error then, exact model";
 
 /// The safety gate's status in a word or two.
 pub fn gate(status: &str) -> String {
@@ -251,8 +251,10 @@ mod tests {
     fn a_status_is_written_in_words() {
         let cases = [
             "mode Full, fault None, limited false → the full law, no fault, no limit reached",
-            "mode Hold, fault Some(Encoder { joint: 2 }), limited true → brought to rest, fault: Encoder of joint 2, torque or its rate limited",
-            "mode Stopped, fault Some(Stale), limited false → stopped on the brake, fault: Stale, no limit reached",
+            "mode Hold, fault Some(Encoder { joint: 2 }), limited true → brought to rest, fault: \
+             Encoder of joint 2, torque or its rate limited",
+            "mode Stopped, fault Some(Stale), limited false → stopped on the brake, fault: Stale, \
+             no limit reached",
         ];
         for (logged, expected) in cases.iter().filter_map(|case| case.split_once(" → ")) {
             assert_eq!(words(logged), expected);

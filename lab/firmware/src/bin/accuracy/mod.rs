@@ -1,4 +1,4 @@
-//! What each way to compute a robot's torques, or to simulate it, costs, between the meter's
+//! The cost of each way to compute a robot's torques, or to simulate it, between the meter's
 //! markers. `cargo xtask accuracy` reads the log: rows as those of `costs`, of the algorithms
 //! `inverse` and `simulation`, their inputs the key without what the target does not know. A call
 //! is a tick or a step.

@@ -1,4 +1,4 @@
-//! What each effect of the catalogue costs in inverse dynamics, between the meter's markers.
+//! The cost of each effect of the catalogue in inverse dynamics, between the meter's markers.
 //! `cargo xtask effects` reads the log: the rows of `costs`, and before each of them
 //!
 //! ```text

@@ -1,4 +1,4 @@
-//! What the algorithms cost on a robot, between the meter's markers: states, and how a row is
+//! The cost of the algorithms on a robot, between the meter's markers: states, and how a row is
 //! measured. `cargo xtask costs` reads the log, rows and at last `done`, and cuts the meter's
 //! samples by it. Two bins a robot, since each specialised function takes the compiler seconds, and
 //! bins are built side by side.

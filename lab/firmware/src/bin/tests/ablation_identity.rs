@@ -1,6 +1,6 @@
-//! What is not named is not there: inverse dynamics of a rigid body alone, beside effects that do
-//! nothing, and beside friction and rotors. `cargo xtask test absent-effects` compares what the
-//! compiler made of them.
+//! An effect that is not named is not there: inverse dynamics of a rigid body alone, beside effects
+//! that do nothing, and beside friction and rotors. `cargo xtask test absent-effects` compares what
+//! the compiler made of them.
 #![no_std]
 #![no_main]
 

@@ -13,7 +13,7 @@ pub const FINE: u32 = 20;
 /// Samples of a second, in which motions are compared.
 pub const SECOND: usize = (1_000_000 / SAMPLE) as usize;
 
-/// q and q̇ after each sample of the first second, in f64 by the core, in steps of so many µs.
+/// q and q̇ after each sample of the first second, in f64 by the core, in steps of this many µs.
 pub fn true_motion<T: PassiveMotion<N>, E: Effect<f64, N, N>, const N: usize>(
     effects: &E,
     step: u32,

@@ -48,7 +48,8 @@ pub fn print<T: Robot<B, N, N>, const B: usize, const N: usize>(
     line("encoder14", what, &rounded);
     for percent in [1, 5] {
         let what = format!(
-            "masses, moments and inertias off by up to ±{percent} %, the worst of {DRAWINGS} drawings"
+            "masses, moments and inertias off by up to ±{percent} %, the worst of {DRAWINGS} \
+             drawings"
         );
         let worst = inertial::<T, B, N>(way, f64::from(percent) / 100.0);
         line(&format!("inertial{percent}"), &what, &worst);

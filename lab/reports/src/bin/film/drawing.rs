@@ -6,14 +6,14 @@ use glam::{DVec2, DVec3};
 
 use crate::simulation::{Motion, PARTS, Skeleton, Tick};
 
-/// Of the film, s.
+/// The length of the film, s.
 const SECONDS: f64 = 10.0;
 /// Samples of the motion are this many ticks apart.
 const STEP: usize = 80;
 
 const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 540.0;
-/// Where the base stands, px; px of a metre; the azimuth and the elevation of the eye, rad.
+/// The place of the base, px; px of a metre; the azimuth and the elevation of the eye, rad.
 const BASE: DVec2 = DVec2::new(300.0, 300.0);
 const SCALE: f64 = 365.0;
 const AZIMUTH: f64 = -1.05;
@@ -52,10 +52,11 @@ fn points(of: impl IntoIterator<Item = DVec2>) -> String {
     each.collect::<Vec<_>>().join(" ")
 }
 
-/// What sets an attribute to these values in turn, again and again.
+/// An animation that sets an attribute to these values in turn, again and again.
 fn animate(attribute: &str, seconds: f64, values: &[String]) -> String {
     format!(
-        "<animate attributeName=\"{attribute}\" dur=\"{seconds}s\" repeatCount=\"indefinite\" values=\"{}\"/>",
+        "<animate attributeName=\"{attribute}\" dur=\"{seconds}s\" repeatCount=\"indefinite\" \
+         values=\"{}\"/>",
         values.join(";")
     )
 }
@@ -65,7 +66,8 @@ fn text(style: &str, [x, y]: [f64; 2], words: &str) -> String {
     let mut parts = style.rsplitn(3, ' ');
     let [anchor, size, class] = [(); 3].map(|()| parts.next().unwrap_or_default());
     format!(
-        "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\">{words}</text>\n"
+        "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" font-size=\"{size}\" \
+         text-anchor=\"{anchor}\">{words}</text>\n"
     )
 }
 
@@ -89,11 +91,14 @@ pub fn film(motion: &Motion) -> String {
     shapes += &plot(&errors, still, &labels);
     let [first, second, last] = &labels;
     format!(
-        "<svg width=\"{WIDTH}\" height=\"{HEIGHT}\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" xmlns=\"http://www.w3.org/2000/svg\" \
-         role=\"img\" aria-labelledby=\"title desc\" font-family=\"system-ui, Helvetica, Arial, sans-serif\">\n\
-         <title id=\"title\">A UR5e follows its path with feed-forward and loses it without</title>\n\
-         <desc id=\"desc\">Three times the same pick and place, simulated. Distance of the tip from its reference: {first}; {second}; {last}. \
-         Without feed-forward, feedback alone holds the arm.</desc>\n<style>\n{}</style>\n\
+        "<svg width=\"{WIDTH}\" height=\"{HEIGHT}\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
+         xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-labelledby=\"title desc\" \
+         font-family=\"system-ui, Helvetica, Arial, sans-serif\">\n\
+         <title id=\"title\">A UR5e follows its path with feed-forward and loses it \
+         without</title>\n\
+         <desc id=\"desc\">Three times the same pick and place, simulated. Distance of the tip \
+         from its reference: {first}; {second}; {last}. Without feed-forward, feedback alone holds \
+         the arm.</desc>\n<style>\n{}</style>\n\
          <rect class=\"paper\" width=\"{WIDTH}\" height=\"{HEIGHT}\"/>\n{shapes}</svg>\n",
         style()
     )
@@ -147,7 +152,8 @@ fn arm(
         let still = at(&samples[still]);
         writeln!(
             shapes,
-            "<{line} moves\" stroke-width=\"{width}\">{moves}</polyline><{line} still\" stroke-width=\"{width}\" points=\"{still}\"/>"
+            "<{line} moves\" stroke-width=\"{width}\">{moves}</polyline><{line} still\" \
+             stroke-width=\"{width}\" points=\"{still}\"/>"
         )
         .expect("a string");
     }
@@ -225,7 +231,8 @@ fn plot(errors: &[f64], still: usize, labels: &[String; PARTS.len()]) -> String 
     let at = curve[still];
     shapes
         + &format!(
-            "<circle class=\"arm moves\" r=\"5\">{}{}</circle><circle class=\"arm still\" r=\"5\" cx=\"{:.1}\" cy=\"{:.1}\"/>\n",
+            "<circle class=\"arm moves\" r=\"5\">{}{}</circle><circle class=\"arm still\" r=\"5\" \
+             cx=\"{:.1}\" cy=\"{:.1}\"/>\n",
             animate("cx", SECONDS, &x),
             animate("cy", SECONDS, &y),
             at.x,

@@ -17,7 +17,7 @@ pub const PARTS: [bool; 3] = [true, false, true];
 
 /// From the flange to the tip of the tool that is drawn, m; it has no mass.
 const TOOL: f64 = 0.12;
-/// Where the links are drawn beside the planes of the model's frames, m: the upper arm stands off
+/// The places of the links beside the planes of the model's frames, m: the upper arm stands off
 /// the shoulder, the forearm hardly.
 const UPPER_ARM: f64 = 0.138;
 const FOREARM: f64 = 0.02;
@@ -68,7 +68,7 @@ impl Tick {
     }
 }
 
-/// What the film shows, a state each millisecond.
+/// The states of the film, one each millisecond.
 pub struct Motion {
     pub ticks: Vec<Tick>,
     /// The ticks of each part.

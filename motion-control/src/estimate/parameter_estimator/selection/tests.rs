@@ -14,7 +14,7 @@ fn a_change_of_a_base_parameter_is_one_of_its_sum() {
     let base: SelectedParameters<f64, 2, 3> = motion
         .select::<_, 0, 2>(&nominal, share)
         .expect("two columns");
-    // Of deviations 2 and 2 · 0.5 the first has the larger effect; the last has the largest, and
+    // Among deviations 2 and 2 · 0.5 the first has the larger effect; the last has the largest, and
     // stays behind it.
     assert_eq!(base.columns, [0, 2]);
     let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12, "{a} {b}");
@@ -52,7 +52,7 @@ fn the_weight_of_a_row_is_its_noise() {
         .select::<f64, 0, 1>(&[1.0; 2], 1.0)
         .expect("one column");
     assert_eq!(base.columns, [1]);
-    // Of two that explain the same it is the first.
+    // Among two that explain the same it is the first.
     let mut motion: Excitation<3> = Excitation::new();
     motion.add(&[1.0, 2.0, 2.0], 1.0);
     let base = motion.select::<f64, 0, 1>(&[1.0; 3], 1.0);
@@ -117,7 +117,7 @@ fn a_row_has_the_selected_columns_of_its_joint() {
     const BODIES: usize = 2;
     let bodies: [[f64; 10]; BODIES] =
         core::array::from_fn(|body| core::array::from_fn(|k| (10 * body + k) as f64));
-    // Of three joints with two parameters each.
+    // Three joints have two parameters each.
     let all = |joint, own| Excitation::<26>::row::<f64, BODIES, 2>(joint, &bodies, &own);
     for joint in 0..3 {
         let row = all(joint, [0.5, 0.25]);

@@ -120,7 +120,7 @@ fn many_consistent_rows_of_others_thaw_the_estimate() {
 
 #[test]
 fn a_level_at_a_bound_neither_freezes_nor_stays_frozen() {
-    // Of a limit of 5 the bounds are 2.5² and 2², and an innovation of that size keeps its level.
+    // For a limit of 5 the bounds are 2.5² and 2², and an innovation of that size keeps its level.
     let config = ParameterEstimatorConfig {
         limit: 5.0,
         ..pair().config

@@ -163,7 +163,7 @@ fn a_freeze_keeps_the_error_of_the_load_before() {
         assert_eq!(update(&mut one, torque), Err(RejectedMeasurement::Frozen));
         assert!((one.consistency() - expected).abs() < 1e-9);
     }
-    // Of several joints it is the mean.
+    // For several joints it is the mean.
     let mut three = estimator(0.0);
     three.freeze();
     three.level = 1e6;
@@ -185,7 +185,7 @@ fn another_load_is_taken_over_after_1024_ticks() {
     let level = one.freeze.map(|freeze| freeze.level);
     assert_eq!(update(&mut one, load), Err(RejectedMeasurement::Frozen));
     assert!(!one.frozen());
-    // What the ticks since the freeze have learned.
+    // The knowledge from the ticks since the freeze.
     assert!((mass(&one) - load).abs() < 0.01, "{}", mass(&one));
     let level = level.expect("frozen before") * 63.0 / 64.0;
     assert!((one.consistency() - level).abs() < 1e-6);

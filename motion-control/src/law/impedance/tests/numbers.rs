@@ -11,7 +11,7 @@ const CONFIG: ImpedanceConfig<f64, 2> = ImpedanceConfig {
 
 /// Inertias of three joints, kg·m², of which the last is not in the task.
 const MASSES: [f64; 3] = [4.0, 0.5, 2.0];
-/// How far each direction moves with its joint.
+/// The motion of each direction with its joint.
 const LEVERS: [f64; 2] = [2.0, 0.5];
 
 fn torque(

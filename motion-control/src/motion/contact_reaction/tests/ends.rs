@@ -62,7 +62,7 @@ fn an_arm_that_was_stopped_has_no_path() {
 
 #[test]
 fn a_floating_arm_is_decelerated_beyond_its_speed() {
-    // Of FLOAT and of the hold.
+    // The gains of FLOAT and of the hold.
     let (damping, most, decay) = (5.0, 1.0, 25.0);
     for speed in [0.5, -0.5, 1.5, -1.5] {
         let mut joint = Joint::halfway(FLOAT);

@@ -13,7 +13,7 @@ fn tick(controller: &mut Controller, q: f64) -> Command<f64, 1> {
     controller.tick(Ok(&[q]), &CRUISE, |_, _| [1.0])
 }
 
-/// A controller in its return after a fault, of which so many ticks have passed, on a joint that
+/// A controller in its return after a fault, of which this many ticks have passed, on a joint that
 /// follows.
 fn returning(ticks: u32) -> Controller {
     let mut config = CONFIG;

@@ -1,4 +1,4 @@
-//! What a reset leaves of a stop, and what it keeps.
+//! The effect of a reset on a stop.
 
 use super::*;
 use crate::tests::motion_limits;

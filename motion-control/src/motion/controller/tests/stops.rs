@@ -6,7 +6,7 @@ use crate::tests::Motion;
 const INERTIA: f64 = 2.0;
 const GRAVITY: f64 = -4.0;
 
-/// Where the joint is, and how fast.
+/// The position and the velocity of a joint.
 struct Joint(f64, f64);
 
 impl Joint {

@@ -15,7 +15,7 @@ impl Random {
         (f64::from(self.0) / f64::from(u32::MAX) * 2.0 - 1.0) as f32
     }
 
-    /// Of any size between 10^−e and 10^e.
+    /// A number of any size between 10^−e and 10^e.
     fn size(&mut self, e: f32) -> f32 {
         10.0_f32.powf(e * self.next())
     }

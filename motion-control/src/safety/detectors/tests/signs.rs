@@ -117,7 +117,7 @@ fn missed_ticks_forget_the_reference_alone() {
 
 #[test]
 fn a_position_is_frozen_for_its_ticks_however_many_joints_there_are() {
-    // Of three joints each is compared in every third tick: three ticks are one comparison, four or
+    // Each of three joints is compared in every third tick: three ticks are one comparison, four or
     // six are two.
     for (ticks, comparisons) in [(0, 1), (1, 1), (3, 1), (4, 2), (6, 2), (7, 3)] {
         let mut frozen = FrozenEncoder::new([0.25_f64; 3], ticks);

@@ -11,7 +11,7 @@ fn good_ticks(supervisor: &mut Supervisor<f32, 2>, ticks: u32) {
 
 type Use = fn(&mut Supervisor<f32, 2>);
 
-/// What an arm may have done before, with a good measurement first.
+/// An arm's possible past, with a good measurement first.
 const USES: [(&str, Use); 8] = [
     ("good ticks", |one| good_ticks(one, 1)),
     ("a fault", |one| _ = bad(one, [3.0; 2])),

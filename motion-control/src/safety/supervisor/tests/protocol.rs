@@ -1,4 +1,4 @@
-//! What holds of the brake after a reset.
+//! Properties of the brake after a reset.
 
 use super::*;
 

@@ -160,7 +160,7 @@ fn starts() -> Vec<(One, Expected)> {
     starts
 }
 
-/// What was found in all states.
+/// The findings in all states.
 #[derive(Default)]
 pub struct Found {
     pub states: Vec<(One, Expected)>,

@@ -82,7 +82,8 @@ pub fn read(
     }
     for (tag, all) in controllers {
         tree.notes.push(format!(
-            "Actuators of type {tag}, {}: their gains are controllers of the simulation and are left out.",
+            "Actuators of type {tag}, {}: their gains are controllers of the simulation and are \
+             left out.",
             all.join(", ")
         ));
     }

@@ -23,7 +23,7 @@ pub struct Tree<'e> {
     classes: &'e Classes<'e>,
     /// The links; the first is the world.
     pub links: Vec<Link>,
-    /// The joints.
+    /// The joints of the body.
     pub joints: Vec<Joint>,
     /// Each joint's position in the configuration of the file, rad or m.
     pub references: Vec<f64>,
@@ -33,7 +33,7 @@ pub struct Tree<'e> {
     pub bodies: HashMap<String, usize>,
     /// Link and placement of each site.
     pub sites: HashMap<String, (usize, Placement)>,
-    /// What is left out.
+    /// The elements that are left out.
     pub notes: Vec<String>,
     names: HashSet<String>,
     counts: [usize; 2],
@@ -149,7 +149,8 @@ impl<'e> Tree<'e> {
         let placement = around.frame.then(&Placement::read(view, self.compiler)?);
         if view.number("gravcomp")? != 0.0 {
             self.notes.push(format!(
-                "body `{name}`: gravcomp is a force of the simulation and left out; its weight acts in full"
+                "body `{name}`: gravcomp is a force of the simulation and left out; its weight \
+                 acts in full"
             ));
         }
         if view.flag("mocap")? == Some(true) {
@@ -200,7 +201,8 @@ impl<'e> Tree<'e> {
                     let name = body.words();
                     self.links[inside.link].of_mesh = true;
                     self.notes.push(format!(
-                        "{name}: its mass is that of a mesh, which is not read; the body is fixed to the world"
+                        "{name}: its mass is that of a mesh, which is not read; the body is fixed \
+                         to the world"
                     ));
                     return Ok(Vec::new());
                 }
@@ -209,8 +211,8 @@ impl<'e> Tree<'e> {
                         .name()
                         .or_else(|| element.get("mesh"))
                         .unwrap_or("mesh");
-                    let reason = "the mass of its body would be that of a mesh, and meshes are not read: give the body \
-                        an <inertial>, or the geom mass=\"0\"";
+                    let reason = "the mass of its body would be that of a mesh, and meshes are not \
+                        read: give the body an <inertial>, or the geom mass=\"0\"";
                     return Err(element.unsupported("geom", word, reason));
                 }
             }

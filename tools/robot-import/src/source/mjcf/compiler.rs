@@ -4,18 +4,19 @@ use super::defaults::View;
 use super::element::Element;
 use crate::error::Result;
 
-const KNOWN: &str = "alignfree angle assetdir autolimits balanceinertia boundinertia boundmass conflict coordinate \
-    discardvisual eulerseq fitaabb fusestatic inertiafromgeom inertiagrouprange meshdir passthrough savecanonical \
-    savecompiled saveinertial settotalmass strippath texturedir usethread";
+const KNOWN: &str = "alignfree angle assetdir autolimits balanceinertia boundinertia boundmass \
+    conflict coordinate discardvisual eulerseq fitaabb fusestatic inertiafromgeom \
+    inertiagrouprange meshdir passthrough savecanonical savecompiled saveinertial settotalmass \
+    strippath texturedir usethread";
 
-/// Where inertias are from.
+/// The source of inertias.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FromGeoms {
     /// From geoms where no inertia is stated.
     Auto,
     /// From geoms, wherever there are some.
     Always,
-    /// As stated.
+    /// The inertias are those that the file states.
     Never,
 }
 
@@ -27,7 +28,7 @@ pub struct Compiler {
     pub eulerseq: [char; 3],
     /// Whether a range alone is a limit.
     pub autolimits: bool,
-    /// Where inertias are from.
+    /// The source of inertias.
     pub from_geoms: FromGeoms,
     /// The groups of geoms that have a mass.
     pub groups: [f64; 2],
@@ -86,7 +87,8 @@ impl Compiler {
             }
         };
         if let Some(word) = section.get("coordinate").filter(|word| *word != "local") {
-            let reason = "MuJoCo has dropped it, too: save the model with MuJoCo 2.3.3, which writes local coordinates";
+            let reason = "MuJoCo has dropped it, too: save the model with MuJoCo 2.3.3, which \
+                writes local coordinates";
             return Err(section.unsupported("coordinate", word, reason));
         }
         if let Some(word) = section.get("eulerseq") {
@@ -118,7 +120,7 @@ impl Compiler {
     }
 }
 
-/// What the options state that the import leaves out.
+/// The statements of the options that the import leaves out.
 ///
 /// # Errors
 /// Numbers that are none.

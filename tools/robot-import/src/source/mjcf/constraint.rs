@@ -99,7 +99,7 @@ fn closed(view: View<'_>, name: String, kind: Kind, ends: [(usize, Placement); 2
     })
 }
 
-/// A common point.
+/// A constraint that two bodies share a point.
 fn connect(view: View<'_>, tree: &Tree<'_>, name: String) -> Result<Loop> {
     let element = view.element;
     element.only("active anchor body1 body2 class name site1 site2 solimp solref")?;
@@ -125,7 +125,7 @@ fn connect(view: View<'_>, tree: &Tree<'_>, name: String) -> Result<Loop> {
     )
 }
 
-/// A common frame.
+/// A constraint that two bodies share a frame.
 fn weld(view: View<'_>, tree: &Tree<'_>, name: String, compiler: &Compiler) -> Result<Loop> {
     let element = view.element;
     element.only(

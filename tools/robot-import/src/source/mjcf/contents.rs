@@ -1,4 +1,4 @@
-//! What a body has, in the order of the file, through the frames around its elements.
+//! The contents of a body, in the order of the file, through the frames around its elements.
 
 use std::rc::Rc;
 
@@ -15,7 +15,7 @@ const IGNORED: [&str; 2] = ["camera", "light"];
 /// An element, the frame that it is in and its class if it names none.
 pub type Item<'e> = (&'e Element, Rc<Placement>, usize);
 
-/// Where an element is.
+/// The place of an element.
 #[derive(Clone)]
 pub struct Around {
     /// The link of the body.
@@ -28,16 +28,16 @@ pub struct Around {
     pub fixed: bool,
 }
 
-/// What a body has, with the frames around it.
+/// The contents of a body, with the frames around it.
 #[derive(Default)]
 pub struct Contents<'e> {
-    /// Its `<inertial>`.
+    /// The element `<inertial>` of the body.
     pub inertial: Option<(&'e Element, Rc<Placement>)>,
     /// Its joints, in the order of the file.
     pub joints: Vec<Item<'e>>,
-    /// Its geoms.
+    /// The geoms of the body.
     pub geoms: Vec<Item<'e>>,
-    /// Its sites.
+    /// The sites of the body.
     pub sites: Vec<Item<'e>>,
     /// The bodies below it.
     pub bodies: Vec<Item<'e>>,
@@ -97,8 +97,9 @@ impl<'e> Contents<'e> {
                 }
                 tag if IGNORED.contains(&tag) => {}
                 tag => {
-                    let reason = "it is not in the subset of MJCF that is read: let MuJoCo write the compiled model by \
-                        mj_saveLastXML, which has bodies in its place, or remove it";
+                    let reason = "it is not in the subset of MJCF that is read: let MuJoCo write \
+                        the compiled model by mj_saveLastXML, which has bodies in its place, or \
+                        remove it";
                     return Err(child.unsupported("element", tag, reason));
                 }
             }

@@ -80,7 +80,7 @@ impl<'e> Classes<'e> {
         Ok(())
     }
 
-    /// The class `main`.
+    /// The number of the class `main`.
     pub const fn main(&self) -> usize {
         self.main
     }
@@ -170,7 +170,7 @@ impl<'v> View<'v> {
         self.levels().find_map(|element| element.get(attribute))
     }
 
-    /// The numbers of an attribute, at least and at most so many.
+    /// The numbers of an attribute, at least and at most this many.
     ///
     /// # Errors
     /// Too few or too many, or one that is not finite.
@@ -215,7 +215,7 @@ impl<'v> View<'v> {
         })
     }
 
-    /// N numbers.
+    /// The N numbers of an attribute.
     ///
     /// # Errors
     /// As for [`Self::list`].
@@ -224,7 +224,7 @@ impl<'v> View<'v> {
         Ok(list.and_then(|list| <[f64; N]>::try_from(list).ok()))
     }
 
-    /// One number, or 0.
+    /// The number of an attribute, or 0.
     ///
     /// # Errors
     /// As for [`Self::list`].

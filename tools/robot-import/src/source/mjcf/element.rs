@@ -27,7 +27,7 @@ const SKIPPED: [&str; 9] = [
 
 /// An element.
 pub struct Element {
-    /// Its tag.
+    /// The tag of the element.
     pub tag: String,
     /// The line of its file.
     pub line: u32,
@@ -71,7 +71,7 @@ impl Element {
         }
     }
 
-    /// An attribute's text.
+    /// The text of an attribute.
     pub fn get(&self, attribute: &str) -> Option<&str> {
         let mut all = self.attributes.iter();
         all.find_map(|(name, text)| (name == attribute).then_some(text.as_str()))
@@ -144,7 +144,7 @@ impl Element {
 
 /// A model with its included files in their places.
 pub struct Loaded {
-    /// Its root.
+    /// The root element of the file.
     pub root: Element,
     /// The included files.
     pub files: Vec<PathBuf>,
@@ -164,7 +164,7 @@ struct Loader<'p> {
 struct Source {
     file: Option<Rc<str>>,
     folder: PathBuf,
-    /// How many files include each other in turn down to this one.
+    /// The number of files that include each other in turn down to this one.
     includes: usize,
     /// The positions of its line ends: a search in it is faster than counting from the start for
     /// each element.
@@ -304,7 +304,8 @@ impl Loader<'_> {
         };
         let outside = || {
             let reason = format!(
-                "it is not below the folder of the model{named}: `--include-root FOLDER` names a folder below which files are read"
+                "it is not below the folder of the model{named}: `--include-root FOLDER` names a \
+                 folder below which files are read"
             );
             element.unsupported("include", file, &reason)
         };

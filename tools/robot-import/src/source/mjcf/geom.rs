@@ -10,9 +10,10 @@ use super::pose::{Placement, to_axis};
 use crate::description::Pose;
 use crate::error::Result;
 
-const KNOWN: &str = "adhesion axisangle castshadow class conaffinity condim contype density euler fitscale fluidcoef \
-    fluidshape friction fromto gap group hfield margin mass material mesh name pos priority quat rgba shellinertia \
-    size solimp solmix solref surfacevel type user xyaxes zaxis";
+const KNOWN: &str = "adhesion axisangle castshadow class conaffinity condim contype density euler \
+    fitscale fluidcoef fluidshape friction fromto gap group hfield margin mass material mesh name \
+    pos priority quat rgba shellinertia size solimp solmix solref surfacevel type user xyaxes \
+    zaxis";
 
 /// Mass and inertia of a geom.
 pub struct Solid {
@@ -24,11 +25,11 @@ pub struct Solid {
     pub frame: Placement,
 }
 
-/// What a geom adds to its body.
+/// The share of a geom in its body's inertia.
 pub enum Geom {
-    /// Nothing.
+    /// The geom has no mass.
     Massless,
-    /// A solid.
+    /// The geom is a solid.
     Solid(Box<Solid>),
     /// The solid of a mesh, which is not read.
     Mesh,

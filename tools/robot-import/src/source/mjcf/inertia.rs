@@ -38,7 +38,7 @@ pub fn of_body(
     Ok((bounded(inertial, compiler), snapped.unwrap_or_default()))
 }
 
-/// An element `<inertial>`.
+/// The inertia that an element `<inertial>` states.
 fn explicit(
     element: &Element,
     frame: &Placement,
@@ -78,7 +78,7 @@ fn explicit(
     Ok((inertial, placement.snapped))
 }
 
-/// The geoms' masses together.
+/// The inertia of all geoms together.
 fn sum(geoms: &[Solid]) -> Option<Inertial> {
     if let [geom] = geoms {
         let [x, y, z] = geom.inertia;

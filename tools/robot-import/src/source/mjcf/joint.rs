@@ -8,13 +8,13 @@ use super::pose::Placement;
 use crate::description::{Joint, Kind, Limits, Pose};
 use crate::error::Result;
 
-const KNOWN: &str = "actuatorfrclimited actuatorfrcrange actuatorgravcomp align armature axis class damping \
-    frictionloss group limited margin name pos range ref solimpfriction solimplimit solreffriction solreflimit \
-    springdamper springref springyield stiffness type user";
+const KNOWN: &str = "actuatorfrclimited actuatorfrcrange actuatorgravcomp align armature axis \
+    class damping frictionloss group limited margin name pos range ref solimpfriction solimplimit \
+    solreffriction solreflimit springdamper springref springyield stiffness type user";
 
 /// A joint as its body has it.
 pub struct Parsed {
-    /// Its kind.
+    /// The kind of the joint.
     pub kind: Kind,
     /// Its anchor in the body's frame; without rotation.
     pub anchor: Placement,
@@ -166,7 +166,8 @@ fn spring(
 ) -> Result<[f64; 2]> {
     let [time, ratio] = view.numbers("springdamper")?.unwrap_or_default();
     if time > 0.0 && ratio > 0.0 {
-        let sentence = "`springdamper` sets the damping from inertias: state `stiffness` and `damping` instead";
+        let sentence = "`springdamper` sets the damping from inertias: state `stiffness` and \
+            `damping` instead";
         return Err(view.element.value(sentence));
     }
     let stiffness = view.list("stiffness", [1, 3])?.unwrap_or_default();
@@ -188,7 +189,8 @@ fn spring(
 pub fn greatest([low, high]: [f64; 2], what: &str, notes: &mut Vec<String>) -> f64 {
     if low != -high {
         notes.push(format!(
-            "{what}: its effort is from {low} to {high}; the greater absolute value is the limit in both directions"
+            "{what}: its effort is from {low} to {high}; the greater absolute value is the limit \
+             in both directions"
         ));
     }
     low.abs().max(high.abs())

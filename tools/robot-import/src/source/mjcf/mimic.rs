@@ -80,10 +80,13 @@ pub fn of_tendon(
         (over.as_slice(), tendon.tag.as_str(), element.get("tendon2"))
     else {
         let sentence = match over.len() {
-            2 => "only one fixed tendon over two joints is read: couple them by <joint joint1=… joint2=…>".to_owned(),
+            2 => "only one fixed tendon over two joints is read: couple them by <joint joint1=… \
+                joint2=…>"
+                .to_owned(),
             n => format!(
-                "a tendon over {n} joints is not read, since a follower has one leader here: import the file without this equality, and \
-                 write the `Transmission` between motors and joints yourself (guide, \"Coupled joints\")"
+                "a tendon over {n} joints is not read, since a follower has one leader here: \
+                 import the file without this equality, and write the `Transmission` between \
+                 motors and joints yourself (guide, \"Coupled joints\")"
             ),
         };
         return Err(element.value(sentence));

@@ -88,7 +88,8 @@ pub fn read(root: Node<'_, '_>, folders: Folders<'_>) -> Result<Description> {
     actuator::read(&root, &mut tree, &classes, &compiler)?;
     if let Some(total) = compiler.total_mass {
         if let Some(link) = tree.links.iter().find(|link| link.of_mesh) {
-            let sentence = "`settotalmass` needs the mass of its mesh, which is not read: give it an <inertial>";
+            let sentence = "`settotalmass` needs the mass of its mesh, which is not read: give it \
+                an <inertial>";
             return Err(ImportError::at(
                 link.line,
                 format!("body `{}`", link.name),

@@ -20,14 +20,14 @@ const CONVERTED: f64 = 1e-5;
 pub struct Placement {
     /// As the file has it.
     pub pose: Pose,
-    /// With exact values.
+    /// The pose with exact values.
     pub exact: Pose,
-    /// The differences.
+    /// The differences of the exact values.
     pub snapped: Vec<Snap>,
 }
 
 impl Placement {
-    /// No displacement.
+    /// The placement without a displacement.
     pub const IDENTITY: Self = Self {
         pose: Pose::IDENTITY,
         exact: Pose::IDENTITY,
@@ -52,7 +52,7 @@ impl Placement {
         }
     }
 
-    /// The reverse placement.
+    /// The inverse of the placement.
     pub fn inverse(&self) -> Self {
         Self {
             pose: self.pose.inverse(),
@@ -119,7 +119,7 @@ impl Placement {
     }
 }
 
-/// A rotation.
+/// A rotation about an axis.
 struct Turn {
     given: DMat3,
     exact: DMat3,

@@ -35,7 +35,7 @@ const WITHOUT: [&str; 9] = [
     "align",
     "alignfree",
 ];
-/// What stands for a mesh and for a field of heights.
+/// The stand-ins for a mesh and for a field of heights.
 const TETRAHEDRON: &str = "vertex=\"0 0 0 1 0 0 0 1 0 0 0 1\"";
 const FIELD: &str = "nrow=\"2\" ncol=\"2\" size=\"1 1 1 1\" elevation=\"0 1 0 1\"";
 

@@ -1,4 +1,4 @@
-//! What every function checks: inputs before it computes, results before it writes them.
+//! Every function checks these: inputs before it computes, results before it writes them.
 //!
 //! The usual case costs three integer operations a position and one addition for every other
 //! number: a sum is finite only if all of its terms are. If it is not, a function of its own looks
@@ -9,8 +9,8 @@ use dynamics_core::model::{ArmModel, Robot};
 use crate::scene::{Arm, N};
 use crate::status::{ANGLE, NOT_FINITE, OVERFLOW};
 
-/// How far from zero each position may be: the range of angles within which the library's sines are
-/// accurate, and any finite number for prismatic joints.
+/// The largest distance of each position from zero: the range of angles within which the library's
+/// sines are accurate, and any finite number for prismatic joints.
 pub const RANGE: [f32; N] = {
     const MODEL: ArmModel<f64, N> = Arm::MODEL;
     let (mut range, mut body) = ([f32::MAX; N], 0);

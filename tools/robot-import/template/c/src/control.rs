@@ -50,7 +50,7 @@ pub struct Config {
     pub kd: [f32; N],
 }
 
-/// What a status is about: `..._where` of the header.
+/// The subject of a status: `..._where` of the header.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Where {
@@ -89,7 +89,7 @@ pub mod field {
 pub type Rejected = (i32, Where);
 
 impl Where {
-    /// Nothing in particular.
+    /// The place of an error that has none.
     pub const NOWHERE: Self = Self::of(field::NONE, None, None);
 
     const fn of(field: i32, joint: Option<usize>, point: Option<usize>) -> Self {
@@ -237,9 +237,9 @@ impl Config {
     }
 }
 
-/// Where the reference of a tick comes from.
+/// The source of a tick's reference.
 enum Kind {
-    /// Nowhere yet.
+    /// No place has been named yet.
     None,
     /// Way-points, from this tick of the controller's clock on.
     Points { start: u32 },
@@ -271,7 +271,7 @@ impl Reference<f32, N> for Source {
     }
 }
 
-/// How far the first way-point may be from where an arm stands, rad or m.
+/// The largest distance of the first way-point from an arm's position, rad or m.
 const STEP: f32 = 1e-3;
 
 /// A controller with its reference.
@@ -284,7 +284,7 @@ pub struct Control {
     measured: Option<Result<[f32; N], Fault>>,
 }
 
-/// What of the configuration references are compared with.
+/// The limits of the configuration with which references are compared.
 struct Limits {
     tick: f32,
     lower: [f32; N],
@@ -537,7 +537,7 @@ pub struct WayPointC {
     pub ticks: u32,
 }
 
-/// What a planned motion was rejected for.
+/// The reason for which a planned motion was rejected.
 fn rejected(error: TrajectoryError) -> Rejected {
     let (field, joint, point) = match error {
         TrajectoryError::NotFinite { point, joint } | TrajectoryError::NotAtRest { point, joint } => {

@@ -10,8 +10,8 @@ use crate::scene::{MOST_POINTS, N};
 /// The bytes that the header reserves: enough for every target.
 pub const BYTES: usize = 256 + 32 * MOST_POINTS + N * (144 + 16 * MOST_POINTS);
 
-/// What distinguishes the memory of a controller from any other: a word that zeros, random bytes
-/// and the controllers of other libraries and versions do not have.
+/// The mark that distinguishes the memory of a controller from any other: a word that zeros, random
+/// bytes and the controllers of other libraries and versions do not have.
 const MAGIC: u64 = (library() ^ size_of::<Slot>() as u64) | 1;
 
 /// A number of this library and its version: the hash of Fowler, Noll and Vo of their names.
@@ -62,7 +62,7 @@ impl Memory {
         self.0[0] = MaybeUninit::new(byte);
     }
 
-    /// What C passes for it.
+    /// The pointer that C passes for it.
     pub fn handle(&mut self) -> Option<Handle> {
         NonNull::new(self.0.as_mut_ptr().cast()).map(Handle)
     }

@@ -1,4 +1,4 @@
-//! What a function returns: the enumeration of the header. The tests compare the numbers with it.
+//! The results of functions: the enumeration of the header. The tests compare the numbers with it.
 
 /// The result is written.
 pub const OK: i32 = 0;

@@ -35,8 +35,8 @@ impl<Spi: SpiDevice> Encoder<Spi> {
 
 impl<Spi> EncoderType for Encoder<Spi> {
     type Error = FrameError;
-    /// Of the angle that it answers with: `PreviousTick` for one that was latched in the frame
-    /// before.
+    /// The age of the angle that it answers with: `PreviousTick` for one that was latched in the
+    /// frame before.
     type Age = CurrentTick;
 
     fn missed(&mut self, ticks: u32) {
@@ -75,7 +75,7 @@ pub struct Drive<Pwm> {
     /// Steps of duty per torque, 1/(N·m) or 1/N.
     slope: f32,
     zero: f32,
-    /// What the last duty left out, in steps.
+    /// The remainder of the last duty, in steps.
     rest: f32,
 }
 
@@ -95,7 +95,7 @@ impl<Pwm: SetDutyCycle> Drive<Pwm> {
 
 impl<Pwm: SetDutyCycle> JointDrive for Drive<Pwm> {
     type Error = DriveError;
-    /// Steps of duty.
+    /// The setpoint is in steps of duty.
     type Setpoint = f32;
 
     fn setpoint(&self, torque: f32) -> f32 {
@@ -103,8 +103,8 @@ impl<Pwm: SetDutyCycle> JointDrive for Drive<Pwm> {
     }
 
     fn set(&mut self, steps: f32) -> Result<(), DriveError> {
-        // What a step of duty cannot express is left for the next tick: a light joint then has the
-        // mean torque.
+        // The remainder that a step of duty cannot express is left for the next tick: a light joint
+        // then has the mean torque.
         let wanted = steps + self.rest;
         // The conversion saturates, and the controller's torques are finite and within the full
         // scale.

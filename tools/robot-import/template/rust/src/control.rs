@@ -1,4 +1,4 @@
-//! What the control loop of `joint-drivers` is made of: the law, its gains, the controller with its
+//! The parts of the control loop of `joint-drivers`: the law, its gains, the controller with its
 //! limits, and detectors.
 
 use core::f32::consts::TAU;
@@ -115,9 +115,9 @@ pub fn gains() -> Gains<f32, N> {
     Gains::from_inertia(&[1.0; N], OMEGA_N, 1.0)
 }
 
-/// What finds faults beside the controller: an encoder that does not change in ten steps of its
-/// reference, a reference that moves at twice the limit of speed, torques at their limits for 50
-/// ticks.
+/// The detectors of faults beside the controller: an encoder that does not change in ten steps of
+/// its reference, a reference that moves at twice the limit of speed, torques at their limits for
+/// 50 ticks.
 pub fn detectors(motion: &Motion) -> Found {
     let limits = scene::limits(motion);
     Detectors {
@@ -135,11 +135,11 @@ pub fn detectors(motion: &Motion) -> Found {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SetupError {
-    /// The motion.
+    /// The trajectory is impossible.
     Motion(TrajectoryError),
-    /// The limits.
+    /// The limits are impossible.
     Limits(ConfigError),
-    /// How an encoder is mounted.
+    /// The mounting of an encoder.
     Encoder(JointError<MappingError>),
     /// The full scale of a drive.
     Drive(DriveError),

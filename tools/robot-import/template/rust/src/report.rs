@@ -14,7 +14,7 @@ use crate::marker::measured;
 use crate::scene::{self, JOINTS, N, TICK};
 use crate::simulation::{Plant, Wires};
 
-/// What a run shows.
+/// The results of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// The torques of the first tick, N·m or N.
@@ -23,7 +23,7 @@ pub struct Outcome {
     pub largest: [f32; N],
     /// The root mean square of the tracking error of each joint, rad or m.
     pub error: [f32; N],
-    /// The ticks.
+    /// The number of ticks.
     pub ticks: u32,
     /// Ticks in which a limit on torque or its rate took effect, after the first, where the torque
     /// rises from zero.
@@ -41,7 +41,7 @@ pub struct Outcome {
 /// Why there is no outcome.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RunError {
-    /// An impossible scene.
+    /// The scene is impossible.
     Setup(SetupError),
     /// A joint of the simulated robot moves no inertia.
     Plant(NotPositiveDefinite),
@@ -198,7 +198,7 @@ pub fn probe() -> State<f32, N, N> {
 /// A clock of 24 bits.
 #[derive(Clone, Copy, Debug)]
 pub struct Clock<F> {
-    /// The reading.
+    /// The function that reads the clock.
     pub now: F,
     /// QEMU's instructions per count, as a fraction whose denominator is the counts of a
     /// microsecond; `None` where nothing counts.

@@ -83,7 +83,7 @@ pub struct Plant {
     zero: [f32; N],
     ratio: [f32; N],
     full_scale: [f32; N],
-    /// Where it is.
+    /// The state of the simulated robot.
     pub state: State<f32, N, N>,
 }
 
@@ -169,7 +169,7 @@ struct Friction<'a> {
 
 /// The accuracy of the velocity at a step's end, rad/s or m/s.
 const FOUND: f32 = 1e-5;
-/// Rounds over the joints.
+/// The number of rounds over the joints.
 const ROUNDS: u8 = 20;
 
 impl<'a> Friction<'a> {

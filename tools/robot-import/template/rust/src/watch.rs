@@ -20,7 +20,7 @@ use crate::simulation::{Plant, Wires};
 /// Ticks from one repetition of the constants to the next.
 const MACHINE: u32 = 1000;
 
-/// What runs.
+/// The choice of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// The motion that shows the robot's parameters, in place of that of `scene.rs`.
@@ -30,7 +30,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// Of words such as `excite` and `ticks=20000`; others are left out.
+    /// Reads words such as `excite` and `ticks=20000`; others are left out.
     pub fn of<'a>(words: impl Iterator<Item = &'a str>) -> Self {
         let mut options = Self::default();
         for word in words {

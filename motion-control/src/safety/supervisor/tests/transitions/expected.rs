@@ -1,13 +1,13 @@
-//! What a supervisor is expected to do: the table chooses its state, and its ticks and faults are
-//! counted here.
+//! The expected behaviour of a supervisor: the table chooses its state, and its ticks and faults
+//! are counted here.
 
 use std::hash::{Hash, Hasher};
 
 use super::*;
 
-/// What shows of a supervisor after an input: its state, its fault, the authority of the full law,
-/// whether it knows and has accepted positions and was stopped again during a stop, and its command
-/// with the brake.
+/// The visible result of a supervisor after an input: its state, its fault, the authority of the
+/// full law, whether it knows and has accepted positions and was stopped again during a stop, and
+/// its command with the brake.
 pub type Shown = (
     &'static str,
     Option<Fault>,

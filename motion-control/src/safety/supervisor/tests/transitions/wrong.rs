@@ -24,7 +24,7 @@ const STATES: [(Cell, State); 12] = [
 ];
 const OFF: State = State::Stopped { lowers: false };
 
-/// What a supervisor does by mistake in any state, and the cell in which it is found.
+/// A supervisor's mistake in any state, and the cell in which it is found.
 type Mistake = (Cell, fn(&One, Input, &mut One));
 const MISTAKES: [Mistake; 8] = [
     // Faults are never forgotten, or a tick early, or the first is not counted.

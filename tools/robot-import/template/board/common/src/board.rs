@@ -42,12 +42,12 @@ pub type Control<Spi, Pwm, Brake, D> =
 /// The age of its positions.
 pub type Age<Spi> = <Encoder<Spi> as EncoderType>::Age;
 
-/// What the board connects: a part of the bus for each encoder, a PWM channel for each drive.
+/// The connections of the board: a part of the bus for each encoder, a PWM channel for each drive.
 #[derive(Debug)]
 pub struct Devices<Spi, Pwm, Brake> {
     pub encoders: [Spi; N],
     pub drives: [Pwm; N],
-    /// High holds the joints.
+    /// A high level holds the joints.
     pub brake: Brake,
 }
 

@@ -11,7 +11,7 @@ use crate::board::{N, SetupError};
 /// Ticks on the brake from one list of positions to the next.
 const POSITIONS: u32 = 500;
 
-/// The last message.
+/// The last message of the log.
 pub struct Log {
     mode: Option<Mode>,
     fault: Option<Fault>,
@@ -29,7 +29,7 @@ impl Log {
         }
     }
 
-    /// After each tick.
+    /// Logs the changes since the tick before.
     pub fn tick(&mut self, telemetry: &Telemetry<N>) {
         let (mode, fault) = (telemetry.status.mode, telemetry.status.fault);
         if self.mode != Some(mode) || self.fault != fault {

@@ -1,4 +1,4 @@
-//! What is connected where: the one file with pins, clocks and timers.
+//! The connections: this is the one file with pins, clocks and timers.
 //!
 //! A line that ends in the number of a joint is that joint's own.
 
@@ -19,7 +19,7 @@ pub type Bus = Spi<SPI1>;
 /// The timers of the drives: of the joints 1 to 4, and of those behind them.
 pub type First = TIM1;
 pub type Second = TIM8; // joint 5
-/// High holds the joints.
+/// A high level holds the joints.
 pub type Brake = PB12<Output>;
 /// The blue button, to ground.
 pub type Button = PC13<Input>;

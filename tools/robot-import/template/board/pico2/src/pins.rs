@@ -1,4 +1,4 @@
-//! What is connected where: the one file with pins, buses and PWM slices.
+//! The connections: this is the one file with pins, buses and PWM slices.
 //!
 //! A line that ends in the number of a joint is that joint's own.
 

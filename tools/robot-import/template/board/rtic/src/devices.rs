@@ -66,7 +66,7 @@ pub fn encoders(bus: &'static AtomicCell<Bus>, selects: [AnyPin<Output>; N]) -> 
     })
 }
 
-/// The drives, without torque.
+/// The drives are set to no torque.
 #[inline(never)]
 pub fn drives(mut drives: [Channel; N]) -> [Channel; N] {
     for drive in &mut drives {

@@ -1,53 +1,21 @@
-//! Errors that the package `certification` proves of configurations for every state of the joints'
-//! box: beside the measured ones on the page, in their place for `--proven-error`.
+//! Errors that are proven for every state of the joints' box: beside the measured ones on the page,
+//! in their place for `--proven-error`.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use serde::Deserialize;
 
 use super::front;
 use super::point::{Kind, Point};
 use crate::kit::error::{Result, bail, refuse_if};
-use crate::kit::host_bin::{self, SIMULATED};
+use crate::kit::host_bin;
 use crate::kit::workspace::{self, Workspace};
-use crate::kit::{output, shell};
 
-/// The record, which `certify --hashes` compares with today's machine code.
+/// The record, which names the machine code that it is of.
 pub const FILE: &str = "docs/accuracy-proven.json";
 
-/// The box of states, as `certify` takes it.
-#[derive(clap::Args)]
-#[group(skip)]
-pub struct StateBox {
-    /// The greatest acceleration of each joint in the box, rad/s² or m/s²: 10 if not given
-    #[arg(long, value_name = "A", requires = "proven_error", conflicts_with_all = ["error", "cycles"])]
-    acceleration: Option<String>,
-    /// The greatest speed of joints whose description has none, rad/s or m/s
-    #[arg(long, value_name = "V", requires = "proven_error", conflicts_with_all = ["error", "cycles"])]
-    speed: Option<String>,
-    /// The greatest |q| of joints that slide and whose description has no limits, m
-    #[arg(long, value_name = "Q", requires = "proven_error", conflicts_with_all = ["error", "cycles"])]
-    range: Option<String>,
-    /// A narrower range of a joint, as `certify` takes it: 2:-1.5..1.5, 2:v:0.5 or 2:a:4
-    #[arg(long = "box", value_name = "RANGE", requires = "proven_error", conflicts_with_all = ["error", "cycles"])]
-    narrow: Vec<String>,
-}
-
-impl StateBox {
-    /// The words for `certify`.
-    pub fn words(&self) -> Vec<String> {
-        let [a, v, q] = [&self.acceleration, &self.speed, &self.range].map(Option::iter);
-        let one = |name: &'static str| move |value: &String| format!("--{name}={value}");
-        let ranges = self.narrow.iter().map(one("box"));
-        let magnitudes = a.map(one("acceleration")).chain(v.map(one("speed")));
-        magnitudes
-            .chain(q.map(one("range")))
-            .chain(ranges)
-            .collect()
-    }
-}
-
-/// What `certify --configurations` prints of a robot.
+/// What is proven of a robot, by the keys of configurations.
 #[derive(Debug, Default, Deserialize)]
 pub struct Proven {
     robot: String,
@@ -61,32 +29,17 @@ struct Joint {
     acceleration: f64,
 }
 
-/// What `certify --configurations` prints: of the robots of the page, or of those of these words.
-pub fn prove(workspace: &Workspace, words: &[String]) -> Result<String> {
-    output::note("The errors of a hundred configurations are proven: this takes some minutes.");
-    let mut certify = SIMULATED.program(workspace, "certify")?;
-    shell::capture(certify.arg("--configurations").args(words))
+/// What a file has, or the record.
+pub fn read(workspace: &Workspace, file: Option<&Path>) -> Result<Vec<Proven>> {
+    let record = workspace.root.join(FILE);
+    host_bin::parsed(FILE, &workspace::read(file.unwrap_or(&record))?)
 }
 
-pub fn parsed(text: &str) -> Result<Vec<Proven>> {
-    host_bin::parsed("certify", text)
-}
-
-pub fn recorded(workspace: &Workspace) -> Result<Vec<Proven>> {
-    parsed(&workspace::read(&workspace.root.join(FILE))?)
-}
-
-/// Gives points the proven errors of their robots. How the code is optimised changes no number.
+/// Gives points the proven errors of their robots.
 pub fn attach(all: &[Proven], points: &mut [Point]) {
     for point in points.iter_mut().filter(|one| one.kind == Kind::Inverse) {
-        let axes = point.key.split(',');
-        let axes: Vec<&str> = axes.filter(|axis| !axis.starts_with("opt=")).collect();
-        let key = match &*axes.join(",") {
-            "" => "default".to_owned(),
-            key => key.to_owned(),
-        };
         let of = Proven::of(all, &point.robot);
-        point.proven = of.and_then(|one| one.proven.get(&key).copied());
+        point.proven = of.and_then(|one| one.proven.get(&point.key).copied());
     }
 }
 
@@ -126,7 +79,7 @@ pub fn chosen(all: &[Proven], mut points: Vec<Point>) -> Result<(Vec<Point>, Str
     else {
         bail!("nothing is proven of these configurations");
     };
-    let note = of.note(", or what --box gives,");
+    let note = of.note();
     front::mark(&mut points);
     Ok((points, note))
 }
@@ -138,7 +91,7 @@ impl Proven {
     }
 
     /// The states that errors are proven for, and what has no proven error.
-    pub fn note(&self, narrower: &str) -> String {
+    pub fn note(&self) -> String {
         let left_out = self.left_out.iter();
         let left_out: Vec<String> = left_out
             .map(|(what, why)| format!("{what} ({why})"))
@@ -146,7 +99,7 @@ impl Proven {
         let accelerations = self.joints.iter().map(|joint| joint.acceleration);
         let most = accelerations.fold(0.0, f64::max);
         format!(
-            "Errors are proven for every state of the joints' box: limits, rated speeds{narrower} and accelerations up to {most} rad/s². Nothing \
+            "Errors are proven for every state of the joints' box: limits, rated speeds and accelerations up to {most} rad/s². Nothing \
              is proven of {}.",
             left_out.join("; ")
         )
@@ -155,21 +108,13 @@ impl Proven {
 
 #[cfg(test)]
 mod tests {
-    use clap::Parser as _;
-
     use super::super::choice::{Allowed, Budget};
     use super::super::front::tests::point;
     use super::super::point::{Kind, Point};
-    use super::super::{Args, recorded};
+    use super::super::recorded;
     use super::{Joint, Proven, attach, check, chosen};
     use crate::kit::docs::repository::root;
     use crate::kit::workspace::Workspace;
-
-    #[derive(clap::Parser)]
-    struct Line {
-        #[command(flatten)]
-        args: Args,
-    }
 
     fn proven() -> [Proven; 1] {
         let bounds = [
@@ -185,10 +130,9 @@ mod tests {
         }]
     }
 
-    fn measured() -> [Point; 5] {
+    fn measured() -> [Point; 4] {
         [
             point("default", 1e-5, 1000, 1000.0),
-            point("opt=s", 1e-5, 950, 950.0),
             point("trig=table", 1e-3, 900, 900.0),
             point("rate=10", 1e-6, 100, 100.0),
             point("model=gravity", 10.0, 300, 300.0),
@@ -207,14 +151,14 @@ mod tests {
                 .map(|point| (point.key.clone(), point.error()))
         };
         // Measured the table would do, and so would every tenth tick.
-        assert!(chosen(0.01).is_ok_and(|chosen| chosen == ("opt=s".to_owned(), 1e-4)));
+        assert!(chosen(0.01).is_ok_and(|chosen| chosen == ("default".to_owned(), 1e-4)));
         assert!(chosen(0.05).is_ok_and(|chosen| chosen == ("trig=table".to_owned(), 0.02)));
         assert!(
             chosen(1e-5).is_err(),
             "less than what is proven of the default"
         );
         assert!(note.contains("up to 12 rad/s²") && note.contains("reduced rates (a path)"));
-        assert!(super::chosen(&proven(), measured()[3..4].to_vec()).is_err());
+        assert!(super::chosen(&proven(), measured()[2..3].to_vec()).is_err());
         assert!(super::chosen(&[], measured().into()).is_err());
     }
 
@@ -232,24 +176,5 @@ mod tests {
         let mut points = measured();
         attach(&[], &mut points);
         assert!(check(&points).is_err(), "nothing is proven");
-    }
-
-    #[test]
-    fn the_box_is_passed_to_certify_with_a_proven_error_alone() {
-        let words = |line: &str| {
-            let words = ["accuracy"].into_iter().chain(line.split(' '));
-            let parsed = Line::try_parse_from(words);
-            parsed.map(|line| line.args.state_box.words()).ok()
-        };
-        let given = words(
-            "--robot ur5e --proven-error 0.01Nm --acceleration 4 --box 2:-1.5..1.5 --box 2:v:0.5",
-        );
-        let given = given.expect("options of certify");
-        assert_eq!(
-            given,
-            ["--acceleration=4", "--box=2:-1.5..1.5", "--box=2:v:0.5"]
-        );
-        assert_eq!(words("--robot ur5e --error 0.01Nm --acceleration 4"), None);
-        assert_eq!(words("--robot ur5e --prove"), None);
     }
 }

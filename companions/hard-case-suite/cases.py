@@ -110,198 +110,121 @@ def existing():
         number, name, title, reason, links, states, **more
     )
     yield plain(
-        1,
-        "tip-heavy",
-        "UR5e, last link × 10⁶",
-        "M is ill-conditioned where a heavy body is outward of light ones.",
-        scaled(ur5e(), 5, 1e6),
+        1, "tip-heavy", "UR5e, last link × 10⁶", "M is ill-conditioned where a heavy body is outward of light ones.",
+        scaled(ur5e(), 5, 1e6)
     )
     yield plain(
-        2,
-        "tip-light",
-        "UR5e, last link × 10⁻⁶",
-        "An absolute lower bound on pivots treats the last link as much heavier than it is.",
-        scaled(ur5e(), 5, 1e-6),
+        2, "tip-light", "UR5e, last link × 10⁻⁶",
+        "An absolute lower bound on pivots treats the last link as much heavier than it is.", scaled(ur5e(), 5, 1e-6)
     )
     yield plain(
-        3,
-        "base-heavy",
-        "UR5e, first link × 10⁶",
-        "One row and column of M is 10⁶ times the others.",
-        scaled(ur5e(), 0, 1e6),
+        3, "base-heavy", "UR5e, first link × 10⁶", "One row and column of M is 10⁶ times the others.",
+        scaled(ur5e(), 0, 1e6)
     )
     yield plain(
-        4,
-        "massless-wrist",
-        "UR5e, first two wrist links without mass",
+        4, "massless-wrist", "UR5e, first two wrist links without mass",
         "Division by the inertia of a single link fails; only that of all that a joint moves counts.",
-        scaled(scaled(ur5e(), 3, 0), 4, 0),
+        scaled(scaled(ur5e(), 3, 0), 4, 0)
     )
     yield plain(
-        5,
-        "massless-tip",
-        "UR5e, last link without mass",
+        5, "massless-tip", "UR5e, last link without mass",
         "M is singular: inverse dynamics exists, forward dynamics does not and is to be refused.",
-        scaled(ur5e(), 5, 0),
+        scaled(ur5e(), 5, 0)
     )
     for power in (-8, -6, -4, -2):
         yield plain(
-            6,
-            f"armature-1e{power}",
-            f"UR5e, last link without mass on a rotor of 1e{power} kg·m²",
+            6, f"armature-1e{power}", f"UR5e, last link without mass on a rotor of 1e{power} kg·m²",
             "The armature alone makes M regular; its size is of scaling only.",
-            changed(scaled(ur5e(), 5, 0), 5, armature=single(10.0**power)),
+            changed(scaled(ur5e(), 5, 0), 5, armature=single(10.0**power))
         )
     for number, n in ((7, 8), (8, 16), (9, 32), (10, 64)):
         yield plain(
-            number,
-            "straight",
-            f"chain of {n} rods, stretched",
-            "The condition of M grows as n⁴.",
-            chain([1.0] * n, 0.25, False),
-            drawn(n, number, 2, True),
+            number, "straight", f"chain of {n} rods, stretched", "The condition of M grows as n⁴.",
+            chain([1.0] * n, 0.25, False), drawn(n, number, 2, True)
         )
         yield plain(
-            number,
-            "random",
-            f"chain of {n} rods in space",
-            "Roundings add up along the chain.",
-            chain([1.0] * n, 0.25, True),
-            drawn(n, number, 2),
+            number, "random", f"chain of {n} rods in space", "Roundings add up along the chain.",
+            chain([1.0] * n, 0.25, True), drawn(n, number, 2)
         )
     turn = single(math.radians(75))
     yield plain(
-        11,
-        "zigzag",
-        "six rods folded at ±75°",
-        "A folded chain has a condition of 725.",
+        11, "zigzag", "six rods folded at ±75°", "A folded chain has a condition of 725.",
         [rod(i, 1.0, 1.0) for i in range(6)],
-        at([[turn * (-1) ** i for i in range(6)], [-turn * (-1) ** i for i in range(6)]]),
+        at([[turn * (-1) ** i for i in range(6)], [-turn * (-1) ** i for i in range(6)]])
     )
     yield plain(
-        12,
-        "light-links",
-        "1 kg on ten links of 1 g",
+        12, "light-links", "1 kg on ten links of 1 g",
         "The pivots of the light links are what remains after the share of the heavy one is subtracted.",
-        chain([1e-3] * 10 + [1.0], 0.1, True),
-        drawn(11, 12),
+        chain([1e-3] * 10 + [1.0], 0.1, True), drawn(11, 12)
     )
     yield plain(
-        13,
-        "far-base",
-        "UR5e, its base 10⁴ m off",
-        "In coordinates of the world every inertia is dominated by m r².",
-        changed(ur5e(), 0, translation=[1e4, -1e4, 1e4]),
+        13, "far-base", "UR5e, its base 10⁴ m off", "In coordinates of the world every inertia is dominated by m r².",
+        changed(ur5e(), 0, translation=[1e4, -1e4, 1e4])
     )
     slide = link(-1, X, (1e4, 0, 0), None, 50.0, (0, 0, 0.1), (1, 0, 0, 1, 0, 1), joint="prismatic")
     on_slide = [slide] + [dict(one, parent=one["parent"] + 1) for one in ur5e()]
     strokes = [([single(q[0] * 1e-3)] + q[1:], qd, qdd) for q, qd, qdd in drawn(7, 14)]
     yield plain(
-        14,
-        "far-slide",
-        "UR5e on a slide 10⁴ m out, stroke of mm",
-        "If the offset is added to the coordinate, f32 keeps no mm of it.",
-        on_slide,
-        strokes,
+        14, "far-slide", "UR5e on a slide 10⁴ m out, stroke of mm",
+        "If the offset is added to the coordinate, f32 keeps no mm of it.", on_slide, strokes
     )
     yield plain(
-        15,
-        "fast",
-        "UR5e at 1000 rad/s",
-        "Products of speeds exceed all else by 10⁵.",
-        ur5e(),
-        moved(None, lambda k, i, x: math.copysign(1e3, x), lambda k, i, x: x * 1e5),
+        15, "fast", "UR5e at 1000 rad/s", "Products of speeds exceed all else by 10⁵.", ur5e(),
+        moved(None, lambda k, i, x: math.copysign(1e3, x), lambda k, i, x: x * 1e5)
     )
     yield plain(
-        16,
-        "remainders",
-        "UR5e, what is left of a million rad",
-        "Angles counted in integers leave small remainders.",
-        ur5e(),
-        moved(lambda k, i, x: remainder(k, i)),
+        16, "remainders", "UR5e, what is left of a million rad", "Angles counted in integers leave small remainders.",
+        ur5e(), moved(lambda k, i, x: remainder(k, i))
     )
     turns = [[1, -1, 2, -3, 0, 5], [-2, 3, 1, 4, -1, -4]]
     yield plain(
-        17,
-        "quarter-turns",
-        "UR5e at quarter turns ± 1 ulp",
-        "A sine that is to be near 0 is lost if π/2 is reduced with too few digits.",
-        ur5e(),
-        beside([[k * math.pi / 2 for k in row] for row in turns]),
+        17, "quarter-turns", "UR5e at quarter turns ± 1 ulp",
+        "A sine that is to be near 0 is lost if π/2 is reduced with too few digits.", ur5e(),
+        beside([[k * math.pi / 2 for k in row] for row in turns])
     )
     coincident = changed(scaled(ur5e(), 4, 0), 5, rotation=quarters(0), translation=[0.0, 0.0, 0.25])
     yield plain(
-        20,
-        "coincident",
-        "UR5e, last two axes on one line, no mass between",
-        "M is singular in every state.",
-        coincident,
+        20, "coincident", "UR5e, last two axes on one line, no mass between", "M is singular in every state.",
+        coincident
     )
     yield plain(
-        21,
-        "parallel",
-        "six rods on parallel axes",
-        "All terms across the plane are to cancel.",
-        [rod(i, 1.0, 1.0) for i in range(6)],
+        21, "parallel", "six rods on parallel axes", "All terms across the plane are to cancel.",
+        [rod(i, 1.0, 1.0) for i in range(6)]
     )
     x, y = 1.8694e-4, 1.8908e-4
     yield plain(
-        22,
-        "fat",
-        "UR5e, last link against the triangle inequality",
+        22, "fat", "UR5e, last link against the triangle inequality",
         "Published inertias break it by 8.7 %, and dynamics exist all the same.",
-        changed(ur5e(), 5, inertia=[single(v) for v in (x, 0, 0, y, 0, (x + y) / (1 - 0.087))]),
+        changed(ur5e(), 5, inertia=[single(v) for v in (x, 0, 0, y, 0, (x + y) / (1 - 0.087))])
     )
     yield plain(22, "points", "six point masses", "Inertias about the centres of mass are zero.", points())
     at_rest = [(q, still(6), still(6)) for q, _, _ in COMMON]
     yield plain(
-        30,
-        "at-rest",
-        "UR5e at rest without gravity",
-        "Every answer is to be exactly zero.",
-        ur5e(),
-        at_rest,
-        gravity=[0.0, 0.0, 0.0],
+        30, "at-rest", "UR5e at rest without gravity", "Every answer is to be exactly zero.", ur5e(), at_rest,
+        gravity=[0.0, 0.0, 0.0]
     )
     yield plain(
-        42,
-        "tiny",
-        "UR5e of 2⁻⁴ the length and 17 g",
-        "Absolute thresholds do not suit a finger.",
-        sized(ur5e(), 1 / 16, 1 / 1024),
-        paced(4.0),
+        42, "tiny", "UR5e of 2⁻⁴ the length and 17 g", "Absolute thresholds do not suit a finger.",
+        sized(ur5e(), 1 / 16, 1 / 1024), paced(4.0)
     )
     yield plain(
-        42,
-        "giant",
-        "UR5e of 2⁴ the length and 9 t",
-        "Absolute thresholds do not suit an excavator.",
-        sized(ur5e(), 16.0, 512.0),
-        paced(0.25),
+        42, "giant", "UR5e of 2⁴ the length and 9 t", "Absolute thresholds do not suit an excavator.",
+        sized(ur5e(), 16.0, 512.0), paced(0.25)
     )
     yield plain(
-        44,
-        "on-a-wall",
-        "UR5e on a wall",
-        "Gravity is along no axis of the base.",
-        changed(ur5e(), 0, rotation=quarters(1)),
+        44, "on-a-wall", "UR5e on a wall", "Gravity is along no axis of the base.",
+        changed(ur5e(), 0, rotation=quarters(1))
     )
     yield plain(45, "tree", "a tree of six bodies", "A trunk that forks twice.", tree([0, 1, 2, 3, 4, 5]))
     yield plain(
-        45,
-        "renumbered",
-        "the same tree, numbered otherwise",
-        "The order of the bodies is to have no part in the answer.",
-        tree([0, 2, 1, 4, 5, 3]),
-        [tuple([row[k] for k in [0, 2, 1, 4, 5, 3]] for row in state) for state in COMMON],
+        45, "renumbered", "the same tree, numbered otherwise",
+        "The order of the bodies is to have no part in the answer.", tree([0, 2, 1, 4, 5, 3]),
+        [tuple([row[k] for k in [0, 2, 1, 4, 5, 3]] for row in state) for state in COMMON]
     )
     for name, mass in (("none", 0.0), ("tenth", 1.77), ("one", 17.7), ("ten", 177.0)):
         yield plain(
-            46,
-            f"payload-{name}",
-            f"UR5e with a payload of {mass} kg",
-            "The last body may outweigh the arm ten times.",
-            loaded(mass),
+            46, f"payload-{name}", f"UR5e with a payload of {mass} kg",
+            "The last body may outweigh the arm ten times.", loaded(mass)
         )
     yield plain(48, "general", "six links without a zero", "No axis, placement or inertia is simple.", general())
 

@@ -1,26 +1,62 @@
-"""Runs the suite in f64 through another library, and prints who passes what.
+"""Runs the suite in f64 through Pinocchio, and prints who passes what.
 
-    python host-tests/suite/run.py --library pinocchio dynibo mujoco [--write]
+    python companions/hard-case-suite/run.py [--write]
 
-needs `pip install pin mujoco dynibo`. The columns of this library are from its test, by cargo. --write replaces the table of the
-README. Every other library needs a class as in libraries.py.
+needs `pip install pin`. The columns of this library are from its test, by cargo. --write replaces the table of results.md. Another
+library needs a class as this one's.
 """
 
-import argparse
 import json
 import math
 import os
 import re
 import subprocess
+import sys
 from decimal import Decimal
 from pathlib import Path
 
 import numpy as np
-from libraries import LIBRARIES, NotAsked
+import pinocchio as pin
 
 HERE = Path(__file__).parent
 BEGIN, END = "<!-- suite:begin -->\n", "<!-- suite:end -->\n"
 QUANTITIES = ("tau", "M", "qdd")
+
+
+class Pinocchio:
+    """Featherstone's algorithms in link coordinates: rnea, crba and aba."""
+
+    def __init__(self, links, gravity):
+        self.model = pin.Model()
+        self.model.gravity.linear = np.array(gravity)
+        ids = {-1: 0}
+        for i, link in enumerate(links):
+            place = pin.SE3(np.array(link["rotation"]), np.array(link["translation"]))
+            ids[i] = self.model.addJoint(ids[link["parent"]], self.joint(link), place, f"joint{i}")
+            xx, xy, xz, yy, yz, zz = link["inertia"]
+            about = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+            load = pin.Inertia(link["mass"], np.array(link["com"]), about)
+            self.model.appendBodyToJoint(ids[i], load, pin.SE3.Identity())
+        self.model.armature = np.array([link["armature"] for link in links])
+        self.data = self.model.createData()
+
+    def joint(self, link):
+        slides = link["joint"] == "prismatic"
+        for letter, along in zip("XYZ", np.eye(3)):
+            if np.array_equal(link["axis"], along):
+                return getattr(pin, f"JointModel{'P' if slides else 'R'}{letter}")()
+        name = "JointModelPrismaticUnaligned" if slides else "JointModelRevoluteUnaligned"
+        return getattr(pin, name)(np.array(link["axis"]))
+
+    def tau(self, q, qd, qdd):
+        return pin.rnea(self.model, self.data, q, qd, qdd).copy()
+
+    def matrix(self, q):
+        upper = np.triu(pin.crba(self.model, self.data, q))
+        return upper + np.triu(upper, 1).T
+
+    def qdd(self, q, qd, tau):
+        return pin.aba(self.model, self.data, q, qd, tau).copy()
 
 
 def depth_first(links):
@@ -50,17 +86,12 @@ def share(found, truth, scale, bound, underflow):
     return worst
 
 
-def run(library, case):
+def run(case):
     """For each quantity the share of the bound, or a word."""
     links, order = depth_first(case["robot"]["links"])
     bound = case["bound"]["f64"]
     underflow = case["bound"]["underflow"]["f64"]
-    try:
-        robot = library(links, case["robot"]["gravity"])
-    except NotAsked:
-        return {name: "not asked" for name in QUANTITIES}
-    except ValueError:
-        return {name: "model refused" for name in QUANTITIES}
+    robot = Pinocchio(links, case["robot"]["gravity"])
     results = {name: 0.0 for name in QUANTITIES}
     back = np.argsort(order)
     for state, answer, scale in zip(case["states"], case["answers"], case["bound"]["scales"]):
@@ -85,7 +116,7 @@ def run(library, case):
 
 def own(cases):
     """This library's shares in f64, from its test."""
-    command = ["cargo", "test", "-p", "hard-cases", "--", "suite::every_case", "--nocapture"]
+    command = ["cargo", "test", "--", "every_case", "--nocapture"]
     printed = subprocess.run(
         command, cwd=HERE, env=os.environ | {"SUITE_SHOW": "1"}, capture_output=True, text=True, check=True
     ).stdout
@@ -112,7 +143,7 @@ def passes(x):
 
 def shown(x):
     if isinstance(x, str):
-        return x if passes(x) or x == "not asked" else f"**{x}**"
+        return x if passes(x) else f"**{x}**"
     text = "not finite" if math.isinf(x) else f"{x:.2f}" if x < 100 else f"{x:.1e}"
     return text if passes(x) else f"**{text}**"
 
@@ -127,28 +158,21 @@ def table(cases, columns):
     counts = []
     for results in columns.values():
         for name in QUANTITIES:
-            asked = [r[name] for r in results if r[name] not in ("", "not asked")]
+            asked = [r[name] for r in results if r[name] != ""]
             counts.append(f"{sum(map(passes, asked))} of {len(asked)}")
     rows.append(" | ".join(["passed", *counts]))
     return "".join(f"| {row} |\n" for row in rows)
 
 
 def main():
-    arguments = argparse.ArgumentParser()
-    arguments.add_argument("--library", nargs="+", choices=LIBRARIES, required=True)
-    arguments.add_argument("--write", action="store_true")
-    given = arguments.parse_args()
     cases = [json.loads(path.read_text()) for path in sorted((HERE / "cases").glob("*.json"))]
-    columns = {"this library": own(cases)} if given.write else {}
-    for name in given.library:
-        library = LIBRARIES[name]
-        columns[library.version()] = [run(library, case) for case in cases]
+    columns = {"this library": own(cases), f"Pinocchio {pin.__version__}": [run(case) for case in cases]}
     text = table(cases, columns)
     print(text)
-    if given.write:
-        page = (HERE / "README.md").read_text()
+    if "--write" in sys.argv:
+        page = (HERE / "results.md").read_text()
         before, after = page.split(BEGIN)[0], page.split(END)[1]
-        (HERE / "README.md").write_text(f"{before}{BEGIN}{text}{END}{after}")
+        (HERE / "results.md").write_text(f"{before}{BEGIN}{text}{END}{after}")
 
 
 if __name__ == "__main__":

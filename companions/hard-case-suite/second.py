@@ -1,6 +1,6 @@
-"""Compares the answers of the suite with a second computation in many digits, that of oracle/hard.py.
+"""Compares the answers of the suite with a second computation in many digits, that of host-tests/oracle/hard.py.
 
-    python host-tests/suite/second.py
+    python companions/hard-case-suite/second.py
 
 It shares no line with dynamics.py: bodies are followed in base coordinates, all moments about the base's origin. Prints the
 largest difference of each case, relative to the scale of its bound; more than 10⁻⁴⁵ is an error.
@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent / "oracle"))
+sys.path.insert(0, str(HERE.parents[1] / "host-tests/oracle"))
 
 import hard  # noqa: E402
 from mpmath import mp, mpf  # noqa: E402

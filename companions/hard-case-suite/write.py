@@ -1,7 +1,7 @@
 """Writes the suite as data: cases/NUMBER-NAME.json, one robot each, with answers of 50 digits.
 
-python host-tests/suite/write.py            # writes all cases
-python host-tests/suite/write.py --check    # says whether the files are those of the scripts
+python companions/hard-case-suite/write.py            # writes all cases
+python companions/hard-case-suite/write.py --check    # says whether the files are those of the scripts
 """
 
 import json

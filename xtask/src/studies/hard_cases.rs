@@ -127,12 +127,12 @@ fn summary(suite: &Suite) -> String {
     )
 }
 
-/// The page with the figures that are known to be beyond the bounds of the suite, and the first
-/// words of their row.
+/// The page with the figures that are known to be beyond their bounds, and the first words of
+/// their row.
 const DECISION: &str = "docs/decisions/0002-bars.md";
-const KNOWN: &str = "`aba` in f32, case 87 of the [suite]";
+const KNOWN: &str = "`aba` in f32, case 87,";
 
-/// The reason of the figure of the suite that the page to try shows beyond its bound.
+/// The reason of the figure that is beyond its bound.
 fn known(workspace: &Workspace) -> Result<String> {
     let page = workspace::read(&workspace.root.join(DECISION))?;
     let mut rows = page.lines().filter_map(cells);
@@ -146,8 +146,8 @@ fn brief(suite: &Suite, known: &str) -> String {
     let count = |verdict: &str| suite.rows.iter().filter(|r| r.verdict == verdict).count();
     format!(
         "{} cases in f32 and f64, against computations in 50 digits and closed forms: {} figures are within their bounds, {} beyond,\n\
-         and {} naive methods are shown to fail ([each case](docs/hard-cases.md)). The page to try shows one figure of its\n\
-         [suite](host-tests/suite/README.md) of files beyond its bound, `aba` of case 87 in f32: {known} ([decision 2]({DECISION})).",
+         and {} naive methods are shown to fail ([each case](docs/hard-cases.md)). One figure of a further case\n\
+         is beyond its bound, `aba` of case 87 in f32: {known} ([decision 2]({DECISION})).",
         suite.cases.len(),
         count("pass"),
         count("fail"),

@@ -101,7 +101,7 @@ fn wishes(readme: &str) -> Result<String> {
          2. [What is each effect worth?](#what-each-effect-is-worth-and-what-it-costs) The tracking error of a UR5e is {},\n   \
          and {}.\n\
          3. [Do hard cases stay stable?](#hard-cases-stay-stable) {}\n   \
-         and naive methods are shown to fail. One figure of the suite of files is beyond its bound, with its reason below.",
+         and naive methods are shown to fail. One figure of a further case is beyond its bound, with its reason below.",
         all[3], all[1], pruned[3], pruned[1], gravity?, coriolis?, hard
     ))
 }

@@ -1,6 +1,6 @@
 //! This library passes the suite that it gives to others, and the suite notices a wrong answer.
 
-use hard_cases::suite::{Shares, SuiteCase, all};
+use hard_case_suite::{Shares, SuiteCase, all};
 
 /// Articulated bodies in f32 lose a digit beside a rotor at 20 000 rad/s, where `forward_dynamics`
 /// does not: they carry its acceleration across its axis, of 10⁵ rad/s², through the elimination.

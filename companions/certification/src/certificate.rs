@@ -3,7 +3,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::bodies;
 use crate::bound::{Bounder, Enclosure, SineErrors};
@@ -40,7 +40,7 @@ pub struct Spent {
 const PATH_PARTS: usize = 20_000;
 
 /// A certificate.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Certificate {
     /// The robot's name.
     pub robot: String,
@@ -63,10 +63,9 @@ pub struct Certificate {
     /// What holds of each output.
     pub outputs: Vec<Output>,
     /// What a call takes on the target.
-    #[serde(default)]
     pub target: Option<Target>,
     /// Of forward dynamics, of which the outputs are the biases and the inertia matrix.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub forward: Option<Forward>,
 }
 

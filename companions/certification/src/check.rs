@@ -3,7 +3,7 @@
 use sha2::{Digest, Sha256};
 
 use crate::bound::{Bounder, Enclosure, SineErrors};
-use crate::certificate::{Certificate, Subject};
+use crate::certificate::Subject;
 use crate::digits;
 use crate::error::{Error, Result};
 use crate::function::Function;
@@ -134,55 +134,6 @@ pub fn hash_of(page: &str, robot: &str, function: Function, hash: &str) -> Resul
             Err(Error::Stale(what))
         }
     }
-}
-
-/// Has Gappa, and Coq if wanted, check a part of the box around the worst state of each output: its
-/// bound must hold there, and be no less than what was observed.
-///
-/// # Errors
-/// [`Error::Program`] if Gappa rejects a part, [`Error::Contradicted`].
-pub fn by_gappa(
-    image: &Image,
-    function: Function,
-    robot: &Robot,
-    sines: SineErrors,
-    of: &Certificate,
-    share: f64,
-    coq: bool,
-) -> Result<()> {
-    let graph = Subject::of(image, function)?.graph;
-    for (number, output) in of
-        .outputs
-        .iter()
-        .enumerate()
-        .filter(|(_, output)| output.observed > 0.0)
-    {
-        let Some(mut bounder) = Bounder::new(&graph, number, robot, sines, Enclosure::Plain) else {
-            continue;
-        };
-        let bound = bounder
-            .bound(&around(&output.state, &robot.whole(), share))
-            .total();
-        if bound < output.observed {
-            return Err(Error::Contradicted {
-                output: number + 1,
-                bound,
-                observed: output.observed,
-            });
-        }
-        let script = gappa::script(&bounder).bounded(&bounder, bound);
-        if !script.is_proven()? || coq && !script.is_checked_by_coq()? {
-            let said = format!(
-                "a part around the worst state of joint {} of {} is not proven",
-                output.name, of.robot
-            );
-            return Err(Error::Program {
-                program: if coq { "gappa or coqc" } else { "gappa" }.to_owned(),
-                said,
-            });
-        }
-    }
-    Ok(())
 }
 
 /// Has Gappa and Coq check a part of the box of one result of a function, drawn at random, and

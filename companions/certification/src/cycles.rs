@@ -76,34 +76,6 @@ pub enum Declined {
     },
 }
 
-impl Declined {
-    /// The address of what has no bound.
-    pub fn at(self) -> u32 {
-        match self {
-            Self::Loop { at }
-            | Self::IndirectJump { at }
-            | Self::IndirectCall { at }
-            | Self::UnknownInstruction { at }
-            | Self::Recursion { at }
-            | Self::StackPointer { at }
-            | Self::TooLong { at } => at,
-        }
-    }
-
-    /// Its name in JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Loop { .. } => "loop",
-            Self::IndirectJump { .. } => "indirect_jump",
-            Self::IndirectCall { .. } => "indirect_call",
-            Self::UnknownInstruction { .. } => "unknown_instruction",
-            Self::Recursion { .. } => "recursion",
-            Self::StackPointer { .. } => "stack_pointer",
-            Self::TooLong { .. } => "too_long",
-        }
-    }
-}
-
 type Result<T> = std::result::Result<T, Declined>;
 
 /// The most cycles of a measured region, and the branches on data in it, of which both ways were

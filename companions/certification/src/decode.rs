@@ -94,39 +94,6 @@ pub enum Instruction {
     Upper { d: u8, value: u32 },
     /// d = m
     Move { d: u8, m: u8 },
-    /// One word between t and n + offset; n may be the program counter.
-    Word {
-        t: u8,
-        n: u8,
-        offset: i32,
-        load: bool,
-    },
-    /// Words between registers, a bit each, and n upward; `before` n of a store that decrements.
-    /// Whether n moves.
-    Words {
-        n: u8,
-        registers: u16,
-        load: bool,
-        down: bool,
-        writes_back: bool,
-    },
-    /// Words of the floating-point registers from `first` on.
-    Reals {
-        first: u8,
-        count: u8,
-        n: u8,
-        offset: i32,
-        load: bool,
-    },
-    /// The same at n, which moves.
-    RealsMoving {
-        first: u8,
-        count: u8,
-        n: u8,
-        load: bool,
-        down: bool,
-        writes_back: bool,
-    },
     /// d = n op m
     Arithmetic { op: Arithmetic, d: u8, n: u8, m: u8 },
     /// d = −m
@@ -176,8 +143,32 @@ pub enum Instruction {
     /// TBB, TBH: branches forward by twice entry m of the table at n, whose entries are bytes or
     /// halfwords.
     TableBranch { n: u8, m: u8, shift: u8 },
-    /// Memory of any size at n + offset.
+    /// Memory of any size at n + offset; n may be the program counter.
     Access(Access),
+    /// Words of several registers.
+    Several(Several),
+}
+
+/// Loads or stores of words that follow each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Several {
+    /// A bit for each, in their order: those of the core, then those of the floating-point unit.
+    pub registers: u64,
+    /// The base.
+    pub n: u8,
+    /// The lowest address, from the base on.
+    pub offset: i32,
+    /// What is added to the base, afterwards.
+    pub moves: i32,
+    /// From memory.
+    pub load: bool,
+}
+
+impl Several {
+    /// The registers, those of the floating-point unit from 16 on.
+    pub fn named(self) -> impl Iterator<Item = usize> {
+        (0..64).filter(move |register| self.registers >> register & 1 != 0)
+    }
 }
 
 /// A load or store.
@@ -251,7 +242,7 @@ fn expanded(code: u32) -> u32 {
 }
 
 fn of_core(name: &str, of: Operation) -> Option<Instruction> {
-    use Instruction::{Add, Address, Constant, Sub, Word, Words};
+    use Instruction::{Add, Address, Constant, Sub};
     let (is, number) = (
         |name| of.field(name) == Some(1),
         |name| of.field(name).unwrap_or(0),
@@ -344,12 +335,6 @@ fn of_core(name: &str, of: Operation) -> Option<Instruction> {
             let shift = number("h") as u8;
             Instruction::TableBranch { n, m, shift }
         }
-        "ldr" | "str" => Word {
-            t,
-            n,
-            offset: constant as i32,
-            load,
-        },
         "ldm" | "stm" => {
             let mut registers = of.field("l").unwrap_or(1 << (t & 15)) as u16;
             // The ninth bit of PUSH and POP.
@@ -358,15 +343,10 @@ fn of_core(name: &str, of: Operation) -> Option<Instruction> {
                 registers = registers & 0xff | registers >> 8 << last;
             }
             let is_listed = load && registers >> n & 1 != 0;
-            Words {
-                n,
-                registers,
-                load,
-                down: is("b"),
-                writes_back: of.field("w").map_or(!is_listed, |w| w == 1),
-            }
+            let moves = of.field("w").map_or(!is_listed, |w| w == 1);
+            return several(of, registers.into(), moves, load);
         }
-        "load" | "store" if number("z") < 3 && (t != PC || of.field("e").is_some()) => {
+        "load" | "store" if number("z") < 3 && (t != PC || number("z") == 2) => {
             Instruction::Access(Access {
                 t,
                 second: register(of, "e"),
@@ -445,28 +425,36 @@ fn of_reals(name: &str, of: Operation) -> Option<Instruction> {
                 value: f32::from_bits(bits),
             }
         }
-        "vldr" | "vstr" => {
-            let bytes = 4 * number as i32;
-            Instruction::Reals {
-                first: d,
-                count: 1 + of.field("z").unwrap_or(0) as u8,
-                n: register(of, "n"),
-                offset: if of.field("u") == Some(1) {
-                    bytes
-                } else {
-                    -bytes
-                },
-                load,
-            }
+        "vldr" | "vstr" | "vldm" | "vstm" if number > 0 || name.ends_with('r') => {
+            let double = of.field("z").unwrap_or(0);
+            let count = match name.ends_with('r') {
+                true => 1 + double,
+                false => number << double,
+            };
+            // Those that are not there have no bits.
+            let is_there = u32::from(d) + count <= 32;
+            let registers = is_there.then(|| ((1 << count) - 1) << (16 + d))?;
+            return several(of, registers, of.field("w") == Some(1), load);
         }
-        "vldm" | "vstm" if number > 0 => Instruction::RealsMoving {
-            first: d,
-            count: (number << of.field("z").unwrap_or(0)) as u8,
-            n: register(of, "n"),
-            load,
-            down: of.field("b") == Some(1),
-            writes_back: of.field("w") == Some(1),
-        },
         _ => return None,
     })
+}
+
+/// These registers, upwards from the base or from the offset, or downwards to the base.
+fn several(of: Operation, registers: u64, is_moved: bool, load: bool) -> Option<Instruction> {
+    let bytes = 4 * registers.count_ones() as i32;
+    let distance = 4 * of.field("i").unwrap_or(0) as i32;
+    let (offset, moves) = match (of.field("b"), of.field("u")) {
+        (Some(1), _) => (-bytes, -bytes),
+        (_, Some(0)) => (-distance, 0),
+        (_, Some(_)) => (distance, 0),
+        _ => (0, bytes),
+    };
+    Some(Instruction::Several(Several {
+        registers,
+        n: register(of, "n"),
+        offset,
+        moves: if is_moved { moves } else { 0 },
+        load,
+    }))
 }

@@ -149,46 +149,12 @@ pub enum Error {
     Robot(String),
 }
 
-/// Why a range of `--box` is not taken.
+/// Why a range of `--box`, or a magnitude, is not taken.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum NarrowError {
-    /// It is no greatest magnitude.
-    #[error("{0} is no magnitude: a finite number that is not negative")]
-    Magnitude(String),
-    /// It is not written as one.
-    #[error(
-        "--box {0}: a range is JOINT:LOW..HIGH of its position, JOINT:v:MOST of its speed or JOINT:a:MOST of its acceleration"
-    )]
-    Syntax(String),
-    /// The robot has no such joint.
-    #[error("--box {option}: there is no joint {joint}, the robot has joints 1 to {joints}")]
-    NoJoint {
-        /// The option.
-        option: String,
-        /// From 1.
-        joint: usize,
-        /// Of the robot.
-        joints: usize,
-    },
-    /// It is not within the range that the description gives.
-    #[error("--box {option}: joint {joint} has the range {} to {}", range.low, range.high)]
-    Outside {
-        /// The option.
-        option: String,
-        /// From 1.
-        joint: usize,
-        /// That of the description.
-        range: Interval,
-    },
-    /// Its sines are computed for more turns than the range has.
-    #[error(
-        "--box {option}: the range of joint {joint} needs more than two turns on a side, as its description has"
-    )]
-    Turns {
-        /// The option.
-        option: String,
-        /// From 1.
-        joint: usize,
-    },
+#[error("{option}: {why}")]
+pub struct NarrowError {
+    /// As it was written.
+    pub option: String,
+    /// The reason.
+    pub why: String,
 }

@@ -9,10 +9,9 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::state::State;
 use firmware_demo::robots::FourBarLeg;
 
-use crate::bodies::{Body, Position, inertia_matrix};
+use crate::bodies::{Body, Moves, Position, Vector, cross, inertia_matrix, plus};
 use crate::error::Result;
 use crate::function::Function;
-use crate::links::Links;
 
 /// A function of a robot's model.
 #[derive(Clone, Debug)]
@@ -23,10 +22,7 @@ pub struct Exact {
 
 #[derive(Clone, Debug)]
 enum Model {
-    Tree {
-        links: Links,
-        bodies: Vec<Body>,
-    },
+    Tree(Vec<Body>),
     /// The value of `four_bar_leg`, the one robot with a kinematic loop.
     FourBar,
 }
@@ -38,17 +34,11 @@ impl Exact {
     /// The value of a function of a robot of these bodies; a robot with a kinematic loop has none.
     ///
     /// # Errors
-    /// [`Error::Robot`](crate::error::Error::Robot) of bodies that are not taken.
+    /// Those of the bodies.
     pub fn of(function: Function, bodies: impl FnOnce() -> Result<Vec<Body>>) -> Result<Self> {
         let model = match function {
             Function::Clustered => Model::FourBar,
-            _ => {
-                let bodies = bodies()?;
-                Model::Tree {
-                    links: Links::of(&bodies)?,
-                    bodies,
-                }
-            }
+            _ => Model::Tree(bodies()?),
         };
         Ok(Self { function, model })
     }
@@ -58,8 +48,8 @@ impl Exact {
     pub fn at(&self, state: &[f64], places: impl Iterator<Item = usize>) -> Vec<f64> {
         let n = state.len() / 3;
         let part = |i: usize| &state[i * n..(i + 1) * n];
-        let (links, bodies) = match &self.model {
-            Model::Tree { links, bodies } => (links, bodies),
+        let bodies = match &self.model {
+            Model::Tree(bodies) => bodies,
             Model::FourBar => {
                 let of = |i: usize| std::array::from_fn::<f64, N, _>(|k| part(i)[k]);
                 let y = State {
@@ -82,7 +72,7 @@ impl Exact {
         };
         let torques = match first {
             0 => Vec::new(),
-            _ => links.torques(part(0), qd, qdd),
+            _ => torques(bodies, part(0), qd, qdd),
         };
         let matrix = match first {
             usize::MAX => Vec::new(),
@@ -92,9 +82,70 @@ impl Exact {
             }
         };
         let result = |place: usize| match place.checked_sub(first) {
-            None => torques[place].iter().sum(),
+            None => torques[place],
             Some(entry) => matrix[(entry / n).max(entry % n)][(entry / n).min(entry % n)],
         };
         places.map(result).collect()
     }
+}
+
+/// The acceleration of gravity of the certified functions, m/s².
+const EARTH: f64 = 9.81;
+
+/// Inverse dynamics by Newton's and Euler's equations, each body in its own frame.
+pub fn torques(bodies: &[Body], q: &[f64], qd: &[f64], qdd: &[f64]) -> Vec<f64> {
+    let at: Vec<Position<f64>> = q.iter().map(|q| Position::at(*q)).collect();
+    let dot = |a: Vector<f64>, b: Vector<f64>| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let none = [0.0; 3];
+    // Of each body its angular velocity and acceleration, and the acceleration of its origin.
+    let mut moving: Vec<[Vector<f64>; 3]> = Vec::new();
+    let mut loads: Vec<[Vector<f64>; 2]> = Vec::new();
+    for body in bodies {
+        let base = [none, none, [0.0, 0.0, EARTH]];
+        let [w, dw, a] = body.parent.map_or(base, |parent| moving[parent]);
+        let r = body.origin(&at);
+        let a = plus(a, plus(cross(dw, r), cross(w, cross(w, r))));
+        let [mut w, mut dw, mut a] = [w, dw, a].map(|x| body.turned(body.placed(x), &at));
+        match body.moves {
+            Moves::Fixed => {}
+            Moves::Turns(joint) => {
+                dw = plus(
+                    plus(dw, [0.0, 0.0, qdd[joint]]),
+                    cross(w, [0.0, 0.0, qd[joint]]),
+                );
+                w[2] += qd[joint];
+            }
+            Moves::Slides(joint) => {
+                let coriolis = cross(w, [0.0, 0.0, 2.0 * qd[joint]]);
+                a = plus(plus(a, [0.0, 0.0, qdd[joint]]), coriolis);
+            }
+        }
+        let [mass, x, y, z, xx, xy, xz, yy, yz, zz] = body.inertia;
+        let first = [x, y, z];
+        let second =
+            |x: Vector<f64>| [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]].map(|row| dot(row, x));
+        let spin = plus(cross(dw, first), cross(w, cross(w, first)));
+        let force = plus(a.map(|a| a * mass), spin);
+        let moment = plus(second(dw), plus(cross(w, second(w)), cross(first, a)));
+        moving.push([w, dw, a]);
+        loads.push([force, moment]);
+    }
+    let mut torques = vec![0.0; q.len()];
+    for (k, body) in bodies.iter().enumerate().rev() {
+        let [force, moment] = loads[k];
+        match body.moves {
+            Moves::Fixed => {}
+            Moves::Turns(joint) => torques[joint] += moment[2],
+            Moves::Slides(joint) => torques[joint] += force[2],
+        }
+        if let Some(parent) = body.parent {
+            let [force, moment] = [force, moment].map(|x| body.unplaced(body.unturned(x, &at)));
+            let carried = plus(moment, cross(body.origin(&at), force));
+            loads[parent] = [
+                plus(loads[parent][0], force),
+                plus(loads[parent][1], carried),
+            ];
+        }
+    }
+    torques
 }

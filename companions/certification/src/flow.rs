@@ -67,9 +67,9 @@ impl Fetched {
     pub fn is_return(&self) -> bool {
         match self.decoded {
             Some(Instruction::BranchTo { m }) => m == LR,
-            Some(Instruction::Words {
-                n, registers, load, ..
-            }) => load && n == SP && registers >> PC & 1 != 0,
+            Some(Instruction::Several(one)) => {
+                one.load && one.n == SP && one.registers >> PC & 1 != 0
+            }
             _ => false,
         }
     }

@@ -30,10 +30,10 @@ use serde::{Deserialize, Serialize};
 use crate::bodies::{Body, Position, inertia_matrix};
 use crate::bound::{Bounder, Enclosure, SineErrors};
 use crate::error::{Error, Result};
+use crate::exact::torques;
 use crate::factors::{Factored, Noise};
 use crate::floor::{self, Floor};
 use crate::graph::Graph;
-use crate::links::Links;
 use crate::output::Output;
 use crate::search::{Effort, Evaluation, Observed, worst};
 use crate::state_box::Robot;
@@ -196,8 +196,7 @@ impl Forward {
     /// those that they need.
     ///
     /// # Errors
-    /// [`Error::Contradicted`] if an error is above its bound, [`Error::Robot`] of bodies that are
-    /// not taken.
+    /// [`Error::Contradicted`] if an error is above its bound.
     pub fn search(
         &mut self,
         code: &Graph,
@@ -207,7 +206,6 @@ impl Forward {
     ) -> Result<()> {
         let n = robot.joints.len();
         let mut exact = Exact {
-            links: Links::of(bodies)?,
             bodies,
             evaluation: Evaluation::new(code, robot),
         };
@@ -297,7 +295,6 @@ struct Trial {
 }
 
 struct Exact<'a> {
-    links: Links,
     bodies: &'a [Body],
     evaluation: Evaluation<'a>,
 }
@@ -308,8 +305,7 @@ impl Exact<'_> {
     fn at(&mut self, state: &[f64]) -> Option<Trial> {
         let n = state.len() / 3;
         let [q, qd, qdd] = [0, 1, 2].map(|i| &state[i * n..(i + 1) * n]);
-        let needed = self.links.torques(q, qd, qdd);
-        let needed: Vec<f64> = needed.iter().map(|row| row.iter().sum()).collect();
+        let needed = torques(self.bodies, q, qd, qdd);
         let given: Vec<f64> = needed.iter().map(|tau| f64::from(*tau as f32)).collect();
         let more: Vec<f64> = given.iter().zip(&needed).map(|(a, b)| a - b).collect();
         let at: Vec<Position<f64>> = q.iter().map(|q| Position::at(*q)).collect();

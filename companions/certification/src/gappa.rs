@@ -208,20 +208,6 @@ impl Script {
         }
         Ok(!self.proven.is_empty())
     }
-
-    /// Whether Coq accepts Gappa's proofs of all of them.
-    ///
-    /// # Errors
-    /// [`Error::Program`] if Gappa or Coq cannot be started, [`Error::File`].
-    pub fn is_checked_by_coq(&self) -> Result<bool> {
-        for text in self.texts() {
-            match proof(&text)? {
-                Some(proof) if is_checked_by_coq(&proof)? => {}
-                _ => return Ok(false),
-            }
-        }
-        Ok(!self.proven.is_empty())
-    }
 }
 
 /// Statements of a script.

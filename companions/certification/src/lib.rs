@@ -11,7 +11,7 @@
 //! | [`paths`] | that every state of the box takes the path that was followed at a branch |
 //! | [`bodies`], [`taylor`] | the robot's bodies, in numbers and over parts of the box |
 //! | [`floor`], [`peel`], `positive` | the least eigenvalue of the inertia matrix |
-//! | [`links`] | torques of the links in f64 |
+//! | [`exact`] | the functions that are proven, in f64 |
 //! | [`factors`], [`forward`] | that forward dynamics solves with factors of the inertia matrix, and its error relative to the condition of that |
 //! | [`configurations`] | the errors of other kernels of sines and of other models |
 //! | [`search`] | the worst error that is found |
@@ -19,8 +19,7 @@
 //! | [`gappa`], [`check`] | checks of it by others |
 //! | [`cycles`], `flow`, `machine`, `words` | the most cycles of a path, by the cycle meter's model |
 //! | [`stack`] | the most stack |
-//! | [`preconditions`] | what both hold for |
-//! | [`emulation`], `target`, [`sheet`], [`narrow`] | the functions in QEMU, a page of all of this, and boxes of one's own |
+//! | [`emulation`], [`target`], [`narrow`] | the functions in QEMU, and boxes of one's own |
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
@@ -48,7 +47,6 @@ pub mod graph;
 pub mod grid;
 pub mod image;
 pub mod interval;
-pub mod links;
 mod machine;
 pub mod narrow;
 mod output;
@@ -57,15 +55,13 @@ mod parts;
 pub mod paths;
 pub mod peel;
 mod positive;
-pub mod preconditions;
 pub mod program;
 pub mod roots;
 pub mod search;
-pub mod sheet;
 pub mod sines;
 pub mod stack;
 pub mod state_box;
-mod target;
+pub mod target;
 pub mod taylor;
 pub mod walk;
 mod words;

@@ -5,10 +5,12 @@ use std::collections::HashMap;
 
 use cycle_meter::{Class, Insn, Pipe};
 
-use crate::decode::{Access, Condition, Instruction, Integer, LR, NOWHERE, Operand, PC, SP};
+use crate::decode::{
+    Access, Condition, Instruction, Integer, LR, NOWHERE, Operand, PC, SP, Several,
+};
 use crate::flags;
 use crate::image::Image;
-use crate::words::{Names, STACK, Word, number, span};
+use crate::words::{Names, STACK, Word, number};
 
 /// What is known to lie at an address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -407,18 +409,8 @@ impl Machine {
                 None => return false,
             },
             I::Move { d, m } => self.set(d, self.core(m)),
-            I::Word { t, n, offset, load } => {
-                let base = if n == PC {
-                    number((here + 4) & !3)
-                } else {
-                    self.core(n)
-                };
-                self.word((names, image), (t, base.plus(offset as u32)), load, is_sure);
-            }
-            I::Access(access) => self.access((names, image), access, is_sure),
-            I::Words { .. } | I::Reals { .. } | I::RealsMoving { .. } => {
-                self.several((names, image), here, instruction, is_sure);
-            }
+            I::Access(access) => self.access((names, image), here, access, is_sure),
+            I::Several(one) => self.several((names, image), here, one, is_sure),
             I::Copy { d, m } => self.real[usize::from(d)] = self.real[usize::from(m)],
             I::Real { d, value } => self.real[usize::from(d)] = number(value.to_bits()),
             I::Transfer {
@@ -432,79 +424,44 @@ impl Machine {
         true
     }
 
+    fn base(&self, n: u8, here: u32) -> Word {
+        match n {
+            PC => number((here + 4) & !3),
+            n => self.core(n),
+        }
+    }
+
     /// Loads and stores of several registers, and of those of the floating-point unit.
     fn several(
         &mut self,
         (names, image): (&mut Names, &Image),
         here: u32,
-        instruction: Instruction,
+        one: Several,
         is_sure: bool,
     ) {
-        use Instruction as I;
-        match instruction {
-            I::Words {
-                n,
-                registers,
-                load,
-                down,
-                writes_back,
-            } => {
-                let named = (0..16).filter(|register| registers >> register & 1 != 0);
-                let base = self.core(n);
-                let (low, end) = span(base, registers.count_ones(), down);
-                let is_saved = n == SP && !load && down && writes_back;
-                if writes_back {
-                    self.set(n, end);
-                }
-                for (k, register) in (0..).zip(named) {
-                    let at = low.plus(4 * k);
-                    match (load, is_saved && is_sure) {
-                        (false, true) => self.store(at, self.core(register), true),
-                        _ => self.word((&mut *names, image), (register, at), load, is_sure),
+        let base = self.base(one.n, here);
+        if one.moves != 0 {
+            self.set(one.n, base.plus(one.moves as u32));
+        }
+        let is_saved = one.n == SP && !one.load && one.moves < 0;
+        for (k, register) in (0..).zip(one.named()) {
+            let at = base.plus(one.offset as u32).plus(4 * k);
+            let real = register.wrapping_sub(16);
+            let word = match self.real.get(real) {
+                Some(word) => *word,
+                None => self.core(register as u8),
+            };
+            match (one.load, is_sure) {
+                (true, _) => {
+                    let word = self.load((&mut *names, image), at);
+                    match self.real.get_mut(real) {
+                        Some(place) => *place = word,
+                        None => self.set(register as u8, word),
                     }
                 }
+                (false, true) => self.store(at, word, is_saved),
+                (false, false) => self.may_store(at, word),
             }
-            I::Reals {
-                first,
-                count,
-                n,
-                offset,
-                load,
-            } => {
-                let base = if n == PC {
-                    number((here + 4) & !3)
-                } else {
-                    self.core(n)
-                };
-                self.reals(
-                    (names, image),
-                    (first, count),
-                    base.plus(offset as u32),
-                    load,
-                    is_sure,
-                );
-            }
-            I::RealsMoving {
-                first,
-                count,
-                n,
-                load,
-                down,
-                writes_back,
-            } => {
-                let (low, end) = span(self.core(n), count.into(), down);
-                self.reals((names, image), (first, count), low, load, is_sure);
-                if n == SP && !load && down && is_sure {
-                    (0..u32::from(count)).for_each(|k| {
-                        let place = self.memory.entry(low.plus(4 * k));
-                        place.and_modify(|kept| kept.is_saved = true);
-                    });
-                }
-                if writes_back {
-                    self.set(n, end);
-                }
-            }
-            _ => {}
         }
     }
 
@@ -526,32 +483,14 @@ impl Machine {
         }
     }
 
-    fn reals(
+    fn access(
         &mut self,
         (names, image): (&mut Names, &Image),
-        (first, count): (u8, u8),
-        low: Word,
-        load: bool,
+        here: u32,
+        one: Access,
         is_sure: bool,
     ) {
-        for k in 0..count {
-            let at = low.plus(4 * u32::from(k));
-            let Some(register) = Some(usize::from(first + k)).filter(|n| *n < 32) else {
-                continue;
-            };
-            match (load, is_sure) {
-                (true, _) => self.real[register] = self.load((&mut *names, image), at),
-                (false, true) => self.store(at, self.real[register], false),
-                (false, false) => self.may_store(at, self.real[register]),
-            }
-        }
-    }
-
-    fn access(&mut self, (names, image): (&mut Names, &Image), one: Access, is_sure: bool) {
-        let base = match one.n {
-            PC => names.fresh(),
-            n => self.core(n),
-        };
+        let base = self.base(one.n, here);
         let offset = self.operand(names, one.offset);
         let moved = self.add(names, base, offset, false);
         let at = if one.before { moved } else { base };

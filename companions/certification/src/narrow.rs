@@ -17,16 +17,19 @@ pub struct Narrow {
     range: Interval,
 }
 
+fn refused(option: &str, why: String) -> NarrowError {
+    let option = option.to_owned();
+    NarrowError { option, why }
+}
+
 /// The greatest magnitude of an acceleration, a speed or a position, as an option gives it.
 ///
 /// # Errors
-/// [`NarrowError::Magnitude`].
+/// [`NarrowError`].
 pub fn magnitude(text: &str) -> Result<f64, NarrowError> {
     let number = text.parse().ok();
-    let is_one = |x: &f64| (0.0..f64::INFINITY).contains(x);
-    number
-        .filter(is_one)
-        .ok_or_else(|| NarrowError::Magnitude(text.to_owned()))
+    let number = number.filter(|x: &f64| (0.0..f64::INFINITY).contains(x));
+    number.ok_or_else(|| refused(text, "not a finite number that is not negative".to_owned()))
 }
 
 impl FromStr for Narrow {
@@ -53,7 +56,8 @@ impl FromStr for Narrow {
                 range: Interval::new(range.0, range.1),
             })
         };
-        read().ok_or_else(|| NarrowError::Syntax(text.to_owned()))
+        let forms = "JOINT:LOW..HIGH of its position, JOINT:v:MOST of its speed or JOINT:a:MOST of its acceleration";
+        read().ok_or_else(|| refused(text, format!("a range is {forms}")))
     }
 }
 
@@ -63,15 +67,11 @@ impl Narrow {
     /// # Errors
     /// [`NarrowError`], with the option and the joint.
     pub fn apply(&self, robot: &mut Robot) -> Result<(), NarrowError> {
-        let (option, number, joints) = (self.option.clone(), self.joint, robot.joints.len());
-        let joint = robot
-            .joints
-            .get_mut(number - 1)
-            .ok_or_else(|| NarrowError::NoJoint {
-                option: option.clone(),
-                joint: number,
-                joints,
-            })?;
+        let (number, joints) = (self.joint, robot.joints.len());
+        let refused = |why: String| refused(&self.option, why);
+        let Some(joint) = robot.joints.get_mut(number - 1) else {
+            return Err(refused(format!("the robot has joints 1 to {joints}")));
+        };
         let whole = match self.kind {
             Kind::Position => joint.position,
             Kind::Velocity => Interval::new(-joint.speed, joint.speed),
@@ -79,11 +79,10 @@ impl Narrow {
             Kind::Acceleration => self.range,
         };
         if self.range.low < whole.low || self.range.high > whole.high {
-            return Err(NarrowError::Outside {
-                option,
-                joint: number,
-                range: whole,
-            });
+            let Interval { low, high } = whole;
+            return Err(refused(format!(
+                "joint {number} has the range {low} to {high}"
+            )));
         }
         let was_near = sines::is_near(joint);
         match self.kind {
@@ -93,10 +92,10 @@ impl Narrow {
         }
         // The function's code is that of the description.
         if joint.turns && sines::is_near(joint) != was_near {
-            return Err(NarrowError::Turns {
-                option,
-                joint: number,
-            });
+            let turns = "more than two turns on a side, as its description has";
+            return Err(refused(format!(
+                "the range of joint {number} needs {turns}"
+            )));
         }
         Ok(())
     }

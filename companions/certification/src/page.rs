@@ -47,6 +47,42 @@ pub struct RecordedForward {
     pub exact: Vec<Vec<f64>>,
 }
 
+/// How the target's code is compiled.
+const CONFIG: &str = include_str!("../../../.cargo/config.toml");
+const WORKSPACE: &str = include_str!("../Cargo.toml");
+const ASSUMED: &str = "### What is assumed
+
+- Errors: the processor rounds to nearest, even, and keeps subnormal numbers, as after a reset.
+- Errors: positions, speeds and accelerations are numbers of f32 within the box.
+- Errors: torques of forward dynamics are numbers of f32 with which no result overflows.
+- Errors: the exact function is that of the model in f64.
+- Errors: the host's `sin` and `cos` in f64 are off by less than 10⁻¹⁵.
+- Cycles and stack: a Cortex-M4F without wait states, by the model of the cycle meter; code and
+  constants are in flash at 0x08000000, stack and variables in RAM at 0x20000000.
+- Cycles and stack: no interrupt within the cycles; one, with the state of the FPU, within the stack.
+- Cycles and stack: no division is pending at the call.
+- Cycles and stack: a pointer that the caller gives reaches no word of the stack that the compiler
+  keeps for itself; what is copied and cleared at once, by `memcpy` and its kin, lies at multiples of four.
+";
+
+/// A sheet: the tables of some certificates, how they were compiled, and what is assumed.
+pub fn sheet(certificates: &[Certificate]) -> String {
+    let between = |text: &'static str, begin: &str, end: &str| {
+        let rest = text.split_once(begin).map_or("", |(_, rest)| rest);
+        rest.split(end).next().unwrap_or_default()
+    };
+    let target = between(CONFIG, "[target.thumbv7em-none-eabihf]", "\n]");
+    let flags = between(target, "rustflags = [", "\n]").split('"').skip(1);
+    let flags: Vec<&str> = flags.step_by(2).collect();
+    let profile = between(WORKSPACE, "[profile.release]\n", "\n\n").trim();
+    format!(
+        "{}Compiled with {} and `{}`.\n\n{ASSUMED}",
+        tables(certificates),
+        profile.replace('\n', ", "),
+        flags.join(" ")
+    )
+}
+
 /// The tables of some certificates.
 pub fn tables(certificates: &[Certificate]) -> String {
     let mut page = String::new();

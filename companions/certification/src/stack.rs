@@ -114,16 +114,12 @@ fn both(a: &Known, b: &Known) -> Known {
 }
 
 fn step(one: &Fetched, before: Known) -> Known {
-    use Instruction::{Access, Add, Move, RealsMoving, Sub, Words};
+    use Instruction::{Access, Add, Move, Several, Sub};
     let mut after = before;
     let of = |register: u8| before.get(usize::from(register)).copied().flatten();
     let writes = u32::from(one.insn.core_writes);
     let written = (0..15).filter(|register| writes >> register & 1 != 0);
     written.for_each(|register| after[register] = None);
-    let moved = |n: u8, words: u32, down: bool| {
-        let bytes = 4 * words as i32;
-        (n, of(n).map(|at| at + if down { -bytes } else { bytes }))
-    };
     let (register, value) = match one.decoded {
         Some(Add {
             d,
@@ -138,20 +134,7 @@ fn step(one: &Fetched, before: Known) -> Known {
         }) => (d, of(n).map(|at| at.wrapping_sub(by as i32))),
         Some(Add { d, .. } | Sub { d, .. }) => (d, None),
         Some(Move { d, m }) => (d, of(m)),
-        Some(Words {
-            n,
-            registers,
-            down,
-            writes_back: true,
-            ..
-        }) => moved(n, registers.count_ones(), down),
-        Some(RealsMoving {
-            n,
-            count,
-            down,
-            writes_back: true,
-            ..
-        }) => moved(n, count.into(), down),
+        Some(Several(one)) if one.moves != 0 => (one.n, of(one.n).map(|at| at + one.moves)),
         Some(Access(access)) if access.writes_back => match access.offset {
             Operand::Constant(by) => (access.n, of(access.n).map(|at| at.wrapping_add(by as i32))),
             _ => (access.n, None),

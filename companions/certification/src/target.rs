@@ -2,7 +2,7 @@
 //! host.
 
 use clap::ValueEnum;
-use serde::{Deserialize, Serialize};
+use serde::{Serialize, Serializer};
 
 use crate::cycles::{self, Declined};
 use crate::emulation::Emulation;
@@ -14,51 +14,31 @@ use crate::stack::{self, INTERRUPT_FRAME};
 use crate::state_box::Robot;
 
 /// What a call of a function takes on the target.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Target {
     /// The fewest and the most cycles of the calls in QEMU, or why there were none.
-    #[serde(with = "untagged")]
+    #[serde(serialize_with = "untagged")]
     pub measured: std::result::Result<[u64; 2], String>,
     /// The number of these calls.
     pub states: usize,
     /// The most cycles of any call by the machine code, or why they have no bound.
-    #[serde(with = "untagged")]
+    #[serde(serialize_with = "untagged")]
     pub bound: std::result::Result<u64, Declined>,
     /// The branches on data in it.
     pub branches: Vec<u32>,
     /// The most stack with the frame of an interrupt, or why it has no bound.
-    #[serde(with = "untagged")]
+    #[serde(serialize_with = "untagged")]
     pub stack: std::result::Result<u64, Declined>,
 }
 
 /// A result as JSON: what it is, or why it is not.
-mod untagged {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub fn serialize<T: Serialize, E: Serialize, S: Serializer>(
-        one: &Result<T, E>,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
-        match one {
-            Ok(value) => value.serialize(to),
-            Err(why) => why.serialize(to),
-        }
-    }
-
-    #[derive(Deserialize)]
-    #[serde(untagged)]
-    enum Either<T, E> {
-        Value(T),
-        Why(E),
-    }
-
-    pub fn deserialize<'de, T: Deserialize<'de>, E: Deserialize<'de>, D: Deserializer<'de>>(
-        from: D,
-    ) -> Result<Result<T, E>, D::Error> {
-        Ok(match Either::deserialize(from)? {
-            Either::Value(value) => Ok(value),
-            Either::Why(why) => Err(why),
-        })
+fn untagged<T: Serialize, E: Serialize, S: Serializer>(
+    one: &std::result::Result<T, E>,
+    to: S,
+) -> std::result::Result<S::Ok, S::Error> {
+    match one {
+        Ok(value) => value.serialize(to),
+        Err(why) => why.serialize(to),
     }
 }
 

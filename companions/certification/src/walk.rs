@@ -331,53 +331,7 @@ impl Walk<'_> {
                 let word = self.core(m)?;
                 self.set(d, word)
             }
-            I::Word { t, n, offset, load } => {
-                let address =
-                    (self.bits(n)? & if n == PC { !3 } else { !0 }).wrapping_add_signed(offset);
-                if load {
-                    let word = self.load(address)?;
-                    return self.set(t, word);
-                }
-                let word = self.core(t)?;
-                self.store(address, word)
-            }
-            I::Words {
-                n,
-                registers,
-                load,
-                down,
-                writes_back,
-            } => self.words(n, registers, load, down, writes_back),
-            I::Reals {
-                first,
-                count,
-                n,
-                offset,
-                load,
-            } => {
-                let address =
-                    (self.bits(n)? & if n == PC { !3 } else { !0 }).wrapping_add_signed(offset);
-                self.reals(first, count, address, load)
-            }
-            I::RealsMoving {
-                first,
-                count,
-                n,
-                load,
-                down,
-                writes_back,
-            } => {
-                let (base, bytes) = (self.bits(n)?, 4 * u32::from(count));
-                let low = if down { base.wrapping_sub(bytes) } else { base };
-                self.reals(first, count, low, load)?;
-                if writes_back {
-                    self.set(
-                        n,
-                        Word::Bits(if down { low } else { base.wrapping_add(bytes) }),
-                    )?;
-                }
-                Ok(())
-            }
+            I::Several(one) => self.several(one),
             I::Arithmetic { op, d, n, m } => self.arithmetic(op, d, n, m),
             I::Negate { d, m } => self.function(Node::Neg, d, m),
             I::Absolute { d, m } => self.function(Node::Abs, d, m),

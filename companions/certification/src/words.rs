@@ -72,18 +72,6 @@ impl Word {
     }
 }
 
-/// The lowest address of so many words, and where the base goes.
-pub fn span(base: Word, words: u32, down: bool) -> (Word, Word) {
-    let bytes = 4 * words;
-    match down {
-        true => (
-            base.plus(bytes.wrapping_neg()),
-            base.plus(bytes.wrapping_neg()),
-        ),
-        false => (base, base.plus(bytes)),
-    }
-}
-
 /// Gives names.
 #[derive(Debug)]
 pub struct Names {

@@ -12,8 +12,8 @@ use certification::image::Image;
 use certification::narrow::{Narrow, magnitude};
 use certification::program::{self, CLUSTERED, LIBRARY, Program};
 use certification::search::Effort;
-use certification::sheet::{Sheet, Target};
 use certification::state_box::Robot;
+use certification::target::Target;
 use certification::{emulation, page, sines};
 use clap::Parser;
 
@@ -64,16 +64,10 @@ struct Args {
     /// Print JSON instead of text
     #[arg(long)]
     json: bool,
-    /// Let Gappa check a part of the box around the worst state of each result
-    #[arg(long)]
-    gappa: bool,
-    /// Let Coq check Gappa's proofs of them too: minutes for each result
-    #[arg(long, requires = "gappa")]
-    coq: bool,
     /// Only prove the errors of the configurations of `cargo xtask accuracy`, and print them as
     /// JSON; of the robots of docs/accuracy.md, over boxes that their paths lie in, if no robot is
     /// given
-    #[arg(long, conflicts_with_all = ["gappa", "sampled", "write", "hashes"])]
+    #[arg(long, conflicts_with_all = ["sampled", "write", "hashes"])]
     configurations: bool,
     /// Only let Gappa and Coq check a sample of parts of the box, and refuse wrong ones
     #[arg(long, conflicts_with_all = ["write", "hashes"])]
@@ -89,8 +83,6 @@ struct Args {
     options: robot_import::import::Options,
 }
 
-/// The share of each range that the parts have which Gappa checks.
-const PART: f64 = 1.0 / 64.0;
 /// See [`Args::points`].
 const POINTS: usize = 1_000_000;
 const PAGE_POINTS: usize = 5_000_000;
@@ -169,9 +161,6 @@ fn run(args: &Args) -> Result<String> {
             let spent = spent(args, function, &program.robot);
             let mut one = certificate::certify(program, function, robot, sines, spent)?;
             one.target = Some(target);
-            if args.gappa {
-                check::by_gappa(&image, function, robot, sines, &one, PART, args.coq)?;
-            }
             let (name, seconds) = (function.name(), start.elapsed().as_secs_f64());
             eprintln!("{}: {name}: {seconds:.0} s", one.robot);
             certificates.push(one);
@@ -194,11 +183,10 @@ fn run(args: &Args) -> Result<String> {
         let page = check::page(&read(PAGE)?, *part, &page::tables(&of(*part)))?;
         program::write(&kept(PAGE), &page)?;
     }
-    let sheet = Sheet::of(&certificates);
     match (args.write.is_empty(), args.json) {
         (false, _) => Ok(format!("written: {:?}", args.write)),
-        (_, true) => serde_json::to_string_pretty(&sheet).map_err(|e| Error::Robot(e.to_string())),
-        _ => Ok(sheet.markdown()),
+        (_, true) => json(&certificates),
+        _ => Ok(page::sheet(&certificates)),
     }
 }
 
@@ -250,8 +238,11 @@ fn proven_configurations(args: &Args) -> Result<String> {
     };
     let prove = |(program, robot)| configurations::prove(&program, &robot, spent);
     let all = configured(args)?.into_iter().map(prove);
-    let all = all.collect::<Result<Vec<_>>>()?;
-    serde_json::to_string_pretty(&all).map_err(|e| Error::Robot(e.to_string()))
+    json(&all.collect::<Result<Vec<_>>>()?)
+}
+
+fn json(of: &impl serde::Serialize) -> Result<String> {
+    serde_json::to_string_pretty(of).map_err(|e| Error::Robot(e.to_string()))
 }
 
 /// Fails unless page and record are of today's machine code.

@@ -1,7 +1,7 @@
 //! What lies in memory: words, and bytes of words of which not all are known.
 
 use super::{ARGUMENTS, RANGE, Walk, Word};
-use crate::decode::{Access, NOWHERE, PC};
+use crate::decode::{Access, NOWHERE, PC, Several};
 use crate::error::Result;
 use crate::graph::{Input, Node};
 
@@ -85,10 +85,7 @@ impl Walk<'_> {
 
     /// One word or two.
     pub(super) fn access(&mut self, one: Access) -> Result<()> {
-        let (base, by) = (self.bits(one.n)?, self.operand(one.offset)?);
-        if one.n == PC {
-            return Err(self.declined("two words beside the code"));
-        }
+        let (base, by) = (self.base(one.n)?, self.operand(one.offset)?);
         let moved = base.wrapping_add(by);
         let at = if one.before { moved } else { base };
         if one.writes_back {
@@ -120,46 +117,31 @@ impl Walk<'_> {
         Ok(())
     }
 
-    pub(super) fn words(
-        &mut self,
-        n: u8,
-        registers: u16,
-        load: bool,
-        down: bool,
-        writes_back: bool,
-    ) -> Result<()> {
-        let (base, bytes) = (self.bits(n)?, 4 * registers.count_ones());
-        let low = if down { base.wrapping_sub(bytes) } else { base };
-        if writes_back {
-            self.set(
-                n,
-                Word::Bits(if down { low } else { base.wrapping_add(bytes) }),
-            )?;
-        }
-        let named = (0..16).filter(|register| registers >> register & 1 != 0);
-        for (address, register) in (low..).step_by(4).zip(named) {
-            if load {
-                let word = self.load(address)?;
-                self.set(register, word)?;
-            } else {
-                let word = self.core(register)?;
-                self.store(address, word)?;
-            }
-        }
-        Ok(())
+    fn base(&self, n: u8) -> Result<u32> {
+        Ok(self.bits(n)? & if n == PC { !3 } else { !0 })
     }
 
-    pub(super) fn reals(&mut self, first: u8, count: u8, address: u32, load: bool) -> Result<()> {
-        for (address, register) in (address..).step_by(4).zip(first..first + count) {
-            if load {
-                let word = self.load(address)?;
-                let Some(place) = self.real.get_mut(usize::from(register)) else {
-                    return Err(self.declined("no such register"));
-                };
-                *place = Some(word);
-            } else {
-                let word = self.real(register)?;
-                self.store(address, word)?;
+    pub(super) fn several(&mut self, one: Several) -> Result<()> {
+        let base = self.base(one.n)?;
+        if one.moves != 0 {
+            self.set(one.n, Word::Bits(base.wrapping_add_signed(one.moves)))?;
+        }
+        let low = base.wrapping_add_signed(one.offset);
+        for (address, register) in (low..).step_by(4).zip(one.named()) {
+            let real = register.wrapping_sub(16);
+            match (one.load, self.real.get(real)) {
+                (true, Some(_)) => self.real[real] = Some(self.load(address)?),
+                (true, None) => {
+                    let word = self.load(address)?;
+                    self.set(register as u8, word)?;
+                }
+                (false, is_real) => {
+                    let word = match is_real {
+                        Some(_) => self.real(real as u8)?,
+                        None => self.core(register as u8)?,
+                    };
+                    self.store(address, word)?;
+                }
             }
         }
         Ok(())

@@ -12,7 +12,7 @@ use certification::state_box::{Leaf, Robot};
 use dynamics_core::trig::{Kernel as _, Table};
 
 use certification::image::Image;
-use certification::narrow::{NarrowError, magnitude};
+use certification::narrow::magnitude;
 
 use super::recorded::{BASE, EFFECTS, GRAVITY, RNEA, SINES, bytes, graph, robot};
 
@@ -235,9 +235,6 @@ fn a_magnitude_is_finite_and_not_negative() {
     assert_eq!(magnitude("4.5"), Ok(4.5));
     assert_eq!(magnitude("0"), Ok(0.0));
     for wrong in ["-1", "nan", "inf", "fast", ""] {
-        assert_eq!(
-            magnitude(wrong),
-            Err(NarrowError::Magnitude(wrong.to_owned()))
-        );
+        assert!(magnitude(wrong).is_err(), "{wrong}");
     }
 }

@@ -34,9 +34,11 @@ pub enum Arithmetic {
     Div,
 }
 
-/// The other operations on integers.
+/// Operations on integers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Integer {
+    /// n + m
+    Add,
     /// n − m
     Sub,
     /// m − n
@@ -61,6 +63,7 @@ impl Integer {
     /// Of two words.
     pub fn of(self, n: u32, m: u32) -> u32 {
         match self {
+            Self::Add => n.wrapping_add(m),
             Self::Sub => n.wrapping_sub(m),
             Self::ReverseSub => m.wrapping_sub(n),
             Self::And => n & m,
@@ -79,15 +82,6 @@ impl Integer {
 pub enum Instruction {
     /// Nothing.
     Nop,
-    /// d = n + operand, and whether flags are set.
-    Add {
-        d: u8,
-        n: u8,
-        by: Operand,
-        flags: bool,
-    },
-    /// d = n − m, and the flags; d is 16 of a comparison.
-    Sub { d: u8, n: u8, by: Operand },
     /// d = a constant
     Constant { d: u8, value: u32 },
     /// The upper half of d.
@@ -124,7 +118,7 @@ pub enum Instruction {
     BranchTo { m: u8 },
     /// d = the word's address of the instruction plus an offset
     Address { d: u8, offset: i32 },
-    /// d = n op operand, and whether flags are set.
+    /// d = n op operand, and whether flags are set; d is 16 of a comparison.
     Integer {
         op: Integer,
         d: u8,
@@ -132,8 +126,6 @@ pub enum Instruction {
         by: Operand,
         flags: bool,
     },
-    /// d = ¬m
-    Not { d: u8, m: u8, flags: bool },
     /// Makes the next instructions conditional: ITSTATE, A7.3.3.
     IfThen { state: u8 },
     /// d = n m + a
@@ -242,7 +234,7 @@ fn expanded(code: u32) -> u32 {
 }
 
 fn of_core(name: &str, of: Operation) -> Option<Instruction> {
-    use Instruction::{Add, Address, Constant, Sub};
+    use Instruction::{Address, Constant};
     let (is, number) = (
         |name| of.field(name) == Some(1),
         |name| of.field(name).unwrap_or(0),
@@ -265,7 +257,8 @@ fn of_core(name: &str, of: Operation) -> Option<Instruction> {
         register(of, "m"),
         register(of, "t"),
     );
-    let (flags, load) = (is("f"), name.starts_with('l'));
+    let flags = is("f") || name.starts_with("compare");
+    let load = name.starts_with('l');
     let mut first = n;
     // The result goes where an operand was.
     let name = match name.strip_suffix("_to") {
@@ -280,7 +273,7 @@ fn of_core(name: &str, of: Operation) -> Option<Instruction> {
         None => name,
     };
     if d == PC {
-        if !flags && name != "compare" {
+        if !flags {
             return None;
         }
         d = NOWHERE;
@@ -297,13 +290,7 @@ fn of_core(name: &str, of: Operation) -> Option<Instruction> {
         "if_then" => Instruction::IfThen {
             state: number("i") as u8,
         },
-        "add" => Add {
-            d,
-            n: first,
-            by,
-            flags,
-        },
-        "compare" => Sub { d, n: first, by },
+        "add" => integer(Integer::Add, by),
         "constant" => Constant { d, value: plain },
         "inverted" => Constant { d, value: !plain },
         "upper" => Instruction::Upper { d, value: plain },
@@ -314,7 +301,7 @@ fn of_core(name: &str, of: Operation) -> Option<Instruction> {
         },
         "lsl" => integer(Integer::Multiply, Operand::Constant(1 << shift)),
         "lsr" => integer(Integer::Right, Operand::Constant(shift.into())),
-        "subtract" => integer(Integer::Sub, by),
+        "subtract" | "compare" => integer(Integer::Sub, by),
         "reverse_subtract" => integer(Integer::ReverseSub, by),
         "and" => integer(Integer::And, by),
         "or" => integer(Integer::Or, by),
@@ -323,7 +310,13 @@ fn of_core(name: &str, of: Operation) -> Option<Instruction> {
         "multiply" => integer(Integer::Multiply, by),
         "left" => integer(Integer::Left, by),
         "right" => integer(Integer::Right, by),
-        "not" => Instruction::Not { d, m, flags },
+        "not" => Instruction::Integer {
+            op: Integer::Xor,
+            d,
+            n: m,
+            by: Operand::Constant(!0),
+            flags,
+        },
         "multiply_add" => Instruction::MultiplyAdd {
             d,
             n,

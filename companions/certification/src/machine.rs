@@ -225,13 +225,10 @@ impl Machine {
         if !known {
             self.havoc(names, insn);
         }
-        use Instruction::{Constant, Integer, Sub};
+        use Instruction::{Constant, Integer};
         // Short instructions set no flags in an IT block, comparisons apart; of one that is not
         // followed nothing is known.
-        let is_comparison = matches!(
-            decoded,
-            None | Some(Sub { d: NOWHERE, .. } | Integer { d: NOWHERE, .. })
-        );
+        let is_comparison = matches!(decoded, None | Some(Integer { d: NOWHERE, .. }));
         if insn.size == 2 && under.is_some() && !is_comparison {
             self.flags = flags;
         } else if let Some(Constant { value, .. }) = decoded.filter(|_| insn.size == 2) {
@@ -331,6 +328,7 @@ impl Machine {
         sets: bool,
     ) -> Word {
         let result = match op {
+            Integer::Add => return self.add(names, a, b, sets),
             Integer::Sub => return self.subtract(names, a, b, sets),
             Integer::ReverseSub => return self.subtract(names, b, a, sets),
             _ => match (a.number(), b.number()) {
@@ -366,16 +364,6 @@ impl Machine {
         use Instruction as I;
         match instruction {
             I::Nop | I::IfThen { .. } => {}
-            I::Add { d, n, by, flags } => {
-                let by = self.operand(names, by);
-                let sum = self.add(names, self.core(n), by, flags);
-                self.set(d, sum);
-            }
-            I::Sub { d, n, by } => {
-                let by = self.operand(names, by);
-                let difference = self.subtract(names, self.core(n), by, true);
-                self.set(d, difference);
-            }
             I::Integer {
                 op,
                 d,
@@ -385,10 +373,6 @@ impl Machine {
             } => {
                 let by = self.operand(names, by);
                 let result = self.integer(names, op, (self.core(n), by), flags);
-                self.set(d, result);
-            }
-            I::Not { d, m, flags } => {
-                let result = self.integer(names, Integer::Xor, (self.core(m), number(!0)), flags);
                 self.set(d, result);
             }
             I::MultiplyAdd { d, n, m, a } => {

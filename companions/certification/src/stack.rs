@@ -8,7 +8,7 @@
 use std::collections::HashMap;
 
 use crate::cycles::{Declined, is_within};
-use crate::decode::{Instruction, LR, NOWHERE, Operand, SP};
+use crate::decode::{Instruction, Integer as Op, LR, NOWHERE, Operand, SP};
 use crate::flow::{Fetched, Flow, Way};
 use crate::image::Image;
 
@@ -114,25 +114,21 @@ fn both(a: &Known, b: &Known) -> Known {
 }
 
 fn step(one: &Fetched, before: Known) -> Known {
-    use Instruction::{Access, Add, Move, Several, Sub};
+    use Instruction::{Access, Integer, Move, Several};
     let mut after = before;
     let of = |register: u8| before.get(usize::from(register)).copied().flatten();
     let writes = u32::from(one.insn.core_writes);
     let written = (0..15).filter(|register| writes >> register & 1 != 0);
     written.for_each(|register| after[register] = None);
     let (register, value) = match one.decoded {
-        Some(Add {
-            d,
-            n,
-            by: Operand::Constant(by),
-            ..
-        }) => (d, of(n).map(|at| at.wrapping_add(by as i32))),
-        Some(Sub {
-            d,
-            n,
-            by: Operand::Constant(by),
-        }) => (d, of(n).map(|at| at.wrapping_sub(by as i32))),
-        Some(Add { d, .. } | Sub { d, .. }) => (d, None),
+        Some(Integer { op, d, n, by, .. }) => {
+            let by = match (op, by) {
+                (Op::Add, Operand::Constant(by)) => Some(by as i32),
+                (Op::Sub, Operand::Constant(by)) => Some((by as i32).wrapping_neg()),
+                _ => None,
+            };
+            (d, of(n).and_then(|at| Some(at.wrapping_add(by?))))
+        }
         Some(Move { d, m }) => (d, of(m)),
         Some(Several(one)) if one.moves != 0 => (one.n, of(one.n).map(|at| at + one.moves)),
         Some(Access(access)) if access.writes_back => match access.offset {

@@ -254,11 +254,8 @@ impl Walk<'_> {
         let flags = self.flags;
         self.execute(instruction)?;
         // Short instructions set no flags in an IT block, comparisons apart.
-        use Instruction::{Integer, Sub, TakeFlags};
-        let is_comparison = matches!(
-            instruction,
-            Sub { d: NOWHERE, .. } | Integer { d: NOWHERE, .. } | TakeFlags
-        );
+        use Instruction::{Integer, TakeFlags};
+        let is_comparison = matches!(instruction, Integer { d: NOWHERE, .. } | TakeFlags);
         if size == 2 && !is_comparison {
             self.flags = flags;
         }
@@ -273,16 +270,6 @@ impl Walk<'_> {
                 self.conditions = state;
                 Ok(())
             }
-            I::Add { d, n, by, flags } => {
-                let (a, b) = (self.range(n)?, self.operand(by)?);
-                let sum = self.sum(flags, a, b, false)?;
-                self.set(d, sum)
-            }
-            I::Sub { d, n, by } => {
-                let (a, b) = (self.range(n)?, self.operand(by)?);
-                let difference = self.sum(true, a, !b, true)?;
-                self.set(d, difference)
-            }
             I::Constant { d, value } => {
                 // Of one halfword it sets flags.
                 if self.next == self.here + 2 {
@@ -293,11 +280,6 @@ impl Walk<'_> {
             I::Address { d, offset } => {
                 let address = ((self.here + 4) & !3).wrapping_add_signed(offset);
                 self.set(d, Word::Bits(address))
-            }
-            I::Not { d, m, flags } => {
-                let result = Word::Bits(!self.bits(m)?);
-                self.note(flags, result);
-                self.set(d, result)
             }
             I::MultiplyAdd { d, n, m, a } => {
                 let product = self.bits(n)?.wrapping_mul(self.bits(m)?);
@@ -365,6 +347,15 @@ impl Walk<'_> {
                 flags,
             } => {
                 let ((low, high), by) = (self.range(n)?, self.operand(by)?);
+                let sum = match op {
+                    Integer::Add => Some((by, false)),
+                    Integer::Sub => Some((!by, true)),
+                    _ => None,
+                };
+                if let Some((by, carry)) = sum {
+                    let sum = self.sum(flags, (low, high), by, carry)?;
+                    return self.set(d, sum);
+                }
                 let result = match op {
                     _ if low == high => Word::Bits(op.of(low, by)),
                     Integer::Right => within(op.of(low, by), op.of(high, by)),

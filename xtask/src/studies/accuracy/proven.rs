@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use super::front;
 use super::point::{Kind, Point};
-use crate::kit::error::{Result, bail, refuse_if};
+use crate::kit::error::{Result, bail, check, refuse_if};
 use crate::kit::host_bin;
 use crate::kit::workspace::{self, Workspace};
 
@@ -51,11 +51,9 @@ pub fn check(points: &[Point]) -> Result<usize> {
         let (robot, key, bound, error) = (&wrong.robot, &wrong.key, wrong.proven, wrong.error());
         bail!("{robot} {key}: {bound:?} is proven, and {error} was measured");
     }
-    refuse_if!(
-        proven().count() == 0,
-        "nothing is proven of these configurations"
-    );
-    Ok(proven().count())
+    let count = proven().count();
+    refuse_if!(count == 0, "nothing is proven of these configurations");
+    Ok(count)
 }
 
 /// The points of which an error is proven, with that one in place of the measured one and their own
@@ -73,13 +71,9 @@ pub fn chosen(all: &[Proven], mut points: Vec<Point>) -> Result<(Vec<Point>, Str
         })
     };
     let mut points: Vec<Point> = points.into_iter().filter_map(in_place).collect();
-    let Some(of) = points
-        .first()
-        .and_then(|point| Proven::of(all, &point.robot))
-    else {
-        bail!("nothing is proven of these configurations");
-    };
-    let note = of.note();
+    let of = (points.first()).and_then(|point| Proven::of(all, &point.robot));
+    let note = of.map(Proven::note);
+    let note = note.ok_or_else(|| check!("nothing is proven of these configurations"))?;
     front::mark(&mut points);
     Ok((points, note))
 }
@@ -92,10 +86,8 @@ impl Proven {
 
     /// The states that errors are proven for, and what has no proven error.
     pub fn note(&self) -> String {
-        let left_out = self.left_out.iter();
-        let left_out: Vec<String> = left_out
-            .map(|(what, why)| format!("{what} ({why})"))
-            .collect();
+        let one = |(what, why): (&String, &String)| format!("{what} ({why})");
+        let left_out: Vec<String> = self.left_out.iter().map(one).collect();
         let accelerations = self.joints.iter().map(|joint| joint.acceleration);
         let most = accelerations.fold(0.0, f64::max);
         format!(
@@ -108,58 +100,31 @@ impl Proven {
 
 #[cfg(test)]
 mod tests {
-    use super::super::choice::{Allowed, Budget};
     use super::super::front::tests::point;
-    use super::super::point::{Kind, Point};
     use super::super::recorded;
     use super::{Joint, Proven, attach, check, chosen};
     use crate::kit::docs::repository::root;
     use crate::kit::workspace::Workspace;
 
-    fn proven() -> [Proven; 1] {
-        let bounds = [
-            ("default", 1e-4),
-            ("trig=table", 0.02),
-            ("model=gravity", 30.0),
-        ];
-        [Proven {
-            robot: "arm".to_owned(),
-            joints: vec![Joint { acceleration: 12.0 }],
-            proven: bounds.map(|(key, bound)| (key.to_owned(), bound)).into(),
-            left_out: [("reduced rates".to_owned(), "a path".to_owned())].into(),
-        }]
-    }
-
-    fn measured() -> [Point; 4] {
-        [
-            point("default", 1e-5, 1000, 1000.0),
-            point("trig=table", 1e-3, 900, 900.0),
-            point("rate=10", 1e-6, 100, 100.0),
-            point("model=gravity", 10.0, 300, 300.0),
-        ]
-    }
-
     #[test]
-    fn the_cheapest_of_which_the_error_is_proven_is_chosen() {
-        let (points, note) = chosen(&proven(), measured().into()).expect("four of them");
-        let all: Vec<&Point> = points.iter().collect();
-        let chosen = |error: f64| {
-            let kind = Kind::Inverse;
-            let budget = Budget::Error(Allowed { error, kind });
-            budget
-                .choose(&all)
-                .map(|point| (point.key.clone(), point.error()))
-        };
-        // Measured the table would do, and so would every tenth tick.
-        assert!(chosen(0.01).is_ok_and(|chosen| chosen == ("default".to_owned(), 1e-4)));
-        assert!(chosen(0.05).is_ok_and(|chosen| chosen == ("trig=table".to_owned(), 0.02)));
-        assert!(
-            chosen(1e-5).is_err(),
-            "less than what is proven of the default"
-        );
+    fn proven_errors_take_the_place_of_measured_ones() {
+        let proven = [("default", 1e-4), ("trig=table", 0.02)];
+        let all = [Proven {
+            robot: "arm".into(),
+            joints: vec![Joint { acceleration: 12.0 }],
+            proven: proven.map(|(key, bound)| (key.into(), bound)).into(),
+            left_out: [("reduced rates".into(), "a path".into())].into(),
+        }];
+        let rate = point("rate=10", 1e-6, 100, 100.0);
+        let (exact, table) = ("default", "trig=table");
+        let [exact, table] = [(exact, 1e-5, 1000), (table, 1e-3, 900)]
+            .map(|(key, error, cycles)| point(key, error, cycles, cycles as f64));
+        let (points, note) = chosen(&all, vec![exact, table, rate.clone()]).expect("two of them");
+        let found: Vec<_> = points.iter().map(|one| (&*one.key, one.error())).collect();
+        assert_eq!(found, proven);
+        assert!(points.iter().all(|point| point.front));
         assert!(note.contains("up to 12 rad/s²") && note.contains("reduced rates (a path)"));
-        assert!(super::chosen(&proven(), measured()[2..3].to_vec()).is_err());
-        assert!(super::chosen(&[], measured().into()).is_err());
+        assert!(chosen(&all, vec![rate]).is_err());
     }
 
     #[test]
@@ -169,11 +134,7 @@ mod tests {
         let default = points.iter_mut().find(|point| point.is_default());
         default.expect("a default").error_max = Some(1.0);
         let refused = check(&points).expect_err("more than is proven").to_string();
-        assert!(
-            refused.contains("default") && refused.contains("is proven"),
-            "{refused}"
-        );
-        let mut points = measured();
+        assert!(refused.contains("default") && refused.contains("is proven"));
         attach(&[], &mut points);
         assert!(check(&points).is_err(), "nothing is proven");
     }

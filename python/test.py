@@ -84,8 +84,6 @@ def main() -> None:
     run(python, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests", *more, env=settings)
     run(python, "-m", "mypy.stubtest", "--ignore-disjoint-bases", "robot_dynamics", env=settings)
     run(python, "bench.py", "--check")
-    # Nothing of the wheel, but here is a Python with packages.
-    run(python, HERE.parent / "host-tests/suite/write.py", "--check")
     print(f"installed and notebook run in {seconds:.0f} s")
 
 

@@ -116,7 +116,7 @@ const KEPT = 25;
 
 /// The hard cases: a list of their files, by name, with answers of [`KEPT`] digits.
 export function cases(root) {
-  const folder = join(root, "host-tests/suite/cases");
+  const folder = join(root, "companions/hard-case-suite/cases");
   const files = readdirSync(folder).filter((name) => name.endsWith(".json")).sort();
   const shorter = (whole, digits) => {
     const [, head, rest = ""] = /^([^e]*)(e.*)?$/i.exec(digits);

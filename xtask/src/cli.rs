@@ -50,9 +50,6 @@ enum Command {
     Watch(watch::Args),
     /// Find masses, inertias and frictions of a robot from a record of `watch`, for its file
     Identify(identify::Args),
-    /// Prove from machine code how far off a robot's torques can be and what they take, print a
-    /// sheet, or rewrite docs/certificates.md
-    Certify(identify::Certify),
     /// Build the page on which one tries the library in a browser, target/site/play/index.html
     Play,
     /// Feed descriptions, files, dynamics, controller and encoder frames random bytes; CI does so
@@ -73,9 +70,8 @@ enum Command {
 }
 
 /// The commands for users, in the order of the help; all others are the laboratory's.
-const FIRST: [&str; 11] = [
-    "demo", "test", "new", "import", "meter", "watch", "identify", "certify", "play", "costs",
-    "accuracy",
+const FIRST: [&str; 10] = [
+    "demo", "test", "new", "import", "meter", "watch", "identify", "play", "costs", "accuracy",
 ];
 
 /// The commands that lists name behind those of the studies.
@@ -149,8 +145,7 @@ pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {
         Command::Import(args) => import::run(setup, args),
         Command::Meter(args) => meter::run(setup, &args),
         Command::Watch(args) => watch::run(setup, &args),
-        Command::Identify(args) => identify::run("identify", &args.arguments),
-        Command::Certify(args) => identify::run("certify", &args.arguments),
+        Command::Identify(args) => identify::run(&args.arguments),
         Command::Play => play::run(setup, "play/build.mjs"),
         Command::Fuzz { seconds } => endurance::fuzz(seconds),
         Command::Soak { ticks } => endurance::soak(ticks),

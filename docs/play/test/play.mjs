@@ -500,7 +500,7 @@ const tests = {
     const sum = await page.$eval("#case-sum", (at) => at.textContent);
     const beyond = await page.$$eval("#cases .beyond", (all) => all.map((one) => one.closest("tr").querySelector("th").firstChild.textContent));
     must(files >= 60, `${files} cases`);
-    must(beyond.length === 1 && beyond[0].startsWith("87."), `beyond their bounds: ${beyond.join(", ")}; host-tests/suite/README.md knows case 87 alone`);
+    must(beyond.length === 1 && beyond[0].startsWith("87."), `beyond their bounds: ${beyond.join(", ")}; companions/hard-case-suite/results.md knows case 87 alone`);
     const why = await page.$eval("#cases .beyond", (at) => at.closest("tr").querySelector("th").textContent);
     must(why.includes("forward_dynamics"), `the row does not say why it is beyond: ${why}`);
     must(sum.includes("1 beyond: case 87"), sum);

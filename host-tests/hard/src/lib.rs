@@ -26,7 +26,6 @@ pub mod setup;
 pub mod speeds;
 pub mod stick_slip;
 pub mod stiff;
-pub mod suite;
 pub mod top;
 
 use host_tests::hard::{Case, demand_of};

@@ -16,7 +16,6 @@ mod parallel;
 mod placements;
 mod speeds;
 mod stiff;
-mod suite;
 
 use hard_cases::NUMBERS;
 use host_tests::hard::{Row, demand_rows};

@@ -1,4 +1,4 @@
-//! Thumb-2 and FPv4-SP encodings to [`Insn`], by the table `decode.txt`.
+//! Thumb-2 and FPv4-SP encodings to [`Insn`] and [`Operation`], by the table `decode.txt`.
 
 mod relative;
 #[cfg(test)]
@@ -17,19 +17,55 @@ pub const fn size(first: u16) -> u8 {
 
 /// The instruction made of these halfwords; the second counts only if [`size`] is 4.
 pub fn decode(first: u16, second: u16) -> Insn {
+    let (row, code) = found(first, second);
+    let size = size(first);
+    row.map_or(Insn::new(Class::Unknown, size), |row| row.insn(code, size))
+}
+
+/// What an instruction does: the name and the fields of its row in `decode.txt`.
+#[derive(Clone, Copy, Debug)]
+pub struct Operation {
+    row: &'static Row,
+    code: u32,
+}
+
+/// What the instruction made of these halfwords does, if the table says it.
+pub fn operation(first: u16, second: u16) -> Option<Operation> {
+    let (row, code) = found(first, second);
+    let row = row.filter(|row| !row.operation.is_empty())?;
+    Some(Operation { row, code })
+}
+
+impl Operation {
+    pub fn name(&self) -> &'static str {
+        self.row.operation[0]
+    }
+
+    /// A field, if the instruction has it.
+    pub fn field(&self, name: &str) -> Option<u32> {
+        let number = |word: &&str| word.strip_prefix(name)?.strip_prefix('=')?.parse().ok();
+        let given = self.row.operation[1..].iter().find_map(number);
+        let is_there = || (self.row.names.iter()).any(|letter| name.starts_with(*letter));
+        given.or_else(|| is_there().then(|| self.row.field(self.code, name)))
+    }
+}
+
+/// The first row that fits, and both halfwords together.
+fn found(first: u16, second: u16) -> (Option<&'static Row>, u32) {
     static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
         let lines = include_str!("decode.txt").lines();
         lines.filter_map(Row::read).collect()
     });
-    let size = size(first);
-    let second = if size == 4 { second } else { 0 };
+    let second = if size(first) == 4 { second } else { 0 };
     let code = u32::from(first) << 16 | u32::from(second);
     let row = ROWS.iter().find(|row| code & row.mask == row.bits);
-    row.map_or(Insn::new(Class::Unknown, size), |row| row.insn(code, size))
+    (row, code)
 }
 
 const SP: u32 = 13;
+const PC: u16 = 1 << 15;
 
+#[derive(Debug)]
 struct Row {
     /// The bits that are fixed, and what they are.
     mask: u32,
@@ -38,6 +74,8 @@ struct Row {
     names: Vec<char>,
     class: &'static str,
     words: Vec<&'static str>,
+    /// Its name, and fields that are not among the bits.
+    operation: Vec<&'static str>,
 }
 
 impl Row {
@@ -52,13 +90,15 @@ impl Row {
         let (mask, bits) = (of("01"), of("1"));
         let mut words = words.split_whitespace();
         let class = words.next()?;
-        let words = words.collect();
+        let mut next = || words.by_ref().take_while(|word| *word != "=>").collect();
+        let (words, operation) = (next(), next());
         Some(Self {
             mask,
             bits,
             names,
             class,
             words,
+            operation,
         })
     }
 
@@ -68,6 +108,7 @@ impl Row {
             let (verb, what) = word.split_once('=').unwrap_or((word, ""));
             insn = match verb {
                 "to" => insn.writing(self.core(code, what)),
+                "result" => insn.writing(self.core(code, what) & !PC),
                 "list" => insn.writing(self.field(code, what) as u16),
                 "pop" => {
                     let set = self.field(code, what);

@@ -10,7 +10,7 @@
 //! `dbg #2k+1`, a hint that does nothing on silicon. Regions may nest and overlap. When QEMU exits,
 //! the plugin writes a line for each closed region (see [`parse_samples`]). As an ordinary library
 //! it reads that file, and decodes Thumb code for whoever checks a firmware ([`decode()`],
-//! [`relative()`]). It must be the only plugin that runs, on a machine with one processor, under
+//! [`operation()`], [`relative()`]). It must be the only plugin that runs, on a machine with one processor, under
 //! QEMU 4.2 or later. It speaks versions 1 to [`NEWEST_INTERFACE`] of QEMU's plugin interface and
 //! looks at the QEMU that loads it to choose one; the environment variable [`INTERFACE`] sets
 //! another version, for a QEMU that refuses that one. QEMU's functions are looked up when the
@@ -102,7 +102,7 @@ mod model;
 mod plugin;
 mod samples;
 
-pub use decode::{Relative, decode, relative, size};
+pub use decode::{Operation, Relative, decode, operation, relative, size};
 pub use hand_counted::check_hand_counted;
 pub use insn::{Class, Insn, Marker};
 pub use model::{Pipe, Reading};

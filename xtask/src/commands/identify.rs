@@ -1,5 +1,5 @@
 //! `cargo xtask identify`: the parameters of a robot's file from a recording, by the package
-//! `identification`; `cargo xtask certify`: proven rounding errors, by the package `certification`.
+//! `identification`.
 
 use std::process::ExitCode;
 
@@ -18,23 +18,9 @@ pub struct Args {
     pub arguments: Vec<String>,
 }
 
-/// Options of the package `certification`.
-#[derive(clap::Args)]
-pub struct Certify {
-    /// --robot NAME|FILE, and other options: --function, --box, --acceleration, --speed, --range,
-    /// --parts, --states, --json, --picture, --gappa, --write-docs, --hashes, and those of `import`
-    /// that select joints
-    #[arg(
-        value_name = "OPTION",
-        trailing_var_arg = true,
-        allow_hyphen_values = true
-    )]
-    pub arguments: Vec<String>,
-}
-
-pub fn run(program: &str, arguments: &[String]) -> Result<ExitCode> {
+pub fn run(arguments: &[String]) -> Result<ExitCode> {
     // By the profile in which its equations are solved within a second.
-    let mut program = SIMULATED.program(&Workspace::find()?, program)?;
+    let mut program = SIMULATED.program(&Workspace::find()?, "identify")?;
     let status = shell::run_for_user(program.args(arguments))?;
     // It has printed its error.
     Ok(ExitCode::from(u8::from(!status.success())))

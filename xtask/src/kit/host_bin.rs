@@ -13,8 +13,6 @@ use crate::kit::workspace::Workspace;
 /// would be compiled once more.
 pub struct Together {
     packages: &'static str,
-    /// Those of which programs are built with the same crates, but no tests.
-    programs: &'static str,
     /// The further tests of a full run: further robots, scalars and hours of claims that
     /// are tested without.
     pub full: &'static str,
@@ -25,7 +23,6 @@ pub struct Together {
 pub const SHARED: Together = Together {
     packages: "--workspace --exclude xtask --exclude telemetry-watch --exclude firmware-demo \
          --exclude lab-firmware --exclude identification --exclude simulation-tests --exclude play",
-    programs: "",
     // Cases that compute for minutes are optimised, which would take the compiler longer than the
     // parts of an everyday run.
     full: "--features guide/full,host-tests/full,robot-import/full \
@@ -38,7 +35,6 @@ pub const SHARED: Together = Together {
 pub const SIMULATED: Together = Together {
     packages: "--profile simulated --package identification --package simulation-tests \
          --features identification/files",
-    programs: "--package certification",
     full: "--features simulation-tests/full",
     folder: "simulated",
 };
@@ -52,7 +48,7 @@ impl Together {
     /// A command that builds what further words select.
     pub fn build(&self, workspace: &Workspace) -> Command {
         let mut command = workspace.cargo("build");
-        let words = format!("--quiet {} {}", self.programs, self.words(workspace.full));
+        let words = format!("--quiet {}", self.words(workspace.full));
         command.args(words.split_whitespace());
         command
     }

@@ -31,13 +31,6 @@ pub struct OwnRobot {
 }
 
 impl Args {
-    /// The file and what selects of it, as another program takes them.
-    pub fn words(&self) -> Vec<&str> {
-        let file = self.file.iter().filter_map(|file| file.to_str());
-        file.chain(self.options.0.iter().map(String::as_str))
-            .collect()
-    }
-
     /// The robot, if there is a file; fails if the firmware does not take it, or not this many
     /// joints.
     pub fn robot(&self, workspace: &Workspace, most: u64) -> Result<Option<OwnRobot>> {

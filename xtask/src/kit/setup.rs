@@ -88,21 +88,6 @@ impl Plan {
     }
 }
 
-/// Installs Gappa and Coq, which check certificates, if the user agrees.
-pub fn provers(options: Options) -> Result<()> {
-    let mut plan = Plan::default();
-    let is_there = |program| Command::new(program).arg("--version").output().is_ok();
-    if !["gappa", "coqc"].into_iter().all(is_there) {
-        let reason = "Gappa and Coq with Gappa's library, which check certificates".to_owned();
-        plan.add(
-            reason,
-            &["gappa", "coq", "libcoq-gappa"],
-            "install gappa, coq and coq-gappa",
-        );
-    }
-    plan.carry_out(options)
-}
-
 /// Whether this is a CI machine, which is thrown away.
 fn is_ci() -> bool {
     std::env::var_os("CI").is_some_and(|ci| ci == "true")

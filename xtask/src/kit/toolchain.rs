@@ -14,7 +14,6 @@ pub const TARGET: &str = "thumbv7em-none-eabihf";
 /// The profile of what is measured, and the same at opt-level s.
 pub const RELEASE: &str = "release";
 pub const SMALL: &str = "small";
-pub const TINY: &str = "tiny";
 
 pub const DEBIAN_PACKAGES: &[&str] = &["rustc-web", "cargo-web", "rust-web-src", "lld"];
 

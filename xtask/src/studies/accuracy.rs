@@ -59,12 +59,9 @@ pub struct Args {
     #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
     #[arg(requires = "chosen", conflicts_with_all = ["cycles", "error"])]
     proven_error: Option<Allowed>,
-    #[command(flatten)]
-    state_box: proven::StateBox,
-    /// Prove the errors of the page's robots anew, and rewrite the page by its record with them:
-    /// takes an hour of processor time
-    #[arg(long, conflicts_with_all = ["chosen", "measure", "json"])]
-    prove: bool,
+    /// The proven errors, as docs/accuracy-proven.json has them, which is read if no file is given
+    #[arg(long, value_name = "JSON", requires = "proven_error")]
+    proven: Option<PathBuf>,
     /// Measure single changes anew and rewrite the rest of the page by its record
     #[arg(long, conflicts_with_all = ["chosen", "measure", "json"])]
     recorded: bool,
@@ -89,10 +86,8 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         (None, cycles) => cycles.map(Budget::Cycles),
     };
     if let Some(robot) = args.own.robot(&Workspace::find()?, own::MOST_JOINTS)? {
-        let words = args.own.words().into_iter().map(str::to_owned);
-        let words = [String::from("--robot")].into_iter().chain(words);
-        let proven = args.proven_error;
-        let proven = proven.map(|_| words.chain(args.state_box.words()).collect());
+        let read = || proven::read(&Workspace::find()?, args.proven.as_deref());
+        let proven = args.proven_error.map(|_| read()).transpose()?;
         return own::run(options, &robot, budget, proven, args.json);
     }
     let choice = budget.zip(args.robot);
@@ -100,11 +95,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         None => Workspace::for_reports()?,
         Some(_) => Workspace::find()?,
     };
-    if args.prove {
-        let file = workspace.report(proven::FILE);
-        workspace::write(&file, proven::prove(&workspace, &[])?)?;
-    }
-    let by_record = args.prove || args.recorded;
+    let by_record = args.recorded;
     let mut points = recorded::read(&workspace)?;
     if let Some((budget, robot)) = choice
         && choice::shipped(&points, budget.group(robot)).is_empty()
@@ -136,12 +127,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     };
     let mut points = choice::shipped(&points, budget.group(robot));
     if args.proven_error.is_some() {
-        let given = args.state_box.words();
-        let named = ["--robot", robot.name()].map(str::to_owned);
-        let proven = match given.is_empty() && !args.measure {
-            true => proven::recorded(&workspace)?,
-            false => proven::parsed(&proven::prove(&workspace, &[&named[..], &given].concat())?)?,
-        };
+        let proven = proven::read(&workspace, args.proven.as_deref())?;
         let (of_them, note) = proven::chosen(&proven, points)?;
         points = of_them;
         output::note(&note);

@@ -18,7 +18,7 @@ pub mod study;
 use clap::{ArgMatches, Args, Command};
 
 use crate::kit::error::Result;
-use crate::kit::{host_bin::SIMULATED, setup, shell};
+use crate::kit::shell;
 use study::Form::{Demo, Own, Part, Whole};
 use study::Held::{Bars, Step};
 use study::Lane::{Host, Target};
@@ -54,20 +54,6 @@ pub const STUDIES: &[Study] = &[
         files: &["docs/boards.md"],
         held: Step(Target, Full, "a Cortex-M0, M3 and M33 and an RV32 compute the host's torques, and docs/boards.md has the stack that they take and the sizes of the boards' images"),
         form: Own(cores::Args::augment_args, |options, matches| cores::run(options, given(matches)?), cores::check),
-    },
-    Study {
-        name: "certificates", about: "",
-        files: &[
-            "docs/certificates.md", "docs/certificates.svg", "docs/fpbench/four_bar.fpcore", "docs/fpbench/gravity_so101.fpcore", "docs/fpbench/rnea_ur5e.fpcore",
-        ],
-        held: Step(Target, Full, "docs/certificates.md and docs/accuracy-proven.json have the hashes of today's machine code, whose forward dynamics is the recursion of LᵀDL; Gappa and Coq accept parts of the proofs, and refuse wrong ones"),
-        form: Demo(|bench| {
-            setup::provers(bench.options.without_questions())?;
-            for check in ["--hashes", "--sampled"] {
-                shell::capture(SIMULATED.program(bench.workspace, "certify")?.arg(check))?;
-            }
-            Ok(String::new())
-        }),
     },
     Study {
         name: "python", about: "",

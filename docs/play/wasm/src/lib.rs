@@ -9,7 +9,7 @@
 //! | [`machine`], [`robots`], [`import`] | a robot that is known at run time; all robots of the repository; files |
 //! | [`accuracy`] | the ways to compute a torque of docs/accuracy.md |
 //! | [`scene`] | scenes of `firmware-demo` that are disturbed |
-//! | [`suite`] | the hard cases of `host-tests/suite` |
+//! | [`suite`] | the hard cases of `hard-case-suite` |
 //! | [`serial`] | the bus of an SO-101 |
 
 pub mod accuracy;
@@ -20,13 +20,8 @@ pub mod robots;
 pub mod scene;
 pub mod serial;
 
-// The suite is computed by the very file that the host tests use; it names this one by its crate.
-extern crate self as host_tests;
-#[path = "../../../../host-tests/src/measured.rs"]
-#[allow(dead_code, reason = "of the host tests' file the suite uses a part")]
-pub mod measured;
-#[path = "../../../../host-tests/hard/src/suite.rs"]
-#[allow(dead_code, reason = "of the host tests' file the page uses a part")]
+#[path = "../../../../companions/hard-case-suite/src/lib.rs"]
+#[allow(dead_code, reason = "the page uses a part of the file")]
 pub mod suite;
 
 use std::cell::RefCell;

@@ -59,7 +59,7 @@ enum Request {
         ticks: u32,
     },
     Reset,
-    /// A hard case, as a file of `host-tests/suite` has it.
+    /// A hard case, as a file of `hard-case-suite` has it.
     Case {
         case: SuiteCase,
     },

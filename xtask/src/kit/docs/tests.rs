@@ -118,7 +118,7 @@ fn a_part_is_written_between_its_markers() {
 
 /// Blocks that are written by tests, which compare them whole with what they observe, and where;
 /// all others have their sum.
-const BY_TESTS: [(&str, &str, &str); 14] = [
+const BY_TESTS: [(&str, &str, &str); 13] = [
     (
         "docs/guide/src/contact.md",
         "contact",
@@ -184,19 +184,11 @@ const BY_TESTS: [(&str, &str, &str); 14] = [
         "toppra",
         "host-tests/simulations/tests/taught_path/mod.rs",
     ),
-    (
-        "host-tests/suite/README.md",
-        "suite",
-        "host-tests/suite/run.py",
-    ),
 ];
 
 /// The pages of the repository that have parts which are written by commands or tests.
 fn pages() -> Vec<String> {
-    let mut pages = vec![
-        "README.md".to_owned(),
-        "host-tests/suite/README.md".to_owned(),
-    ];
+    let mut pages = vec!["README.md".to_owned()];
     for folder in ["docs", "docs/guide/src"] {
         let entries = std::fs::read_dir(root().join(folder)).expect("a folder");
         let names = entries.flatten().map(|entry| entry.file_name());

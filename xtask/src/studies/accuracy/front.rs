@@ -79,7 +79,7 @@ pub mod tests {
             point("rate=10", 5e-2, 2000, 200.0),
             point("model=gravity", 10.0, 300, 300.0),
             point("arith=lost", f64::INFINITY, 1, 1.0),
-            point("form=twin,opt=s", 1e-5, 1000, 1000.0),
+            point("form=twin,trig=c", 1e-5, 1000, 1000.0),
         ];
         mark(&mut points);
         let all: Vec<_> = points.iter().collect();
@@ -93,9 +93,9 @@ pub mod tests {
     fn a_cycle_in_a_hundred_is_not_worth_a_change() {
         let mut points = [
             point("default", 1e-5, 1000, 1000.0),
-            point("opt=s", 1e-5, 995, 995.0),
+            point("form=b", 1e-5, 995, 995.0),
             point("trig=a", 1e-3, 900, 900.0),
-            point("trig=a,opt=s", 1e-3, 880, 880.0),
+            point("trig=a,form=b", 1e-3, 880, 880.0),
         ];
         mark(&mut points);
         assert_eq!(points.map(|point| point.front), [true, false, false, true]);

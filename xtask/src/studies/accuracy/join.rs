@@ -12,8 +12,8 @@ use crate::kit::rows::Row;
 /// The accuracy of the reference as a share of full scale: smaller errors count as that.
 const KNOWN: f64 = 1e-13;
 
-/// A row from the target, with its bin and opt-level.
-pub type Bin = (&'static str, &'static str, Row);
+/// A row from the target, with its bin.
+pub type Bin = (&'static str, Row);
 
 #[derive(Default)]
 pub struct Host {
@@ -75,10 +75,10 @@ impl Host {
     }
 }
 
-/// A point for each way and opt-level.
+/// A point for each way.
 pub fn join(host: &Host, measured: &[Bin]) -> Result<Vec<Point>> {
     let mut points = Vec::new();
-    for (_, opt, row) in measured {
+    for (_, row) in measured {
         let (robot, kind, key) = (&row.robot, &row.algorithm, &row.inputs);
         let of = |line: &&Line| {
             let known = (&line.point.robot, &line.point.key) == (robot, key);
@@ -86,7 +86,7 @@ pub fn join(host: &Host, measured: &[Bin]) -> Result<Vec<Point>> {
         };
         let before = points.len();
         let ways = host.lines.iter().filter(of);
-        points.extend(ways.map(|way| way.costing(row, opt)));
+        points.extend(ways.map(|way| way.costing(row)));
         if points.len() == before {
             bail!("the host knows no error of {robot} {kind} {key}");
         }
@@ -96,8 +96,8 @@ pub fn join(host: &Host, measured: &[Bin]) -> Result<Vec<Point>> {
 }
 
 impl Line {
-    /// The configuration with what it costs at an opt-level, which its key lacks.
-    fn costing(&self, row: &Row, opt: &str) -> Point {
+    /// The configuration with what it costs.
+    fn costing(&self, row: &Row) -> Point {
         let mut point = self.point.clone();
         // A simulation is as good as its steps are short: what counts is a simulated second.
         let step: Option<u64> = point.on("step").parse().ok();
@@ -113,15 +113,12 @@ impl Line {
             *error = error.map(|error| error.max(KNOWN * self.full_scale));
         }
         point.relative_max = point.relative_max.map(|share| share.max(KNOWN));
-        let step = step.map(|step| format!("step={step}"));
-        let size = (opt != "3").then(|| format!("opt={opt}"));
-        for axis in step.into_iter().chain(size) {
+        if let Some(step) = step.map(|step| format!("step={step}")) {
             match &*point.key {
-                "default" => point.key = axis,
-                _ => point.key += &format!(",{axis}"),
+                "default" => point.key = step,
+                _ => point.key += &format!(",{step}"),
             }
         }
-        point.configuration.insert("opt".into(), opt.into());
         point
     }
 }
@@ -166,15 +163,14 @@ mod tests {
     #[test]
     fn rows_and_lines_meet_by_robot_kind_and_key() {
         let host = Host::read(LINES.trim()).expect("good lines");
-        let rows = ["inverse", "simulation"].map(|kind| ("bin", "s", row(kind, "default")));
+        let rows = ["inverse", "simulation"].map(|kind| ("bin", row(kind, "default")));
         let points = join(&host, &rows).expect("complete");
         assert_eq!((points[0].cycles, points[0].cycles_mean), (20, 12.5));
-        assert_eq!((&*points[0].key, points[0].on("opt")), ("opt=s", "s"));
         assert!(points[0].front);
         // A thousand steps make a second.
         assert_eq!((points[1].cycles, points[1].front), (20_000, false));
         assert_eq!(points[1].instructions, 20_000);
-        assert!(join(&host, &[("bin", "3", row("inverse", "trig=new"))]).is_err());
+        assert!(join(&host, &[("bin", row("inverse", "trig=new"))]).is_err());
         assert!(Host::read("{").is_err());
     }
 
@@ -182,7 +178,7 @@ mod tests {
     fn an_error_smaller_than_the_referees_is_the_referees() {
         let exact = LINES.replace("1e-5", "1e-15").replace("9e-6", "1e-15");
         let host = Host::read(exact.trim()).expect("good lines");
-        let points = join(&host, &[("bin", "3", row("inverse", "default"))]).expect("complete");
+        let points = join(&host, &[("bin", row("inverse", "default"))]).expect("complete");
         let known = Some(10.0 * KNOWN);
         assert_eq!((points[0].error_max, points[0].error_p99), (known, known));
         assert_eq!(points[0].error_rms, Some(1e-6));
@@ -190,15 +186,15 @@ mod tests {
 
     #[test]
     fn a_key_names_what_is_not_the_default() {
-        let key = |key: &str, step: Option<&str>, opt| {
+        let key = |key: &str, step: Option<&str>| {
             let mut line = Line::default();
             line.point.key = key.into();
             let step = step.map(|step: &str| ("step".into(), step.into()));
             line.point.configuration.extend(step);
-            line.costing(&row("inverse", key), opt).key
+            line.costing(&row("inverse", key)).key
         };
-        assert_eq!(key("default", None, "3"), "default");
-        assert_eq!(key("default", Some("5"), "3"), "step=5");
-        assert_eq!(key("trig=table", None, "z"), "trig=table,opt=z");
+        assert_eq!(key("default", None), "default");
+        assert_eq!(key("default", Some("5")), "step=5");
+        assert_eq!(key("trig=table", Some("5")), "trig=table,step=5");
     }
 }

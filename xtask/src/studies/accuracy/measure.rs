@@ -13,7 +13,7 @@ use crate::kit::host_bin::{SHARED, SIMULATED};
 use crate::kit::progress::Spinner;
 use crate::kit::rows::{self, Row};
 use crate::kit::setup::Tools;
-use crate::kit::toolchain::{RELEASE, SMALL, TINY};
+use crate::kit::toolchain::RELEASE;
 use crate::kit::workspace::Workspace;
 use crate::kit::{firmware, shell};
 
@@ -39,7 +39,7 @@ fn shares_of(least: &[Row], chosen: &[Row], most: &[Row]) -> Result<[f64; 2]> {
 
 pub struct Plan {
     pub robots: Vec<Robot>,
-    /// A dozen ways of each, at opt-level 3, and no simulations.
+    /// A dozen ways of each, and no simulations.
     pub quick: bool,
     /// Only this is computed.
     pub kind: Option<Kind>,
@@ -72,22 +72,14 @@ impl Plan {
         wanted && self.robots.contains(&Robot::Ur5e)
     }
 
-    /// Opt-levels, their profiles and the bins that are built with them.
-    fn batches(&self) -> Vec<(&'static str, &'static str, Vec<&'static str>)> {
-        let bins = self.computed().map(|(_, bin)| bin);
-        let all: Vec<_> = bins.filter(|_| !self.quick).collect();
-        let mut first = all.clone();
+    /// The bins on the target.
+    fn bins(&self) -> Vec<&'static str> {
+        let all = self.computed().map(|(_, bin)| bin);
+        let mut bins: Vec<_> = all.filter(|_| !self.quick).collect();
         // In every run, so that what is written here is what the tests measure.
-        first.extend(self.computed().next().map(|_| QUICK_BIN));
-        // Simulations are no code for a controller: their size is nobody's concern.
-        first.extend(self.simulates().then_some(SIMULATION_BIN));
-        let batches = [
-            ("3", RELEASE, first),
-            ("s", SMALL, all.clone()),
-            ("z", TINY, all),
-        ];
-        let batches = batches.into_iter().filter(|batch| !batch.2.is_empty());
-        batches.collect()
+        bins.extend(self.computed().next().map(|_| QUICK_BIN));
+        bins.extend(self.simulates().then_some(SIMULATION_BIN));
+        bins
     }
 
     /// Builds and runs it all, for host and target side by side.
@@ -100,8 +92,8 @@ impl Plan {
             (rows, host.join().unwrap_or_else(lost))
         });
         let ((mut rows, shares), mut host) = (rows?, Host::read(&lines?)?);
-        host.proven = proven::recorded(workspace)?;
-        let single: Vec<_> = rows.extract_if(.., |(bin, ..)| *bin == QUICK_BIN).collect();
+        host.proven = proven::read(workspace, None)?;
+        let single: Vec<_> = rows.extract_if(.., |(bin, _)| *bin == QUICK_BIN).collect();
         let mut single = join::join(&host, &single)?;
         let is_generated = |point: &mut Point| point.kind == Kind::Generated;
         let generated = single.extract_if(.., is_generated).collect();
@@ -127,26 +119,25 @@ impl Plan {
         let spinner = Spinner::start("building the cycle meter");
         let meter = firmware::build_meter(workspace)?;
         let (mut all, mut shares) = (Vec::new(), None);
-        for (opt, profile, bins) in self.batches() {
-            spinner.line(&format!("building {} (opt-level {opt})", bins.join(", ")));
-            let included = Some((PRINTED, printed));
-            let chain = tools.toolchain;
-            let elves = firmware::build_with(workspace, chain, profile, ACCURACY, &bins, included)?;
-            for (bin, elf) in std::iter::zip(bins, elves) {
-                spinner.say(format!("running {bin} (opt-level {opt}) in QEMU"));
-                let mut rows = rows::run_for_time(tools, &meter, bin, &elf, "")?;
-                if bin == QUICK_BIN {
-                    let [least, most] = READINGS
-                        .map(|reading| rows::run_for_time(tools, &meter, bin, &elf, reading));
-                    shares = Some(shares_of(&least?, &rows, &most?)?);
-                }
-                // Only the host's quick bin knows the errors of what is generated.
-                rows.retain(|row| {
-                    let known = self.quick || row.algorithm != "generated";
-                    known && self.robots.iter().any(|robot| robot.name() == row.robot)
-                });
-                all.extend(rows.into_iter().map(|row| (bin, opt, row)));
+        let bins = self.bins();
+        spinner.line(&format!("building {}", bins.join(", ")));
+        let included = Some((PRINTED, printed));
+        let chain = tools.toolchain;
+        let elves = firmware::build_with(workspace, chain, RELEASE, ACCURACY, &bins, included)?;
+        for (bin, elf) in std::iter::zip(bins, elves) {
+            spinner.say(format!("running {bin} in QEMU"));
+            let mut rows = rows::run_for_time(tools, &meter, bin, &elf, "")?;
+            if bin == QUICK_BIN {
+                let [least, most] =
+                    READINGS.map(|reading| rows::run_for_time(tools, &meter, bin, &elf, reading));
+                shares = Some(shares_of(&least?, &rows, &most?)?);
             }
+            // Only the host's quick bin knows the errors of what is generated.
+            rows.retain(|row| {
+                let known = self.quick || row.algorithm != "generated";
+                known && self.robots.iter().any(|robot| robot.name() == row.robot)
+            });
+            all.extend(rows.into_iter().map(|row| (bin, row)));
         }
         Ok((all, shares))
     }

@@ -47,8 +47,6 @@ const ROWS: &[Row] = &[
     ("between", "linearised", Some("InertiaUpdate<f32, JOINTS, TICKS>"), "linearised", "Adds M Δq̈ in between, with M, position and speed as they were then."),
     ("form", "engine", Some("Engine"), "", ""),
     ("form", "core", Some("Core"), "core", "Uses the core, whose code serves any robot."),
-    ("opt", "s", None, "opt s", "Is compiled for size (opt-level \"s\")."),
-    ("opt", "z", None, "opt z", "Is compiled for the smallest size (opt-level \"z\")."),
     ("integrator", "euler", Some("Euler"), "Euler", "Steps by explicit Euler, of first order, which gains energy."),
     ("integrator", "semi_implicit", Some("SemiImplicit"), "semi-implicit Euler", "Steps by semi-implicit Euler, of first order, whose energy drifts where the inertia matrix depends on the position."),
     ("integrator", "rk4", Some("RungeKutta"), "RK4", "Steps by Runge and Kutta's rule of fourth order, four evaluations a step."),

@@ -4,17 +4,16 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use super::choice::{Budget, shipped};
-use super::join::{Host, join};
+use super::join::{Bin, Host, join};
 use super::measure::ACCURACY;
 use super::page;
 use super::point::{Kind, Point};
-use super::proven;
+use super::proven::{self, Proven};
 use crate::kit::error::{Result, bail, check};
 use crate::kit::firmware::{OWN_ROBOTS, build_own, variable};
 use crate::kit::meter::MODEL;
 use crate::kit::own_robot::OwnRobot;
 use crate::kit::progress::Spinner;
-use crate::kit::rows::Row;
 use crate::kit::setup::{self, Options, Tools};
 use crate::kit::workspace::Workspace;
 use crate::kit::{docs, firmware, output, rows, shell};
@@ -30,7 +29,7 @@ pub fn run(
     options: Options,
     robot: &OwnRobot,
     budget: Option<Budget>,
-    proven: Option<Vec<String>>,
+    proven: Option<Vec<Proven>>,
     json: bool,
 ) -> Result<ExitCode> {
     if let Some(Budget::Error(allowed)) = budget
@@ -39,9 +38,6 @@ pub fn run(
         bail!("of a robot from a file only torques are measured: --error 0.05Nm");
     }
     let workspace = Workspace::find()?;
-    // First, since it refuses what is no box.
-    let proven = proven.map(|words| proven::parsed(&proven::prove(&workspace, &words)?));
-    let proven = proven.transpose()?;
     let points = measure(&workspace, &setup::for_demo(options)?, robot)?;
     if let Some(budget) = budget {
         let mut points = shipped(&points, (&*robot.name, Kind::Inverse, ""));
@@ -87,11 +83,7 @@ fn measure(workspace: &Workspace, tools: &Tools, robot: &OwnRobot) -> Result<Vec
     Ok(points)
 }
 
-fn costs(
-    workspace: &Workspace,
-    tools: &Tools,
-    included: &Path,
-) -> Result<Vec<(&'static str, &'static str, Row)>> {
+fn costs(workspace: &Workspace, tools: &Tools, included: &Path) -> Result<Vec<Bin>> {
     let spinner = Spinner::start(&format!("building {BIN} for the target"));
     let features = format!("{OWN_ROBOTS},{ACCURACY}");
     let elves = build_own(workspace, tools.toolchain, included, &features, &[BIN])?;
@@ -101,7 +93,7 @@ fn costs(
         .iter()
         .map(|elf| rows::run_for_time(tools, &meter, BIN, elf, ""));
     let rows = rows.collect::<Result<Vec<_>>>()?.into_iter().flatten();
-    Ok(rows.map(|row| (BIN, "3", row)).collect())
+    Ok(rows.map(|row| (BIN, row)).collect())
 }
 
 fn errors(workspace: &Workspace, included: &Path) -> Result<String> {

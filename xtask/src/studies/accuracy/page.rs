@@ -220,7 +220,7 @@ fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
     if let Some(proven) = Proven::of(&host.proven, robot.name()) {
         text += &format!(
             "{} The path of the measured errors lies in the box.\n\n",
-            proven.note("")
+            proven.note()
         );
     }
     for (cost, which) in ["worst tick", "mean over ticks"].into_iter().enumerate() {

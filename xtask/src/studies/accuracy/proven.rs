@@ -1,53 +1,21 @@
-//! Errors that the package `certification` proves of configurations for every state of the joints'
-//! box: beside the measured ones on the page, in their place for `--proven-error`.
+//! Errors that are proven for every state of the joints' box: beside the measured ones on the page,
+//! in their place for `--proven-error`.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use serde::Deserialize;
 
 use super::front;
 use super::point::{Kind, Point};
-use crate::kit::error::{Result, bail, refuse_if};
-use crate::kit::host_bin::{self, SIMULATED};
+use crate::kit::error::{Result, bail, check, refuse_if};
+use crate::kit::host_bin;
 use crate::kit::workspace::{self, Workspace};
-use crate::kit::{output, shell};
 
-/// The record, which `certify --hashes` compares with today's machine code.
+/// The record, which names the machine code that it is of.
 pub const FILE: &str = "docs/accuracy-proven.json";
 
-/// The box of states, as `certify` takes it.
-#[derive(clap::Args)]
-#[group(skip)]
-pub struct StateBox {
-    /// The greatest acceleration of each joint in the box, rad/s² or m/s²: 10 if not given
-    #[arg(long, value_name = "A", requires = "proven_error", conflicts_with_all = ["error", "cycles"])]
-    acceleration: Option<String>,
-    /// The greatest speed of joints whose description has none, rad/s or m/s
-    #[arg(long, value_name = "V", requires = "proven_error", conflicts_with_all = ["error", "cycles"])]
-    speed: Option<String>,
-    /// The greatest |q| of joints that slide and whose description has no limits, m
-    #[arg(long, value_name = "Q", requires = "proven_error", conflicts_with_all = ["error", "cycles"])]
-    range: Option<String>,
-    /// A narrower range of a joint, as `certify` takes it: 2:-1.5..1.5, 2:v:0.5 or 2:a:4
-    #[arg(long = "box", value_name = "RANGE", requires = "proven_error", conflicts_with_all = ["error", "cycles"])]
-    narrow: Vec<String>,
-}
-
-impl StateBox {
-    /// The words for `certify`.
-    pub fn words(&self) -> Vec<String> {
-        let [a, v, q] = [&self.acceleration, &self.speed, &self.range].map(Option::iter);
-        let one = |name: &'static str| move |value: &String| format!("--{name}={value}");
-        let ranges = self.narrow.iter().map(one("box"));
-        let magnitudes = a.map(one("acceleration")).chain(v.map(one("speed")));
-        magnitudes
-            .chain(q.map(one("range")))
-            .chain(ranges)
-            .collect()
-    }
-}
-
-/// What `certify --configurations` prints of a robot.
+/// What is proven of a robot, by the keys of configurations.
 #[derive(Debug, Default, Deserialize)]
 pub struct Proven {
     robot: String,
@@ -61,32 +29,17 @@ struct Joint {
     acceleration: f64,
 }
 
-/// What `certify --configurations` prints: of the robots of the page, or of those of these words.
-pub fn prove(workspace: &Workspace, words: &[String]) -> Result<String> {
-    output::note("The errors of a hundred configurations are proven: this takes some minutes.");
-    let mut certify = SIMULATED.program(workspace, "certify")?;
-    shell::capture(certify.arg("--configurations").args(words))
+/// What a file has, or the record.
+pub fn read(workspace: &Workspace, file: Option<&Path>) -> Result<Vec<Proven>> {
+    let record = workspace.root.join(FILE);
+    host_bin::parsed(FILE, &workspace::read(file.unwrap_or(&record))?)
 }
 
-pub fn parsed(text: &str) -> Result<Vec<Proven>> {
-    host_bin::parsed("certify", text)
-}
-
-pub fn recorded(workspace: &Workspace) -> Result<Vec<Proven>> {
-    parsed(&workspace::read(&workspace.root.join(FILE))?)
-}
-
-/// Gives points the proven errors of their robots. How the code is optimised changes no number.
+/// Gives points the proven errors of their robots.
 pub fn attach(all: &[Proven], points: &mut [Point]) {
     for point in points.iter_mut().filter(|one| one.kind == Kind::Inverse) {
-        let axes = point.key.split(',');
-        let axes: Vec<&str> = axes.filter(|axis| !axis.starts_with("opt=")).collect();
-        let key = match &*axes.join(",") {
-            "" => "default".to_owned(),
-            key => key.to_owned(),
-        };
         let of = Proven::of(all, &point.robot);
-        point.proven = of.and_then(|one| one.proven.get(&key).copied());
+        point.proven = of.and_then(|one| one.proven.get(&point.key).copied());
     }
 }
 
@@ -98,11 +51,9 @@ pub fn check(points: &[Point]) -> Result<usize> {
         let (robot, key, bound, error) = (&wrong.robot, &wrong.key, wrong.proven, wrong.error());
         bail!("{robot} {key}: {bound:?} is proven, and {error} was measured");
     }
-    refuse_if!(
-        proven().count() == 0,
-        "nothing is proven of these configurations"
-    );
-    Ok(proven().count())
+    let count = proven().count();
+    refuse_if!(count == 0, "nothing is proven of these configurations");
+    Ok(count)
 }
 
 /// The points of which an error is proven, with that one in place of the measured one and their own
@@ -120,13 +71,9 @@ pub fn chosen(all: &[Proven], mut points: Vec<Point>) -> Result<(Vec<Point>, Str
         })
     };
     let mut points: Vec<Point> = points.into_iter().filter_map(in_place).collect();
-    let Some(of) = points
-        .first()
-        .and_then(|point| Proven::of(all, &point.robot))
-    else {
-        bail!("nothing is proven of these configurations");
-    };
-    let note = of.note(", or what --box gives,");
+    let of = (points.first()).and_then(|point| Proven::of(all, &point.robot));
+    let note = of.map(Proven::note);
+    let note = note.ok_or_else(|| check!("nothing is proven of these configurations"))?;
     front::mark(&mut points);
     Ok((points, note))
 }
@@ -138,15 +85,13 @@ impl Proven {
     }
 
     /// The states that errors are proven for, and what has no proven error.
-    pub fn note(&self, narrower: &str) -> String {
-        let left_out = self.left_out.iter();
-        let left_out: Vec<String> = left_out
-            .map(|(what, why)| format!("{what} ({why})"))
-            .collect();
+    pub fn note(&self) -> String {
+        let one = |(what, why): (&String, &String)| format!("{what} ({why})");
+        let left_out: Vec<String> = self.left_out.iter().map(one).collect();
         let accelerations = self.joints.iter().map(|joint| joint.acceleration);
         let most = accelerations.fold(0.0, f64::max);
         format!(
-            "Errors are proven for every state of the joints' box: limits, rated speeds{narrower} and accelerations up to {most} rad/s². Nothing \
+            "Errors are proven for every state of the joints' box: limits, rated speeds and accelerations up to {most} rad/s². Nothing \
              is proven of {}.",
             left_out.join("; ")
         )
@@ -155,67 +100,31 @@ impl Proven {
 
 #[cfg(test)]
 mod tests {
-    use clap::Parser as _;
-
-    use super::super::choice::{Allowed, Budget};
     use super::super::front::tests::point;
-    use super::super::point::{Kind, Point};
-    use super::super::{Args, recorded};
+    use super::super::recorded;
     use super::{Joint, Proven, attach, check, chosen};
     use crate::kit::docs::repository::root;
     use crate::kit::workspace::Workspace;
 
-    #[derive(clap::Parser)]
-    struct Line {
-        #[command(flatten)]
-        args: Args,
-    }
-
-    fn proven() -> [Proven; 1] {
-        let bounds = [
-            ("default", 1e-4),
-            ("trig=table", 0.02),
-            ("model=gravity", 30.0),
-        ];
-        [Proven {
-            robot: "arm".to_owned(),
-            joints: vec![Joint { acceleration: 12.0 }],
-            proven: bounds.map(|(key, bound)| (key.to_owned(), bound)).into(),
-            left_out: [("reduced rates".to_owned(), "a path".to_owned())].into(),
-        }]
-    }
-
-    fn measured() -> [Point; 5] {
-        [
-            point("default", 1e-5, 1000, 1000.0),
-            point("opt=s", 1e-5, 950, 950.0),
-            point("trig=table", 1e-3, 900, 900.0),
-            point("rate=10", 1e-6, 100, 100.0),
-            point("model=gravity", 10.0, 300, 300.0),
-        ]
-    }
-
     #[test]
-    fn the_cheapest_of_which_the_error_is_proven_is_chosen() {
-        let (points, note) = chosen(&proven(), measured().into()).expect("four of them");
-        let all: Vec<&Point> = points.iter().collect();
-        let chosen = |error: f64| {
-            let kind = Kind::Inverse;
-            let budget = Budget::Error(Allowed { error, kind });
-            budget
-                .choose(&all)
-                .map(|point| (point.key.clone(), point.error()))
-        };
-        // Measured the table would do, and so would every tenth tick.
-        assert!(chosen(0.01).is_ok_and(|chosen| chosen == ("opt=s".to_owned(), 1e-4)));
-        assert!(chosen(0.05).is_ok_and(|chosen| chosen == ("trig=table".to_owned(), 0.02)));
-        assert!(
-            chosen(1e-5).is_err(),
-            "less than what is proven of the default"
-        );
+    fn proven_errors_take_the_place_of_measured_ones() {
+        let proven = [("default", 1e-4), ("trig=table", 0.02)];
+        let all = [Proven {
+            robot: "arm".into(),
+            joints: vec![Joint { acceleration: 12.0 }],
+            proven: proven.map(|(key, bound)| (key.into(), bound)).into(),
+            left_out: [("reduced rates".into(), "a path".into())].into(),
+        }];
+        let rate = point("rate=10", 1e-6, 100, 100.0);
+        let (exact, table) = ("default", "trig=table");
+        let [exact, table] = [(exact, 1e-5, 1000), (table, 1e-3, 900)]
+            .map(|(key, error, cycles)| point(key, error, cycles, cycles as f64));
+        let (points, note) = chosen(&all, vec![exact, table, rate.clone()]).expect("two of them");
+        let found: Vec<_> = points.iter().map(|one| (&*one.key, one.error())).collect();
+        assert_eq!(found, proven);
+        assert!(points.iter().all(|point| point.front));
         assert!(note.contains("up to 12 rad/s²") && note.contains("reduced rates (a path)"));
-        assert!(super::chosen(&proven(), measured()[3..4].to_vec()).is_err());
-        assert!(super::chosen(&[], measured().into()).is_err());
+        assert!(chosen(&all, vec![rate]).is_err());
     }
 
     #[test]
@@ -225,31 +134,8 @@ mod tests {
         let default = points.iter_mut().find(|point| point.is_default());
         default.expect("a default").error_max = Some(1.0);
         let refused = check(&points).expect_err("more than is proven").to_string();
-        assert!(
-            refused.contains("default") && refused.contains("is proven"),
-            "{refused}"
-        );
-        let mut points = measured();
+        assert!(refused.contains("default") && refused.contains("is proven"));
         attach(&[], &mut points);
         assert!(check(&points).is_err(), "nothing is proven");
-    }
-
-    #[test]
-    fn the_box_is_passed_to_certify_with_a_proven_error_alone() {
-        let words = |line: &str| {
-            let words = ["accuracy"].into_iter().chain(line.split(' '));
-            let parsed = Line::try_parse_from(words);
-            parsed.map(|line| line.args.state_box.words()).ok()
-        };
-        let given = words(
-            "--robot ur5e --proven-error 0.01Nm --acceleration 4 --box 2:-1.5..1.5 --box 2:v:0.5",
-        );
-        let given = given.expect("options of certify");
-        assert_eq!(
-            given,
-            ["--acceleration=4", "--box=2:-1.5..1.5", "--box=2:v:0.5"]
-        );
-        assert_eq!(words("--robot ur5e --error 0.01Nm --acceleration 4"), None);
-        assert_eq!(words("--robot ur5e --prove"), None);
     }
 }

@@ -21,7 +21,7 @@ pub fn read(workspace: &Workspace) -> Result<Vec<Point>> {
     let mut points: Vec<Point> = serde_json::from_str(&text)
         .map_err(|e| check!("{FILE}: {e}; `{COMMAND}` writes it anew"))?;
     front::mark(&mut points);
-    proven::attach(&proven::recorded(workspace)?, &mut points);
+    proven::attach(&proven::read(workspace, None)?, &mut points);
     Ok(points)
 }
 

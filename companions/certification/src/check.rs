@@ -1,0 +1,215 @@
+//! Checks of certificates: by Gappa, and of the page against today's machine code.
+
+use sha2::{Digest, Sha256};
+
+use crate::bound::{Bounder, Enclosure, SineErrors};
+use crate::certificate::Subject;
+use crate::digits;
+use crate::error::{Error, Result};
+use crate::function::Function;
+use crate::gappa;
+use crate::image::{Image, hexadecimal};
+use crate::interval::Interval;
+use crate::state_box::Robot;
+
+/// A part of the page, between its marks, or the record of configurations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Part {
+    /// The proven errors.
+    Certificates,
+    /// Those of forward dynamics.
+    Forward,
+    /// Those of the robot with a kinematic loop.
+    Clusters,
+    /// docs/accuracy-proven.json.
+    Configurations,
+}
+
+/// The page with a part replaced.
+///
+/// # Errors
+/// [`Error::Missing`] if the page has no place for it.
+pub fn page(written: &str, part: Part, text: &str) -> Result<String> {
+    let (name, begin, end) = markers(part);
+    let missing = || Error::Missing(format!("place for {name} on the page"));
+    let (before, rest) = written.split_once(&begin).ok_or_else(missing)?;
+    let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
+    let block = format!("<!-- written by `certify --write`: do not edit -->\n{text}");
+    Ok(format!("{before}{begin}{}{end}{after}", sealed(&block)))
+}
+
+/// The name of a part, and what stands before and after it on the page.
+fn markers(part: Part) -> (String, String, String) {
+    let name = clap::ValueEnum::to_possible_value(&part);
+    let name = name.as_ref().map_or("", |name| name.get_name());
+    let marker = |which| format!("<!-- {name}:{which} -->");
+    (name.to_owned(), marker("begin") + "\n", marker("end"))
+}
+
+/// A block of the page with the sum of its text at its end.
+fn sealed(block: &str) -> String {
+    let block = block.trim();
+    let sum = &hexadecimal(Sha256::new_with_prefix(block))[..16];
+    format!("{block}\n{BEFORE_SUM}{sum} -->\n")
+}
+
+/// A block without its sum.
+fn unsealed(block: &str) -> &str {
+    block
+        .rsplit_once(BEFORE_SUM)
+        .map_or(block, |(block, _)| block)
+}
+
+const BEFORE_SUM: &str = "<!-- sum of the above: ";
+
+/// Fails unless each block of the page is as it was written and has no bound below what was
+/// observed.
+///
+/// # Errors
+/// [`Error::Page`], with the row.
+pub fn numbers(page: &str) -> Result<()> {
+    for part in [Part::Certificates, Part::Forward, Part::Clusters] {
+        let (name, begin, end) = markers(part);
+        let block = page
+            .split_once(&begin)
+            .and_then(|(_, rest)| rest.split_once(&end));
+        let Some((block, _)) = block else {
+            return Err(Error::Missing(format!("place for {name} on the page")));
+        };
+        let rows = block.lines().filter(|line| line.starts_with("| "));
+        let mut head: Vec<&str> = Vec::new();
+        for row in rows {
+            let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+            if cells
+                .first()
+                .is_some_and(|cell| cell.parse::<f64>().is_err() && !cell.contains(','))
+            {
+                head = cells;
+                continue;
+            }
+            // A bound is left of what was observed or found.
+            let is_observed = |at: &usize| head.get(*at) == Some(&"worst observed");
+            for at in (1..cells.len()).filter(is_observed) {
+                let [bound, observed] = [at - 1, at].map(|at| digits::number(cells[at]));
+                if bound.is_none_or(|bound| observed.is_none_or(|observed| bound < observed)) {
+                    return Err(Error::Page(format!(
+                        "{name}: a bound below what was observed: {row}"
+                    )));
+                }
+            }
+        }
+        if block.trim() != sealed(unsealed(block)).trim() {
+            return Err(Error::Page(format!(
+                "{name}: a number was changed: its sum is another"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Fails unless the certificates of these functions of a program have their hashes on the page.
+///
+/// # Errors
+/// [`Error::Stale`], [`Error::Missing`] of a function that the program does not have.
+pub fn hashes(image: &Image, functions: &[Function], robot: &str, page: &str) -> Result<()> {
+    for function in functions {
+        let hash = image.hash(&Subject::of(image, *function)?.walked.visited);
+        hash_of(page, robot, *function, &hash)?;
+    }
+    Ok(())
+}
+
+/// Fails unless the certificate of this robot and function names this machine code.
+///
+/// # Errors
+/// [`Error::Stale`].
+pub fn hash_of(page: &str, robot: &str, function: Function, hash: &str) -> Result<()> {
+    let heading = format!("### {robot}: {}\n", function.name());
+    let certificate = page.split_once(&heading).map(|(_, rest)| rest);
+    let certificate = certificate.and_then(|rest| rest.split("\n### ").next());
+    match certificate {
+        Some(text) if text.contains(&format!("machine code `{hash}`")) => Ok(()),
+        _ => {
+            let what = format!("the certificate of {robot}, {},", function.name());
+            Err(Error::Stale(what))
+        }
+    }
+}
+
+/// Has Gappa and Coq check a part of the box of one result of a function, drawn at random, and
+/// refuse what is wrong: Gappa a smaller bound, Coq a smaller rounding error in Gappa's proof.
+///
+/// # Errors
+/// [`Error::Program`] if one of them decides otherwise.
+pub fn sampled(
+    image: &Image,
+    function: Function,
+    robot: &Robot,
+    rng: &mut fastrand::Rng,
+) -> Result<()> {
+    let graph = Subject::of(image, function)?.graph;
+    let whole = robot.whole();
+    let state: Vec<f64> = whole
+        .iter()
+        .map(|x| x.low + rng.f64() * (x.high - x.low))
+        .collect();
+    let around = around(&state, &whole, 1.0 / 64.0);
+    let outputs = 0..graph.outputs.len();
+    let mut bounded = outputs.filter_map(|output| {
+        let mut bounder = Bounder::new(&graph, output, robot, NOMINAL, Enclosure::Plain)?;
+        let bound = bounder.bound(&around).total();
+        (bound > 0.0).then_some((bounder, bound))
+    });
+    let skipped = rng.usize(..graph.outputs.len().min(3));
+    let Some((bounder, bound)) = bounded.nth(skipped).or_else(|| bounded.next()) else {
+        return Err(Error::Missing(format!(
+            "rounded result of {}",
+            function.name()
+        )));
+    };
+    let said = |program: &str, said: &str| {
+        let said = format!("{}: {said}", function.name());
+        Err(Error::Program {
+            program: program.to_owned(),
+            said,
+        })
+    };
+    let script = gappa::script(&bounder);
+    if !script.clone().bounded(&bounder, bound).is_proven()? {
+        return said("gappa", "a part of the box is not proven");
+    }
+    if script.clone().bounded(&bounder, 0.99 * bound).is_proven()? {
+        return said("gappa", "accepts a bound that is too small");
+    }
+    let texts: Vec<String> = script.texts().collect();
+    let Some(proof) = gappa::proof(&texts[rng.usize(..texts.len().div_ceil(2))])? else {
+        return said("gappa", "has no proof for Coq");
+    };
+    if !gappa::is_checked_by_coq(&proof)? {
+        return said("coqc", "does not accept the proof of Gappa");
+    }
+    match gappa::corrupted(&proof) {
+        Some(wrong) if !gappa::is_checked_by_coq(&wrong)? => Ok(()),
+        Some(_) => said(
+            "coqc",
+            "accepts a proof in which a rounding error is too small",
+        ),
+        None => said("gappa", "a proof without a rounded operation"),
+    }
+}
+
+/// Errors of sine and cosine near those of the library's; the proof of a part holds for any such
+/// errors.
+const NOMINAL: SineErrors = SineErrors {
+    sine: 1.2e-7,
+    cosine: 1.2e-7,
+};
+
+/// The part of a box around a state that has this share of each range.
+pub fn around(state: &[f64], whole: &[Interval], share: f64) -> Vec<Interval> {
+    let ranges = state.iter().zip(whole).map(|(x, range)| {
+        let reach = 0.5 * share * (range.high - range.low);
+        Interval::new(x - reach, x + reach)
+    });
+    ranges.collect()
+}

@@ -91,6 +91,8 @@ mod reference;
 mod safety;
 #[cfg(feature = "serde")]
 mod serde_form;
+#[cfg(test)]
+mod tests;
 
 pub use estimate::{
     ContactDetector, DetectedContact, Estimate, Excitation, ImpossibleParameters, MomentumObserver,

@@ -7,7 +7,7 @@ use std::sync::atomic::Ordering;
 use clap::error::ErrorKind;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::commands::{demo, endurance, identify, import, meter, play, test, watch};
+use crate::commands::{demo, endurance, identify, import, meter, test, watch};
 use crate::kit::error::{Result, VERBOSE, check};
 use crate::kit::{output, processes, setup, workspace};
 use crate::studies;
@@ -54,8 +54,6 @@ enum Command {
     /// Prove from machine code how far off a robot's torques can be and what they take, print a
     /// sheet, or rewrite docs/certificates.md
     Certify(identify::Certify),
-    /// Build the page on which one tries the library in a browser, target/site/play/index.html
-    Play,
     /// Feed descriptions, files, dynamics, controller and encoder frames random bytes; CI does so
     /// for a moment
     Fuzz {
@@ -74,8 +72,8 @@ enum Command {
 }
 
 /// The commands for users, in the order of the help; all others are the laboratory's.
-const FIRST: [&str; 11] = [
-    "demo", "test", "new", "import", "meter", "watch", "identify", "certify", "play", "costs",
+const FIRST: [&str; 10] = [
+    "demo", "test", "new", "import", "meter", "watch", "identify", "certify", "costs",
     "accuracy",
 ];
 
@@ -182,7 +180,6 @@ pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {
         Command::Watch(args) => watch::run(setup, &args),
         Command::Identify(args) => identify::run("identify", &args.arguments),
         Command::Certify(args) => identify::run("certify", &args.arguments),
-        Command::Play => play::run(setup, "play/build.mjs"),
         Command::Fuzz { seconds } => endurance::fuzz(seconds),
         Command::Soak { ticks } => endurance::soak(ticks),
         Command::Miri => endurance::miri(),

@@ -24,7 +24,7 @@ pub struct Together {
 /// All but those that simulate. xtask is there already, with features of its own.
 pub const SHARED: Together = Together {
     packages: "--workspace --exclude xtask --exclude telemetry-watch --exclude firmware-demo --exclude lab-target \
-         --exclude identification --exclude identify --exclude simulation-tests --exclude play",
+         --exclude identification --exclude identify --exclude simulation-tests",
     programs: "",
     // What computes for minutes is optimised, which would take the compiler longer than the parts
     // of an everyday run.

@@ -71,15 +71,6 @@ pub const STUDIES: &[Study] = &[
         }),
     },
     Study {
-        name: "python", about: "",
-        files: &["docs/python.md", "docs/python.svg"],
-        held: Step(Host, Full, "the Python wheel builds, runs its notebook in a bare environment, agrees with Pinocchio and has the bits of Core; docs/python.md is of today's code, and the suite of hard cases is that of its scripts"),
-        form: Demo(|bench| {
-            let mut python = bench.workspace.python()?;
-            shell::capture(python.arg("python/test.py"))
-        }),
-    },
-    Study {
         name: "accuracy", about: "Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration",
         files: &[
             "docs/accuracy.md", "docs/accuracy.json", "docs/accuracy-ur5e.svg", "docs/accuracy-panda.svg",
@@ -166,13 +157,8 @@ mod tests {
     #[test]
     fn every_generated_file_belongs_to_a_study_that_is_held() {
         let mut there = below("docs");
-        // The guide and the page to play with are written by hand, their programs included.
-        let by_hand = |name: &str| {
-            ["docs/guide/", "docs/play/"]
-                .iter()
-                .any(|folder| name.starts_with(folder))
-        };
-        there.retain(|name| !by_hand(name) && is_generated(name));
+        // The guide is written by hand, its programs included.
+        there.retain(|name| !name.starts_with("docs/guide/") && is_generated(name));
         there.push("README.md".into());
         there.sort();
         let of_studies = STUDIES.iter().flat_map(|study| study.files.iter().copied());

@@ -25,7 +25,7 @@ pub fn is_sealed(text: &str) -> bool {
     text.trim() == sealed(unsealed(text)).trim()
 }
 
-/// The first half of a SHA-256, as `certification/src/check.rs` and `python/bench.py` write it.
+/// The first half of a SHA-256, as `certification/src/check.rs` writes it.
 fn sum(text: &str) -> String {
     let digest = Sha256::digest(text);
     digest

@@ -1,7 +1,6 @@
 """Measures the installed wheel, and writes the figures of docs/speed.md between its markers.
 
     python bench.py          # measures and prints
-    python bench.py --json   # the same as JSON
     python bench.py --write  # rewrites the page
     python bench.py --check  # says whether the page is older than the code that it measured
 
@@ -13,7 +12,6 @@ from __future__ import annotations
 
 import argparse
 import hashlib
-import json
 import pathlib
 import platform
 import statistics
@@ -164,44 +162,6 @@ def text(found: dict) -> str:
     return "\n".join([*lines, f"<!-- sum of the above: {total} -->", END])
 
 
-# Colour and, in a dark scheme, another, as in the other pictures of docs/.
-THEME = {
-    "#FFFFFF": "#0D1117", "#2D323A": "#E6EDF3", "#1B50A2": "#4F93FF", "#56A0D3": "#A8DBFF", "#E69100": "#F0A020",
-}  # fmt: skip
-KINDS = {"f32": "#1B50A2", "f64": "#56A0D3", "pinocchio": "#E69100"}
-
-
-def picture(found: dict) -> str:
-    """Bars of the batches."""
-    wide, row = 900, 74
-    high = 84 + row * len(found["batches"])
-    dark = "".join(f'[fill="{light}"]{{fill:{other}}}' for light, other in THEME.items())
-    most = max(max(rows[kind] for kind in KINDS) for rows in found["batches"])
-
-    def words(x: float, y: float, text: str, size: int = 12) -> str:
-        return f'<text x="{x:.0f}" y="{y:.0f}" dy="0.5ex" font-size="{size}" fill="#2D323A">{text}</text>'
-
-    lines = [
-        f'<svg width="{wide}" height="{high}" viewBox="0 0 {wide} {high}" xmlns="http://www.w3.org/2000/svg"'
-        ' font-family="system-ui, Helvetica, Arial, sans-serif">',
-        f"<style>@media (prefers-color-scheme: dark) {{{dark}}}</style>",
-        f'<rect x="0" y="0" width="{wide}" height="{high}" fill="#FFFFFF"/>',
-        words(28, 24, f"ns a state in batches of {found['states']:,}, {found['threads']} threads", 17),
-    ]
-    for number, (kind, colour) in enumerate(KINDS.items()):
-        x = 28 + 120 * number
-        lines += [f'<rect x="{x}" y="51" width="16" height="10" fill="{colour}"/>', words(x + 22, 56, kind)]
-    for number, rows in enumerate(found["batches"]):
-        y = 82 + row * number
-        lines.append(words(28, y + 27, f"{rows['robot']}, {rows['algorithm']}"))
-        for bar, (kind, colour) in enumerate(KINDS.items()):
-            length = 620 * rows[kind] / most
-            top = y + 19 * bar
-            lines.append(f'<rect x="170" y="{top}" width="{length:.0f}" height="16" fill="{colour}"/>')
-            lines.append(words(176 + length, top + 8, f"{rows[kind]:.0f}"))
-    return "\n".join([*lines, "</svg>"]) + "\n"
-
-
 def missed(found: dict) -> list[str]:
     """The bars that are not met."""
     problems = [
@@ -227,22 +187,18 @@ def check() -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    for flag in ("json", "write", "check"):
+    for flag in ("write", "check"):
         parser.add_argument(f"--{flag}", action="store_true")
     arguments = parser.parse_args()
     if arguments.check:
         check()
         return
     found = measure()
-    if arguments.json:
-        print(json.dumps({**found, "missed": missed(found)}, indent=2))
-    else:
-        print(text(found))
+    print(text(found))
     if arguments.write:
         page = PAGE.read_text(encoding="utf-8")
         before, after = page.split(BEGIN)[0], page.split(END)[1]
         PAGE.write_text(before + text(found) + after, encoding="utf-8")
-        PAGE.with_suffix(".svg").write_text(picture(found), encoding="utf-8")
     for problem in missed(found):
         print(f"missed: {problem}", file=sys.stderr)
     sys.exit(1 if missed(found) else 0)

@@ -9,7 +9,7 @@ use robot_dynamics_kernels::spec::{BodyRef, fit};
 use robot_dynamics_kernels::{Scalar, Setting};
 
 use crate::arrays::{Dtype, array, dtype, leading};
-use crate::error::Exception;
+use crate::effects::refused;
 use crate::failure::of_failure;
 use crate::request::{By, Request};
 use crate::robot::Robot;
@@ -63,9 +63,7 @@ impl Robot {
         })
         .map_err(|error| {
             let text = format!("{}: {}", error.effect, error.problem);
-            Exception::new(py, "EffectError", text)
-                .with("effect", error.effect)
-                .build()
+            refused(py, error.effect, text)
         })?;
         let arrays: Vec<_> = request
             .arguments

@@ -1,10 +1,10 @@
 //! Loops of closed form as Python sees them: linkages, and a robot with them.
 
+#![allow(non_snake_case, reason = "functions with names of Python")]
+
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use dynamics_core::clusters::{
-    Belt, Branch, Delta, Differential, FiveBar, FourBar, Leg, ParallelAnkle, Rod, Stewart,
-};
+use dynamics_core::clusters::{self, Branch, Leg, Rod};
 use pyo3::prelude::*;
 use robot_dynamics_kernels::linkages::{self, Linkage, MOST_COEFFICIENTS};
 
@@ -66,65 +66,77 @@ fn linkage(
 }
 
 fn branch(positive: bool) -> Branch {
-    if positive {
-        Branch::Positive
-    } else {
-        Branch::Negative
+    match positive {
+        true => Branch::Positive,
+        false => Branch::Negative,
     }
 }
 
-/// A planar four-bar: the lengths, m, of ground, crank, coupler and rocker; the coordinates are the
-/// angles of crank, coupler on the crank, and rocker. ``positive``: of the two ways to assemble it,
-/// that in which the coupler's joint on the rocker is to the left of the line from the crank's end
-/// to the rocker's joint. ``zeros``, rad: the angle of each link at q = 0 from the ground, and of
-/// the coupler from the crank.
-#[pyfunction(name = "FourBar")]
-#[pyo3(signature = (ground, crank, coupler, rocker, positive = true, zeros = [0.0; 3]))]
-fn four_bar(
-    py: Python<'_>,
-    #[pyo3(from_py_with = wanted)] ground: f64,
-    #[pyo3(from_py_with = wanted)] crank: f64,
-    #[pyo3(from_py_with = wanted)] coupler: f64,
-    #[pyo3(from_py_with = wanted)] rocker: f64,
-    #[pyo3(from_py_with = wanted)] positive: bool,
-    #[pyo3(from_py_with = wanted)] zeros: [f64; 3],
-) -> PyResult<PyLinkage> {
-    let numbers: &[&[f64]] = &[&[ground, crank, coupler, rocker], &zeros];
-    linkage(py, "FourBar", numbers, || {
-        let bare = FourBar::new(ground, crank, coupler, rocker, branch(positive));
-        Linkage::FourBar(bare.zeros(zeros))
-    })
+/// Three points, a length and a sign.
+type RodNumbers = ([f64; 3], [f64; 3], [f64; 3], f64, bool);
+
+/// Functions that make linkages of their arguments, with the lists of numbers that have to be
+/// finite, and what adds them to a module.
+macro_rules! functions {
+    ($(
+        $(#[$doc:meta])*
+        $name:ident($($field:ident: $kind:ty $(= $default:expr)?),*), [$($numbers:expr),*] => $make:expr;
+    )*) => {
+        $(
+            $(#[$doc])*
+            #[pyfunction]
+            #[pyo3(signature = ($($field $(= $default)?),*))]
+            fn $name(
+                py: Python<'_>,
+                $(#[pyo3(from_py_with = wanted)] $field: $kind),*
+            ) -> PyResult<PyLinkage> {
+                linkage(py, stringify!($name), &[$(&$numbers),*], || Linkage::$name($make))
+            }
+        )*
+
+        fn add_functions(module: &Bound<'_, PyModule>) -> PyResult<()> {
+            $(module.add_function(wrap_pyfunction!($name, module)?)?;)*
+            Ok(())
+        }
+    };
 }
 
-/// A planar five-bar: the distance of the cranks, m, and the lengths of crank and rod of each; the
-/// coordinates are the angles of crank, rod, other crank and other rod.
-#[pyfunction(name = "FiveBar")]
-#[pyo3(signature = (ground, first, second, positive = true, zeros = [0.0; 4]))]
-fn five_bar(
-    py: Python<'_>,
-    #[pyo3(from_py_with = wanted)] ground: f64,
-    #[pyo3(from_py_with = wanted)] first: [f64; 2],
-    #[pyo3(from_py_with = wanted)] second: [f64; 2],
-    #[pyo3(from_py_with = wanted)] positive: bool,
-    #[pyo3(from_py_with = wanted)] zeros: [f64; 4],
-) -> PyResult<PyLinkage> {
-    let numbers: &[&[f64]] = &[&[ground], &first, &second, &zeros];
-    linkage(py, "FiveBar", numbers, || {
-        let bare = FiveBar::new(ground, first, second, branch(positive));
-        Linkage::FiveBar(bare.zeros(zeros))
-    })
-}
+functions! {
+    /// A planar four-bar: the lengths, m, of ground, crank, coupler and rocker; the coordinates are
+    /// the angles of crank, coupler on the crank, and rocker. ``positive``: of the two ways to
+    /// assemble it, that in which the coupler's joint on the rocker is to the left of the line from
+    /// the crank's end to the rocker's joint. ``zeros``, rad: the angle of each link at q = 0 from
+    /// the ground, and of the coupler from the crank.
+    FourBar(ground: f64, crank: f64, coupler: f64, rocker: f64, positive: bool = true, zeros: [f64; 3] = [0.0; 3]),
+    [[ground, crank, coupler, rocker], zeros] =>
+        clusters::FourBar::new(ground, crank, coupler, rocker, branch(positive)).zeros(zeros);
 
-/// A differential of two motors: half the sum and half the difference of their angles, over the two
-/// ratios.
-#[pyfunction(name = "Differential")]
-fn differential(
-    py: Python<'_>,
-    #[pyo3(from_py_with = wanted)] ratios: [f64; 2],
-) -> PyResult<PyLinkage> {
-    linkage(py, "Differential", &[&ratios], || {
-        Linkage::Differential(Differential::new(ratios))
-    })
+    /// A planar five-bar: the distance of the cranks, m, and the lengths of crank and rod of each;
+    /// the coordinates are the angles of crank, rod, other crank and other rod.
+    FiveBar(ground: f64, first: [f64; 2], second: [f64; 2], positive: bool = true, zeros: [f64; 4] = [0.0; 4]),
+    [[ground], first, second, zeros] =>
+        clusters::FiveBar::new(ground, first, second, branch(positive)).zeros(zeros);
+
+    /// A differential of two motors: half the sum and half the difference of their angles, over the
+    /// two ratios.
+    Differential(ratios: [f64; 2]), [ratios] => clusters::Differential::new(ratios);
+
+    /// An ankle of pitch and roll that two cranks drive by rods. Of each rod: the joint of its
+    /// crank, the crank's end and the rod's end on the foot, m, its length, m, and whether its root
+    /// is positive.
+    ParallelAnkle(rods: [RodNumbers; 2]), [] => clusters::ParallelAnkle::new(rods.map(
+        |(joint, crank, foot, length, positive)| Rod {
+            joint, crank, foot, length, branch: branch(positive),
+        },
+    ));
+
+    /// A Delta robot: the radii of base and platform, and the lengths of cranks and rods, m.
+    Delta(base: f64, crank: f64, rod: f64, platform: f64), [[base, crank, rod, platform]] =>
+        clusters::Delta::new(base, crank, rod, platform);
+
+    /// A Stewart platform: of each leg its joints on base and platform, and its length at q = 0, m.
+    Stewart(legs: [([f64; 3], [f64; 3], f64); 6]), [] =>
+        clusters::Stewart::new(legs.map(|(base, platform, length)| Leg { base, platform, length }));
 }
 
 /// A belt or gear: the driven angle as a polynomial of the driving one, up to 8 coefficients from
@@ -139,59 +151,8 @@ fn belt(
     }
     let mut all = [0.0; MOST_COEFFICIENTS];
     all[..coefficients.len()].copy_from_slice(&coefficients);
-    linkage(py, "Belt", &[&all], || Linkage::Belt(Belt::new(all)))
-}
-
-/// Three points, a length and a sign.
-type RodNumbers = ([f64; 3], [f64; 3], [f64; 3], f64, bool);
-
-/// An ankle of pitch and roll that two cranks drive by rods. Of each rod: the joint of its crank,
-/// the crank's end and the rod's end on the foot, m, its length, m, and whether its root is
-/// positive.
-#[pyfunction(name = "ParallelAnkle")]
-fn parallel_ankle(
-    py: Python<'_>,
-    #[pyo3(from_py_with = wanted)] rods: [RodNumbers; 2],
-) -> PyResult<PyLinkage> {
-    linkage(py, "ParallelAnkle", &[], || {
-        let rods = rods.map(|(joint, crank, foot, length, positive)| Rod {
-            joint,
-            crank,
-            foot,
-            length,
-            branch: branch(positive),
-        });
-        Linkage::ParallelAnkle(ParallelAnkle::new(rods))
-    })
-}
-
-/// A Delta robot: the radii of base and platform, and the lengths of cranks and rods, m.
-#[pyfunction(name = "Delta")]
-fn delta(
-    py: Python<'_>,
-    #[pyo3(from_py_with = wanted)] base: f64,
-    #[pyo3(from_py_with = wanted)] crank: f64,
-    #[pyo3(from_py_with = wanted)] rod: f64,
-    #[pyo3(from_py_with = wanted)] platform: f64,
-) -> PyResult<PyLinkage> {
-    linkage(py, "Delta", &[&[base, crank, rod, platform]], || {
-        Linkage::Delta(Delta::new(base, crank, rod, platform))
-    })
-}
-
-/// A Stewart platform: of each leg its joints on base and platform, and its length at q = 0, m.
-#[pyfunction(name = "Stewart")]
-fn stewart(
-    py: Python<'_>,
-    #[pyo3(from_py_with = wanted)] legs: [([f64; 3], [f64; 3], f64); 6],
-) -> PyResult<PyLinkage> {
-    linkage(py, "Stewart", &[], || {
-        let legs = legs.map(|(base, platform, length)| Leg {
-            base,
-            platform,
-            length,
-        });
-        Linkage::Stewart(Stewart::new(legs))
+    linkage(py, "Belt", &[&all], || {
+        Linkage::Belt(clusters::Belt::new(all))
     })
 }
 
@@ -327,11 +288,6 @@ methods! {
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyLinkage>()?;
     module.add_class::<PyLinkages>()?;
-    module.add_function(wrap_pyfunction!(four_bar, module)?)?;
-    module.add_function(wrap_pyfunction!(five_bar, module)?)?;
-    module.add_function(wrap_pyfunction!(differential, module)?)?;
     module.add_function(wrap_pyfunction!(belt, module)?)?;
-    module.add_function(wrap_pyfunction!(parallel_ankle, module)?)?;
-    module.add_function(wrap_pyfunction!(delta, module)?)?;
-    module.add_function(wrap_pyfunction!(stewart, module)?)
+    add_functions(module)
 }

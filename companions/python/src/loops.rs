@@ -11,7 +11,7 @@ use robot_import::number::Attitude;
 
 use crate::angles::Use;
 use crate::arrays::Argument;
-use crate::effects::given as effects_of;
+use crate::effects::{self, given as effects_of};
 use crate::error::{Exception, wanted};
 use crate::methods::{Machine, methods};
 use crate::robot::{Array, Robot, argument};
@@ -298,6 +298,5 @@ pub fn whole(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
         None if !effects.contains(&Spec::Coriolis) => ("Coriolis", "it has to be in the scene"),
         None => return Ok(()),
     };
-    let error = Exception::new(py, "EffectError", format!("{effect}: {text}"));
-    Err(error.with("effect", effect).build())
+    Err(effects::refused(py, effect, format!("{effect}: {text}")))
 }

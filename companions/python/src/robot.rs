@@ -24,6 +24,7 @@ use robot_import::tree::{Numbers, Tree};
 use crate::angles::{self, Position, Positions, Use};
 use crate::arrays::Argument;
 use crate::costs::{self, Cost};
+use crate::effects::refused;
 use crate::error::{Exception, of_import, of_model, wanted};
 use crate::library;
 use crate::methods::Machine;
@@ -248,18 +249,23 @@ impl Robot {
         }
     }
 
-    /// The body that a velocity coordinate moves.
-    fn moved_by(&self, coordinate: usize) -> Option<&BodyInfo> {
+    /// The body of a position coordinate (0) or of a velocity coordinate (1).
+    fn moved_by(&self, coordinate: usize, kind: usize) -> Option<&BodyInfo> {
         let mut first = 0;
         self.bodies.iter().find(|body| {
-            first += body.kind.coordinates().1;
+            first += <[usize; 2]>::from(body.kind.coordinates())[kind];
             coordinate < first
         })
     }
 
     /// The name of the joint of a velocity coordinate.
     pub fn joint_of(&self, coordinate: usize) -> &str {
-        self.moved_by(coordinate).map_or("", |body| &body.joint)
+        self.moved_by(coordinate, 1).map_or("", |body| &body.joint)
+    }
+
+    /// The name of the joint of a position coordinate.
+    pub fn joint_at(&self, position: usize) -> &str {
+        self.moved_by(position, 0).map_or("", |body| &body.joint)
     }
 
     /// The name of a body.
@@ -272,19 +278,9 @@ impl Robot {
         self.bodies.get(body).map_or("", |body| &body.joint)
     }
 
-    /// The name of the joint of a position coordinate.
-    pub fn joint_at(&self, position: usize) -> &str {
-        let mut first = 0;
-        let found = self.bodies.iter().find(|body| {
-            first += body.kind.coordinates().0;
-            position < first
-        });
-        found.map_or("", |body| &body.joint)
-    }
-
     /// Whether a velocity coordinate is its joint's only one.
     pub fn is_alone(&self, coordinate: usize) -> bool {
-        let body = self.moved_by(coordinate);
+        let body = self.moved_by(coordinate, 1);
         body.is_some_and(|body| body.kind.coordinates().1 == 1)
     }
 
@@ -318,17 +314,15 @@ impl Robot {
         if form == "core" {
             return Ok(which.into());
         }
+        let none = |text| {
+            let error = Exception::new(py, "NoEngine", text);
+            Err(error.with("robot", self.name.as_str()).build())
+        };
         if form != "engine" {
-            let text = format!("there is no form `{form}`: \"core\" or \"engine\"");
-            return Err(Exception::new(py, "NoEngine", text)
-                .with("robot", self.name.as_str())
-                .build());
+            return none(format!("there is no form `{form}`: \"core\" or \"engine\""));
         }
         if self.library.and_then(<f32 as InEngine>::engine).is_none() {
-            let text = format!("the wheel has no engine of `{}`", self.name);
-            return Err(Exception::new(py, "NoEngine", text)
-                .with("robot", self.name.as_str())
-                .build());
+            return none(format!("the wheel has no engine of `{}`", self.name));
         }
         let named = |spec| effects.contains(&spec);
         let down = Spec::Gravity([0.0, 0.0, -9.81]);
@@ -343,9 +337,7 @@ impl Robot {
             return Ok(By::Engine(scene));
         }
         let text = "the engines of the wheel have the scenes of RIGID_BODY alone; other effects are computed by form = \"core\"";
-        Err(Exception::new(py, "EffectError", text)
-            .with("effect", "")
-            .build())
+        Err(refused(py, "", text))
     }
 
     /// A value for each velocity coordinate.

@@ -1,4 +1,4 @@
-"""float32 has the bits of the host's and so of the target's programs, of which the step `bits` says that they agree."""
+"""float32 has the bits of the host's and so of the target's programs, which agree by the tests of the library."""
 
 import os
 import subprocess
@@ -13,7 +13,7 @@ from trees import states
 PROGRAM = os.environ.get("ROBOT_DYNAMICS_BITS")
 QUANTITIES = ["rnea", "bias", "gravity", "crba", "aba", "forward_dynamics"]
 
-pytestmark = pytest.mark.skipif(PROGRAM is None, reason="ROBOT_DYNAMICS_BITS names the referee, as test.py does")
+pytestmark = pytest.mark.skipif(PROGRAM is None, reason="ROBOT_DYNAMICS_BITS names the referee, as check does")
 
 
 def firmware(robot, quantity, rows):

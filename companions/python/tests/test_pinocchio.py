@@ -42,20 +42,16 @@ def matrix(peer, robot, m):
 
 def test_inverse_dynamics_is_pinocchios(pair):
     robot, peer, (q, v, a, _) = pair
-    expected = [
-        peer.back(robot, pin.rnea(peer.model, peer.data, peer.q(robot, x), peer.v(robot, y), peer.v(robot, z)))
-        for x, y, z in zip(q, v, a)
-    ]
-    near(robot.rnea(q, v, a), np.array(expected))
-    bias = [
-        peer.back(robot, pin.nonLinearEffects(peer.model, peer.data, peer.q(robot, x), peer.v(robot, y)))
-        for x, y in zip(q, v)
-    ]
-    near(robot.bias(q, v), np.array(bias))
-    gravity = [
-        peer.back(robot, pin.computeGeneralizedGravity(peer.model, peer.data, peer.q(robot, x))) for x in q
-    ]
-    near(robot.gravity(q), np.array(gravity))
+
+    def theirs(function, positions, *rates):
+        """Of each state, in our order of coordinates."""
+        rows = zip(positions, *rates)
+        given = [(peer.q(robot, x), *(peer.v(robot, y) for y in more)) for x, *more in rows]
+        return np.array([peer.back(robot, function(peer.model, peer.data, *row)) for row in given])
+
+    near(robot.rnea(q, v, a), theirs(pin.rnea, q, v, a))
+    near(robot.bias(q, v), theirs(pin.nonLinearEffects, q, v))
+    near(robot.gravity(q), theirs(pin.computeGeneralizedGravity, q))
 
 
 def test_inertia_matrix_is_pinocchios(pair):

@@ -46,6 +46,12 @@ async function opened(browser, file, { screen = DESKTOP, dark = false, before, a
   return { page, problems, requests, firstTorque: await page.evaluate(() => play.times.firstTorque) };
 }
 
+/// Closes a page, on which nothing went wrong.
+async function closed(page, problems) {
+  must(problems.length === 0, `errors on the page: ${problems}`);
+  await page.close();
+}
+
 /// Three seconds of frames: processor time for each, ms, their rate, and the share of the machine that others had.
 async function span(browser, page) {
   await page.evaluate(() => void (play.times.work.length = play.times.frames.length = 0));
@@ -100,8 +106,7 @@ const tests = {
     const { page, problems, requests, firstTorque } = await opened(browser, file);
     say("first torque", `${prompt(firstTorque).toFixed(0)} ms`);
     alone(requests);
-    must(problems.length === 0, `errors on the page: ${problems}`);
-    await page.close();
+    await closed(page, problems);
     refused("prompt", () => prompt(2_500));
     refused("alone", () => alone(["https://example.org/a.js"]));
   },
@@ -202,9 +207,8 @@ const tests = {
     for (const key of ["ur5e", "panda", "so101", "scara", "g1"]) shares.push(alike(await difference(key), key));
     const turned = await difference("ur5e", 40);
     refused("alike", () => alike(turned, "from elsewhere"));
-    must(problems.length === 0, `errors on the page: ${problems}`);
     say("pictures", `at most ${(100 * Math.max(...shares)).toFixed(1)} % of a robot's pixels differ without WebGL`);
-    await page.close();
+    await closed(page, problems);
   },
 
   /// axe finds nothing, and nothing is too wide, in each theme, size and tab; pictures of all.
@@ -314,9 +318,8 @@ const tests = {
       ways.push(...found);
     }
     must(fronts.includes("ur5e") && fronts.length > 1, `robots with a front: ${fronts.join(", ")}`);
-    must(problems.length === 0, `errors on the page: ${problems}`);
     say("moves", `${keys.length} robots, ${ways.length} ways on the fronts of ${fronts.join(", ")}, keyboard and pointer`);
-    await page.close();
+    await closed(page, problems);
   },
 
   /// A URDF, and files that are hostile.
@@ -358,8 +361,7 @@ const tests = {
       await settled(page);
       must((await page.evaluate(() => play.state.computed.single)).every(Number.isFinite), `after ${name} nothing is computed`);
     }
-    must(problems.length === 0, `errors on the page: ${problems}`);
-    await page.close();
+    await closed(page, problems);
   },
 
   /// Pushes, faults and restarts of each scene.
@@ -446,9 +448,8 @@ const tests = {
         must((await shown()).mode === "Full", `${key} does not start again after ${what}`);
       }
     }
-    must(problems.length === 0, `errors on the page: ${problems}`);
     await page.screenshot({ path: join(pictures, "disturbed.png") });
-    await page.close();
+    await closed(page, problems);
   },
 
   /// The Rust that the page gives compiles, for several robots, effects and ways, and for a file's robot.
@@ -539,9 +540,8 @@ const tests = {
     must(/servo 4 did not reply/.test(silent.words), `a silent servo: ${silent.words}`);
     const wrong = await reads({ wrongChecksum: 2 });
     must(/2/.test(wrong.words), `a wrong checksum of servo 2: ${wrong.words}`);
-    must(problems.length === 0, `errors on the page: ${problems}`);
     say("serial", `${good.state.requests} reads of six servos; ${silent.words} ${wrong.words}`);
-    await page.close();
+    await closed(page, problems);
   },
 };
 

@@ -25,6 +25,12 @@ SCENE_GEARS = (345.0,) * 6
 TICK = 0.005
 
 
+def run(teleoperator, ticks):
+    """So many ticks."""
+    for _ in range(ticks):
+        teleoperator.tick()
+
+
 def servos(gears, supply=7.4):
     """Six servos as a calibration leaves them."""
     made = []
@@ -126,11 +132,11 @@ def at_rest():
 
 @pytest.fixture(scope="session")
 def scene():
-    """What the firmware's scene commands, from `cargo run -p host-reports --bin so101_floating`."""
+    """What the firmware's scene commands, from the bin so101_floating of ../bits."""
     path = os.environ.get("SO101_FLOATING_SCENE")
     if not path:
-        pytest.fail("SO101_FLOATING_SCENE names the record of the scene: run test.sh")
+        pytest.fail("SO101_FLOATING_SCENE names the record of the scene: run check --full")
     return json.loads(Path(path).read_text())
 
 
-__all__ = ["Arm", "Bench", "Still"]
+__all__ = ["Arm", "Bench", "Still", "run"]

@@ -3,7 +3,7 @@
 import copy
 
 import pytest
-from conftest import JOINTS, calibration
+from conftest import JOINTS, calibration, run
 
 from lerobot_teleoperator_so101_floating import JointOutOfRange, WrongCalibration, WrongConfiguration, WrongServos
 
@@ -104,8 +104,7 @@ def test_a_joint_that_leaves_its_limits_ends_without_torque(bench, at_rest):
         row[2] -= 0.01 * min(tick, 160)
     at_rest.rows, at_rest.row = rows, -1
     with pytest.raises(JointOutOfRange) as caught:
-        for _ in range(400):
-            teleoperator.tick()
+        run(teleoperator, 400)
     assert caught.value.joint == "elbow_flex" and caught.value.released
     assert not any(servo.torque_enabled for servo in bus.servos)
 

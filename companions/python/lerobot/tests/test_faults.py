@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import JOINTS
+from conftest import JOINTS, run
 
 from lerobot_teleoperator_so101_floating import (
     BusLost,
@@ -47,49 +47,52 @@ def no_torque(bus):
 @pytest.fixture
 def warm(bench, at_rest):
     bus, teleoperator = bench.floating(at_rest)
-    for _ in range(WARM):
-        teleoperator.tick()
+    run(teleoperator, WARM)
     # The check of the torque's end is one if there was torque before.
     assert all(servo.torque_enabled for servo in bus.servos) and abs(bus.servos[1].duty()) > 0.1
     return bus, teleoperator
 
 
-def test_lost_replies_end_without_torque(warm):
-    bus, teleoperator = warm
-    bus.mute = True
-    error, ticks = ends(teleoperator, BusLost)
-    assert ticks <= 3 and error.released is False and "switch off their supply" in str(error)
-    no_torque(bus)
+FAULTS = {  # what happens to the bus, and the error with its joint, words, whether servos confirmed, and in how many ticks
+    "lost replies": (lambda bus: setattr(bus, "mute", True), BusLost, None, "switch off their supply", False, 3),
+    "unplugged": (lambda bus: bus.unplug(), BusLost, None, "", False, 3),
+    "silent": (lambda bus: setattr(bus.servos[3], "silent", True), ServoSilent, "wrist_flex", "", None, 3),
+    "without its cable": (lambda bus: bus.servos[5].cut(), ServoSilent, "gripper", "", None, 200),
+    "wrong checksums": (lambda bus: setattr(bus, "corrupt", {4}), CorruptReplies, "wrist_flex", "", None, 3),
+    "fault": (lambda bus: bus.servos[1].set(65, 0b10_0100, 1), ServoFault, "shoulder_lift", "temperature, load", True, 1),
+    "hot": (lambda bus: bus.servos[4].set(63, 90, 1), ServoFault, "wrist_roll", "", None, 200),
+    "late": (lambda bus: bus.clock.sleep(0.5), LoopLate, None, "", None, 200),
+}
 
 
-def test_a_bus_that_returns_ends_without_torque(bench, at_rest):
-    bus, teleoperator = bench.floating(at_rest, release_time=3.0)
-    for _ in range(WARM):
-        teleoperator.tick()
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_fault_is_named_and_ends_without_torque(warm, name):
+    (bus, teleoperator), (fault, error, joint, words, released, most) = warm, FAULTS[name]
+    fault(bus)
+    found, ticks = ends(teleoperator, error)
+    assert ticks <= most and found.joint == joint and words in str(found)
+    assert released is None or found.released is released
+    if name == "without its cable":
+        # Nothing reaches its registers any more.
+        assert [servo.torque(1.0) for servo in bus.servos] == [0.0] * 6
+    elif name != "unplugged":
+        no_torque(bus)
+
+
+def lost(bus):
     bus.deaf = bus.mute = True
 
-    def back():
-        bus.deaf = bus.mute = False
 
-    bench.clock.at(0.6, back)
-    error, _ = ends(teleoperator, BusLost)
-    assert error.released is True
-    no_torque(bus)
+def back(bus):
+    bus.deaf = bus.mute = False
 
 
-def test_an_unplugged_adapter_is_a_lost_bus(warm):
-    bus, teleoperator = warm
-    bus.unplug()
-    error, ticks = ends(teleoperator, BusLost)
-    assert error.released is False and ticks <= 3
-
-
-def test_an_adapter_plugged_in_again_ends_without_torque(bench, at_rest):
+@pytest.mark.parametrize(("gone", "again"), [(lost, back), (lambda bus: bus.unplug(), lambda bus: bus.plug_in())])
+def test_a_bus_that_returns_ends_without_torque(bench, at_rest, gone, again):
     bus, teleoperator = bench.floating(at_rest, release_time=3.0)
-    for _ in range(WARM):
-        teleoperator.tick()
-    bus.unplug()
-    bench.clock.at(0.5, bus.plug_in)
+    run(teleoperator, WARM)
+    gone(bus)
+    bench.clock.at(0.5, lambda: again(bus))
     error, _ = ends(teleoperator, BusLost)
     assert error.released is True
     no_torque(bus)
@@ -109,30 +112,13 @@ def test_the_guardian_waits_for_the_adapter(bench, at_rest, monkeypatch):
     bus = bench.bus(at_rest, terminal=True)
     teleoperator = bench.teleoperator(bus, guardian=True)
     teleoperator.connect(calibrate=False)
-    for _ in range(WARM):
-        teleoperator.tick()
+    run(teleoperator, WARM)
     bus.unplug()
     error, _ = ends(teleoperator, BusLost)
     assert error.released is False
     bus.plug_in()
     until(lambda: not any(servo.torque_enabled for servo in bus.servos))
     no_torque(bus)
-
-
-def test_a_silent_servo_is_named(warm):
-    bus, teleoperator = warm
-    bus.servos[3].silent = True
-    error, ticks = ends(teleoperator, ServoSilent)
-    assert error.joint == "wrist_flex" and ticks <= 3
-    no_torque(bus)
-
-
-def test_a_servo_without_its_cable_is_named(warm):
-    bus, teleoperator = warm
-    bus.servos[5].cut()
-    error, _ = ends(teleoperator, ServoSilent)
-    assert error.joint == "gripper"
-    assert [servo.torque(1.0) for servo in bus.servos] == [0.0] * 6
 
 
 def test_a_single_lost_reply_is_no_fault(warm):
@@ -146,31 +132,20 @@ def test_a_single_lost_reply_is_no_fault(warm):
     assert teleoperator.loop.misses._missed[3] == 0
 
 
-def test_wrong_checksums_end_without_torque(warm):
-    bus, teleoperator = warm
-    bus.corrupt = {4}
-    error, ticks = ends(teleoperator, CorruptReplies)
-    assert error.joint == "wrist_flex" and ticks <= 3
-    no_torque(bus)
-
-
 def test_noise_before_replies_is_skipped(warm):
     bus, teleoperator = warm
     bus.noise = b"\x00\xff\x12"
-    for _ in range(20):
-        teleoperator.tick()
+    run(teleoperator, 20)
     assert teleoperator._error is None
 
 
 def test_a_servo_that_freezes_in_motion_is_stale(bench, at_rest):
     bus, teleoperator = bench.floating(at_rest)
-    for _ in range(WARM):
-        teleoperator.tick()
+    run(teleoperator, WARM)
     base = at_rest.q.copy()
     rows = [base + np.array([0.0, 0.3 * np.sin(0.01 * tick), 0, 0, 0, 0]) for tick in range(1000)]
     at_rest.rows, at_rest.row = rows, -1
-    for _ in range(40):
-        teleoperator.tick()
+    run(teleoperator, 40)
     bus.servos[1].freeze()
     error, ticks = ends(teleoperator, StaleServo)
     assert error.joint == "shoulder_lift" and ticks <= 0.35 * 200
@@ -179,11 +154,9 @@ def test_a_servo_that_freezes_in_motion_is_stale(bench, at_rest):
 
 def test_a_servo_that_froze_at_rest_is_stale_once_its_command_changes(bench, at_rest):
     bus, teleoperator = bench.floating(at_rest)
-    for _ in range(WARM):
-        teleoperator.tick()
+    run(teleoperator, WARM)
     bus.servos[2].freeze()
-    for _ in range(100):
-        teleoperator.tick()
+    run(teleoperator, 100)
     # The hand lifts the shoulder, which takes load off the elbow.
     base = at_rest.q.copy()
     at_rest.rows = [base - np.array([0.0, min(0.004 * tick, 1.5), 0, 0, 0, 0]) for tick in range(1000)]
@@ -199,22 +172,6 @@ def test_a_servo_that_froze_at_rest_is_stale_once_its_command_changes(bench, at_
     # Within twice the time that a servo may contradict its commands.
     assert teleoperator._error is not None and sum(off) * 0.005 <= 2.0 * 0.15 + 0.02
     assert teleoperator._error.released is False  # A servo that replies with old registers cannot confirm it.
-    no_torque(bus)
-
-
-def test_a_servos_fault_is_told_with_its_reason(warm):
-    bus, teleoperator = warm
-    bus.servos[1].set(65, 0b10_0100, 1)
-    error, ticks = ends(teleoperator, ServoFault)
-    assert error.joint == "shoulder_lift" and "temperature, load" in str(error) and ticks == 1 and error.released
-    no_torque(bus)
-
-
-def test_a_hot_servo_ends_without_torque(warm):
-    bus, teleoperator = warm
-    bus.servos[4].set(63, 90, 1)
-    error, _ = ends(teleoperator, ServoFault)
-    assert error.joint == "wrist_roll"
     no_torque(bus)
 
 
@@ -234,13 +191,6 @@ def test_a_jump_of_a_position_ends_without_torque(warm, at_rest):
     at_rest.rows, at_rest.row = [at_rest.q + np.array([0.3, 0, 0, 0, 0, 0])], -1
     error, ticks = ends(teleoperator, ImplausibleMotion)
     assert error.joint == "shoulder_pan" and ticks == 1
-    no_torque(bus)
-
-
-def test_a_late_loop_ends_without_torque(warm):
-    bus, teleoperator = warm
-    bus.clock.sleep(0.5)
-    ends(teleoperator, LoopLate)
     no_torque(bus)
 
 
@@ -288,8 +238,7 @@ def test_an_arm_can_float_again_after_an_error(warm):
     teleoperator.disconnect()
     bus.servos[1].set(65, 0, 1)
     teleoperator.connect(calibrate=False)
-    for _ in range(10):
-        teleoperator.tick()
+    run(teleoperator, 10)
     assert all(servo.torque_enabled for servo in bus.servos)
 
 
@@ -304,8 +253,7 @@ def test_a_raised_exception_in_a_with_block_ends_without_torque(bench, at_rest):
     bus = bench.bus(at_rest)
     teleoperator = bench.teleoperator(bus)
     with pytest.raises(KeyError), teleoperator:
-        for _ in range(10):
-            teleoperator.tick()
+        run(teleoperator, 10)
         assert all(servo.torque_enabled for servo in bus.servos)
         raise KeyError
     no_torque(bus)

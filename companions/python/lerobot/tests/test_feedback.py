@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import TICK, Arm, Still
+from conftest import TICK, Arm, Still, run
 
 WARM = 250
 
@@ -10,8 +10,7 @@ WARM = 250
 @pytest.fixture
 def warm(bench, at_rest):
     bus, teleoperator = bench.floating(at_rest)
-    for _ in range(WARM):
-        teleoperator.tick()
+    run(teleoperator, WARM)
     return bus, teleoperator
 
 
@@ -39,23 +38,20 @@ def test_a_load_that_is_no_longer_sent_is_forgotten(warm):
     bus, teleoperator = warm
     before = teleoperator.loop.torque.copy()
     felt(teleoperator, {"elbow_flex.torque": 0.55})
-    for _ in range(round(0.3 / TICK)):
-        teleoperator.tick()
+    run(teleoperator, round(0.3 / TICK))
     assert np.abs(teleoperator.loop.torque - before).max() < 1e-6
     assert not any(servo.registers[65] for servo in bus.servos)
 
 
 def test_the_torque_changes_no_faster_than_allowed(bench, at_rest):
     bus, teleoperator = bench.floating(at_rest, torque_rate=2.0, feedback_gain=1.0)
-    for _ in range(400):
-        teleoperator.tick()
+    run(teleoperator, 400)
     assert np.abs(felt(teleoperator, {"elbow_flex.torque": 0.3}, 1)[2] - 2.0 * TICK) < 1e-9
 
 
 def test_torques_are_limited(bench):
     bus, teleoperator = bench.floating(Still([0.0, 1.3, -1.2, 0.0, 0.0, 0.0]), torque_limit=0.5)
-    for _ in range(400):
-        teleoperator.tick()
+    run(teleoperator, 400)
     assert np.abs(teleoperator.loop.torque).max() == 0.5
 
 
@@ -64,8 +60,7 @@ def test_walls_push_back_at_the_ends_of_joints(bench):
     torques = []
     for arm in (inside, beyond):
         _, teleoperator = bench.floating(arm)
-        for _ in range(400):
-            teleoperator.tick()
+        run(teleoperator, 400)
         torques.append(teleoperator.loop.torque[0])
         teleoperator.disconnect()
     # 5 N·m/rad from 0.05 rad before the limit of 1.91986 rad on, at the count next to 1.93 rad.
@@ -90,8 +85,7 @@ def test_a_hand_moves_the_arm_with_less_effort(bench):
 
         arm.hand = hand
         _, teleoperator = bench.floating(arm, ramp=0.3, **options)
-        for _ in range(round(4.0 / TICK)):
-            teleoperator.tick()
+        run(teleoperator, round(4.0 / TICK))
         teleoperator.disconnect()
         return np.sqrt(np.mean(sum_of_squares))
 

@@ -3,24 +3,10 @@
 import numpy as np
 import page
 import pytest
-from conftest import SCENE_GEARS, TICK, Arm
+from conftest import SCENE_GEARS, TICK, Arm, run
 
 from lerobot_teleoperator_so101_floating.motors import LEADER_GEARS
 
-POSTURES = np.array(
-    [
-        [0.0, -1.2, 1.2, 0.8, 0.0, 0.2],
-        [-0.6, 0.3, 0.3, 0.8, 0.4, 1.2],
-        [0.8, 0.3, 0.2, 0.8, -0.5, 0.9],
-        [0.0, 1.3, -1.2, 0.0, 0.0, 0.0],
-        [1.0, 0.6, -0.9, -0.5, 1.0, 0.5],
-        [-1.2, 0.9, -0.6, 0.3, -1.5, 1.0],
-        [0.4, -0.8, 0.9, 1.2, 0.7, 0.1],
-        [0.2, 1.0, -1.4, 0.9, 2.0, 1.5],
-        [-0.9, -0.5, 1.3, -0.7, -2.0, 0.8],
-        [1.5, 0.1, 0.7, -1.1, 0.3, 0.4],
-    ]
-)
 HELD, RAMP, RELEASED = 0.5, 0.3, 2.0
 """A hand holds the arm while the torque rises, and then it is released, s."""
 BAR, FALL = 1.0, 20.0
@@ -38,8 +24,7 @@ def released(bench, posture, gears, plant=None, moving=None, time=RELEASED, **op
     arm = Arm(posture, gears, **(plant or {}))
     arm.hand = hold(posture)
     bus, teleoperator = bench.floating(arm, gears, ramp=RAMP, **options)
-    for _ in range(round(HELD / TICK)):
-        teleoperator.tick()
+    run(teleoperator, round(HELD / TICK))
     assert all(servo.torque_enabled for servo in bus.servos)
     start = arm.q.copy()
     if moving is not None:
@@ -64,41 +49,45 @@ def fallen(bench, posture, gears):
     return np.degrees(most.max())
 
 
+@pytest.fixture
+def postures(scene):
+    return np.array(scene["angles"])
+
+
 @pytest.mark.parametrize("gears", [SCENE_GEARS, LEADER_GEARS], ids=["scene", "leader"])
-def test_a_released_arm_stays_and_falls_without(bench, gears):
-    drift = [released(bench, posture, gears)[0] for posture in POSTURES]
-    falls = [fallen(bench, posture, gears) for posture in POSTURES]
+def test_a_released_arm_stays_and_falls_without(bench, postures, gears):
+    drift = [released(bench, posture, gears)[0] for posture in postures]
+    falls = [fallen(bench, posture, gears) for posture in postures]
     assert max(drift) <= BAR and min(falls) >= FALL, (drift, falls)
     name = "leader" if gears == LEADER_GEARS else "scene"
     page.figures[f"release {name}"] = (max(drift), min(falls))
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_a_released_arm_stays_with_parameters_that_are_off(bench, sign):
+def test_a_released_arm_stays_with_parameters_that_are_off(bench, postures, sign):
     """Gravity by 3 % and the plant's friction by 10 % less than the model's, as the law's configuration allows."""
     off = {"gravity_scale": (1.0 + 0.03 * sign,) * 6}
-    drift = [released(bench, posture, LEADER_GEARS, {"friction": 1.0 / 1.1}, **off)[0] for posture in POSTURES[1::2]]
+    drift = [released(bench, posture, LEADER_GEARS, {"friction": 1.0 / 1.1}, **off)[0] for posture in postures[1::2]]
     assert max(drift) <= 3.0 * BAR, drift
     page.figures[f"release off {sign:+.0f}"] = (max(drift),)
 
 
-def test_a_moving_arm_comes_to_rest(bench):
+def test_a_moving_arm_comes_to_rest(bench, postures):
     """The friction that is left stops an arm that is let go in motion, at whichever wall or before."""
     push = np.array([0.6, -0.3, 0.3, 0.3, 0.6, 0.0])
-    _, soon = released(bench, POSTURES[0], LEADER_GEARS, {"friction": 1.0 / 1.1}, push, time=0.1)
-    _, late = released(bench, POSTURES[0], LEADER_GEARS, {"friction": 1.0 / 1.1}, push, time=10.0)
+    _, soon = released(bench, postures[0], LEADER_GEARS, {"friction": 1.0 / 1.1}, push, time=0.1)
+    _, late = released(bench, postures[0], LEADER_GEARS, {"friction": 1.0 / 1.1}, push, time=10.0)
     assert soon > 10.0 and late < 0.1, (soon, late)
 
 
-def test_an_arm_that_loses_its_bus_sinks_slowly(bench):
+def test_an_arm_that_loses_its_bus_sinks_slowly(bench, postures):
     """The servos keep their last duties, which nothing can take from them without a bus: what that means for the arm."""
     ways = []
-    for posture in POSTURES:
+    for posture in postures:
         arm = Arm(posture, LEADER_GEARS)
         arm.hand = hold(posture)
         bus, teleoperator = bench.floating(arm, LEADER_GEARS, ramp=RAMP)
-        for _ in range(round(HELD / TICK)):
-            teleoperator.tick()
+        run(teleoperator, round(HELD / TICK))
         bus.unplug()
         start = arm.q.copy()
         arm.hand = lambda q, qd, time: np.zeros(6)

@@ -3,7 +3,7 @@
 import numpy as np
 import page
 import pytest
-from conftest import SCENE_GEARS, TICK, Still
+from conftest import SCENE_GEARS, TICK, Still, run
 
 from lerobot_teleoperator_so101_floating.motors import LEADER_GEARS
 
@@ -33,8 +33,7 @@ def decoded(bus, stall, first=0):
 def floats_at(bench, arm, law, **more):
     gears, options = LAWS[law]
     bus, teleoperator = bench.floating(arm, gears, supply=7.4, **options, **more)
-    for _ in range(WARM):
-        teleoperator.tick()
+    run(teleoperator, WARM)
     return bus, teleoperator
 
 
@@ -46,8 +45,7 @@ def off_at_rest(bench, scene, law, postures, **options):
     for posture in postures:
         # The hand moves the arm there, and holds it until the estimate is at rest.
         arm.rows, arm.row = np.linspace(arm.q, angles(posture["counts"]), 200), -1
-        for _ in range(500):
-            teleoperator.tick()
+        run(teleoperator, 500)
         wanted = np.array(posture["commands"][law])
         sent = decoded(bus, scene["stall"][law], -200)
         # Joints that hardly carry anything are held to a share of 10 mN·m, three steps of the duty.
@@ -101,8 +99,7 @@ def test_a_supply_that_is_measured_gives_the_same_torque(bench, scene):
     bus = bench.bus(arm, supply=5.0)
     teleoperator = bench.teleoperator(bus, **SCENE_LAW)
     teleoperator.connect(calibrate=False)
-    for _ in range(500):
-        teleoperator.tick()
+    run(teleoperator, 500)
     sent = decoded(bus, np.array(scene["stall"]["scene"]) * 5.0 / 7.4, -200).mean(axis=0)
     assert np.abs(sent - posture["commands"]["scene"]).max() <= BAR * np.abs(posture["commands"]["scene"]).max()
 

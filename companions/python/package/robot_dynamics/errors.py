@@ -1,4 +1,8 @@
-"""The errors of this package: each names the file, line, joint, body, argument or effect concerned."""
+"""The errors of this package: each names what is concerned in its fields.
+
+Names are those of the robot. ``state`` is the index of the state in its batch, 0 of a single state, and None where a description is
+concerned; ``coordinate`` is a velocity coordinate.
+"""
 
 from __future__ import annotations
 
@@ -52,7 +56,6 @@ class DescriptionError(RobotDynamicsError, ValueError):
     element: str
     """The element and its name, such as ``joint `elbow` ``; empty if none is concerned."""
     problem: str
-    """The problem without its place."""
 
 
 class UnreadableFile(DescriptionError, OSError):
@@ -63,118 +66,95 @@ class ModelError(RobotDynamicsError, ValueError):
     """A robot that the library refuses: too large, or with impossible numbers."""
 
     body: str | None
-    """The body concerned."""
 
 
 class NoEngine(RobotDynamicsError, LookupError):
     """The wheel has no engine of this robot, or no form of this name."""
 
     robot: str
-    """The robot's name."""
 
 
 class UnknownRobot(RobotDynamicsError, LookupError):
     """No robot of the library has this name."""
 
     name: str
-    """The name."""
 
 
 class UnknownBody(RobotDynamicsError, LookupError):
     """The robot has no body of this name or number."""
 
     body: str | int
-    """The name or number."""
 
 
 class UnknownFrame(RobotDynamicsError, ValueError):
     """No frame has this name."""
 
     frame: str
-    """The name."""
 
 
 class ShapeError(RobotDynamicsError, ValueError):
     """An array of the wrong shape."""
 
     argument: str
-    """The argument concerned."""
     shape: tuple[int, ...]
-    """Its shape."""
     expected: str
-    """What is expected."""
 
 
 class ArgumentError(RobotDynamicsError, TypeError, ValueError):
     """An argument that is not of its type, such as a list of two numbers for a direction."""
 
     given: Any
-    """What was given."""
 
 
 class DtypeError(RobotDynamicsError, TypeError):
     """An array that is neither all float32 nor all float64, or no array of numbers."""
 
     argument: str
-    """The argument concerned."""
 
 
 class EffectError(RobotDynamicsError, ValueError):
     """An effect that a scene or a robot cannot have."""
 
     effect: str
-    """The effect's name."""
 
 
 class NotPositiveDefinite(RobotDynamicsError, ArithmeticError):
     """M is not positive definite: a joint moves no inertia, or a number overflows."""
 
     joint: str
-    """The joint's name."""
     coordinate: int
-    """The velocity coordinate."""
     state: int
-    """The state's index in the batch; 0 of a single state."""
 
 
 class MultiDofJoint(RobotDynamicsError, ValueError):
     """A joint of several degrees of freedom, of which no transmission is known."""
 
     joint: str
-    """The joint's name."""
     state: int
-    """The state's index in the batch; 0 of a single state."""
 
 
 class AngleError(RobotDynamicsError, ValueError):
-    """An angle beyond the range in which sines are computed, where its whole turns matter."""
+    """An angle beyond the range in which sines are computed, rad, where its whole turns matter."""
 
     joint: str
     """The joint's name; that of the linkage, where it is an angle of a linkage."""
     coordinate: int | None
-    """The velocity coordinate; none of a linkage."""
     angle: float
-    """The angle, rad."""
     limit: float
-    """The largest angle, rad."""
     state: int
-    """The state's index in the batch; 0 of a single state."""
 
 
 class NoAttitude(RobotDynamicsError, ValueError):
     """A quaternion of length zero, or so small that its square is."""
 
     joint: str
-    """The joint's name."""
     state: int
-    """The state's index in the batch; 0 of a single state."""
 
 
 class UnknownCoordinate(RobotDynamicsError, LookupError):
     """The robot has no velocity coordinate of this number."""
 
     coordinate: int
-    """The number."""
 
 
 class LoopModelError(RobotDynamicsError, ValueError):
@@ -188,11 +168,9 @@ class LoopOpen(RobotDynamicsError, ArithmeticError):
     """A loop is open: its ends are not where its joint would have them."""
 
     loop: str
-    """The loop's name."""
     error: float
     """By how much, relative to the loop's size."""
     state: int
-    """The state's index in the batch; 0 of a single state."""
 
 
 class UnderActuated(RobotDynamicsError, ArithmeticError):
@@ -201,27 +179,21 @@ class UnderActuated(RobotDynamicsError, ArithmeticError):
     loop: str
     """The loop that it moves in; the robot, if it moves in none."""
     joint: str
-    """The joint's name."""
     state: int
-    """The state's index in the batch; 0 of a single state."""
 
 
 class NotFinite(RobotDynamicsError, ArithmeticError):
     """A number of a loop overflows: one that is given as NaN or infinite marks its row instead."""
 
     loop: str
-    """The loop's name."""
     state: int
-    """The state's index in the batch; 0 of a single state."""
 
 
 class LinkageError(RobotDynamicsError, ValueError):
     """A linkage that cannot be described so, or that has no motion in a state."""
 
     linkage: str
-    """The linkage's name."""
     state: int | None
-    """The state's index in the batch; none where the description is concerned."""
 
 
 class ModeError(RobotDynamicsError, ValueError):
@@ -232,11 +204,9 @@ class ModeError(RobotDynamicsError, ValueError):
     mode: int | None
     """The mode's number: among those of the link, in a state among all."""
     state: int | None
-    """The state's index in the batch; none where the description is concerned."""
 
 
 class NotRecorded(RobotDynamicsError, LookupError):
     """No figure of this robot and algorithm is recorded."""
 
     robot: str
-    """The robot's name."""

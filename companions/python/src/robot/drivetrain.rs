@@ -5,8 +5,8 @@ use robot_dynamics_kernels::Which;
 
 use super::{Array, Robot, with_inertia};
 use crate::angles::Use;
-use crate::effects::given as effects_of;
-use crate::error::{Exception, wanted};
+use crate::effects::{given as effects_of, refused};
+use crate::error::wanted;
 use crate::methods::Machine;
 use robot_dynamics_kernels::spec::Spec;
 
@@ -43,10 +43,8 @@ impl Robot {
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
         with_inertia(py, &effects)?;
-        let refuse = |effect: &str, text: String| {
-            let error = Exception::new(py, "EffectError", format!("{effect}: {text}"));
-            Err(error.with("effect", effect).build())
-        };
+        let refuse =
+            |effect: &str, text: String| Err(refused(py, effect, format!("{effect}: {text}")));
         if !effects.contains(&Spec::Coriolis) {
             return refuse("Coriolis", "elastic joints need it in the scene".to_owned());
         }

@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 use robot_dynamics_kernels::AnyFrame;
 use robot_dynamics_kernels::spec::Spec;
 
+use crate::effects::refused;
 use crate::error::Exception;
 
 pub fn frame_of(py: Python<'_>, name: &str) -> PyResult<AnyFrame> {
@@ -28,9 +29,7 @@ pub fn with_inertia(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
         return Ok(());
     }
     let text = "forward dynamics needs Inertia in the scene";
-    Err(Exception::new(py, "EffectError", text)
-        .with("effect", "Inertia")
-        .build())
+    Err(refused(py, "Inertia", text))
 }
 
 /// Refuses rotors that spin, which some algorithms of the library do not have.
@@ -40,7 +39,5 @@ pub fn without_rotors(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
         return Ok(());
     }
     let text = "GyroscopicRotors: this algorithm has no rotors that spin: name Armature";
-    Err(Exception::new(py, "EffectError", text)
-        .with("effect", "GyroscopicRotors")
-        .build())
+    Err(refused(py, "GyroscopicRotors", text))
 }

@@ -149,6 +149,7 @@ fn main() -> serde_json::Result<()> {
         "bandwidth": BANDWIDTH,
         "supply": SUPPLY,
         "stall": { "scene": scene, "leader": leader },
+        "angles": POSTURES,
         "postures": POSTURES.iter().map(at_rest).collect::<Vec<_>>(),
         "path": along_the_path(),
     });

@@ -73,8 +73,7 @@ enum Command {
 
 /// The commands for users, in the order of the help; all others are the laboratory's.
 const FIRST: [&str; 10] = [
-    "demo", "test", "new", "import", "meter", "watch", "identify", "certify", "costs",
-    "accuracy",
+    "demo", "test", "new", "import", "meter", "watch", "identify", "certify", "costs", "accuracy",
 ];
 
 /// The commands that lists name behind those of the studies.

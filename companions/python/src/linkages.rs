@@ -80,7 +80,7 @@ type RodNumbers = ([f64; 3], [f64; 3], [f64; 3], f64, bool);
 macro_rules! functions {
     ($(
         $(#[$doc:meta])*
-        $name:ident($($field:ident: $kind:ty $(= $default:expr)?),*), [$($numbers:expr),*] => $make:expr;
+        $name:ident($($field:ident: $kind:ty $(= $default:tt)?),*), [$($numbers:expr),*] => $make:expr;
     )*) => {
         $(
             $(#[$doc])*

@@ -7,12 +7,6 @@
 (6,)
 """
 
-from . import _native, errors
+from . import errors
 from ._native import *  # noqa: F403
 from .errors import *  # noqa: F403
-
-__all__: list[str] = []
-__all__ += _native.__all__
-__all__ += errors.__all__
-__all__.remove("_robot")
-__all__.remove("_scene")

@@ -20,7 +20,7 @@ JOINTS = ("shoulder_pan", "shoulder_lift", "elbow_flex", "wrist_flex", "wrist_ro
 RANGES = ((796, 3298), (910, 3184), (946, 3148), (966, 3128), (0, 4095), (1500, 2751))
 """What a person records: the joints' ends, a full turn of the wrist, and the jaw's 110°."""
 OFFSETS = (-800, 1200, 40, -1500, 300, 900)
-REPOSITORY = Path(__file__).parents[3]
+REPOSITORY = Path(__file__).parents[4]
 SCENE_GEARS = (345.0,) * 6
 TICK = 0.005
 

@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::commands::{demo, endurance, identify, import, meter, play, test, watch};
+use crate::commands::{demo, endurance, identify, import, meter, test, watch};
 use crate::kit::error::{Result, VERBOSE, check};
 use crate::kit::{output, processes, setup, workspace};
 use crate::studies;
@@ -50,8 +50,6 @@ enum Command {
     Watch(watch::Args),
     /// Find masses, inertias and frictions of a robot from a record of `watch`, for its file
     Identify(identify::Args),
-    /// Build the page on which one tries the library in a browser, target/site/play/index.html
-    Play,
     /// Feed descriptions, files, dynamics, controller and encoder frames random bytes; CI does so
     /// for a moment
     Fuzz {
@@ -70,8 +68,8 @@ enum Command {
 }
 
 /// The commands for users, in the order of the help; all others are the laboratory's.
-const FIRST: [&str; 10] = [
-    "demo", "test", "new", "import", "meter", "watch", "identify", "play", "costs", "accuracy",
+const FIRST: [&str; 9] = [
+    "demo", "test", "new", "import", "meter", "watch", "identify", "costs", "accuracy",
 ];
 
 /// The commands that lists name behind those of the studies.
@@ -146,7 +144,6 @@ pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {
         Command::Meter(args) => meter::run(setup, &args),
         Command::Watch(args) => watch::run(setup, &args),
         Command::Identify(args) => identify::run(&args.arguments),
-        Command::Play => play::run(setup, "play/build.mjs"),
         Command::Fuzz { seconds } => endurance::fuzz(seconds),
         Command::Soak { ticks } => endurance::soak(ticks),
         Command::Miri => endurance::miri(),

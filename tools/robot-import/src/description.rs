@@ -2,6 +2,7 @@
 //! merged.
 
 use dynamics_core::glam::{DMat3, DVec3};
+use serde::{Deserialize, Serialize};
 
 use crate::error::{ImportError, Problem};
 use crate::limits::{MOST_COMPARED, MOST_SHOWN};
@@ -112,7 +113,7 @@ pub struct Joint {
 }
 
 /// A kind of joint, in URDF's words.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Kind {
     /// The joint does not move.
     Fixed,
@@ -131,7 +132,7 @@ pub enum Kind {
 }
 
 /// Limits of a joint; `None` where the file states none.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
     /// Least and greatest position, rad or m.
     pub position: Option<[f64; 2]>,

@@ -1,12 +1,13 @@
 //! Masses of several links as one body's.
 
 use dynamics_core::glam::{DMat3, DVec3};
+use serde::{Deserialize, Serialize};
 
 use crate::description::Pose;
 use crate::number::tidy;
 
 /// Mass, centre of mass and rotational inertia about it, all in the body's frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MassProperties {
     /// Mass, kg.
     pub mass: f64,

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use serde::{Deserialize, Serialize};
+
 use crate::description::{Description, Kind, Pose, most_similar, shortened};
 use crate::error::{Problem, Result};
 use crate::number::{Attitude, tidy};
@@ -10,7 +12,7 @@ use crate::tree::{Body, Tree};
 use crate::write::placed;
 
 /// A joint that closes a loop.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Closed {
     /// Its index in the description.
     pub source: usize,

@@ -3,6 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use dynamics_core::glam::DMat3;
+use serde::{Deserialize, Serialize};
 
 use crate::snap;
 
@@ -27,7 +28,7 @@ pub fn literal(x: f64) -> String {
 }
 
 /// An attitude as [`dynamics_core::model::Body`] takes it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Attitude {
     /// Quarter turns about x, y and z.
     QuarterTurns([i32; 3]),

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use dynamics_core::glam::{DMat3, DVec3};
+use serde::{Deserialize, Serialize};
 
 use crate::description::{Description, Joint, Kind, Limits, Link, Pose, Snap};
 use crate::error::{Problem, Result};
@@ -11,7 +12,7 @@ use crate::number::{Attitude, tidy};
 use crate::selection::{Role, Selected};
 
 /// The bodies of a robot, parents first.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Tree {
     /// The robot's name.
     pub name: String,
@@ -21,11 +22,12 @@ pub struct Tree {
     pub bodies: Vec<Body>,
     /// For each link, the body that it is part of, and its frame in that body's; none is the base,
     /// or not part of the robot.
+    #[serde(skip)]
     pub links: Vec<Option<(Option<usize>, Pose)>>,
 }
 
 /// A body and its joint.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Body {
     /// The name of its link.
     pub name: String,
@@ -62,8 +64,10 @@ pub struct Body {
     /// The links that are part of it, besides that of its name.
     pub merged: Vec<String>,
     /// The roundings that were made exact in its placement.
+    #[serde(skip)]
     pub snapped: Vec<Snap>,
     /// Those in the frames of its links' inertias, with the links' names.
+    #[serde(skip)]
     pub roundings: Vec<(String, Snap)>,
 }
 

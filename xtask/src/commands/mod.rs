@@ -5,6 +5,5 @@ pub mod endurance;
 pub mod identify;
 pub mod import;
 pub mod meter;
-pub mod play;
 pub mod test;
 pub mod watch;

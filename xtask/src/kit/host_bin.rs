@@ -22,7 +22,7 @@ pub struct Together {
 /// All but those that simulate. xtask is there already, with features of its own.
 pub const SHARED: Together = Together {
     packages: "--workspace --exclude xtask --exclude telemetry-watch --exclude firmware-demo \
-         --exclude lab-firmware --exclude identification --exclude simulation-tests --exclude play",
+         --exclude lab-firmware --exclude identification --exclude simulation-tests",
     // Cases that compute for minutes are optimised, which would take the compiler longer than the
     // parts of an everyday run.
     full: "--features guide/full,host-tests/full,robot-import/full \

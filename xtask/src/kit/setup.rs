@@ -176,19 +176,10 @@ pub fn for_test(options: Options) -> Result<Tools> {
 
 /// Sets up the tools of projects in C.
 pub fn for_projects(options: Options) -> Result<()> {
-    for_programs(options, "the projects in C", &C_TOOLS)
-}
-
-/// Sets up programs with Debian's packages of them, for a purpose.
-pub fn for_programs(
-    options: Options,
-    what: &str,
-    programs: &[(&'static str, &'static str)],
-) -> Result<()> {
     let mut plan = Plan::default();
-    for (program, package) in programs {
+    for (program, package) in C_TOOLS {
         if shell::which(program).is_none() {
-            let reason = format!("`{program}`, for {what}");
+            let reason = format!("`{program}`, for the projects in C");
             plan.add(reason, &[package], &format!("install `{program}`"));
         }
     }

@@ -99,20 +99,6 @@ impl Workspace {
         command
     }
 
-    /// Python in the workspace's root.
-    ///
-    /// # Errors
-    /// [`Error::Skipped`] where there is none of version 3.10 or later with `venv`.
-    pub fn python(&self) -> Result<Command> {
-        let python = || Command::new("python3");
-        let needs = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 10))";
-        shell::capture(python().args(["-c", needs]))
-            .map_err(|_| Error::Skipped("there is no Python 3.10 with venv".into()))?;
-        let mut python = python();
-        python.current_dir(&self.root);
-        Ok(python)
-    }
-
     /// A file in the demo's output directory, which is made if it is not there.
     pub fn output(&self, name: &str) -> Result<PathBuf> {
         let dir = self.target.join("demo");

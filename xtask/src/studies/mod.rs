@@ -18,8 +18,7 @@ pub mod study;
 use clap::{ArgMatches, Args, Command};
 
 use crate::kit::error::Result;
-use crate::kit::shell;
-use study::Form::{Demo, Own, Part, Whole};
+use study::Form::{Own, Part, Whole};
 use study::Held::{Bars, Step};
 use study::Lane::{Host, Target};
 use study::Scope::{Everyday, Full};
@@ -54,15 +53,6 @@ pub const STUDIES: &[Study] = &[
         files: &["docs/boards.md"],
         held: Step(Target, Full, "a Cortex-M0, M3 and M33 and an RV32 compute the host's torques, and docs/boards.md has the stack that they take and the sizes of the boards' images"),
         form: Own(cores::Args::augment_args, |options, matches| cores::run(options, given(matches)?), cores::check),
-    },
-    Study {
-        name: "python", about: "",
-        files: &["docs/python.md", "docs/python.svg"],
-        held: Step(Host, Full, "the Python wheel builds, runs its notebook in a bare environment, agrees with Pinocchio and has the bits of Core; docs/python.md is of today's code, and the suite of hard cases is that of its scripts"),
-        form: Demo(|bench| {
-            let mut python = bench.workspace.python()?;
-            shell::capture(python.arg("python/test.py"))
-        }),
     },
     Study {
         name: "accuracy", about: "Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration",
@@ -101,8 +91,7 @@ pub const STUDIES: &[Study] = &[
 
 /// The commands of the studies.
 pub fn commands() -> impl Iterator<Item = Command> {
-    let studies = STUDIES.iter().filter(|study| study.has_command());
-    studies.map(Study::command)
+    STUDIES.iter().map(Study::command)
 }
 
 /// The study that was chosen on the command line, with its arguments.
@@ -147,13 +136,8 @@ mod tests {
     #[test]
     fn every_generated_file_belongs_to_a_study_that_is_held() {
         let mut there = below("docs");
-        // The guide and the page to play with are written by hand, their programs included.
-        let by_hand = |name: &str| {
-            ["docs/guide/", "docs/play/"]
-                .iter()
-                .any(|folder| name.starts_with(folder))
-        };
-        there.retain(|name| !by_hand(name) && is_generated(name));
+        // The guide is written by hand, its programs included.
+        there.retain(|name| !name.starts_with("docs/guide/") && is_generated(name));
         there.push("README.md".into());
         there.sort();
         let of_studies = STUDIES.iter().flat_map(|study| study.files.iter().copied());

@@ -43,8 +43,6 @@ pub enum Form {
     Part(Measure),
     /// Its command has options of its own, and it writes and compares its files itself.
     Own(Augment, Run, Check),
-    /// The demo is its command.
-    Demo(Check),
 }
 
 type Measure = fn(&Bench<'_>) -> Result<Found>;
@@ -150,11 +148,6 @@ impl Found {
 }
 
 impl Study {
-    /// Whether a command of this name runs it.
-    pub fn has_command(&self) -> bool {
-        !matches!(self.form, Form::Demo(_))
-    }
-
     pub fn command(&self) -> Command {
         let command = Command::new(self.name).about(self.about);
         match self.form {
@@ -171,7 +164,6 @@ impl Study {
     pub fn run(&self, options: Options, matches: &ArgMatches) -> Result<ExitCode> {
         match self.form {
             Form::Own(_, run, _) => run(options, matches),
-            Form::Demo(_) => Err(check!("the demo is the command of {}", self.name)),
             Form::Whole(measure) | Form::Part(measure) => {
                 let workspace = Workspace::for_reports()?;
                 let found = measure(&Bench::new(&workspace, options))?;
@@ -189,7 +181,7 @@ impl Study {
     /// measured.
     pub fn check(&self, bench: &Bench<'_>) -> Result<String> {
         match self.form {
-            Form::Own(_, _, check) | Form::Demo(check) => check(bench),
+            Form::Own(_, _, check) => check(bench),
             Form::Whole(measure) | Form::Part(measure) => {
                 let found = measure(bench)?;
                 self.compare(bench.workspace, &found)?;

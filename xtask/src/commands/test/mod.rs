@@ -17,7 +17,7 @@ use clap::builder::PossibleValuesParser;
 use cycle_meter::Sample;
 
 use crate::commands::demo::{Built, Measured};
-use crate::commands::{play, watch};
+use crate::commands::watch;
 use crate::kit::error::{Error, Result};
 use crate::kit::progress::Spinner;
 use crate::kit::qemu::Run;
@@ -77,10 +77,8 @@ const STEPS: &[Step] = &[
     // lane's.
     ("faults", Target, Named, "100 arms under injected faults keep their limits in QEMU, with the host's torques", functions::faults),
     ("telemetry", Target, Full, "a tick costs the same with a listener, without one, and with a full queue", |c| watch::check(&c.workspace, &c.tools, c.meter()?)),
-    ("play", Host, Full, "the page of docs/play is small, fast, accessible, and computes the host's bits", |c| play::check(&c.workspace, c.options)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
     ("projects", Host, Full, "new projects in Rust and in C build, run in QEMU and compute the host's torques", others::projects),
-    ("lerobot", Host, Full, "an SO-101 floats in LeRobot with its scene's torques, and every fault of its bus ends without torque", others::lerobot),
     ("readme", Target, Everyday, "the tables of README.md and docs/scenes.md are those of this run, which repeats itself", scenes::readme),
 ];
 

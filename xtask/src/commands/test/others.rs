@@ -1,12 +1,11 @@
-//! The steps about what is built elsewhere: by the oldest compiler, as a project of its own, and
-//! for LeRobot.
+//! The steps about what is built elsewhere: by the oldest compiler, and as a project of its own.
 
 use std::process::Command;
 
 use super::Context;
 use crate::kit::error::{Error, Result};
 use crate::kit::workspace::BOARDS;
-use crate::kit::{host_bin::SHARED, setup, shell, toolchain, workspace};
+use crate::kit::{host_bin::SHARED, setup, shell, toolchain};
 
 fn skip<T>(why: impl Into<String>) -> Result<T> {
     Err(Error::Skipped(why.into()))
@@ -66,21 +65,6 @@ pub fn projects(context: &Context) -> Result<String> {
         SHARED.words(context.full)
     )])?;
     Ok(boards.to_owned())
-}
-
-/// The plug-in for LeRobot on a simulated bus.
-pub fn lerobot(context: &Context) -> Result<String> {
-    context.workspace.python()?;
-    let folder = "python/lerobot_teleoperator_so101_floating";
-    let script = context.workspace.root.join(folder).join("test.sh");
-    let scene = context.workspace.output("so101_floating.json")?;
-    workspace::write(&scene, SHARED.text(&context.workspace, "so101_floating")?)?;
-    let test = |words: &[&str]| {
-        let mut script = Command::new(&script);
-        shell::capture(script.args(words).env("SO101_FLOATING_SCENE", &scene))
-    };
-    test(&["--prepare"]).or_else(|error| skip(format!("LeRobot cannot be had: {error}")))?;
-    Ok(test(&[])?.lines().last().unwrap_or_default().to_owned())
 }
 
 #[cfg(test)]

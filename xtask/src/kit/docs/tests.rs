@@ -118,7 +118,7 @@ fn a_part_is_written_between_its_markers() {
 
 /// Blocks that are written by tests, which compare them whole with what they observe, and where;
 /// all others have their sum.
-const BY_TESTS: [(&str, &str, &str); 13] = [
+const BY_TESTS: [(&str, &str, &str); 11] = [
     (
         "docs/guide/src/contact.md",
         "contact",
@@ -153,16 +153,6 @@ const BY_TESTS: [(&str, &str, &str); 13] = [
         "docs/guide/src/identification.md",
         "results",
         "tools/identification/tests/ur5e/main.rs",
-    ),
-    (
-        "docs/guide/src/lerobot.md",
-        "release",
-        "python/lerobot_teleoperator_so101_floating/tests/page.py",
-    ),
-    (
-        "docs/guide/src/lerobot.md",
-        "torque",
-        "python/lerobot_teleoperator_so101_floating/tests/page.py",
     ),
     (
         "docs/guide/src/porting.md",

@@ -1,0 +1,101 @@
+"""An arm that is released stays where it is, and falls without compensation."""
+
+import numpy as np
+import page
+import pytest
+from conftest import SCENE_GEARS, TICK, Arm, run
+
+from lerobot_teleoperator_so101_floating.motors import LEADER_GEARS
+
+HELD, RAMP, RELEASED = 0.5, 0.3, 2.0
+"""A hand holds the arm while the torque rises, and then it is released, s."""
+BAR, FALL = 1.0, 20.0
+"""The greatest drift of any joint with compensation, and the least motion of an arm without, degrees."""
+SINKS = 10.0
+"""The greatest drift of an arm whose bus is lost, degrees."""
+
+
+def hold(posture):
+    return lambda q, qd, time: 20.0 * (posture - q) - 1.0 * qd
+
+
+def released(bench, posture, gears, plant=None, moving=None, time=RELEASED, **options):
+    """The largest angle by which a joint moves after the release, and the greatest speed at the end, in degrees."""
+    arm = Arm(posture, gears, **(plant or {}))
+    arm.hand = hold(posture)
+    bus, teleoperator = bench.floating(arm, gears, ramp=RAMP, **options)
+    run(teleoperator, round(HELD / TICK))
+    assert all(servo.torque_enabled for servo in bus.servos)
+    start = arm.q.copy()
+    if moving is not None:
+        arm.qd = arm.qd + moving
+    arm.hand = lambda q, qd, time: np.zeros(6)
+    most = np.zeros(6)
+    for _ in range(round(time / TICK)):
+        teleoperator.tick()
+        most = np.maximum(most, np.abs(arm.q - start))
+    teleoperator.disconnect()
+    return np.degrees(most.max()), np.degrees(np.abs(arm.qd).max())
+
+
+def fallen(bench, posture, gears):
+    """As `released`, of an arm whose servos have no torque."""
+    arm = Arm(posture, gears)
+    bus = bench.bus(arm, gears)
+    most = np.zeros(6)
+    for _ in range(round(RELEASED / TICK)):
+        bus.advance(TICK)
+        most = np.maximum(most, np.abs(arm.q - posture))
+    return np.degrees(most.max())
+
+
+@pytest.fixture
+def postures(scene):
+    return np.array(scene["angles"])
+
+
+@pytest.mark.parametrize("gears", [SCENE_GEARS, LEADER_GEARS], ids=["scene", "leader"])
+def test_a_released_arm_stays_and_falls_without(bench, postures, gears):
+    drift = [released(bench, posture, gears)[0] for posture in postures]
+    falls = [fallen(bench, posture, gears) for posture in postures]
+    assert max(drift) <= BAR and min(falls) >= FALL, (drift, falls)
+    name = "leader" if gears == LEADER_GEARS else "scene"
+    page.figures[f"release {name}"] = (max(drift), min(falls))
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_a_released_arm_stays_with_parameters_that_are_off(bench, postures, sign):
+    """Gravity by 3 % and the plant's friction by 10 % less than the model's, as the law's configuration allows."""
+    off = {"gravity_scale": (1.0 + 0.03 * sign,) * 6}
+    drift = [released(bench, posture, LEADER_GEARS, {"friction": 1.0 / 1.1}, **off)[0] for posture in postures[1::2]]
+    assert max(drift) <= 3.0 * BAR, drift
+    page.figures[f"release off {sign:+.0f}"] = (max(drift),)
+
+
+def test_a_moving_arm_comes_to_rest(bench, postures):
+    """The friction that is left stops an arm that is let go in motion, at whichever wall or before."""
+    push = np.array([0.6, -0.3, 0.3, 0.3, 0.6, 0.0])
+    _, soon = released(bench, postures[0], LEADER_GEARS, {"friction": 1.0 / 1.1}, push, time=0.1)
+    _, late = released(bench, postures[0], LEADER_GEARS, {"friction": 1.0 / 1.1}, push, time=10.0)
+    assert soon > 10.0 and late < 0.1, (soon, late)
+
+
+def test_an_arm_that_loses_its_bus_sinks_slowly(bench, postures):
+    """The servos keep their last duties, which nothing can take from them without a bus: what that means for the arm."""
+    ways = []
+    for posture in postures:
+        arm = Arm(posture, LEADER_GEARS)
+        arm.hand = hold(posture)
+        bus, teleoperator = bench.floating(arm, LEADER_GEARS, ramp=RAMP)
+        run(teleoperator, round(HELD / TICK))
+        bus.unplug()
+        start = arm.q.copy()
+        arm.hand = lambda q, qd, time: np.zeros(6)
+        bus.advance(RELEASED)
+        assert all(servo.torque_enabled for servo in bus.servos)
+        ways.append(np.degrees(np.abs(arm.q - start).max()))
+        bus.plug_in()
+        teleoperator._fail(RuntimeError("the bench ends"))
+        teleoperator._close()
+    assert max(ways) <= SINKS, ways
+    page.figures["bus lost"] = (max(ways),)

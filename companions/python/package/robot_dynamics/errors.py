@@ -1,0 +1,212 @@
+"""The errors of this package: each names what is concerned in its fields.
+
+Names are those of the robot. ``state`` is the index of the state in its batch, 0 of a single state, and None where a description is
+concerned; ``coordinate`` is a velocity coordinate.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+__all__ = [
+    "AngleError",
+    "ArgumentError",
+    "DescriptionError",
+    "DtypeError",
+    "EffectError",
+    "LinkageError",
+    "LoopModelError",
+    "LoopOpen",
+    "ModeError",
+    "ModelError",
+    "MultiDofJoint",
+    "NoAttitude",
+    "NoEngine",
+    "NotFinite",
+    "NotPositiveDefinite",
+    "NotRecorded",
+    "RobotDynamicsError",
+    "ShapeError",
+    "UnderActuated",
+    "UnknownBody",
+    "UnknownCoordinate",
+    "UnknownFrame",
+    "UnknownRobot",
+    "UnreadableFile",
+]
+
+
+class RobotDynamicsError(Exception):
+    """The base of all errors of this package."""
+
+    def __init__(self, message: str, **fields: Any) -> None:
+        super().__init__(message)
+        for name, value in fields.items():
+            setattr(self, name, value)
+
+    def __str__(self) -> str:
+        return str(self.args[0]) if self.args else ""
+
+
+class DescriptionError(RobotDynamicsError, ValueError):
+    """A URDF or MJCF that cannot be used."""
+
+    line: int | None
+    """The line of the file, from 1; none if no line is concerned."""
+    element: str
+    """The element and its name, such as ``joint `elbow` ``; empty if none is concerned."""
+    problem: str
+
+
+class UnreadableFile(DescriptionError, OSError):
+    """A file that the operating system does not give."""
+
+
+class ModelError(RobotDynamicsError, ValueError):
+    """A robot that the library refuses: too large, or with impossible numbers."""
+
+    body: str | None
+
+
+class NoEngine(RobotDynamicsError, LookupError):
+    """The wheel has no engine of this robot, or no form of this name."""
+
+    robot: str
+
+
+class UnknownRobot(RobotDynamicsError, LookupError):
+    """No robot of the library has this name."""
+
+    name: str
+
+
+class UnknownBody(RobotDynamicsError, LookupError):
+    """The robot has no body of this name or number."""
+
+    body: str | int
+
+
+class UnknownFrame(RobotDynamicsError, ValueError):
+    """No frame has this name."""
+
+    frame: str
+
+
+class ShapeError(RobotDynamicsError, ValueError):
+    """An array of the wrong shape."""
+
+    argument: str
+    shape: tuple[int, ...]
+    expected: str
+
+
+class ArgumentError(RobotDynamicsError, TypeError, ValueError):
+    """An argument that is not of its type, such as a list of two numbers for a direction."""
+
+    given: Any
+
+
+class DtypeError(RobotDynamicsError, TypeError):
+    """An array that is neither all float32 nor all float64, or no array of numbers."""
+
+    argument: str
+
+
+class EffectError(RobotDynamicsError, ValueError):
+    """An effect that a scene or a robot cannot have."""
+
+    effect: str
+
+
+class NotPositiveDefinite(RobotDynamicsError, ArithmeticError):
+    """M is not positive definite: a joint moves no inertia, or a number overflows."""
+
+    joint: str
+    coordinate: int
+    state: int
+
+
+class MultiDofJoint(RobotDynamicsError, ValueError):
+    """A joint of several degrees of freedom, of which no transmission is known."""
+
+    joint: str
+    state: int
+
+
+class AngleError(RobotDynamicsError, ValueError):
+    """An angle beyond the range in which sines are computed, rad, where its whole turns matter."""
+
+    joint: str
+    """The joint's name; that of the linkage, where it is an angle of a linkage."""
+    coordinate: int | None
+    angle: float
+    limit: float
+    state: int
+
+
+class NoAttitude(RobotDynamicsError, ValueError):
+    """A quaternion of length zero, or so small that its square is."""
+
+    joint: str
+    state: int
+
+
+class UnknownCoordinate(RobotDynamicsError, LookupError):
+    """The robot has no velocity coordinate of this number."""
+
+    coordinate: int
+
+
+class LoopModelError(RobotDynamicsError, ValueError):
+    """Loops that cannot be described so."""
+
+    loop: str
+    """The loop's name; the robot's, where the whole is concerned."""
+
+
+class LoopOpen(RobotDynamicsError, ArithmeticError):
+    """A loop is open: its ends are not where its joint would have them."""
+
+    loop: str
+    error: float
+    """By how much, relative to the loop's size."""
+    state: int
+
+
+class UnderActuated(RobotDynamicsError, ArithmeticError):
+    """A coordinate moves although all motors are held."""
+
+    loop: str
+    """The loop that it moves in; the robot, if it moves in none."""
+    joint: str
+    state: int
+
+
+class NotFinite(RobotDynamicsError, ArithmeticError):
+    """A number of a loop overflows: one that is given as NaN or infinite marks its row instead."""
+
+    loop: str
+    state: int
+
+
+class LinkageError(RobotDynamicsError, ValueError):
+    """A linkage that cannot be described so, or that has no motion in a state."""
+
+    linkage: str
+    state: int | None
+
+
+class ModeError(RobotDynamicsError, ValueError):
+    """Modes of a link that cannot be used, or that have no motion in a state."""
+
+    link: str | None
+    """The link's name; the robot's, where no link is concerned."""
+    mode: int | None
+    """The mode's number: among those of the link, in a state among all."""
+    state: int | None
+
+
+class NotRecorded(RobotDynamicsError, LookupError):
+    """No figure of this robot and algorithm is recorded."""
+
+    robot: str

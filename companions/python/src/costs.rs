@@ -1,0 +1,120 @@
+//! Cycles on a Cortex-M4F, as the repository's pages record them.
+
+use pyo3::prelude::*;
+
+use crate::error::Exception;
+
+const COSTS: &str = include_str!("../../../docs/costs.md");
+const SCENES: &str = include_str!("../../../docs/scenes.md");
+
+/// What one call costs on a modelled Cortex-M4F, zero-wait memory, of 32 random states the slowest.
+#[pyclass(frozen, get_all, module = "robot_dynamics", name = "Cost")]
+pub struct Cost {
+    /// Such as "rnea".
+    algorithm: String,
+    /// "core", the textbook form, or "engine", the form that is specialised to the robot.
+    form: String,
+    /// The effects, such as "full": gravity, inertia and velocity products.
+    inputs: String,
+    /// Whether sines and cosines are computed inside the call.
+    trigonometry: bool,
+    /// Instructions, exact.
+    instructions: u64,
+    /// Cycles, modelled.
+    cycles: u64,
+    /// µs at 168 MHz.
+    microseconds: f64,
+    /// Instructions and literals, bytes.
+    code: u64,
+    /// Bytes that are written to.
+    stack: u64,
+}
+
+#[pymethods]
+impl Cost {
+    fn __repr__(&self) -> String {
+        let Self {
+            algorithm,
+            form,
+            inputs,
+            cycles,
+            ..
+        } = self;
+        format!("Cost({algorithm} {form} {inputs}: {cycles} cycles)")
+    }
+}
+
+fn whole(cell: &str) -> Option<u64> {
+    cell.replace(',', "").parse().ok()
+}
+
+/// The cells of a row of a table.
+fn cells(line: &str) -> Vec<&str> {
+    line.trim()
+        .trim_matches('|')
+        .split('|')
+        .map(str::trim)
+        .collect()
+}
+
+/// The rows of a robot.
+pub fn of(robot: &str) -> Vec<Cost> {
+    let mut lines = COSTS.lines();
+    let heading = format!("## {robot}");
+    lines.by_ref().find(|line| *line == heading);
+    let rows = lines.take_while(|line| !line.starts_with("## "));
+    rows.filter_map(|line| cost(&cells(line))).collect()
+}
+
+/// A row: function, sin/cos, instructions, cycles, µs, flops, share of the floor, code, stack.
+fn cost(cells: &[&str]) -> Option<Cost> {
+    let &[
+        name,
+        trigonometry,
+        _,
+        _,
+        instructions,
+        _,
+        _,
+        cycles,
+        microseconds,
+        _,
+        _,
+        code,
+        stack,
+    ] = cells
+    else {
+        return None;
+    };
+    let mut words = name.split(' ');
+    Some(Cost {
+        algorithm: words.next()?.to_owned(),
+        form: words.next()?.to_owned(),
+        inputs: words.next()?.to_owned(),
+        trigonometry: trigonometry == "inside",
+        instructions: whole(instructions)?,
+        cycles: whole(cycles)?,
+        microseconds: microseconds.parse().ok()?,
+        code: whole(code)?,
+        stack: whole(stack)?,
+    })
+}
+
+/// The longest tick of a scene, cycles: measuring, reference, dynamics, safety and commands.
+pub fn tick(scene: &str) -> Option<u64> {
+    let name = format!("**{scene}**");
+    SCENES
+        .lines()
+        .find_map(|line| match cells(line).as_slice() {
+            [found, cycles, ..] if *found == name => whole(cycles),
+            _ => None,
+        })
+}
+
+/// The error of a robot of which nothing is recorded.
+pub fn not_recorded(py: Python<'_>, robot: &str, what: &str) -> PyErr {
+    let text = format!("{what} of `{robot}` is not recorded");
+    Exception::new(py, "NotRecorded", text)
+        .with("robot", robot)
+        .build()
+}

@@ -1,0 +1,47 @@
+//! The extension module `robot_dynamics._native`: the algorithms of `dynamics-core` over numpy's
+//! arrays.
+
+mod angles;
+mod arrays;
+mod compute;
+mod costs;
+mod effects;
+mod error;
+mod failure;
+mod flexible;
+mod library;
+mod linkages;
+mod loops;
+mod methods;
+mod request;
+mod robot;
+
+use pyo3::prelude::*;
+
+/// The names of the library's robots.
+#[pyfunction]
+fn robots() -> Vec<&'static str> {
+    library::ROBOTS.iter().map(|(name, _)| *name).collect()
+}
+
+/// How many threads a batch uses.
+#[pyfunction]
+fn threads() -> usize {
+    robot_dynamics_kernels::job::cores()
+}
+
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<robot::Robot>()?;
+    module.add_class::<robot::said::PyAdvice>()?;
+    module.add_class::<robot::said::PyCoupling>()?;
+    module.add_function(wrap_pyfunction!(robot::pickled::robot, module)?)?;
+    module.add_class::<costs::Cost>()?;
+    module.add_class::<loops::PyLoopJoint>()?;
+    module.add_class::<loops::PyLoops>()?;
+    module.add_function(wrap_pyfunction!(robots, module)?)?;
+    module.add_function(wrap_pyfunction!(threads, module)?)?;
+    linkages::register(module)?;
+    flexible::register(module)?;
+    effects::register(module)
+}

@@ -1,0 +1,151 @@
+//! Inverse, forward and hybrid dynamics, and the matrices that they need.
+
+use pyo3::prelude::*;
+use robot_dynamics_engines::Scene as EngineScene;
+use robot_dynamics_kernels::Which;
+use robot_dynamics_kernels::spec::Spec;
+
+use super::{Array, Robot, frame_of, with_inertia, without_rotors};
+use crate::arrays::Argument;
+use crate::effects::given as effects_of;
+use crate::error::wanted;
+use crate::methods::{Machine, methods};
+
+impl Robot {
+    /// Inverse dynamics in a form, of q and as many derivatives as there are more arguments, under
+    /// those of the effects that it keeps.
+    fn inverse_dynamics<'py>(
+        &self,
+        py: Python<'py>,
+        (form, scene): (&str, EngineScene),
+        effects: Option<&Bound<'py, PyAny>>,
+        keeps: impl Fn(&Spec) -> bool,
+        arguments: &[Argument<'_, 'py>],
+    ) -> PyResult<Array<'py>> {
+        let effects = effects_of(effects)?;
+        let effects: Vec<Spec> = effects.iter().filter(|spec| keeps(spec)).cloned().collect();
+        let which = Which::Rnea {
+            given: arguments.len(),
+        };
+        let by = self.by(py, form, which, scene, &effects)?;
+        self.one(py, by, &effects, arguments, &[&[self.counts.v]])
+    }
+}
+
+#[pymethods]
+impl Robot {
+    /// Inverse dynamics: the torques (…, nv), N·m or N, for q (…, nq), q̇ and q̈ (…, nv). Equations
+    /// (3) to (8) of Featherstone and Orin.
+    #[pyo3(signature = (q, qd, qdd, effects = None, form = "core"))]
+    fn rnea<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        qd: &Array<'py>,
+        qdd: &Array<'py>,
+        effects: Option<&Bound<'py, PyAny>>,
+        form: &str,
+    ) -> PyResult<Array<'py>> {
+        let given = [self.q("q", q), self.v("qd", qd), self.v("qdd", qdd)];
+        self.inverse_dynamics(
+            py,
+            (form, EngineScene::RigidBody),
+            effects,
+            |_| true,
+            &given,
+        )
+    }
+
+    /// The torques (…, nv), N·m or N, at q (…, nq) and q̇ (…, nv) without acceleration: C(q, q̇) q̇ + g(q) and the
+    /// other effects.
+    #[pyo3(signature = (q, qd, effects = None, form = "core"))]
+    fn bias<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        qd: &Array<'py>,
+        effects: Option<&Bound<'py, PyAny>>,
+        form: &str,
+    ) -> PyResult<Array<'py>> {
+        let keeps = |spec: &Spec| !matches!(spec, Spec::Inertia);
+        let given = [self.q("q", q), self.v("qd", qd)];
+        self.inverse_dynamics(py, (form, EngineScene::Bias), effects, keeps, &given)
+    }
+
+    /// The torques (…, nv), N·m or N, that hold the robot against gravity at q (…, nq). Of the
+    /// effects only Gravity and loads act.
+    #[pyo3(signature = (q, effects = None, form = "core"))]
+    fn gravity<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        effects: Option<&Bound<'py, PyAny>>,
+        form: &str,
+    ) -> PyResult<Array<'py>> {
+        let keeps = |spec: &Spec| matches!(spec, Spec::Gravity(_) | Spec::Payload { .. });
+        let given = [self.q("q", q)];
+        self.inverse_dynamics(py, (form, EngineScene::Gravity), effects, keeps, &given)
+    }
+
+    /// J (…, 6, nv), J M⁻¹ (…, 6, nv), Λ⁻¹ and Λ (…, 6, 6) of a body, Λ damped by ``damping``
+    /// relative to the largest eigenvalue of Λ⁻¹ where it is nearly singular; q (…, nq).
+    #[pyo3(signature = (q, body, frame = "local", effects = None, damping = 1e-6))]
+    fn operational_space<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        body: &Bound<'py, PyAny>,
+        frame: &str,
+        effects: Option<&Bound<'py, PyAny>>,
+        #[pyo3(from_py_with = wanted)] damping: f64,
+    ) -> PyResult<Array<'py>> {
+        let (body, frame, v) = (self.body(body)?, frame_of(py, frame)?, self.counts.v);
+        let which = Which::OperationalSpaceOf {
+            body,
+            frame,
+            damping,
+        };
+        let results: &[&[usize]] = &[&[6, v], &[6, v], &[6, 6], &[6, 6]];
+        self.several(py, which, &effects_of(effects)?, &[self.q("q", q)], results)
+    }
+}
+
+methods! {
+    Robot, robot => (v, nq, bodies) = (robot.counts.v, robot.counts.q, robot.counts.bodies);
+
+    /// M q̈_r + C(q, q̇) q̇_r + g and the other effects, (…, nv): q (…, nq), q̇, q̈_r and q̇_r (…,
+    /// nv).
+    rnea_two_velocities(q: q, qd: v, qdd: v, qd_r: v; under effects) = one(RneaTwoVelocities): [v];
+
+    /// M(q), the joint-space inertia matrix (…, nv, nv), kg·m² or kg, with the motors' `Armature`;
+    /// q (…, nq).
+    crba(q: q; under effects) = one(Crba): [v, v];
+
+    /// Forward dynamics by articulated bodies: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ
+    /// (…, nv).
+    aba(q: q, qd: v, tau: v; under effects with_inertia) = one(Aba): [v];
+
+    /// Forward dynamics by M and its factors: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ
+    /// (…, nv).
+    forward_dynamics(q: q, qd: v, tau: v; under effects with_inertia) = one(ForwardDynamics): [v];
+
+    /// Forward dynamics by M and its factors, with the error that rounding leaves: q̈ and its
+    /// estimated error, each (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ (…, nv). It says
+    /// whether float32 serves for a robot and a state.
+    forward_dynamics_with_error(q: q, qd: v, tau: v; under effects with_inertia) = several(ForwardWithError): [v], [v];
+
+    /// Torques and accelerations, each (…, nv), where of each coordinate one is given: its torque,
+    /// or, where ``accelerated`` is not zero, its acceleration. q (…, nq), q̇, given and
+    /// accelerated (…, nv).
+    hybrid_dynamics(q: q, qd: v, given: v, accelerated: v; under effects with_inertia) = several(Hybrid): [v], [v];
+
+    /// What of the motors' torques τ (…, nv) arrives behind the friction of the gears
+    /// (`LoadFriction`), (…, nv).
+    transmitted_torque(q: q, qd: v, tau: v; under effects) = one(Transmitted): [v];
+
+    /// C(q, q̇) (…, nv, nv), of Christoffel's symbols; q (…, nq), q̇ (…, nv).
+    coriolis_matrix(q: q, qd: v; under effects) = one(CoriolisMatrix): [v, v];
+
+    /// Λ⁻¹ = J M⁻¹ Jᵀ of a body, (…, 6, 6), by propagation of forces; q (…, nq).
+    osim_inverse(q: q; at body, frame; under effects without_rotors) = one(OsimInverse { body, frame }): [6, 6];
+}

@@ -17,11 +17,13 @@ fn number(tag: &str, name: &str) -> f64 {
 }
 
 /// The texts, and the left, upper, right and lower end of each, by an estimate of its width that is
-/// seldom too small.
-fn texts(svg: &str) -> Vec<(String, [f64; 4])> {
+/// seldom too small; a text that is shown in turn with others says so.
+fn texts(svg: &str) -> Vec<(String, [f64; 4], bool)> {
     let each = svg.split("<text").skip(1).map(|text| {
         let (tag, rest) = text.split_once('>').expect("a tag");
-        let words = rest.split("</text>").next().unwrap_or_default().trim();
+        let content = rest.split("</text>").next().unwrap_or_default();
+        let in_turn = content.contains("<animate") || attribute(tag, "class").contains("still");
+        let words = content.split("<animate").next().unwrap_or_default().trim();
         let words = words.replace("&apos;", "'").replace("&lt;", "<");
         let [x, y, size] = ["x", "y", "font-size"].map(|name| number(tag, name));
         let wide = 0.6 * size * words.chars().count() as f64;
@@ -40,9 +42,10 @@ fn texts(svg: &str) -> Vec<(String, [f64; 4])> {
             true => [top, -right, below, -left],
             false => [left, top, right, below],
         };
-        (words, [ends[0] + x, ends[1] + y, ends[2] + x, ends[3] + y])
+        let ends = [ends[0] + x, ends[1] + y, ends[2] + x, ends[3] + y];
+        (words, ends, in_turn)
     });
-    each.filter(|(words, _)| !words.is_empty()).collect()
+    each.filter(|(words, ..)| !words.is_empty()).collect()
 }
 
 /// The mistakes in a picture.
@@ -56,14 +59,15 @@ fn faults(svg: &str) -> Vec<String> {
         faults.push("no dark scheme".into());
     }
     let texts = texts(svg);
-    for (number, (words, [left, top, right, below])) in texts.iter().enumerate() {
+    for (number, (words, [left, top, right, below], in_turn)) in texts.iter().enumerate() {
         if *left < 0.0 || *top < 0.0 || *right > wide || *below > high {
             faults.push(format!("cut off: {words}"));
         }
         let meets =
             |[a, b, c, d]: &[f64; 4]| a < right && left < c && b + 2.0 < *below && top + 2.0 < *d;
-        let others = texts[..number].iter().filter(|(_, ends)| meets(ends));
-        faults.extend(others.map(|(other, _)| format!("{words} on {other}")));
+        let others = texts[..number].iter();
+        let others = others.filter(|(_, ends, turn)| meets(ends) && !(*turn && *in_turn));
+        faults.extend(others.map(|(other, ..)| format!("{words} on {other}")));
     }
     faults
 }

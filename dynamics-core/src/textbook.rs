@@ -44,7 +44,7 @@ impl<T, K> Core<T, K> {
         JointTrig::new(&Static::<T, K>::NEW, q)
     }
 
-    /// τ = ID(q, q̇, q̈): the torque of each motor, see [`algorithms::rnea`].
+    /// τ = ID(q, q̇, q̈): the torque of each motor, see [`algorithms::rnea()`].
     #[inline(never)]
     pub fn rnea<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: impl RobotState<R, Q, V>,
@@ -58,7 +58,7 @@ impl<T, K> Core<T, K> {
         algorithms::rnea(&Static::<T, K>::NEW, state, effects)
     }
 
-    /// q̈ = FD(q, q̇, τ): the acceleration of each joint, see [`algorithms::aba`].
+    /// q̈ = FD(q, q̇, τ): the acceleration of each joint, see [`algorithms::aba()`].
     ///
     /// # Errors
     /// [`NotPositiveDefinite`] names a joint that moves no inertia.
@@ -113,7 +113,7 @@ impl<T, K> Core<T, K> {
         algorithms::hybrid_dynamics(&Static::<T, K>::NEW, state, given, effects)
     }
 
-    /// M(q): the joint-space inertia matrix, see [`algorithms::crba`].
+    /// M(q): the joint-space inertia matrix, see [`algorithms::crba()`].
     #[inline(never)]
     pub fn crba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         q: &impl Configuration<R, Q>,

@@ -3,7 +3,7 @@
 //! [`crba`](crate::algorithms::crba()) where nothing branches: one composite inertia runs from the
 //! tip to the base, and row i of M is the force of joint i's unit acceleration on it, carried down
 //! to the base. Links are visited anew rather than stored, and crossed by two screws if they are
-//! placed by Denavit & Hartenberg's parameters, as in [`aba`](super::aba).
+//! placed by Denavit & Hartenberg's parameters, as in [`aba`](super::aba()).
 
 use heapless::Vec;
 

@@ -41,7 +41,7 @@ use crate::state::{State, entry};
 /// ```
 ///
 /// # Errors
-/// As [`aba`]; the states are then left as they were.
+/// As [`aba()`]; the states are then left as they were.
 pub fn elastic_step<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     joints: &ElasticJoints<R, V>,

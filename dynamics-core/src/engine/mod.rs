@@ -189,7 +189,7 @@ impl<T, K> Engine<T, K> {
         JointTrig { coordinates: turns }
     }
 
-    /// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, as [`crate::algorithms::rnea`]
+    /// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, as [`crate::algorithms::rnea()`]
     /// computes it.
     ///
     /// Sines and cosines that no effect in the scene needs are not computed. Angles of joints whose

@@ -44,7 +44,7 @@ where
         tau
     }
 
-    /// The torques of [`torques`], written into `tau`, which holds zeros.
+    /// The torques of [`Self::torques`], written into `tau`, which holds zeros.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn write_torques(
         self,

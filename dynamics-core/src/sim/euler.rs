@@ -52,7 +52,7 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for SemiImplic
 /// ```
 ///
 /// # Errors
-/// As [`aba`](crate::algorithms::aba); the state is then left as it was.
+/// As [`aba`](crate::algorithms::aba()); the state is then left as it was.
 pub fn semi_implicit<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: &mut State<R, Q, V>,

@@ -52,7 +52,7 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for LinearlyIm
 /// ```
 ///
 /// # Errors
-/// As [`aba`](crate::algorithms::aba); state and effects are then unchanged.
+/// As [`aba`](crate::algorithms::aba()); state and effects are then unchanged.
 pub fn linearly_implicit<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: &mut State<R, Q, V>,

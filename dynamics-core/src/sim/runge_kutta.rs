@@ -61,7 +61,7 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for RungeKutta
 /// dry friction. `state.qdd` is left at the mean acceleration; the internal states of effects are
 /// not advanced.
 ///
-/// Cost: four times that of [`aba`](crate::algorithms::aba), and for quaternions six exponentials.
+/// Cost: four times that of [`aba`](crate::algorithms::aba()), and for quaternions six exponentials.
 ///
 /// ```
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e, sim::runge_kutta, state::State};
@@ -79,7 +79,7 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for RungeKutta
 /// ```
 ///
 /// # Errors
-/// As [`aba`](crate::algorithms::aba); the state is then unchanged.
+/// As [`aba`](crate::algorithms::aba()); the state is then unchanged.
 pub fn runge_kutta<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: &mut State<R, Q, V>,

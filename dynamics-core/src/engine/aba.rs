@@ -6,11 +6,12 @@
 
 use core::borrow::Borrow;
 use core::hint::black_box;
+use core::marker::PhantomData;
 
 use super::acceleration_field::{Inertia, Wrench};
 use super::articulated_inertia::Articulated;
 use super::call::Call;
-use super::compile::{Compiled, CompiledJoint, JointMotion, JointPair};
+use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointMotion, JointPair};
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::gate::EngineScene;
@@ -59,7 +60,12 @@ impl<T, K> Engine<T, K> {
             )
         };
         let trig = state.configuration().trig_or(Self::trig_source());
-        Self::call(trig.borrow(), effects).accelerations_by_bodies(state.state(), tau)
+        let call = Call {
+            turns: &trig.borrow().coordinates,
+            effects,
+            robot: PhantomData::<CompiledRobot<T, B, Q, V>>,
+        };
+        call.accelerations_by_bodies(state.state(), tau)
     }
 }
 

@@ -11,10 +11,14 @@ use crate::scalar::Real;
 use crate::state::{JointTrig, State};
 
 /// A compiled robot in one configuration, under the effects of a scene.
+///
+/// Forward dynamics writes its calls as literals. A call that a function returns is an aggregate,
+/// and LLVM splits the sines and cosines that it refers to into values only after it has ordered
+/// the operands of their products; articulated bodies then cost up to 2 % more cycles.
 pub(crate) struct Call<'a, R, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
     pub(super) turns: &'a [JointCoordinate<R>; Q],
     pub(super) effects: &'a Effects,
-    robot: PhantomData<Tree>,
+    pub(super) robot: PhantomData<Tree>,
 }
 
 impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize> Clone

@@ -5,6 +5,7 @@
 
 use core::borrow::Borrow;
 use core::hint::black_box;
+use core::marker::PhantomData;
 
 use super::call::{Call, joint_state};
 use super::compile::{Compiled, CompiledRobot};
@@ -50,7 +51,12 @@ impl<T, K> Engine<T, K> {
     {
         const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
         let trig = state.configuration().trig_or(Self::trig_source());
-        Self::call(trig.borrow(), effects).accelerations_by_factors(state.state(), tau)
+        let call = Call {
+            turns: &trig.borrow().coordinates,
+            effects,
+            robot: PhantomData::<CompiledRobot<T, B, Q, V>>,
+        };
+        call.accelerations_by_factors(state.state(), tau)
     }
 
     /// The torques that the gears transmit while their motors supply `tau`, N·m or N, as
@@ -100,6 +106,17 @@ where
         rest
     }
 
+    /// C(q, q̇), the torque at q̈ = 0.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn bias(self, state: &State<R, Q, V>) -> [R; V] {
+        let unaccelerated = Call {
+            turns: self.turns,
+            effects: &Bias(self.effects),
+            robot: self.robot,
+        };
+        unaccelerated.torques(self.turns, state)
+    }
+
     /// τ − C(q, q̇), the torque that is left to accelerate.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn remaining(self, state: &State<R, Q, V>, tau: &[R; V]) -> [R; V] {
@@ -109,7 +126,7 @@ where
                 "forward dynamics needs `Inertia` in the scene"
             )
         };
-        let bias = self.under(&Bias(self.effects)).torques(self.turns, state);
+        let bias = self.bias(state);
         let mut rest = Self::behind_gears(self.effects, state, tau);
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {

@@ -6,14 +6,15 @@
 
 use core::borrow::Borrow;
 use core::hint::black_box;
+use core::marker::PhantomData;
 
 use super::call::Call;
-use super::compile::{Compiled, JointPair};
+use super::compile::{Compiled, CompiledRobot, JointPair};
 use super::gate::EngineScene;
 use super::ltdl::{decompose, substitute};
 use super::{Engine, Index, only_if};
 use crate::algorithms::{JointResult, MassMatrix, NotPositiveDefinite, Prescribed};
-use crate::effects::{Bias, Effect, load_friction, transmitted};
+use crate::effects::{Effect, load_friction, transmitted};
 use crate::model::Robot;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
@@ -67,7 +68,12 @@ impl<T, K> Engine<T, K> {
         };
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
-        Self::call(trig.borrow(), effects).hybrid(state.state(), given)
+        let call = Call {
+            turns: &trig.borrow().coordinates,
+            effects,
+            robot: PhantomData::<CompiledRobot<T, B, Q, V>>,
+        };
+        call.hybrid(state.state(), given)
     }
 }
 
@@ -85,7 +91,7 @@ where
         given: &[Prescribed<R>; V],
     ) -> Result<JointResult<R, V>, NotPositiveDefinite> {
         // One phase after the other: as one block they would need more registers than there are.
-        let mut bias = self.under(&Bias(self.effects)).torques(self.turns, state);
+        let mut bias = self.bias(state);
         black_box(&mut bias);
         let mut m = MassMatrix::ZERO;
         self.mass_matrix(&mut m);

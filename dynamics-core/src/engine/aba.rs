@@ -14,7 +14,6 @@ use super::call::Call;
 use super::compile::{Compiled, CompiledJoint, CompiledRobot, JointMotion, JointPair};
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
-use super::gate::EngineScene;
 use super::pivot_noise::Singular;
 use super::{Engine, only_if};
 use crate::algorithms::NotPositiveDefinite;
@@ -52,7 +51,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         const {
             assert!(
                 !Effects::GYROSCOPIC_ROTORS,

@@ -11,7 +11,6 @@ use super::call::Call;
 use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointPair, Remainder};
 use super::energy::WithMasses;
 use super::folding::Folded;
-use super::gate::EngineScene;
 use super::pass::{Pass, sweep};
 use super::pose::Pose;
 use super::totals::{Totals, centre, fixed};
@@ -52,7 +51,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         let length = CompiledRobot::<T, B, Q, V>::LENGTH;
         let all = Self::all_bodies(state, effects);
         let (position, mass_inv) = all.centre(length);
@@ -90,7 +89,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         let all = Self::all_bodies(state, effects);
         force(&all, CompiledRobot::<T, B, Q, V>::LENGTH)
     }
@@ -121,7 +120,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         let length = CompiledRobot::<T, B, Q, V>::LENGTH;
         let all = Self::all_bodies(state, effects);
         let (h, (centre, _)) = (force(&all, length), all.centre(length));
@@ -176,7 +175,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         const { WithMasses::<R, Effects, B, V>::KNOWN };
         const {
             assert!(

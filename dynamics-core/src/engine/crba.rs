@@ -10,7 +10,6 @@ use super::acceleration_field::{Inertia, Wrench, along_z};
 use super::call::Call;
 use super::compile::{Compiled, CompiledJoint, JointMotion, JointPair};
 use super::folding::Folded;
-use super::gate::EngineScene;
 use super::joint_rates::Twist;
 use super::parallel_axes::Felt;
 use super::{Engine, only_if};
@@ -55,7 +54,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         let trig = q.trig_or(Self::trig_source());
         let mut m = MassMatrix::ZERO;
         Self::call(trig.borrow(), effects).mass_matrix(&mut m);

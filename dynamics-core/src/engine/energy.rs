@@ -6,7 +6,6 @@ use core::borrow::Borrow;
 use core::marker::PhantomData;
 
 use super::Engine;
-use super::gate::EngineScene;
 use crate::effects::{Declared, Effect};
 use crate::model::Robot;
 use crate::scalar::Real;
@@ -40,7 +39,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         const {
             assert!(
                 Effects::BASE_PARAMETERS == 0 || !Effects::BASE_MOTION,
@@ -80,7 +79,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         const { WithMasses::<R, Effects, B, V>::KNOWN };
         let trig = q.trig_or(Self::trig_source());
         let call = Self::call(trig.borrow(), effects);

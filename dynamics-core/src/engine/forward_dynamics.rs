@@ -9,7 +9,6 @@ use core::marker::PhantomData;
 
 use super::call::{Call, joint_state};
 use super::compile::{Compiled, CompiledRobot};
-use super::gate::EngineScene;
 use super::ltdl::{decompose, substitute};
 use super::{Engine, Index};
 use crate::algorithms::MassMatrix;
@@ -49,7 +48,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         let trig = state.configuration().trig_or(Self::trig_source());
         let call = Call {
             turns: &trig.borrow().coordinates,

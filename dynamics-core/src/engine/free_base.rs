@@ -13,7 +13,6 @@ use super::acceleration_field::Inertia;
 use super::call::Call;
 use super::compile::{Compiled, CompiledJoint, JointMotion, JointPair};
 use super::folding::{Folded, Mat3, Vec3};
-use super::gate::EngineScene;
 use super::{Engine, only_if};
 use crate::algorithms::{JointResult, NotPositiveDefinite};
 use crate::effects::{Declared, Effect, OfBodies};
@@ -74,7 +73,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         const { FreeScene::<R, Effects, B, V>::TAKEN };
         let trig = state.configuration().trig_or(Self::trig_source());
         let (trig, state) = (trig.borrow(), state.state());
@@ -133,7 +132,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         const { FreeScene::<R, Effects, B, V>::TAKEN };
         let trig = state.configuration().trig_or(Self::trig_source());
         let (trig, state) = (trig.borrow(), state.state());

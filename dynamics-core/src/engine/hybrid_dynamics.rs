@@ -10,7 +10,6 @@ use core::marker::PhantomData;
 
 use super::call::Call;
 use super::compile::{Compiled, CompiledRobot, JointPair};
-use super::gate::EngineScene;
 use super::ltdl::{decompose, substitute};
 use super::{Engine, Index, only_if};
 use crate::algorithms::{JointResult, MassMatrix, NotPositiveDefinite, Prescribed};
@@ -59,7 +58,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         const {
             assert!(
                 Effects::ACCELERATIONS,

@@ -11,7 +11,6 @@ use super::acceleration_field::AccelerationField;
 use super::call::Call;
 use super::compile::{BodyPlacement, Compiled};
 use super::folding::{Folded, Mat3, Vec3};
-use super::gate::EngineScene;
 use super::named::{AllBodies, Named, joints};
 use super::pass::{Motions, Nothing, Pass, sweep};
 use crate::algorithms::{Frame, Kinematics, Pose};
@@ -118,11 +117,11 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
         let call = Self::call(trig.borrow(), effects);
-        call.walk::<_, _, true>(state.state(), &call.carried(), AllBodies)
+        call.walk::<_, B, true>(state.state(), &call.carried(), AllBodies)
     }
 
     /// Pose, velocity and acceleration of some bodies, in the order of `bodies`: those of
@@ -168,11 +167,11 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
         let call = Self::call(trig.borrow(), effects);
-        call.walk::<_, _, true>(state.state(), &call.carried(), bodies)
+        call.walk::<_, N, true>(state.state(), &call.carried(), bodies)
     }
 
     /// The acceleration J̇ q̇ of a body at q̈ = 0, in a [`Frame`], rad/s² and m/s², as
@@ -227,7 +226,7 @@ impl<T, K> Engine<T, K> {
             poses: [pose],
             velocities: [v],
             accelerations: [a],
-        } = Self::call(trig.borrow(), &()).walk::<_, _, true>(
+        } = Self::call(trig.borrow(), &()).walk::<_, 1, true>(
             &coasting,
             &AccelerationField::RESTING,
             body,

@@ -66,6 +66,14 @@ const fn only_if<F: Copy>(condition: bool, function: F) -> Option<F> {
     if condition { Some(function) } else { None }
 }
 
+/// Fails to compile, in the body of the public function that it stands in, for a robot T and Effects
+/// that the engine does not take.
+macro_rules! scene_is_taken {
+    () => {
+        const { $crate::engine::gate::EngineScene::<T, R, Effects, B, Q, V>::TAKEN }
+    };
+}
+
 mod aba;
 mod acceleration_field;
 mod articulated_inertia;
@@ -116,7 +124,6 @@ pub(crate) use compile::{
     BendingTree, BodyPlacement, Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion,
     compile_bending, mat_add, outer, support,
 };
-use gate::EngineScene;
 pub(crate) use subtree::has_subtree_functions;
 
 /// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel
@@ -220,7 +227,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         let trig = state.configuration().trig_or(Self::trig_source());
         let trig = trig.borrow();
         // Not needed for gravity alone.
@@ -277,7 +284,7 @@ impl<T> Engine<T> {
         T: Robot<B, Q, V>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         // Not a constant, as in `torques`: where sines are known it costs instructions (decision
         // 13).
         let mut tau = [R::ZERO; V];

@@ -13,7 +13,6 @@ use super::call::Call;
 use super::compile::{Compiled, CompiledJoint, JointMotion, JointPair};
 use super::displacement::Displacement;
 use super::folding::{Folded, Vec3};
-use super::gate::EngineScene;
 use super::joint_rates::{JointRates, SeveralRates, Twist};
 use super::{Engine, loaded_again, only_if};
 use crate::algorithms::{MomentumAndCoriolis, MomentumAndDrift};
@@ -56,7 +55,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         let trig = state.configuration().trig_or(Self::trig_source());
         let trig = trig.borrow();
         let back = &loaded_again(&state, trig).coordinates;
@@ -100,7 +99,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         let trig = state.configuration().trig_or(Self::trig_source());
         let trig = trig.borrow();
         let back = &loaded_again(&state, trig).coordinates;

@@ -8,7 +8,6 @@
 use core::borrow::Borrow;
 
 use super::compile::{Compiled, CompiledRobot, JointAndBody, JointPair};
-use super::gate::EngineScene;
 use super::{Engine, only_if};
 use crate::algorithms::{
     Damping, Frame, NotPositiveDefinite, OperationalSpace, OsimInverse, task_jacobian,
@@ -123,7 +122,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         let trig = q.trig_or(Self::trig_source());
         Self::of_rows(trig.borrow(), rows, effects, damping)
     }
@@ -175,7 +174,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         let trig = q.trig_or(Self::trig_source());
         let trig: &JointTrig<R, Q> = trig.borrow();
         let factors = Self::ltdl(&Self::crba(trig, effects))?;

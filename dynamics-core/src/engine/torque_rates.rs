@@ -15,7 +15,6 @@ use super::call::Call;
 use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion, JointPair};
 use super::folding::{Folded, Mat3, Series, Sym3, Turn, Vec3};
 use super::folding::{constant_offset_cross, rotate_to_parent};
-use super::gate::EngineScene;
 use crate::effects::{Effect, JointState, add_joint_torque_rates};
 use crate::model::Robot;
 use crate::scalar::Real;
@@ -37,7 +36,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         const { takes_elastic_joints::<CompiledRobot<T, B, Q, V>>() };
         let trig: JointTrig<R, Q> = Self::trig_source().compute(&state.q);
         Self::call(&trig, effects).torque_rates(state, [jerk, snap])

@@ -16,7 +16,6 @@ use super::acceleration_field::AccelerationField;
 use super::call::Call;
 use super::compile::{Compiled, CompiledJoint, JointPair};
 use super::folding::Folded;
-use super::gate::EngineScene;
 use super::joint_rates::Twist;
 use super::named::{AllBodies, Named, joints};
 use super::pass::{Motions, Nothing, Pass, sweep};
@@ -61,7 +60,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
         Self::call(trig.borrow(), effects).regressor_columns::<AllBodies, B>(state.state())
@@ -107,7 +106,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         let _ = body;
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());

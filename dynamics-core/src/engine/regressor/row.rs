@@ -8,7 +8,6 @@ use crate::engine::acceleration_field::AccelerationField;
 use crate::engine::call::Call;
 use crate::engine::compile::{Compiled, CompiledJoint, JointPair};
 use crate::engine::folding::Folded;
-use crate::engine::gate::EngineScene;
 use crate::engine::joint_rates::Twist;
 use crate::engine::named::{AllBodies, Named};
 use crate::engine::pass::{Nothing, Pass, sweep};
@@ -91,7 +90,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         Effects: Effect<R, B, V>,
     {
-        const { EngineScene::<T, R, Effects, _, _, _>::TAKEN };
+        scene_is_taken!();
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
         let call = Self::call(trig.borrow(), effects);
